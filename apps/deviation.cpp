@@ -1,0 +1,49 @@
+#include "holdfast/attractor/deviation.hpp"
+#include "job.hpp"
+#include "loop_of_case.hpp"
+#include "motion_options.hpp"
+#include "table.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct Options {
+  double offset = 1e-5;
+  double duration = 10.0;
+  std::string switching = "sampled";
+};
+
+void run(const JobContext& context, const Options& options) {
+  Case neighbour = context.case_data;
+  neighbour.initial.z1 += options.offset;
+  auto first = motion_of(context.case_data);
+  auto second = motion_of(neighbour);
+  Table table(context, {{"time_s", "s", "t = j tau"},
+                        {"z1_deviation_m", "m", "z1 of the neighbour minus z1 of the case"},
+                        {"state_deviation", "",
+                         "Euclidean norm of the difference of [z1, v1, z2, v2] in SI units"}});
+  const std::int64_t samples =
+      samples_within(options.duration, context.case_data.control.sampling_period);
+  const auto outcome = run_deviation(first, second, samples, [&table](const Deviation& deviation) {
+    table.row(deviation.time, deviation.displacement, deviation.state);
+  });
+  require_completed(outcome, first.time());
+  table.commit();
+}
+
+}  // namespace
+
+void add_deviation(CLI::App& program) {
+  const Job job(program, "deviation", question::attractor,
+                "How far two motions part that start close to each other");
+  const auto options = std::make_shared<Options>();
+  job->add_option("--offset", options->offset, "Start of the neighbour: z1 displaced by this, m")
+      ->check(number_from(-1e6, 1e6))
+      ->type_name("")
+      ->capture_default_str();
+  add_duration(job, options->duration);
+  add_switching(job, options->switching);
+  job->final_callback([job, options] { run(job.context(), *options); });
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,102 @@
+#include "job.hpp"
+
+#include <algorithm>
+
+#include "case_file.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+// Options that are kept elsewhere in the context, or do not shape the result.
+bool is_common(const std::string& name) {
+  const std::vector<std::string> common = {"--help",  "--case",     "--set",    "--output",
+                                           "--quiet", "--progress", "--threads"};
+  return std::find(common.begin(), common.end(), name) != common.end();
+}
+
+std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& options) {
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const CLI::Option* option : options.get_options()) {
+    const std::string name = option->get_name();
+    if (is_common(name) || option->count() == 0) continue;
+    for (const std::string& text : option->results()) given.emplace_back(name, text);
+  }
+  return given;
+}
+
+}  // namespace
+
+CLI::Validator number_from(double lowest, double highest) {
+  const std::string expected =
+      "a number from " + format_number(lowest) + " to " + format_number(highest);
+  const auto check = [=](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    const bool admissible = value && *value >= lowest && *value <= highest;
+    return admissible ? std::string() : text + " is not " + expected;
+  };
+  return {check, "NUMBER"};
+}
+
+Job::Job(CLI::App& program, const std::string& name, const std::string& question,
+         const std::string& description)
+    : options_(program.add_subcommand(name, description)), common_(std::make_shared<Common>()) {
+  options_->group(question);
+  options_->get_formatter()->column_width(34);
+  const std::string group = "Every job";
+  options_
+      ->add_option("--case", common_->case_file,
+                   "Case file (TOML, SI units); without it the built-in case")
+      ->type_name("FILE")
+      ->group(group);
+  options_->add_option("--set", common_->overrides, "Change one value of the case; repeatable")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  options_
+      ->add_option("--output", common_->output, "Where the result goes; without it standard output")
+      ->type_name("FILE")
+      ->group(group);
+  options_->add_flag("--quiet", common_->quiet, "No progress")->group(group);
+  options_
+      ->add_flag("--progress", common_->progress,
+                 "Progress even where standard error is no terminal")
+      ->group(group);
+  options_
+      ->add_option("--threads", common_->threads,
+                   "Number of threads, 0: all; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->group(group);
+}
+
+void Job::add_text(const std::string& name, std::string& value,
+                   const std::string& description) const {
+  options_->add_option(name, value, description)->capture_default_str();
+}
+
+JobContext Job::context() const {
+  JobContext context;
+  context.job = options_->get_name();
+  std::optional<std::filesystem::path> file;
+  if (common_->case_file) file = *common_->case_file;
+  context.case_data = load_case(file, common_->overrides);
+  context.options = given_options(*options_);
+  if (common_->output) context.output = *common_->output;
+  context.quiet = common_->quiet;
+  context.progress = common_->progress;
+  context.threads = common_->threads;
+  return context;
+}
+
+std::vector<std::string> Job::case_arguments() const {
+  std::vector<std::string> arguments;
+  if (common_->case_file) arguments.insert(arguments.end(), {"--case", *common_->case_file});
+  for (const std::string& setting : common_->overrides) {
+    arguments.insert(arguments.end(), {"--set", setting});
+  }
+  return arguments;
+}
+
+}  // namespace holdfast::program

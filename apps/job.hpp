@@ -1,0 +1,76 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "job_context.hpp"
+
+namespace holdfast::program {
+
+/// One job of the program on its command line: its own options and those that every job
+/// understands.
+class Job {
+ public:
+  /// @param question  the heading under which `holdfast --help` lists the job
+  Job(CLI::App& program, const std::string& name, const std::string& question,
+      const std::string& description);
+
+  /// Where the job adds its own options.
+  CLI::App* operator->() const { return options_; }
+
+  /// An option that holds one word or number as text, with its default.
+  void add_text(const std::string& name, std::string& value, const std::string& description) const;
+
+  /// Checked case, output and the options that were given; call once the command line is read.
+  JobContext context() const;
+
+  /// The --case and --set options as they were given, to be handed to another job.
+  std::vector<std::string> case_arguments() const;
+
+ private:
+  struct Common {
+    std::optional<std::string> case_file;
+    std::vector<std::string> overrides;
+    std::optional<std::string> output;
+    bool quiet = false;
+    bool progress = false;
+    int threads = 0;
+  };
+
+  CLI::App* options_;
+  std::shared_ptr<Common> common_;
+};
+
+/// A check for an option that is one number: finite, from `lowest` to `highest`.
+CLI::Validator number_from(double lowest, double highest);
+
+/// Does one command line, without the program's name; throws what is wrong with it or what its job
+/// throws.
+void do_job(const std::vector<std::string>& arguments);
+
+/// The whole program: reads the command line, does the job, gives the exit code.
+int run_program(const std::vector<std::string>& arguments);
+
+void add_stability(CLI::App& program);
+void add_boundary(CLI::App& program);
+void add_max_delay(CLI::App& program);
+void add_response(CLI::App& program);
+void add_simulate(CLI::App& program);
+void add_spectrum(CLI::App& program);
+void add_deviation(CLI::App& program);
+void add_coverage(CLI::App& program);
+void add_lyapunov(CLI::App& program);
+void add_report(CLI::App& program);
+
+namespace question {
+inline constexpr const char* gains = "Which gains are stable, and which are best?";
+inline constexpr const char* delay = "How slow may the computer be?";
+inline constexpr const char* motion = "How does it move?";
+inline constexpr const char* attractor = "What is this irregular motion?";
+inline constexpr const char* all = "All of it on one page";
+}  // namespace question
+
+}  // namespace holdfast::program

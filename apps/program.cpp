@@ -1,0 +1,77 @@
+#include <algorithm>
+
+#include "errors.hpp"
+#include "exit.hpp"
+#include "holdfast/core/version.hpp"
+#include "job.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  holdfast report --output report                        every figure of the built-in case\n"
+    "  holdfast stability --set control.sampling_period=0.01  stable gains with a 10 ms computer\n"
+    "  holdfast max-delay --frequency 5:50:10                 how slow may the computer be?\n"
+    "  holdfast simulate --duration 1 --output motion.csv     the motion from rest\n"
+    "  holdfast JOB --help                                    every option with unit and default\n";
+
+void add_jobs(CLI::App& program) {
+  add_stability(program);
+  add_boundary(program);
+  add_response(program);
+  add_max_delay(program);
+  add_simulate(program);
+  add_spectrum(program);
+  add_deviation(program);
+  add_coverage(program);
+  add_lyapunov(program);
+  add_report(program);
+}
+
+/// The first word is the job; CLI11 would only say that something was not expected.
+void check_job_name(const CLI::App& program, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) throw WrongInput("which job? holdfast --help lists them");
+  if (arguments.front().rfind('-', 0) == 0) return;
+  std::string nearest;
+  for (const CLI::App* job : program.get_subcommands(nullptr)) {
+    const std::string& name = job->get_name();
+    if (name == arguments.front()) return;
+    if (nearest.empty() ||
+        edit_distance(name, arguments.front()) < edit_distance(nearest, arguments.front())) {
+      nearest = name;
+    }
+  }
+  throw WrongInput("unknown job " + arguments.front() + "; did you mean " + nearest +
+                   "? (holdfast --help lists the jobs)");
+}
+
+}  // namespace
+
+void do_job(const std::vector<std::string>& arguments) {
+  CLI::App program("holdfast: suspended cables under digital vibration control", "holdfast");
+  program.set_version_flag("--version", "holdfast " + std::string(version_string));
+  program.footer(examples);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(20);
+  program.get_formatter()->label("SUBCOMMAND", "JOB");
+  add_jobs(program);
+  check_job_name(program, arguments);
+  try {
+    program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& outcome) {
+    // Help and version arrive as exceptions of exit code 0 and print themselves.
+    if (outcome.get_exit_code() != 0) throw WrongInput(one_line(outcome.what()));
+    program.exit(outcome);
+  }
+}
+
+int run_program(const std::vector<std::string>& arguments) {
+  return run_guarded([&arguments] {
+    do_job(arguments);
+    return exit_code::done;
+  });
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,70 @@
+#include "axis.hpp"
+#include "errors.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "job.hpp"
+#include "loop_of_case.hpp"
+#include "motion_options.hpp"
+#include "table.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct Options {
+  double duration = 10.0;
+  double from = 0.0;
+  std::optional<std::string> kick;
+  bool no_control = false;
+  std::string switching = "sampled";
+};
+
+std::optional<Kick> kick_of(const Options& options) {
+  if (!options.kick) return std::nullopt;
+  const KickOption kick = parse_kick("--kick", *options.kick);
+  return Kick{kick.time, kick.displacement};
+}
+
+void run(const JobContext& context, const Options& options) {
+  const std::optional<Kick> kick = kick_of(options);
+  if (options.from > options.duration)
+    throw WrongInput("--from lies after --duration: no row is left");
+  auto motion =
+      options.no_control ? uncontrolled_motion_of(context.case_data) : motion_of(context.case_data);
+  const std::int64_t samples =
+      samples_within(options.duration, context.case_data.control.sampling_period);
+  Table table(context,
+              {{"time_s", "s", "t = j tau"},
+               {"z1_m", "m", "displacement of the conductor, positive downward"},
+               {"v1_m_per_s", "m/s", "velocity of the conductor"},
+               {"z2_m", "m", "displacement of the absorber, positive downward"},
+               {"v2_m_per_s", "m/s", "velocity of the absorber"},
+               {"control_force_N", "N", "force decided at this sample; 0 in the backlash"},
+               {"in_backlash", "", "1: the drive is in its backlash, 0: it transmits", "integer"}});
+  const auto outcome =
+      run_trajectory(motion, samples, kick, [&](const MotionSample<double>& sample) {
+        if (sample.time < options.from) return;
+        table.row(sample.time, sample.state[0], sample.state[1], sample.state[2], sample.state[3],
+                  sample.control_force, sample.engaged ? 0 : 1);
+      });
+  require_completed(outcome, motion.time());
+  table.commit();
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program) {
+  const Job job(program, "simulate", question::motion,
+                "Time history of the loop from its initial state");
+  const auto options = std::make_shared<Options>();
+  add_duration(job, options->duration);
+  job->add_option("--from", options->from, "First instant to be written, s")
+      ->check(number_from(0.0, 1e12))
+      ->type_name("")
+      ->capture_default_str();
+  job->add_option("--kick", options->kick,
+                  "Displace the conductor once: TIME:DISPLACEMENT, s and m");
+  job->add_flag("--no-control", options->no_control, "Without control force");
+  add_switching(job, options->switching);
+  job->final_callback([job, options] { run(job.context(), *options); });
+}
+
+}  // namespace holdfast::program

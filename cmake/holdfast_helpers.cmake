@@ -1,0 +1,23 @@
+# Small functions that the project's own CMake files share.
+
+# Says that a part is left out because a package is missing; fails instead where
+# HOLDFAST_REQUIRE_PACKAGES is on, so that no check passes by having been skipped.
+function(holdfast_report_missing part what debian_package)
+  set(text "${part}: not built, because ${what} is missing (Debian package ${debian_package})")
+  if(HOLDFAST_REQUIRE_PACKAGES)
+    message(FATAL_ERROR "${text}")
+  endif()
+  message(STATUS "${text}")
+endfunction()
+
+# Target holdfast_warnings: the warnings for the project's own code. It is never exported, so that
+# a user of the library keeps the choice of warnings.
+function(holdfast_add_warnings)
+  add_library(holdfast_warnings INTERFACE)
+  target_compile_options(holdfast_warnings INTERFACE
+    $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>)
+  if(HOLDFAST_WARNINGS_AS_ERRORS)
+    target_compile_options(holdfast_warnings INTERFACE
+      $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)
+  endif()
+endfunction()

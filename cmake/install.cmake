@@ -1,0 +1,29 @@
+# What `cmake --install` puts in place: headers, CMake package, program, case files, licence.
+include(CMakePackageConfigHelpers)
+
+# The package holds headers alone, hence the folder for files that fit every architecture.
+set(HOLDFAST_PACKAGE_DIR ${CMAKE_INSTALL_DATADIR}/cmake/holdfast)
+
+install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(TARGETS holdfast EXPORT holdfast_targets)
+install(EXPORT holdfast_targets
+  FILE holdfast-targets.cmake
+  NAMESPACE holdfast::
+  DESTINATION ${HOLDFAST_PACKAGE_DIR})
+
+configure_package_config_file(cmake/holdfast-config.cmake.in holdfast-config.cmake
+  INSTALL_DESTINATION ${HOLDFAST_PACKAGE_DIR}
+  NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(holdfast-config-version.cmake
+  COMPATIBILITY SameMinorVersion
+  ARCH_INDEPENDENT)
+install(FILES
+  ${PROJECT_BINARY_DIR}/holdfast-config.cmake
+  ${PROJECT_BINARY_DIR}/holdfast-config-version.cmake
+  DESTINATION ${HOLDFAST_PACKAGE_DIR})
+
+if(TARGET holdfast_executable)
+  install(TARGETS holdfast_executable DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/holdfast)
+install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})

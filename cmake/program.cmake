@@ -1,0 +1,59 @@
+# The command-line program: static library holdfast_program (src/) and executable (apps/).
+
+function(holdfast_find_program_packages result)
+  set(${result} ON PARENT_SCOPE)
+  # package;Debian package
+  foreach(pair IN ITEMS "CLI11 libcli11-dev" "tomlplusplus libtomlplusplus-dev"
+                        "nlohmann_json nlohmann-json3-dev")
+    string(REPLACE " " ";" pair "${pair}")
+    list(GET pair 0 package)
+    list(GET pair 1 debian_package)
+    find_package(${package} QUIET GLOBAL)
+    if(NOT ${package}_FOUND)
+      holdfast_report_missing("program" "${package}" "${debian_package}")
+      set(${result} OFF PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
+# The built-in case is compiled in, and compiled again when its file changes.
+function(holdfast_embed_case case_file source_file)
+  add_custom_command(
+    OUTPUT ${source_file}
+    COMMAND ${CMAKE_COMMAND} -D CASE_FILE=${case_file} -D SOURCE_FILE=${source_file}
+            -P ${PROJECT_SOURCE_DIR}/cmake/embed_case.cmake
+    DEPENDS ${case_file} ${PROJECT_SOURCE_DIR}/cmake/embed_case.cmake
+    COMMENT "Embedding ${case_file}"
+    VERBATIM)
+endfunction()
+
+function(holdfast_add_program)
+  find_package(Threads REQUIRED)
+  file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
+  file(GLOB program_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp)
+  set(case_source ${PROJECT_BINARY_DIR}/generated/builtin_case.cpp)
+  holdfast_embed_case(${PROJECT_SOURCE_DIR}/data/kollar2022.toml ${case_source})
+
+  add_library(holdfast_program STATIC ${library_sources} ${case_source})
+  target_include_directories(holdfast_program PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_compile_definitions(holdfast_program PUBLIC HOLDFAST_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(holdfast_program
+    PUBLIC holdfast::holdfast CLI11::CLI11 tomlplusplus::tomlplusplus
+           nlohmann_json::nlohmann_json Threads::Threads
+    PRIVATE holdfast_warnings)
+
+  # The name `holdfast` belongs to the library's target, so the executable's target has another.
+  add_executable(holdfast_executable ${program_sources})
+  set_target_properties(holdfast_executable PROPERTIES
+    OUTPUT_NAME holdfast
+    RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  target_include_directories(holdfast_executable PRIVATE ${PROJECT_SOURCE_DIR}/apps)
+  target_link_libraries(holdfast_executable PRIVATE holdfast_program holdfast_warnings)
+  # Every job reads CLI11, which takes longer to compile than the job itself.
+  target_precompile_headers(holdfast_executable PRIVATE <CLI/CLI.hpp>)
+endfunction()
+
+holdfast_find_program_packages(HOLDFAST_PROGRAM_PACKAGES_FOUND)
+if(HOLDFAST_PROGRAM_PACKAGES_FOUND)
+  holdfast_add_program()
+endif()

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/motion/stepper.hpp"
+
+namespace holdfast {
+
+/// A rectangle of the phase plane (z₁, ż₁).
+struct PhaseWindow {
+  double displacement_min, displacement_max;  ///< m, min < max
+  double velocity_min, velocity_max;          ///< m/s, min < max
+};
+
+/// @throws InvalidParameter unless both sides of the window are positive and finite
+inline void validate(const PhaseWindow& window) {
+  require_positive("width of the phase window", window.displacement_max - window.displacement_min,
+                   "m");
+  require_positive("height of the phase window", window.velocity_max - window.velocity_min, "m/s");
+}
+
+/// Which cells of a phase-plane window the samples of a motion have visited.
+///
+/// A motion that is topologically transitive would fill the window as time grows; a periodic one
+/// stops at the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
+class Coverage {
+ public:
+  /// @param cells_per_side  1 … 10 000; the window has its square of cells
+  Coverage(const PhaseWindow& window, std::size_t cells_per_side)
+      : window_(window),
+        side_(cells_per_side),
+        visited_cells_(cells_per_side * cells_per_side, false) {
+    validate(window);
+    require_within("cells per side", static_cast<double>(cells_per_side), "", 1.0, 1e4);
+  }
+
+  void operator()(const MotionSample<double>& sample) {
+    const double x = fraction(sample.state[0], window_.displacement_min, window_.displacement_max);
+    const double y = fraction(sample.state[1], window_.velocity_min, window_.velocity_max);
+    if (!(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0)) return;
+    const double side = static_cast<double>(side_);
+    const std::size_t cell =
+        static_cast<std::size_t>(x * side) * side_ + static_cast<std::size_t>(y * side);
+    if (!visited_cells_[cell]) ++visited_;
+    visited_cells_[cell] = true;
+  }
+
+  std::size_t cells() const { return visited_cells_.size(); }
+  std::size_t visited() const { return visited_; }
+  double visited_fraction() const {
+    return static_cast<double>(visited_) / static_cast<double>(cells());
+  }
+
+ private:
+  static double fraction(double value, double from, double to) {
+    return (value - from) / (to - from);
+  }
+
+  PhaseWindow window_;
+  std::size_t side_;
+  std::vector<bool> visited_cells_;
+  std::size_t visited_ = 0;
+};
+
+}  // namespace holdfast

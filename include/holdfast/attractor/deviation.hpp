@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/trajectory.hpp"
+
+namespace holdfast {
+
+/// How far two motions are apart at one sample.
+struct Deviation {
+  double time;          ///< s
+  double displacement;  ///< z₁ of the second motion minus z₁ of the first (m)
+  double state;  ///< Euclidean norm of the difference of z = [z₁, ż₁, z₂, ż₂], SI numbers
+};
+
+/// Runs two motions of the same loop side by side and shows their deviation at each sample.
+///
+/// Neighbours that separate exponentially are a mark of chaos; Kollár 2022, Fig. 11 starts them
+/// z₁₀,b − z₁₀,a = 10⁻⁵ m apart.
+/// @param observer  called with a `Deviation` at each of `samples` samples
+template <class Motion, class Observer>
+TrajectoryOutcome run_deviation(Motion& first, Motion& second, std::int64_t samples,
+                                Observer&& observer) {
+  for (std::int64_t taken = 0; taken < samples; ++taken) {
+    const auto a = first.sense();
+    const auto b = second.sense();
+    const Vector<double, 4> difference = b.state - a.state;
+    if (!std::isfinite(difference.sum())) return TrajectoryOutcome::diverged;
+    observer(Deviation{a.time, difference[0], difference.norm()});
+    first.advance();
+    second.advance();
+  }
+  return TrajectoryOutcome::completed;
+}
+
+}  // namespace holdfast

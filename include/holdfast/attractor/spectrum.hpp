@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Weighting of the samples before the transform.
+enum class SpectralWindow {
+  rectangular,  ///< exact amplitudes for whole periods
+  hann,         ///< w_n = ½ (1 − cos 2πn/N): for motions whose period does not fit the record
+};
+
+/// One line of a one-sided amplitude spectrum.
+struct SpectralLine {
+  double frequency;  ///< Hz
+  double amplitude;  ///< same unit as the signal: a sine of amplitude a on this line shows a
+};
+
+/// One-sided amplitude spectrum of a real signal.
+///
+///     X_k = Σ w_n x_n e^{−2πikn/N},   amplitude_k = 2 |X_k| / Σ w_n   (once, not twice, at 0 and
+///     Nyquist)
+///
+/// @param signal           x_n, N ≥ 2 samples, finite
+/// @param sampling_period  τ (s), > 0
+/// @return N/2 + 1 lines at k / (N τ)
+/// @throws InvalidParameter for fewer than two samples or τ ≤ 0
+inline std::vector<SpectralLine> amplitude_spectrum(std::vector<double> signal,
+                                                    double sampling_period, SpectralWindow window) {
+  require_positive("sampling period tau", sampling_period, "s");
+  const std::size_t size = signal.size();
+  require_within("number of samples", static_cast<double>(size), "", 2.0, 1e9);
+  double weight_sum = 0.0;
+  for (std::size_t n = 0; n < size; ++n) {
+    const double phase = 2.0 * pi<double> * static_cast<double>(n) / static_cast<double>(size);
+    const double weight = window == SpectralWindow::hann ? 0.5 * (1.0 - std::cos(phase)) : 1.0;
+    signal[n] *= weight;
+    weight_sum += weight;
+  }
+  std::vector<std::complex<double>> transform;
+  Eigen::FFT<double> fft;
+  fft.fwd(transform, signal);
+
+  std::vector<SpectralLine> lines(size / 2 + 1);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const bool counted_once = k == 0 || 2 * k == size;
+    lines[k].frequency = static_cast<double>(k) / (static_cast<double>(size) * sampling_period);
+    lines[k].amplitude = (counted_once ? 1.0 : 2.0) * std::abs(transform[k]) / weight_sum;
+  }
+  return lines;
+}
+
+/// Number of samples after which sampling and forcing coincide: q, where f τ = p/q in lowest terms.
+/// @return 0 when f τ is no fraction with q ≤ `largest`: the two never coincide in reach
+inline std::int64_t samples_per_coincidence(double frequency, double sampling_period,
+                                            std::int64_t largest = 1'000'000) {
+  const auto ratio = reconstruct_rational(frequency * sampling_period, largest);
+  return ratio ? ratio->denominator : 0;
+}
+
+/// The longest record, at most `available` samples, that holds a whole number of forcing periods
+/// and of sampling periods, so that a rectangular window leaks nothing at the forcing and its
+/// harmonics.
+/// @return `available` itself when the two frequencies do not coincide within it
+inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
+                                         double sampling_period) {
+  const std::int64_t common = samples_per_coincidence(frequency, sampling_period);
+  if (common == 0 || common > available) return available;
+  return available - available % common;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/control/zero_order_hold.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/two_dof.hpp"
+
+namespace holdfast {
+
+/// How the harmonic force is taken over a sample.
+enum class ForceHold {
+  sampled,  ///< held at its sampled value, the paper's choice
+  exact,    ///< integrated exactly
+};
+
+/// How a harmonic force F(t) = F_m cos(ω t) enters one sampling period.
+///
+///     z_{j+1} = … + F_m (cosine · cos(ω t_j) + sine · sin(ω t_j))
+///
+/// Both holds of the force share this form, so one stepper serves both.
+template <class Scalar>
+struct HarmonicInput {
+  Vector<Scalar, 4> cosine;  ///< 4 × 1, per newton
+  Vector<Scalar, 4> sine;    ///< 4 × 1, per newton
+};
+
+/// The force held over the sample, F_j = F_m cos(ω t_j): cosine = c_d, sine = 0.
+/// Source: Kollár 2022, Eq. (13).
+template <class Scalar>
+HarmonicInput<Scalar> held_harmonic(const SampledLoop<Scalar>& loop) {
+  return {loop.held_excitation, Vector<Scalar, 4>::Zero()};
+}
+
+/// The exact integral of the harmonic force over the sample, ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds.
+///
+/// The force is written as the output of an oscillator, so that one matrix exponential holds it
+/// all:
+///
+///     d/dt [z; cos ωt; sin ωt] = [A c 0; 0 0 −ω; 0 ω 0] [z; cos ωt; sin ωt]
+///
+/// @param angular_frequency  ω = 2π f (rad/s), finite
+/// Differs from the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
+template <class Scalar, template <class> class Plant>
+HarmonicInput<Scalar> exact_harmonic(const Plant<Scalar>& plant, const Scalar& sampling_period,
+                                     const Scalar& angular_frequency) {
+  Matrix<Scalar, 6> generator = Matrix<Scalar, 6>::Zero();
+  generator.template topLeftCorner<4, 4>() = plant.state_matrix();
+  generator.template block<4, 1>(0, 4) = plant.excitation_input();
+  generator(4, 5) = -angular_frequency;
+  generator(5, 4) = angular_frequency;
+  const Matrix<Scalar, 6> exponential =
+      detail::balanced_exponential(Matrix<Scalar, 6>(generator * sampling_period));
+  return {exponential.template block<4, 1>(0, 4), exponential.template block<4, 1>(0, 5)};
+}
+
+/// The input for either hold of the force.
+template <class Scalar, template <class> class Plant>
+HarmonicInput<Scalar> harmonic_input(const Plant<Scalar>& plant, const SampledLoop<Scalar>& loop,
+                                     ForceHold hold, const Scalar& angular_frequency) {
+  return hold == ForceHold::sampled
+             ? held_harmonic(loop)
+             : exact_harmonic(plant, loop.sampling.period, angular_frequency);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/zero_order_hold.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/two_dof.hpp"
+
+namespace holdfast {
+
+/// When the computer samples and when its force arrives.
+template <class Scalar>
+struct Sampling {
+  Scalar period;  ///< τ (s), > 0
+  Scalar processing_delay =
+      Scalar(0);  ///< δ (s), 0 ≤ δ ≤ τ: from taking a sample to applying its force
+};
+
+/// @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ τ, both finite
+inline void validate(const Sampling<double>& sampling) {
+  require_positive("sampling period tau", sampling.period, "s");
+  require_within("processing delay", sampling.processing_delay, "s", 0.0, sampling.period);
+}
+
+/// The plant seen by a computer that samples every τ and applies its force δ later, held for τ.
+///
+/// The force is u_{j−1} in [t_j, t_j + δ) and u_j in [t_j + δ, t_{j+1}), so that exactly
+///
+///     z_{j+1} = A_d z_j + Γ₁ u_{j−1} + Γ₀ u_j + c_d F_j
+///     A_d = e^{Aτ},  Γ₀ = ∫₀^{τ−δ} e^{As} ds b,  Γ₁ = e^{A(τ−δ)} ∫₀^δ e^{As} ds b,  c_d = ∫₀^τ
+///     e^{As} ds c
+///
+/// With z̃_j = [z_j; u_{j−1}] the step is z̃_{j+1} = S z̃_j + [c_d; 0] F_j outside the backlash and
+/// S* z̃_j + [c_d; 0] F_j inside. δ = τ gives the matrices printed in Kollár 2022, Eqs. (13)–(14); δ
+/// = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md).
+template <class Scalar>
+struct SampledLoop {
+  Sampling<Scalar> sampling;
+  Matrix<Scalar, 4> transition;       ///< A_d, 4 × 4
+  Matrix<Scalar, 4> increment;        ///< A_d − I, 4 × 4, to full relative accuracy for any τ
+  Vector<Scalar, 4> previous_force;   ///< Γ₁, 4 × 1: response per newton of u_{j−1}
+  Vector<Scalar, 4> present_force;    ///< Γ₀, 4 × 1: response per newton of u_j
+  Vector<Scalar, 4> held_excitation;  ///< c_d, 4 × 1: response per newton of F held over the sample
+
+  /// S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], the control force being transmitted.
+  Matrix<Scalar, 5> engaged_map(const PdGains<Scalar>& gains) const {
+    Matrix<Scalar, 5> map = backlash_map();
+    map.template topLeftCorner<4, 4>() += present_force * gains.feedback_row();
+    map.template bottomLeftCorner<1, 4>() = gains.feedback_row();
+    return map;
+  }
+
+  /// S* of Eq. (14) for any δ, 5 × 5: [A_d, Γ₁; 0, 0], the drive being in its backlash.
+  Matrix<Scalar, 5> backlash_map() const {
+    Matrix<Scalar, 5> map = Matrix<Scalar, 5>::Zero();
+    map.template topLeftCorner<4, 4>() = transition;
+    map.template topRightCorner<4, 1>() = previous_force;
+    return map;
+  }
+};
+
+/// The sampled loop of a linear plant with four states.
+///
+/// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the
+/// period, every matrix of the loop is a product: A_d − I = A Φ(τ), Γ₀ = Φ(τ−δ) b, Γ₁ = e^{A(τ−δ)}
+/// Φ(δ) b, c_d = Φ(τ) c. No small matrix is the difference of large ones.
+/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+template <class Scalar, template <class> class Plant>
+SampledLoop<Scalar> sampled_loop(const Plant<Scalar>& plant, const Sampling<Scalar>& sampling) {
+  const Matrix<Scalar, 4> a = plant.state_matrix();
+  const Matrix<Scalar, 4> identity = Matrix<Scalar, 4>::Identity();
+  const Vector<Scalar, 4> b = plant.control_input();
+  const auto before = zero_order_hold<Scalar, 4, 4>(a, identity, sampling.processing_delay);
+  const auto after =
+      zero_order_hold<Scalar, 4, 4>(a, identity, sampling.period - sampling.processing_delay);
+  const Matrix<Scalar, 4> integral = after.input + after.transition * before.input;
+  const Matrix<Scalar, 4> increment = a * integral;
+
+  SampledLoop<Scalar> loop;
+  loop.sampling = sampling;
+  loop.transition = identity + increment;
+  loop.increment = increment;
+  loop.previous_force = after.transition * (before.input * b);
+  loop.present_force = after.input * b;
+  loop.held_excitation = integral * plant.excitation_input();
+  return loop;
+}
+
+}  // namespace holdfast

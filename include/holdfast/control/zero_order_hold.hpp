@@ -1,0 +1,63 @@
+#pragma once
+
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "holdfast/core/resolvent.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Exact solution of ẋ = A x + B w over a time h in which the inputs w are constant.
+///
+///     x(t + h) = transition · x(t) + input · w,
+///     transition = e^{Ah},   input = ∫₀ʰ e^{As} ds B
+template <class Scalar, int States, int Inputs>
+struct HeldStep {
+  Matrix<Scalar, States> transition;
+  Matrix<Scalar, States, Inputs> input;
+};
+
+namespace detail {
+
+/// e^M by scaling and squaring of the balanced matrix.
+///
+/// Displacements and velocities differ by the size of a frequency, so that the norm of M exceeds
+/// its eigenvalues by that factor; the squarings that the norm asks for would cost as many digits.
+template <class Scalar, int Size>
+Matrix<Scalar, Size> balanced_exponential(const Matrix<Scalar, Size>& matrix) {
+  const Vector<Scalar, Size> factors = balancing(matrix);
+  const Vector<Scalar, Size> inverse_factors = factors.cwiseInverse();
+  const Matrix<Scalar, Size> balanced =
+      inverse_factors.asDiagonal() * matrix * factors.asDiagonal();
+  const Matrix<Scalar, Size> exponential = balanced.exp();
+  return factors.asDiagonal() * exponential * inverse_factors.asDiagonal();
+}
+
+}  // namespace detail
+
+/// Zero-order hold by one augmented matrix exponential (Van Loan's construction):
+///
+///     exp([A B; 0 0] h) = [e^{Ah}, ∫₀ʰ e^{As} ds B; 0, I]
+///
+/// @param a      A, States × States (1/s)
+/// @param b      B, States × Inputs
+/// @param period h (s), finite, ≥ 0; h = 0 gives the identity and a zero input
+/// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE TAC 23
+/// (1978).
+template <class Scalar, int States, int Inputs>
+HeldStep<Scalar, States, Inputs> zero_order_hold(const Matrix<Scalar, States>& a,
+                                                 const Matrix<Scalar, States, Inputs>& b,
+                                                 const Scalar& period) {
+  if (period == Scalar(0)) {
+    return {Matrix<Scalar, States>::Identity(), Matrix<Scalar, States, Inputs>::Zero()};
+  }
+  Matrix<Scalar, States + Inputs> augmented;
+  augmented.setZero();
+  augmented.template topLeftCorner<States, States>() = a * period;
+  augmented.template topRightCorner<States, Inputs>() = b * period;
+  const Matrix<Scalar, States + Inputs> exponential = detail::balanced_exponential(augmented);
+  return {exponential.template topLeftCorner<States, States>(),
+          exponential.template topRightCorner<States, Inputs>()};
+}
+
+}  // namespace holdfast

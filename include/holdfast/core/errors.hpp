@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace holdfast {
+
+/// A caller's mistake: a parameter outside its admissible range.
+///
+/// Numerical outcomes (not converged, unstable, no solution) are never reported by this exception;
+/// they are fields of the result.
+class InvalidParameter : public std::invalid_argument {
+ public:
+  /// @param name        the parameter's name, a word of the field ("sampling period")
+  /// @param value       the refused value
+  /// @param unit        its SI unit, empty for pure numbers
+  /// @param admissible  what would have been accepted ("> 0")
+  InvalidParameter(std::string name, double value, std::string unit, std::string admissible)
+      : std::invalid_argument(sentence(name, value, unit, admissible)),
+        name_(std::move(name)),
+        value_(value),
+        unit_(std::move(unit)),
+        admissible_(std::move(admissible)) {}
+
+  const std::string& name() const noexcept { return name_; }
+  double value() const noexcept { return value_; }
+  const std::string& unit() const noexcept { return unit_; }
+  const std::string& admissible() const noexcept { return admissible_; }
+
+ private:
+  static std::string sentence(const std::string& name, double value, const std::string& unit,
+                              const std::string& admissible) {
+    std::ostringstream text;
+    text << name << " = " << value << (unit.empty() ? "" : " ") << unit
+         << " is not admissible: must be " << admissible;
+    return text.str();
+  }
+
+  std::string name_;
+  double value_;
+  std::string unit_;
+  std::string admissible_;
+};
+
+/// Refuses NaN and infinity.
+/// @throws InvalidParameter when `value` is not finite.
+inline void require_finite(const std::string& name, double value, const std::string& unit) {
+  if (!std::isfinite(value)) throw InvalidParameter(name, value, unit, "finite");
+}
+
+/// @throws InvalidParameter unless 0 < value < ∞.
+inline void require_positive(const std::string& name, double value, const std::string& unit) {
+  if (!(std::isfinite(value) && value > 0))
+    throw InvalidParameter(name, value, unit, "finite and > 0");
+}
+
+/// @throws InvalidParameter unless 0 ≤ value < ∞.
+inline void require_non_negative(const std::string& name, double value, const std::string& unit) {
+  if (!(std::isfinite(value) && value >= 0)) {
+    throw InvalidParameter(name, value, unit, "finite and >= 0");
+  }
+}
+
+/// @throws InvalidParameter unless lower ≤ value ≤ upper.
+inline void require_within(const std::string& name, double value, const std::string& unit,
+                           double lower, double upper) {
+  if (value >= lower && value <= upper) return;
+  std::ostringstream range;
+  range << "between " << lower << " and " << upper;
+  throw InvalidParameter(name, value, unit, range.str());
+}
+
+}  // namespace holdfast

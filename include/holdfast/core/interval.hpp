@@ -1,0 +1,25 @@
+#pragma once
+
+#include <limits>
+
+namespace holdfast {
+
+/// An open interval (lower, upper) of the real line; an end may be infinite.
+template <class Scalar>
+struct Interval {
+  Scalar lower = -std::numeric_limits<Scalar>::infinity();
+  Scalar upper = std::numeric_limits<Scalar>::infinity();
+
+  bool contains(const Scalar& value) const { return lower < value && value < upper; }
+
+  /// A point inside: the middle, or one unit (or one magnitude) beyond the finite end.
+  Scalar representative() const {
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    if (lower == -infinity && upper == infinity) return Scalar(0);
+    if (lower == -infinity) return upper - (Scalar(1) + (upper < 0 ? -upper : upper));
+    if (upper == infinity) return lower + (Scalar(1) + (lower < 0 ? -lower : lower));
+    return lower + (upper - lower) / Scalar(2);
+  }
+};
+
+}  // namespace holdfast

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// A fraction in lowest terms.
+struct Rational {
+  std::int64_t numerator = 0;
+  std::int64_t denominator = 1;
+};
+
+/// The fraction p/q in lowest terms that the decimal digits of `value` stand for, by continued
+/// fractions.
+///
+/// A product such as f τ = 10 Hz · 0.011 s carries rounding; the first convergent within
+/// `relative_tolerance` of it is taken as what was meant (11/100).
+///
+/// @param value                finite, |value| < 2⁵³
+/// @param largest_denominator  ≥ 1
+/// @return nothing when no fraction with q ≤ largest_denominator is that close: the two frequencies
+/// are
+///         then treated as incommensurate
+/// @throws InvalidParameter when `value` is not finite or too large
+inline std::optional<Rational> reconstruct_rational(double value, std::int64_t largest_denominator,
+                                                    double relative_tolerance = 1e-13) {
+  require_within("value to be written as a fraction", value, "", -9.0e15, 9.0e15);
+  const double tolerance = relative_tolerance * std::max(std::abs(value), 1e-300);
+  std::int64_t previous_p = 1, previous_q = 0;
+  double whole = std::floor(value);
+  std::int64_t p = static_cast<std::int64_t>(whole), q = 1;
+  double remainder = value - whole;
+  while (std::abs(value - static_cast<double>(p) / static_cast<double>(q)) > tolerance) {
+    remainder = 1.0 / remainder;
+    whole = std::floor(remainder);
+    remainder -= whole;
+    const double next_q = whole * static_cast<double>(q) + static_cast<double>(previous_q);
+    if (!(next_q <= static_cast<double>(largest_denominator))) return std::nullopt;
+    const auto term = static_cast<std::int64_t>(whole);
+    const std::int64_t next_p = term * p + previous_p;
+    previous_p = p;
+    previous_q = q;
+    p = next_p;
+    q = static_cast<std::int64_t>(next_q);
+  }
+  return Rational{p, q};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// F(t) = F_m cos(2π f t), the excitation of the conductor. Source: Kollár 2022, Eq. (4).
+template <class Scalar>
+struct HarmonicExcitation {
+  Scalar amplitude;  ///< F_m (N), ≥ 0
+  Scalar frequency;  ///< f (Hz), > 0
+
+  /// ω = 2π f (rad/s).
+  Scalar angular_frequency() const { return Scalar(2) * pi<Scalar> * frequency; }
+};
+
+/// The excitation's cosine and sine at one sample, times its amplitude (N).
+template <class Scalar>
+struct ExcitationSample {
+  Scalar cosine;
+  Scalar sine;
+};
+
+/// F_m cos(ω j τ) and F_m sin(ω j τ); whole cycles are removed first, so that j may be large.
+template <class Scalar>
+ExcitationSample<Scalar> sample_excitation(const HarmonicExcitation<Scalar>& excitation,
+                                           const Scalar& sampling_period, std::int64_t index) {
+  using std::cos;
+  using std::floor;
+  using std::sin;
+  const Scalar cycles =
+      Scalar(static_cast<double>(index)) * (excitation.frequency * sampling_period);
+  const Scalar phase = Scalar(2) * pi<Scalar> * (cycles - floor(cycles));
+  return {excitation.amplitude * cos(phase), excitation.amplitude * sin(phase)};
+}
+
+/// @throws InvalidParameter unless F_m ≥ 0 and f > 0, both finite
+inline void validate(const HarmonicExcitation<double>& excitation) {
+  require_non_negative("excitation amplitude", excitation.amplitude, "N");
+  require_positive("excitation frequency", excitation.frequency, "Hz");
+}
+
+}  // namespace holdfast

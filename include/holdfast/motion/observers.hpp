@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/motion/stepper.hpp"
+
+namespace holdfast {
+
+/// Keeps every sample of a trajectory. Reserve before the run, so that the loop allocates nothing.
+class Recorder {
+ public:
+  explicit Recorder(std::int64_t expected_samples) {
+    samples_.reserve(static_cast<std::size_t>(expected_samples));
+  }
+
+  void operator()(const MotionSample<double>& sample) { samples_.push_back(sample); }
+  const std::vector<MotionSample<double>>& samples() const { return samples_; }
+
+ private:
+  std::vector<MotionSample<double>> samples_;
+};
+
+/// Largest |z₁| (m) and |ż₁| (m/s) from a given instant on: the box that a steady motion fills.
+class PhaseExtent {
+ public:
+  /// @param from  s; samples before it are left out
+  explicit PhaseExtent(double from) : from_(from) {}
+
+  void operator()(const MotionSample<double>& sample) {
+    if (sample.time < from_) return;
+    displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
+    velocity_ = std::fmax(velocity_, std::abs(sample.state[1]));
+  }
+  double displacement() const { return displacement_; }
+  double velocity() const { return velocity_; }
+
+ private:
+  double from_;
+  double displacement_ = 0.0;
+  double velocity_ = 0.0;
+};
+
+/// First local maximum and first local minimum of z₁ (m), the two "first peaks" of a vibration from
+/// rest. z is positive downward: the minimum is the peak above the equilibrium.
+class FirstPeaks {
+ public:
+  void operator()(const MotionSample<double>& sample) {
+    const double value = sample.state[0];
+    if (count_ >= 2) {
+      const bool rising = previous_ > before_, falls = value < previous_;
+      if (rising && falls && std::isnan(below_)) below_ = previous_;
+      if (previous_ < before_ && value > previous_ && std::isnan(above_)) above_ = previous_;
+    }
+    before_ = previous_;
+    previous_ = value;
+    ++count_;
+  }
+
+  /// First local maximum of z₁ (m): below the equilibrium. NaN while there is none.
+  double below_equilibrium() const { return below_; }
+  /// First local minimum of z₁ (m): above the equilibrium. NaN while there is none.
+  double above_equilibrium() const { return above_; }
+
+ private:
+  double before_ = 0.0;
+  double previous_ = 0.0;
+  double below_ = std::numeric_limits<double>::quiet_NaN();
+  double above_ = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t count_ = 0;
+};
+
+/// Counts the samples that were taken in the backlash and notes when the drive entered or left it.
+class SwitchLog {
+ public:
+  /// One change of contact: at sample `index` the drive is in the backlash (entered) or out of it.
+  struct Switch {
+    std::int64_t index;
+    double time;  ///< s
+    bool entered;
+  };
+
+  /// @param from  s; switches before it are not logged
+  explicit SwitchLog(double from = 0.0) : from_(from) {}
+
+  void operator()(const MotionSample<double>& sample) {
+    const bool inside = !sample.engaged;
+    if (inside != inside_ && sample.time >= from_)
+      switches_.push_back({sample.index, sample.time, inside});
+    inside_ = inside;
+  }
+  const std::vector<Switch>& switches() const { return switches_; }
+
+ private:
+  double from_;
+  bool inside_ = false;
+  std::vector<Switch> switches_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// The two-degree-of-freedom plant: conductor (1), reduced to the place of the absorber, and
+/// absorber (2).
+///
+///     m₁ z̈₁ = −k₁ z₁ − c₁ ż₁ + k₂ (z₂ − z₁) + c₂ (ż₂ − ż₁) + u + F
+///     m₂ z̈₂ =                 − k₂ (z₂ − z₁) − c₂ (ż₂ − ż₁) − u
+///
+/// With z = [z₁, ż₁, z₂, ż₂]ᵀ (m, m/s, m, m/s; positive downward) this is ż = A z + b u + c F.
+/// Source: Kollár 2022, Eqs. (9)–(10). The printed fourth row of A lost a sign and a column; the
+/// row used here, [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂], is what the equations of motion above give.
+template <class Scalar>
+struct TwoDof {
+  Scalar conductor_mass;       ///< m₁ (kg), > 0
+  Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
+  Scalar conductor_damping;    ///< c₁ (N s/m), ≥ 0
+  Scalar absorber_mass;        ///< m₂ (kg), > 0
+  Scalar absorber_stiffness;   ///< k₂ (N/m), > 0
+  Scalar absorber_damping;     ///< c₂ (N s/m), ≥ 0
+
+  /// A of Eq. (10), 4 × 4.
+  Matrix<Scalar, 4> state_matrix() const {
+    const Scalar zero(0), one(1);
+    const Scalar &m1 = conductor_mass, &k1 = conductor_stiffness, &c1 = conductor_damping;
+    const Scalar &m2 = absorber_mass, &k2 = absorber_stiffness, &c2 = absorber_damping;
+    Matrix<Scalar, 4> a;
+    a.row(0) << zero, one, zero, zero;
+    a.row(1) << -(k1 + k2) / m1, -(c1 + c2) / m1, k2 / m1, c2 / m1;
+    a.row(2) << zero, zero, zero, one;
+    a.row(3) << k2 / m2, c2 / m2, -k2 / m2, -c2 / m2;
+    return a;
+  }
+
+  /// b of Eq. (10), 4 × 1: how the control force u (N) accelerates the two masses.
+  Vector<Scalar, 4> control_input() const {
+    return {Scalar(0), Scalar(1) / conductor_mass, Scalar(0), -Scalar(1) / absorber_mass};
+  }
+
+  /// c of Eq. (10), 4 × 1: how the excitation F (N) accelerates the conductor.
+  Vector<Scalar, 4> excitation_input() const {
+    return {Scalar(0), Scalar(1) / conductor_mass, Scalar(0), Scalar(0)};
+  }
+};
+
+/// Refuses a plant outside the ranges that its members state.
+/// @throws InvalidParameter naming the first member that is not admissible
+inline void validate(const TwoDof<double>& plant) {
+  require_positive("conductor mass m1", plant.conductor_mass, "kg");
+  require_positive("conductor stiffness k1", plant.conductor_stiffness, "N/m");
+  require_non_negative("conductor damping c1", plant.conductor_damping, "N s/m");
+  require_positive("absorber mass m2", plant.absorber_mass, "kg");
+  require_positive("absorber stiffness k2", plant.absorber_stiffness, "N/m");
+  require_non_negative("absorber damping c2", plant.absorber_damping, "N s/m");
+}
+
+/// The plant of Kollár 2022, Table 1: a small-scale span with the absorber at one tenth of its
+/// length.
+inline TwoDof<double> kollar2022_plant() { return {0.0767, 50.3, 0.079, 0.16, 74.4, 4.0}; }
+
+}  // namespace holdfast

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <complex>
+
+#include "holdfast/core/resolvent.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Eigenvalues by the QR algorithm, of the balanced matrix: the algorithm's error is that of the
+/// largest entry, and a loop holds forces beside displacements.
+template <class Scalar, int Size>
+Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Size>& matrix) {
+  const Vector<Scalar, Size> factors = balancing(matrix);
+  const Matrix<Scalar, Size> balanced =
+      factors.cwiseInverse().asDiagonal() * matrix * factors.asDiagonal();
+  return Eigen::EigenSolver<Matrix<Scalar, Size>>(balanced, false).eigenvalues();
+}
+
+}  // namespace detail
+
+/// ρ(M) = max |λ_i|, by the QR algorithm. A discrete loop is asymptotically stable ⇔ ρ < 1.
+template <class Scalar, int Size>
+Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
+  return detail::balanced_eigenvalues(map).cwiseAbs().maxCoeff();
+}
+
+/// α(M) = max Re λ_i, by the QR algorithm. A continuous loop is asymptotically stable ⇔ α < 0.
+template <class Scalar, int Size>
+Scalar spectral_abscissa(const Matrix<Scalar, Size>& generator) {
+  return detail::balanced_eigenvalues(generator).real().maxCoeff();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "holdfast/core/axis.hpp"
+
+namespace holdfast::program {
+
+/// MIN:MAX, finite, min <= max.
+struct Range {
+  double min = 0.0;
+  double max = 0.0;
+};
+
+/// KEY=MIN:MAX:COUNT.
+struct KeyAxis {
+  std::string key;
+  Axis axis;
+};
+
+/// TIME:DISPLACEMENT of a kick, s and m; time >= 0.
+struct KickOption {
+  double time = 0.0;
+  double displacement = 0.0;
+};
+
+/// Z1MIN:Z1MAX:V1MIN:V1MAX, m and m/s, min < max in both.
+struct WindowOption {
+  Range displacement;
+  Range velocity;
+};
+
+/// Each reads the text given to an option (`--force`); throws WrongInput, one line that names the
+/// option, the text and the form expected.
+Range parse_range(std::string_view option, std::string_view text);
+/// 1 <= count <= 1e9. A count of 1 is min alone.
+Axis parse_axis(std::string_view option, std::string_view text);
+KeyAxis parse_key_axis(std::string_view option, std::string_view text);
+KickOption parse_kick(std::string_view option, std::string_view text);
+WindowOption parse_window(std::string_view option, std::string_view text);
+
+/// Numbers between commas, `10,100,1000`; at least one, finite.
+std::vector<double> parse_list(std::string_view option, std::string_view text);
+
+}  // namespace holdfast::program

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace holdfast::program {
+
+/// The tables of a case file, one struct each; the members bear the names of the keys. Units,
+/// admissible ranges and meaning of each are in case_keys().
+namespace case_tables {
+
+struct Conductor {
+  double mass_per_length = 0.0;
+  double span = 0.0;
+  double sag = 0.0;
+  double area = 0.0;
+  double youngs_modulus = 0.0;
+  double damping_ratio = 0.0;
+  double gravity = 9.81;
+};
+
+struct Absorber {
+  double mass = 0.0;
+  double position = 0.0;
+};
+
+struct Reduction {
+  double first_frequency = 0.0;   // Hz
+  double second_frequency = 0.0;  // Hz
+  std::string stiffness_reading;
+  double reading_below = 0.0;
+  double reading_above = 0.0;
+};
+
+struct Plant {
+  double conductor_mass = 0.0;
+  double conductor_stiffness = 0.0;
+  double conductor_damping = 0.0;
+  double absorber_mass = 0.0;
+  double absorber_stiffness = 0.0;
+  double absorber_damping = 0.0;
+};
+
+struct Control {
+  double proportional_gain = 0.0;  // not in force while tuned: ask resolved_proportional_gain()
+  bool proportional_gain_tuned = false;
+  double differential_gain = 0.0;
+  double sampling_period = 0.0;
+  double processing_delay = 0.0;
+};
+
+struct Backlash {
+  double width = 0.0;
+  std::string law = "kollar";
+};
+
+struct Excitation {
+  double amplitude = 0.0;
+  double frequency = 0.0;  // Hz
+  std::string hold = "sampled";
+};
+
+struct Wind {
+  double speed = 0.0;
+  double diameter = 0.0;
+  double effective_length = 0.0;
+  double strouhal = 0.2;
+  double lift_coefficient = 1.0;
+  double air_density = 1.225;
+};
+
+struct Initial {
+  double z1 = 0.0;
+  double v1 = 0.0;
+  double z2 = 0.0;
+  double v2 = 0.0;
+};
+
+}  // namespace case_tables
+
+/// Everything that a case file says, in SI units. load_case() makes one that is checked.
+struct Case {
+  case_tables::Conductor conductor;
+  case_tables::Absorber absorber;
+  case_tables::Reduction reduction;
+  case_tables::Plant plant;
+  case_tables::Control control;
+  case_tables::Backlash backlash;
+  case_tables::Excitation excitation;  // with wind, only `hold` counts: ask effective_excitation()
+  std::optional<case_tables::Wind> wind;
+  case_tables::Initial initial;
+
+  bool plant_given = false;      // the user gave a key of [plant]
+  bool conductor_given = false;  // the user gave a key of [conductor], [absorber] or [reduction]
+};
+
+/// The harmonic force on the conductor: [excitation] as given, or made from [wind]:
+/// frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
+/// effective_length·lift_coefficient (N).
+case_tables::Excitation effective_excitation(const Case& the_case);
+
+/// The proportional gain in force (N/m): the number given, or for "tuned" Eq. 6,
+/// P = k2 − m2 ω², with ω = 2π·frequency of effective_excitation().
+double resolved_proportional_gain(const Case& the_case);
+
+}  // namespace holdfast::program

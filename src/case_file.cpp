@@ -1,0 +1,297 @@
+#include "case_file.hpp"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+#include "builtin_case.hpp"
+#include "errors.hpp"
+#include "input.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Who gave a value; a later layer goes over an earlier one.
+enum class Layer { builtin, file, override };
+
+/// A value as it was given, and where, in the words of a message.
+struct Given {
+  std::string key;
+  std::string place;  // "case.toml:3: control.width = 1" or "--set control.width=1"
+  Layer layer;
+};
+
+/// One value found in a file.
+struct Entry {
+  std::string key;
+  const toml::node* node;
+  std::size_t line;
+};
+
+std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
+
+std::string value_text(const toml::node& node) {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  node.visit([&](const auto& value) { stream << value; });
+  std::string text = one_line(stream.str());
+  constexpr std::size_t longest = 60;
+  if (text.size() > longest) text = text.substr(0, longest) + "...";
+  return text;
+}
+
+bool is_bare_word(std::string_view text) {
+  const auto fits = [](char character) {
+    const auto code = static_cast<unsigned char>(character);
+    return std::isalnum(code) != 0 || character == '_' || character == '-';
+  };
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
+         std::all_of(text.begin(), text.end(), fits);
+}
+
+bool is_case_table(std::string_view name) {
+  const auto& keys = case_keys();
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const CaseKey& key) { return key.table() == name; });
+}
+
+std::string unknown_key(std::string_view name) {
+  const CaseKey& nearest = nearest_case_key(name);
+  return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
+}
+
+WrongInput unknown_table(const std::string& file, std::size_t line, const std::string& table) {
+  return WrongInput(file + ":" + std::to_string(line) + ": [" + table +
+                    "]: unknown table: did you mean [" + nearest_case_table(table) + "]?");
+}
+
+/// Puts layers of values one over another and sees to it that each is fit.
+class CaseReader {
+ public:
+  void read_text(std::string_view text, const std::string& name, Layer layer);
+  void read_override(const std::string& text);
+  Case finish();
+
+ private:
+  std::vector<Entry> entries(const toml::table& root, const std::string& name) const;
+  void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
+  void set_number(const CaseKey& key, const toml::node& node, const std::string& place);
+  void set_word(const CaseKey& key, const toml::node& node, const std::string& place);
+  void begin_wind(const std::string& place, Layer layer);
+  void note_user(const CaseKey& key);
+  const Given* last_given(const std::vector<std::string>& keys) const;
+  void check_wind() const;
+  void settle_plant() const;
+  void check_faults() const;
+
+  Case case_;
+  std::vector<Given> given_;
+  std::string wind_place_;
+  Layer wind_layer_ = Layer::builtin;
+};
+
+toml::table parse_file(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw WrongInput(name + ":" + std::to_string(error.source().begin.line) + ": " +
+                     std::string(error.description()));
+  }
+}
+
+void CaseReader::read_text(std::string_view text, const std::string& name, Layer layer) {
+  const toml::table root = parse_file(text, name);
+  if (const toml::node* wind = root.get("wind"); wind != nullptr && wind->is_table()) {
+    begin_wind(name + ":" + std::to_string(line_of(*wind)) + ": [wind]", layer);
+  }
+  for (const Entry& entry : entries(root, name)) {
+    const std::string place = name + ":" + std::to_string(entry.line) + ": " + entry.key + " = " +
+                              value_text(*entry.node);
+    set(entry.key, *entry.node, place, layer);
+  }
+}
+
+/// The file's values in the order of its lines, so that the first mistake is the one reported.
+std::vector<Entry> CaseReader::entries(const toml::table& root, const std::string& name) const {
+  std::vector<Entry> found;
+  for (const auto& [table_key, node] : root) {
+    const std::string table(table_key.str());
+    const toml::table* keys = node.as_table();
+    if (keys == nullptr) {
+      found.push_back({table, &node, line_of(node)});
+      continue;
+    }
+    if (!is_case_table(table)) {
+      throw unknown_table(name, line_of(node), table);
+    }
+    for (const auto& [key, value] : *keys) {
+      std::string full_name = table + ".";
+      full_name += key.str();
+      found.push_back({full_name, &value, line_of(value)});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Entry& a, const Entry& b) { return a.line < b.line; });
+  return found;
+}
+
+/// The value of an override: TOML, or a word without quotes.
+toml::table parse_override_value(std::string_view value, const std::string& place) {
+  try {
+    toml::table parsed = toml::parse("value = " + std::string(value));
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {
+    if (is_bare_word(value)) return toml::table{{"value", std::string(value)}};
+  }
+  throw WrongInput(place + ": the value is neither TOML nor a word");
+}
+
+void CaseReader::read_override(const std::string& text) {
+  const std::string place = "--set " + text;
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw WrongInput(place + ": expected key=value");
+  const std::string name(trimmed(std::string_view(text).substr(0, equals)));
+  const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
+  if (find_case_key(name) == nullptr) throw WrongInput(place + ": " + unknown_key(name));
+  if (value.empty()) throw WrongInput(place + ": expected key=value");
+  const toml::table parsed = parse_override_value(value, place);
+  if (name.rfind("wind.", 0) == 0) begin_wind(place, Layer::override);
+  set(name, *parsed.get("value"), place, Layer::override);
+}
+
+void CaseReader::set(const std::string& name, const toml::node& node, const std::string& place,
+                     Layer layer) {
+  const CaseKey* key = find_case_key(name);
+  if (key == nullptr && is_case_table(name)) {
+    throw WrongInput(place + ": must be a table, [" + name + "]");
+  }
+  if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
+  if (key->word != nullptr) {
+    set_word(*key, node, place);
+  } else {
+    set_number(*key, node, place);
+  }
+  given_.push_back({name, place, layer});
+  if (layer != Layer::builtin) note_user(*key);
+}
+
+void CaseReader::set_number(const CaseKey& key, const toml::node& node, const std::string& place) {
+  const auto word = node.value_exact<std::string>();
+  if (key.tuned != nullptr && word && *word == key.words.front()) {
+    *key.tuned(case_) = true;
+    return;
+  }
+  if (!node.is_number()) throw WrongInput(place + ": must be " + key.admissible());
+  const double value = node.value<double>().value_or(std::nan(""));
+  if (!std::isfinite(value)) {
+    throw WrongInput(place + ": must be finite; admissible is " + key.admissible());
+  }
+  if (!key.range.contains(value)) throw WrongInput(place + ": admissible is " + key.admissible());
+  *key.number(case_) = value;
+  if (key.tuned != nullptr) *key.tuned(case_) = false;
+}
+
+void CaseReader::set_word(const CaseKey& key, const toml::node& node, const std::string& place) {
+  const auto word = node.value_exact<std::string>();
+  const bool known =
+      word && std::find(key.words.begin(), key.words.end(), *word) != key.words.end();
+  if (!known) throw WrongInput(place + ": must be " + key.admissible());
+  *key.word(case_) = *word;
+}
+
+void CaseReader::begin_wind(const std::string& place, Layer layer) {
+  if (case_.wind) return;
+  case_.wind.emplace();
+  wind_place_ = place;
+  wind_layer_ = layer;
+}
+
+void CaseReader::note_user(const CaseKey& key) {
+  const std::string table = key.table();
+  if (table == "plant") case_.plant_given = true;
+  const bool conductor = table == "conductor" || table == "absorber" || table == "reduction";
+  if (conductor) case_.conductor_given = true;
+}
+
+const Given* CaseReader::last_given(const std::vector<std::string>& keys) const {
+  const auto involved = [&](const Given& given) {
+    return std::find(keys.begin(), keys.end(), given.key) != keys.end();
+  };
+  const auto found = std::find_if(given_.rbegin(), given_.rend(), involved);
+  return found == given_.rend() ? nullptr : &*found;
+}
+
+void CaseReader::check_wind() const {
+  if (!case_.wind) return;
+  for (const CaseKey& key : case_keys()) {
+    if (!key.required || last_given({key.name}) != nullptr) continue;
+    throw WrongInput(wind_place_ + ": " + key.name + " is missing; admissible is " +
+                     key.admissible());
+  }
+  // An excitation below the layer that brought the wind is replaced; one beside it or above it
+  // would be passed over without a word.
+  const Given* force = last_given({"excitation.amplitude", "excitation.frequency"});
+  if (force == nullptr || force->layer < wind_layer_) return;
+  throw WrongInput(force->place + ": [wind] stands in place of [excitation]; give one of them (" +
+                   wind_place_ + ")");
+}
+
+/// The one place that decides where the plant comes from.
+void CaseReader::settle_plant() const {
+  if (case_.plant_given || !case_.conductor_given) return;
+  const auto by_user = std::find_if(given_.begin(), given_.end(), [](const Given& given) {
+    const CaseKey* key = find_case_key(given.key);
+    const std::string table = key->table();
+    const bool conductor = table == "conductor" || table == "absorber" || table == "reduction";
+    return given.layer != Layer::builtin && conductor;
+  });
+  throw WrongInput(by_user->place +
+                   ": the plant cannot yet be reduced from the conductor: give [plant]");
+}
+
+void CaseReader::check_faults() const {
+  const CaseFault fault = first_fault(case_);
+  if (fault.message.empty()) return;
+  const Given* given = last_given(fault.keys);
+  throw WrongInput(given == nullptr ? fault.message : given->place + ": " + fault.message);
+}
+
+Case CaseReader::finish() {
+  check_wind();
+  check_faults();
+  settle_plant();
+  return case_;
+}
+
+Case finish_with(CaseReader& reader, const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) reader.read_override(text);
+  return reader.finish();
+}
+
+CaseReader reader_of_builtin() {
+  CaseReader reader;
+  reader.read_text(builtin_case_text, "built-in case", Layer::builtin);
+  return reader;
+}
+
+}  // namespace
+
+Case load_case(const std::optional<std::filesystem::path>& file,
+               const std::vector<std::string>& overrides) {
+  if (file) return load_case_text(read_input(*file), file->string(), overrides);
+  CaseReader reader = reader_of_builtin();
+  return finish_with(reader, overrides);
+}
+
+Case load_case_text(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides) {
+  CaseReader reader = reader_of_builtin();
+  reader.read_text(text, name, Layer::file);
+  return finish_with(reader, overrides);
+}
+
+}  // namespace holdfast::program

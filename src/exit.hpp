@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace holdfast::program {
+
+/// The program's exit codes.
+namespace exit_code {
+inline constexpr int done = 0;
+inline constexpr int no_answer = 1;
+inline constexpr int wrong_input = 2;
+inline constexpr int interrupted = 130;
+}  // namespace exit_code
+
+/// Runs the program's work and gives its exit code. An exception becomes one line on standard
+/// error that begins with `holdfast: `, and a code: WrongInput, holdfast::InvalidParameter 2;
+/// Interrupted 130; NoAnswer, OutputError, lack of memory and anything else 1.
+int run_guarded(const std::function<int()>& work);
+
+/// Writes `holdfast: ` and the message on one line of standard error.
+void report_error(const std::string& message);
+
+}  // namespace holdfast::program

@@ -1,0 +1,37 @@
+#include "input.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "errors.hpp"
+#include "interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+  throw WrongInput("cannot read " + file.string() + ": " + why);
+}
+
+}  // namespace
+
+std::string read_input(const std::filesystem::path& file) {
+  constexpr std::size_t largest = std::size_t{1} << 31;  // an endless device shall end
+  using Handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+  const Handle handle(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!handle) refuse(file, std::generic_category().message(errno));
+  std::string text;
+  std::vector<char> chunk(std::size_t{1} << 16);
+  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), handle.get())) {
+    text.append(chunk.data(), count);
+    throw_if_interrupted();
+    if (text.size() > largest) refuse(file, "too large");
+  }
+  if (std::ferror(handle.get()) != 0) refuse(file, std::generic_category().message(errno));
+  return text;
+}
+
+}  // namespace holdfast::program

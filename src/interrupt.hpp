@@ -1,0 +1,41 @@
+#pragma once
+
+#include <exception>
+
+namespace holdfast::program {
+
+/// The user (SIGINT) or the system (SIGTERM) asked the program to end: exit code 130.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// From here on SIGINT and SIGTERM set a flag, and a closed pipe is an error that write() reports.
+/// A second signal ends the program at once; unfinished files are removed even then.
+void install_signal_handlers();
+
+/// Whether a signal has come. A long loop asks, or calls throw_if_interrupted().
+bool interrupted();
+
+/// Throws Interrupted when a signal has come.
+void throw_if_interrupted();
+
+/// Forgets a signal that came, so that tests can raise one.
+void clear_interrupt();
+
+/// Names a file that a second signal shall remove, while the object lives. Beyond a fixed number
+/// of files at once, and for paths of 4096 bytes or more, it does nothing.
+class RemovedBySignal {
+ public:
+  explicit RemovedBySignal(const char* path);
+  ~RemovedBySignal();
+  RemovedBySignal(const RemovedBySignal&) = delete;
+  RemovedBySignal& operator=(const RemovedBySignal&) = delete;
+  RemovedBySignal(RemovedBySignal&&) = delete;
+  RemovedBySignal& operator=(RemovedBySignal&&) = delete;
+
+ private:
+  int slot_ = -1;
+};
+
+}  // namespace holdfast::program

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "case.hpp"
+#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/motion/excitation.hpp"
+#include "holdfast/motion/stepper.hpp"
+#include "holdfast/plant/two_dof.hpp"
+
+namespace holdfast::program {
+
+/// The library's objects for what a case file says.
+TwoDof<double> plant_of(const Case& the_case);
+PdGains<double> gains_of(const Case& the_case);
+Sampling<double> sampling_of(const Case& the_case);
+SampledLoop<double> loop_of(const Case& the_case);
+HarmonicExcitation<double> excitation_of(const Case& the_case);
+ForceHold force_hold_of(const Case& the_case);
+Vector<double, 4> initial_state_of(const Case& the_case);
+
+/// The motion of the case from its initial state, with its control or without any.
+SampledMotion<double> motion_of(const Case& the_case);
+SampledMotion<double> uncontrolled_motion_of(const Case& the_case);
+
+}  // namespace holdfast::program

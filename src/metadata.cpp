@@ -1,0 +1,85 @@
+#include "metadata.hpp"
+
+#include <cctype>
+
+#include "case_file.hpp"
+
+#ifndef HOLDFAST_VERSION
+#error "the build defines HOLDFAST_VERSION"
+#endif
+
+namespace holdfast::program {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A file name as a relative URL.
+std::string url_of(const std::string& file_name) {
+  constexpr const char* hexadecimal = "0123456789ABCDEF";
+  const std::string plain = "-._~";
+  std::string url;
+  for (const char character : file_name) {
+    const auto code = static_cast<unsigned char>(character);
+    const bool alphanumeric = code < 0x80 && std::isalnum(code) != 0;
+    if (alphanumeric || plain.find(character) != std::string::npos) {
+      url += character;
+    } else {
+      url += '%';
+      url += hexadecimal[code / 16];
+      url += hexadecimal[code % 16];
+    }
+  }
+  return url;
+}
+
+Json column_metadata(const Column& column) {
+  Json json = {{"name", column.name}, {"titles", column.name}, {"datatype", column.datatype}};
+  if (!column.description.empty()) json["dc:description"] = column.description;
+  if (!column.unit.empty()) json["schema:unitText"] = column.unit;
+  return json;
+}
+
+Json origin(const JobContext& context) {
+  Json options = Json::object();
+  for (const auto& [name, text] : context.options) {
+    // An option may be given more than once.
+    if (!options.contains(name)) {
+      options[name] = text;
+    } else if (options[name].is_array()) {
+      options[name].push_back(text);
+    } else {
+      options[name] = Json::array({options[name], text});
+    }
+  }
+  return {{"version", HOLDFAST_VERSION},
+          {"job", context.job},
+          {"options", options},
+          {"case", case_to_json(context.case_data)}};
+}
+
+}  // namespace
+
+Json table_metadata(const JobContext& context, const std::vector<Column>& columns,
+                    const std::string& file_name) {
+  Json described = Json::array();
+  for (const Column& column : columns) described.push_back(column_metadata(column));
+  Json note = Json::object();
+  note["holdfast"] = origin(context);
+  Json json;
+  json["@context"] = "http://www.w3.org/ns/csvw";
+  json["url"] = url_of(file_name);
+  json["dc:title"] = "holdfast " + context.job;
+  json["tableSchema"]["columns"] = described;
+  json["notes"] = Json::array({note});
+  return json;
+}
+
+std::filesystem::path metadata_path(const std::filesystem::path& file) {
+  return file.parent_path() / (file.filename().string() + "-metadata.json");
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace holdfast::program {
+
+/// A table of the report: the name of its file and the command line that makes it.
+struct TableRequest {
+  std::string name;                    ///< "fig06a-control": data/fig06a-control.csv
+  std::vector<std::string> arguments;  ///< {"simulate", "--duration", "1", …}, without --output
+};
+
+/// A picture of the report: the tables it is drawn from and the gnuplot commands that draw it.
+struct Figure {
+  std::string name;     ///< "fig06a": pictures/fig06a.svg
+  std::string title;    ///< heading
+  std::string caption;  ///< says what is drawn, so that the picture can be understood alone
+  std::vector<TableRequest> tables;
+  std::string plot;       ///< gnuplot commands; a table's file is @NAME@
+  double height = 360.0;  ///< of the picture, in points; its width is 640
+};
+
+/// `--set` pairs for a sampling period (s) and a backlash (m).
+std::vector<std::string> loop_settings(const std::string& sampling_period,
+                                       const std::string& backlash_width);
+
+/// The window of gains that a stability chart shows.
+struct ChartWindow {
+  double p_min, p_max;  ///< N/m
+  double d_min, d_max;  ///< N s/m
+};
+
+/// Makers of the kinds of figure; `settings` are options that every table of the figure gets.
+Figure stability_figure(const std::string& name, const std::string& title,
+                        const std::string& caption, const ChartWindow& window,
+                        const std::vector<std::string>& settings);
+Figure delay_figure(const std::string& name, const std::string& title, const std::string& caption,
+                    const std::vector<std::string>& settings);
+Figure history_figure(const std::string& name, const std::string& title, const std::string& caption,
+                      const std::string& from, const std::string& to,
+                      const std::vector<std::string>& settings);
+Figure kick_figure(const std::string& name, const std::string& title, const std::string& caption,
+                   const std::string& kick, const std::vector<std::string>& settings);
+Figure contact_figure(const std::string& name, const std::string& title, const std::string& caption,
+                      const std::string& from, const std::string& to,
+                      const std::vector<std::string>& settings);
+Figure phase_figure(const std::string& name, const std::string& title, const std::string& caption,
+                    const std::string& duration, const std::vector<std::string>& settings);
+Figure spectrum_figure(const std::string& name, const std::string& title,
+                       const std::string& caption, const std::vector<std::string>& settings);
+Figure deviation_figure(const std::string& name, const std::string& title,
+                        const std::string& caption, const std::vector<std::string>& settings);
+Figure filling_figure(const std::string& name, const std::string& title, const std::string& caption,
+                      const std::string& duration, const std::vector<std::string>& settings);
+Figure exponent_figure(const std::string& name, const std::string& title,
+                       const std::string& caption, const std::string& lowest,
+                       const std::vector<std::string>& settings);
+
+/// @param published  the paper's exponents, λ₁ first
+/// @param duration   of the motion, s
+Figure exponent_table_figure(const std::string& name, const std::string& title,
+                             const std::string& caption, const std::string& duration,
+                             const std::vector<double>& published,
+                             const std::vector<std::string>& settings);
+
+}  // namespace holdfast::program

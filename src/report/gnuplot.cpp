@@ -1,0 +1,105 @@
+#include "gnuplot.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "errors.hpp"
+#include "input.hpp"
+#include "output.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+// Colours of M. Okabe and K. Ito, told apart by all kinds of colour vision; dashes tell them apart
+// in grey.
+constexpr const char* style =
+    "set encoding utf8\n"
+    "set datafile separator comma\n"
+    "set datafile missing 'nan'\n"
+    "set border 3 lw 0.8 lc rgb '#444444'\n"
+    "set tics nomirror out textcolor rgb '#222222'\n"
+    "set grid lw 0.5 lc rgb '#dddddd' dt 1\n"
+    "set style line 1 lw 1.6 lc rgb '#0072b2'\n"
+    "set style line 2 lw 1.6 lc rgb '#d55e00' dt (8,3)\n"
+    "set style line 3 lw 1.6 lc rgb '#009e73' dt (3,2)\n"
+    "set style line 4 lw 1.6 lc rgb '#777777'\n"
+    "set key outside top center horizontal samplen 3\n";
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// Runs gnuplot in a folder; its messages go to a file. Gives its exit status, or −1 if it could
+/// not start.
+int run_gnuplot(const std::filesystem::path& folder, const std::string& argument,
+                const std::filesystem::path& messages) {
+  const std::string place = folder.string();
+  const std::string message_file = messages.string();
+  const pid_t child = fork();
+  if (child < 0) return -1;
+  if (child == 0) {
+    const int null_input = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int log = open(message_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (null_input < 0 || log < 0 || chdir(place.c_str()) != 0) _exit(127);
+    dup2(null_input, STDIN_FILENO);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    execlp("gnuplot", "gnuplot", argument.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return -1;
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
+bool gnuplot_available() { return run_gnuplot(".", "--version", "/dev/null") == 0; }
+
+std::string gnuplot_script(const Figure& figure) {
+  std::string plot = figure.plot;
+  for (const TableRequest& table : figure.tables) {
+    replace_all(plot, "@" + table.name + "@", "'data/" + table.name + ".csv' skip 1");
+  }
+  return "set terminal svg size 640," + format_number(figure.height) +
+         " dynamic enhanced standalone font 'Helvetica,Arial,sans-serif,13' background rgb "
+         "'white'\n" +
+         "set output 'pictures/" + figure.name + ".svg.partial'\n" + style + plot +
+         "unset output\n";
+}
+
+void draw(const Figure& figure, const std::filesystem::path& folder) {
+  const std::filesystem::path pictures = folder / "pictures";
+  const std::filesystem::path script = pictures / (figure.name + ".gp");
+  const std::filesystem::path partial = pictures / (figure.name + ".svg.partial");
+  const std::filesystem::path messages = pictures / (figure.name + ".log.partial");
+  write_file(script, gnuplot_script(figure));
+  const int status =
+      run_gnuplot(folder, "pictures/" + figure.name + ".gp", std::filesystem::absolute(messages));
+  const std::string words = status == 0 ? "" : one_line(read_input(messages));
+  std::error_code ignored;
+  std::filesystem::remove(messages, ignored);
+  if (status != 0) {
+    std::filesystem::remove(partial, ignored);
+    throw OutputError("gnuplot could not draw " + figure.name + ": " + words);
+  }
+  std::filesystem::rename(partial, pictures / (figure.name + ".svg"));
+}
+
+}  // namespace holdfast::program

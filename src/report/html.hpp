@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/comparison.hpp"
+#include "report/figure.hpp"
+
+namespace holdfast::program {
+
+/// A figure as it came out: its picture as SVG text, or the reason why there is none.
+struct DrawnFigure {
+  Figure figure;
+  std::vector<std::string> commands;  ///< the command line of each table
+  std::string svg;
+  std::string reason;  ///< empty when there is a picture
+};
+
+/// Everything that the page shows.
+struct Page {
+  std::string title;
+  std::string introduction;
+  std::string case_text;                ///< the full case as TOML
+  std::vector<Comparison> comparisons;  ///< may be empty
+  std::vector<DrawnFigure> figures;
+};
+
+/// The page as one self-contained HTML text: pictures inside, nothing loaded from elsewhere.
+std::string html_of(const Page& page);
+
+/// Text with &, <, > and quotes escaped.
+std::string escaped(const std::string& text);
+
+/// Base64 of RFC 4648.
+std::string base64(const std::string& bytes);
+
+}  // namespace holdfast::program

@@ -1,0 +1,145 @@
+#include "report.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "case_file.hpp"
+#include "errors.hpp"
+#include "exit.hpp"
+#include "input.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "report/figures.hpp"
+#include "report/gnuplot.hpp"
+#include "report/html.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Arguments = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+bool is_builtin(const Case& the_case) {
+  return case_to_toml(the_case) == case_to_toml(load_case({}, {}));
+}
+
+void make_folders(const fs::path& folder) {
+  for (const char* part : {"data", "pictures"}) {
+    std::error_code failure;
+    fs::create_directories(folder / part, failure);
+    if (failure) throw WrongInput("--output " + folder.string() + ": " + failure.message());
+  }
+}
+
+/// A command line that a shell reads as these arguments.
+std::string shell_text(const Arguments& arguments) {
+  std::string text = "holdfast";
+  for (const std::string& argument : arguments) {
+    const bool plain =
+        argument.find_first_not_of(
+            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=.,:/+@%") ==
+            std::string::npos &&
+        !argument.empty();
+    if (plain) {
+      text += " " + argument;
+    } else {
+      std::string quoted;
+      for (const char character : argument)
+        quoted += character == '\'' ? std::string("'\\''") : std::string(1, character);
+      text += " '" + quoted + "'";
+    }
+  }
+  return text;
+}
+
+/// The command line of a table: job, case, the figure's own settings, output.
+Arguments command_of(const TableRequest& table, const Arguments& case_arguments) {
+  Arguments arguments = {table.arguments.front()};
+  arguments.insert(arguments.end(), case_arguments.begin(), case_arguments.end());
+  arguments.insert(arguments.end(), table.arguments.begin() + 1, table.arguments.end());
+  return arguments;
+}
+
+class ReportWriter {
+ public:
+  ReportWriter(const JobContext& context, Arguments case_arguments, const CommandRunner& run)
+      : folder_(*context.output),
+        case_arguments_(std::move(case_arguments)),
+        run_(run),
+        can_draw_(gnuplot_available()) {}
+
+  DrawnFigure make(const Figure& figure) const {
+    DrawnFigure drawn{figure, {}, "", ""};
+    for (const TableRequest& table : figure.tables) {
+      drawn.commands.push_back(shell_text(command_of(table, case_arguments_)) + " --output data/" +
+                               table.name + ".csv");
+    }
+    try {
+      for (const TableRequest& table : figure.tables) write_table(table);
+    } catch (const NoAnswer& reason) {
+      drawn.reason = reason.what();
+      return drawn;
+    }
+    if (!can_draw_) {
+      drawn.reason = "gnuplot is not installed (Debian package gnuplot-nox)";
+      return drawn;
+    }
+    draw(figure, folder_);
+    drawn.svg = read_input(folder_ / "pictures" / (figure.name + ".svg"));
+    return drawn;
+  }
+
+ private:
+  void write_table(const TableRequest& table) const {
+    Arguments arguments = command_of(table, case_arguments_);
+    arguments.insert(arguments.end(),
+                     {"--quiet", "--output", (folder_ / "data" / (table.name + ".csv")).string()});
+    run_(arguments);
+  }
+
+  fs::path folder_;
+  Arguments case_arguments_;
+  const CommandRunner& run_;
+  bool can_draw_;
+};
+
+std::string introduction_of(bool builtin) {
+  if (!builtin) return "Figures for the case at the end of this page.";
+  return "Figures 3 to 13 and Table 2 of L. E. Kollár, <cite>Dynamics of digitally controlled "
+         "forced vibration "
+         "of suspended cables</cite>, Nonlinear Dynamics (2022), computed anew, and each number of "
+         "the paper beside "
+         "the number found here.";
+}
+
+}  // namespace
+
+void write_report(const JobContext& context, const Arguments& case_arguments,
+                  const CommandRunner& run) {
+  const bool builtin = is_builtin(context.case_data);
+  const fs::path folder = *context.output;
+  make_folders(folder);
+  OutputFile file(folder / "report.html");
+  const ReportWriter writer(context, case_arguments, run);
+  const std::vector<Figure> figures = builtin ? paper_figures() : case_figures(context.case_data);
+
+  Page page;
+  page.title = builtin ? "A controlled cable: the paper's figures and ours" : "A controlled cable";
+  page.introduction = introduction_of(builtin);
+  page.case_text = case_to_toml(context.case_data);
+  if (builtin) page.comparisons = compare_with_paper();
+  Progress progress(figures.size(), "report", progress_wanted(context));
+  for (const Figure& figure : figures) {
+    throw_if_interrupted();
+    page.figures.push_back(writer.make(figure));
+    progress.advance();
+  }
+  file.write(html_of(page));
+  file.commit();
+  if (!gnuplot_available())
+    report_error("the report has no pictures: install gnuplot (Debian package gnuplot-nox)");
+}
+
+}  // namespace holdfast::program

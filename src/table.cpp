@@ -1,0 +1,35 @@
+#include "table.hpp"
+
+#include <system_error>
+
+#include "metadata.hpp"
+
+namespace holdfast::program {
+
+Table::Table(const JobContext& context, const std::vector<Column>& columns)
+    : output_(context.output), writer_(output_, columns) {
+  if (!output_.is_file()) return;
+  const std::filesystem::path& target = output_.target();
+  metadata_ = std::make_unique<OutputFile>(metadata_path(target));
+  metadata_->write(json_text(table_metadata(context, columns, target.filename().string())));
+}
+
+void Table::commit() {
+  writer_.flush();
+  output_.finish();
+  if (!metadata_) {
+    output_.commit();
+    return;
+  }
+  // The table last: whoever sees it finds its metadata.
+  metadata_->commit();
+  try {
+    output_.commit();
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(metadata_->target(), ignored);
+    throw;
+  }
+}
+
+}  // namespace holdfast::program

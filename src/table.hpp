@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "csv.hpp"
+#include "job_context.hpp"
+#include "output.hpp"
+
+namespace holdfast::program {
+
+/// A job's result: a CSV table and, for a named file, its metadata; both appear at commit() or
+/// neither does.
+///
+///     Table table(context, {{"time_s", "s", "time"}, {"z1_m", "m", "displacement"}});
+///     table.row(0.0, 0.1);
+///     table.commit();
+///
+/// Throws what OutputFile and CsvWriter throw; a path that cannot be written is refused before
+/// anything is computed.
+class Table {
+ public:
+  Table(const JobContext& context, const std::vector<Column>& columns);
+
+  template <typename... Cells>
+  void row(const Cells&... cells) {
+    writer_.row(cells...);
+  }
+
+  /// For rows whose width is known only when the program runs: cell() … end_row().
+  CsvWriter& writer() { return writer_; }
+
+  void commit();
+
+ private:
+  OutputFile output_;
+  CsvWriter writer_;
+  std::unique_ptr<OutputFile> metadata_;  // none for standard output
+};
+
+}  // namespace holdfast::program

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace holdfast::program {
+
+/// The text on one line: every run of line ends and other control characters becomes one space.
+std::string one_line(std::string_view text);
+
+/// The text without blanks at its two ends.
+std::string_view trimmed(std::string_view text);
+
+/// The parts between separators; a text without separator is one part.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// The shortest decimal digits that read back as the same double; `inf`, `-inf` and `nan`.
+std::string format_number(double value);
+
+/// The number that the whole text stands for, or nothing. `inf` and `nan` are numbers here.
+std::optional<double> parse_number(std::string_view text);
+
+/// The fewest single-character insertions, deletions, substitutions and swaps of neighbours that
+/// turn one text into the other.
+std::size_t edit_distance(std::string_view from, std::string_view to);
+
+}  // namespace holdfast::program

@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+/// Wrong input: exit 2, one line that begins with the program's name, nothing on standard output.
+void expect_refused(const std::string& arguments, const std::string& mentioned) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments;
+  EXPECT_EQ(outcome.error_lines(), 1U) << arguments << "\n" << outcome.errors;
+  EXPECT_EQ(outcome.errors.rfind("holdfast: ", 0), 0U) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(mentioned), std::string::npos) << arguments << "\n"
+                                                               << outcome.errors;
+  EXPECT_EQ(outcome.output, "") << arguments;
+}
+
+TEST(WrongInput, CaseValuesAreNamedWithTheirRange) {
+  expect_refused("simulate --set plant.conductor_mass=-1", "plant.conductor_mass");
+  expect_refused("simulate --set control.sampling_period=0", "control.sampling_period");
+  expect_refused("simulate --set control.processing_delay=0.5", "control.processing_delay");
+  expect_refused("simulate --set excitation.amplitude=nan", "finite");
+  expect_refused("simulate --set excitation.frequency=inf", "finite");
+  expect_refused("simulate --set initial.z1=fast", "initial.z1");
+  expect_refused("simulate --set backlash.law=kolar", "kollar");
+}
+
+TEST(WrongInput, UnknownKeysComeWithTheNearestKnownOne) {
+  expect_refused("simulate --set control.sampling_perod=0.1", "control.sampling_period");
+  const Folder folder;
+  std::ofstream(folder / "case.toml") << "[backlash]\nwidht = 0.001\n";
+  expect_refused("simulate --case '" + (folder / "case.toml").string() + "'", "case.toml:2");
+  expect_refused("simulate --case '" + (folder / "case.toml").string() + "'", "width");
+  expect_refused("simulate --case '" + (folder / "absent.toml").string() + "'", "absent.toml");
+}
+
+TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
+  expect_refused("stability --p 5:1:10", "--p");
+  expect_refused("stability --p 0:1:0", "--p");
+  expect_refused("stability --d 1:2", "MIN:MAX:COUNT");
+  expect_refused("boundary --p 3:3", "proportional gains");
+  expect_refused("max-delay --criterion quick", "criterion");
+  expect_refused("max-delay --frequency 0:5:3", "frequency");
+  expect_refused("simulate --duration -1", "duration");
+  expect_refused("simulate --duration 1 --from 2", "--from");
+  expect_refused("simulate --duration nan", "duration");
+  expect_refused("simulate --from nan", "from");
+  expect_refused("simulate --kick nan:1", "--kick");
+  expect_refused("deviation --offset nan", "offset");
+  expect_refused("spectrum --discard inf", "discard");
+  expect_refused("simulate --kick 1", "--kick");
+  expect_refused("simulate --switching exact", "switching");
+  expect_refused("coverage --window 1:0:0:1", "--window");
+  expect_refused("coverage --durations 0", "--durations");
+  expect_refused("lyapunov --tangent best", "tangent");
+  expect_refused("spectrum --duration 1 --discard 2", "--discard");
+  expect_refused("simulate --threads -1", "threads");
+  expect_refused("report", "--output");
+}
+
+TEST(WrongInput, UnknownJobComesWithTheNearestOne) {
+  expect_refused("simulat", "simulate");
+  expect_refused("max_delay", "max-delay");
+  expect_refused("", "which job");
+}
+
+TEST(Output, UnwritablePlacesAreRefusedBeforeAnythingIsComputed) {
+  const Folder folder;
+  expect_refused("simulate --output '" + (folder / "no/such/folder.csv").string() + "'",
+                 "folder.csv");
+  expect_refused("simulate --output '" + folder.path().string() + "'", "folder");
+  expect_refused("report --output '/dev/null/report'", "report");
+}
+
+TEST(Output, FullDiskIsReportedAndLeavesNothing) {
+  const Outcome to_standard_output = run_holdfast("simulate", ">/dev/full");
+  EXPECT_EQ(to_standard_output.exit_code, 1);
+  EXPECT_EQ(to_standard_output.error_lines(), 1U) << to_standard_output.errors;
+  EXPECT_NE(to_standard_output.errors.find("No space left"), std::string::npos)
+      << to_standard_output.errors;
+}
+
+TEST(Output, FullDeviceIsReportedForANamedOutputToo) {
+  const Outcome outcome = run_holdfast("simulate --output /dev/full");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+}
+
+TEST(Output, ClosedPipeEndsTheProgram) {
+  const Outcome outcome = run_holdfast("simulate --duration 100", "| head -n 1 >/dev/null");
+  EXPECT_LE(outcome.error_lines(), 1U) << outcome.errors;
+}
+
+TEST(Output, FileAndMetadataAppearTogether) {
+  const Folder folder;
+  const Outcome outcome =
+      run_holdfast("simulate --duration 0.1 --output '" + (folder / "motion.csv").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  std::vector<std::string> names = folder.names();
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"motion.csv", "motion.csv-metadata.json"}));
+  EXPECT_NE(text_of(folder / "motion.csv-metadata.json").find("\"sampling_period\": 0.001"),
+            std::string::npos);
+}
+
+TEST(NoAnswer, DivergingMotionSaysWhenAndLeavesNoFile) {
+  const Folder folder;
+  const Outcome outcome = run_holdfast(
+      "simulate --duration 1000 --set control.sampling_period=0.011 --set "
+      "control.processing_delay=0.011 "
+      "--output '" +
+      (folder / "motion.csv").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.error_lines(), 1U);
+  EXPECT_NE(outcome.errors.find("diverges"), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Help, ListsJobsAndUnits) {
+  const Outcome help = run_holdfast("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const std::string job : {"stability", "boundary", "max-delay", "response", "simulate",
+                                "spectrum", "deviation", "coverage", "lyapunov", "report"}) {
+    EXPECT_NE(help.output.find(job), std::string::npos) << job;
+    const Outcome of_job = run_holdfast(job + " --help");
+    EXPECT_EQ(of_job.exit_code, 0);
+    EXPECT_NE(of_job.output.find("--set"), std::string::npos) << job;
+  }
+  EXPECT_NE(run_holdfast("--version").output.find(HOLDFAST_VERSION), std::string::npos);
+}
+
+}  // namespace
+}  // namespace holdfast::tests

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "cli/program.hpp"
+#include "csv.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+using program::CsvTable;
+using program::parse_csv;
+
+CsvTable table_of(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.errors, "");
+  return parse_csv(outcome.output, arguments);
+}
+
+std::string header_of(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const auto lines = lines_of(outcome.output);
+  return lines.empty() ? "" : lines.front();
+}
+
+TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
+  EXPECT_EQ(header_of("stability --p -600:0:3 --d -20:0:3"),
+            "proportional_gain,differential_gain,stable");
+  EXPECT_EQ(header_of("stability --radius --p -600:0:3 --d -20:0:3"),
+            "proportional_gain,differential_gain,stable,spectral_radius");
+  EXPECT_EQ(header_of("stability --radius --continuous --p -600:0:3 --d -20:0:3"),
+            "proportional_gain,differential_gain,stable,spectral_abscissa");
+  EXPECT_EQ(header_of("boundary"), "curve,angle_rad,proportional_gain,differential_gain");
+  EXPECT_EQ(header_of("max-delay --frequency 10:10:1"),
+            "frequency_Hz,proportional_gain,max_sampling_period_s,differential_gain");
+  EXPECT_EQ(header_of("response --p -600:0:3 --d -20:0:3"),
+            "proportional_gain,differential_gain,stable,amplitude_m,ratio_to_uncontrolled");
+  EXPECT_EQ(header_of("simulate --duration 0.1"),
+            "time_s,z1_m,v1_m_per_s,z2_m,v2_m_per_s,control_force_N,in_backlash");
+  EXPECT_EQ(header_of("spectrum --duration 2"), "frequency_Hz,amplitude_m");
+  EXPECT_EQ(header_of("deviation --duration 0.1"), "time_s,z1_deviation_m,state_deviation");
+  EXPECT_EQ(header_of("coverage --durations 1,2"), "duration_s,cells,visited,fraction");
+  EXPECT_EQ(header_of("lyapunov --duration 1"), "exponent,per_sample,per_second,standard_error");
+  EXPECT_EQ(header_of("lyapunov --duration 0.1 --history"),
+            "time_s,lambda1,lambda2,lambda3,lambda4,lambda5");
+}
+
+TEST(Stability, FirstAxisIsSlowestAndRadiusAgreesWithTheVerdict) {
+  const CsvTable table = table_of(
+      "stability --radius --p -1000:200:7 --d -40:20:5 --set control.sampling_period=0.01");
+  ASSERT_EQ(table.rows(), 35U);
+  EXPECT_EQ(table.number(0, "proportional_gain"), table.number(4, "proportional_gain"));
+  EXPECT_EQ(table.number(1, "differential_gain"), -25.0);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_EQ(table.number(row, "stable") == 1.0, table.number(row, "spectral_radius") < 1.0)
+        << "row " << row;
+  }
+}
+
+TEST(Boundary, NamesItsCurves) {
+  const CsvTable sampled = table_of("boundary --set control.sampling_period=0.01");
+  bool flip = false, pair = false;
+  for (std::size_t row = 0; row < sampled.rows(); ++row) {
+    flip = flip || sampled.text(row, "curve") == "minus_one";
+    pair = pair || sampled.text(row, "curve") == "complex_pair";
+    EXPECT_NE(sampled.text(row, "curve"), "plus_one");
+  }
+  EXPECT_TRUE(flip && pair);
+  const CsvTable continuous = table_of("boundary --continuous");
+  EXPECT_EQ(continuous.text(0, "curve"), "imaginary_pair");
+}
+
+TEST(Simulate, RowsStandAtEverySampleUpToTheDuration) {
+  const CsvTable table = table_of("simulate --duration 0.3 --set control.sampling_period=0.1");
+  ASSERT_EQ(table.rows(), 4U);
+  EXPECT_DOUBLE_EQ(table.number(3, "time_s"), 0.3);
+  EXPECT_EQ(table.number(0, "z1_m"), 0.0);
+}
+
+TEST(Simulate, FromDropsTheRowsBeforeAndNothingElse) {
+  const CsvTable whole = table_of("simulate --duration 1");
+  const CsvTable tail = table_of("simulate --duration 1 --from 0.5");
+  ASSERT_EQ(tail.rows(), 501U);
+  EXPECT_EQ(tail.text(0, "time_s"), "0.5");
+  EXPECT_EQ(tail.text(500, "z1_m"), whole.text(1000, "z1_m"));
+}
+
+TEST(Simulate, WithoutControlThereIsNoForceAndNoBacklash) {
+  const CsvTable table = table_of("simulate --duration 0.5 --no-control");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_EQ(table.number(row, "control_force_N"), 0.0);
+    EXPECT_EQ(table.number(row, "in_backlash"), 0.0);
+  }
+}
+
+TEST(Simulate, KickDisplacesTheConductorAtItsInstant) {
+  const CsvTable plain = table_of("simulate --duration 1"),
+                 kicked = table_of("simulate --duration 1 --kick 0.9:0.003");
+  EXPECT_EQ(plain.text(899, "z1_m"), kicked.text(899, "z1_m"));
+  EXPECT_NEAR(kicked.number(900, "z1_m") - plain.number(900, "z1_m"), 0.003, 1e-15);
+}
+
+TEST(Lyapunov, AnnihilatedDirectionIsMinusInfinity) {
+  const CsvTable table = table_of("lyapunov --duration 5");
+  ASSERT_EQ(table.rows(), 5U);
+  EXPECT_EQ(table.text(4, "per_sample"), "-inf");
+  EXPECT_EQ(table.text(4, "per_second"), "-inf");
+  EXPECT_NEAR(table.number(0, "per_second"), table.number(0, "per_sample") / 0.001, 1e-12);
+}
+
+TEST(Coverage, GrowsWithTime) {
+  const CsvTable table = table_of("coverage --durations 20,10 --cells 20");
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.number(0, "duration_s"), 10.0);
+  EXPECT_EQ(table.number(0, "cells"), 400.0);
+  EXPECT_LE(table.number(0, "visited"), table.number(1, "visited"));
+  EXPECT_DOUBLE_EQ(table.number(1, "fraction"), table.number(1, "visited") / 400.0);
+}
+
+TEST(Threads, DoNotChangeAnyByte) {
+  const std::string job = "stability --p -1000:200:31 --d -40:20:31 --threads ";
+  EXPECT_EQ(run_holdfast(job + "1").output, run_holdfast(job + "2").output);
+}
+
+TEST(Wind, GivesFrequencyAndAmplitude) {
+  const Folder folder;
+  std::ofstream(folder / "wind.toml")
+      << "[wind]\nspeed = 1.0\ndiameter = 0.02\neffective_length = 5.0\n";
+  // f = 0.2 · 1 / 0.02 = 10 Hz, F = ½ · 1.225 · 1² · 0.02 · 5 · 1 = 0.06125 N.
+  const Outcome windy =
+      run_holdfast("simulate --duration 1 --case '" + (folder / "wind.toml").string() + "'");
+  const Outcome given = run_holdfast("simulate --duration 1 --set excitation.amplitude=0.06125");
+  EXPECT_EQ(windy.exit_code, 0) << windy.errors;
+  const CsvTable a = parse_csv(windy.output, "wind"), b = parse_csv(given.output, "given");
+  for (std::size_t row = 0; row < a.rows(); ++row) {
+    EXPECT_NEAR(a.number(row, "z1_m"), b.number(row, "z1_m"), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast::tests

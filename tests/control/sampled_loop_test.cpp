@@ -1,0 +1,239 @@
+#include "holdfast/control/sampled_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+/// Two free masses of 1 kg and 2 kg: a user's own plant, simple enough for hand calculation.
+template <class Scalar>
+struct FreeMasses {
+  Matrix<Scalar, 4> state_matrix() const {
+    Matrix<Scalar, 4> a = Matrix<Scalar, 4>::Zero();
+    a(0, 1) = a(2, 3) = Scalar(1);
+    return a;
+  }
+  Vector<Scalar, 4> control_input() const {
+    return {Scalar(0), Scalar(1), Scalar(0), Scalar(-0.5)};
+  }
+  Vector<Scalar, 4> excitation_input() const {
+    return {Scalar(0), Scalar(1), Scalar(0), Scalar(0)};
+  }
+};
+
+TwoDof<double> random_plant(test::Random& random) {
+  return {random.log_uniform(0.03, 3), random.log_uniform(5, 500), random.log_uniform(0.01, 1),
+          random.log_uniform(0.03, 3), random.log_uniform(5, 500), random.log_uniform(0.1, 10)};
+}
+
+double largest(const Matrix<double, 4>& m) { return m.cwiseAbs().maxCoeff(); }
+
+/// The state after `duration` under a constant force, by many small Runge–Kutta steps.
+Vector<double, 4> integrate(const TwoDof<double>& plant, Vector<double, 4> z, double force,
+                            double duration) {
+  const Matrix<double, 4> a = plant.state_matrix();
+  const Vector<double, 4> b = plant.control_input() * force;
+  const int steps = 1000;
+  const double h = duration / steps;
+  for (int step = 0; step < steps; ++step) {
+    const Vector<double, 4> k1 = a * z + b;
+    const Vector<double, 4> k2 = a * (z + h / 2 * k1) + b;
+    const Vector<double, 4> k3 = a * (z + h / 2 * k2) + b;
+    const Vector<double, 4> k4 = a * (z + h * k3) + b;
+    z += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return z;
+}
+
+TEST(SampledLoop, PeriodsCompose) {
+  test::Random random(71);
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto plant = random_plant(random);
+    const double first = random.log_uniform(1e-4, 0.1), second = random.log_uniform(1e-4, 0.1);
+    const auto one = sampled_loop(plant, Sampling<double>{first});
+    const auto two = sampled_loop(plant, Sampling<double>{second});
+    const auto both = sampled_loop(plant, Sampling<double>{first + second});
+    // Relative to the terms that the product sums.
+    const Matrix<double, 4> size = two.transition.cwiseAbs() * one.transition.cwiseAbs();
+    EXPECT_LE(largest(both.transition - two.transition * one.transition),
+              1e-12 * std::max(1.0, largest(size)));
+    const Vector<double, 4> held = two.transition * one.held_excitation + two.held_excitation;
+    EXPECT_LE((both.held_excitation - held).cwiseAbs().maxCoeff(), 1e-12 * largest(size));
+  }
+}
+
+TEST(SampledLoop, TheIncrementIsTheTransitionMinusTheIdentity) {
+  test::Random random(72);
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto loop =
+        sampled_loop(random_plant(random), Sampling<double>{random.log_uniform(1e-5, 0.2)});
+    const Matrix<double, 4> difference = loop.transition - Matrix<double, 4>::Identity();
+    EXPECT_LE(largest(loop.increment - difference),
+              1e-15 * std::max(1.0, largest(loop.transition)));
+  }
+}
+
+TEST(SampledLoop, TheIncrementKeepsItsDigitsHoweverFastTheSampling) {
+  test::Random random(73);
+  const TwoDof<long double> precise{0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L};
+  const TwoDof<double> plant{0.0767, 50.3, 0.079, 0.16, 74.4, 4.0};
+  for (const double period : {1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
+    const auto rough = sampled_loop(plant, Sampling<double>{period, period / 3});
+    const auto reference =
+        sampled_loop(precise, Sampling<long double>{static_cast<long double>(period),
+                                                    static_cast<long double>(period / 3)});
+    const Matrix<double, 4> expected = reference.increment.cast<double>();
+    EXPECT_LE(((rough.increment - expected).array() / expected.array()).abs().maxCoeff(), 1e-12)
+        << period;
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(rough.present_force[i] / static_cast<double>(reference.present_force[i]), 1.0,
+                  1e-12);
+      EXPECT_NEAR(rough.previous_force[i] / static_cast<double>(reference.previous_force[i]), 1.0,
+                  1e-12);
+    }
+  }
+}
+
+TEST(SampledLoop, UnitsOfDisplacementAndVelocityDoNotCostDigits) {
+  // ‖A‖ is the square of a frequency; an exponential that scales and squares by it would lose 3
+  // digits here.
+  test::Random random(76);
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto p = random_plant(random);
+    const TwoDof<long double> precise{p.conductor_mass, p.conductor_stiffness, p.conductor_damping,
+                                      p.absorber_mass,  p.absorber_stiffness,  p.absorber_damping};
+    const double period = random.log_uniform(1e-4, 0.2), delay = period * random.unit();
+    const auto rough = sampled_loop(p, Sampling<double>{period, delay});
+    const auto reference = sampled_loop(precise, Sampling<long double>{period, delay});
+    const Matrix<double, 4> expected = reference.transition.cast<double>();
+    EXPECT_LE(largest(rough.transition - expected), 1e-12 * std::max(1.0, largest(expected)));
+  }
+}
+
+TEST(SampledLoop, NoDelayLeavesNothingToThePreviousForce) {
+  test::Random random(74);
+  for (int draw = 0; draw < 100; ++draw) {
+    const auto plant = random_plant(random);
+    const double period = random.log_uniform(1e-4, 0.2);
+    const auto loop = sampled_loop(plant, Sampling<double>{period, 0.0});
+    EXPECT_TRUE(loop.previous_force.isZero(0.0));
+    const auto held =
+        zero_order_hold<double, 4, 1>(plant.state_matrix(), plant.control_input(), period);
+    const double scale = held.input.cwiseAbs().maxCoeff();
+    EXPECT_LE((loop.present_force - held.input).cwiseAbs().maxCoeff(), 1e-12 * scale);
+  }
+}
+
+TEST(SampledLoop, AFullPeriodOfDelayLeavesNothingToThePresentForce) {
+  test::Random random(75);
+  for (int draw = 0; draw < 100; ++draw) {
+    const auto plant = random_plant(random);
+    const double period = random.log_uniform(1e-4, 0.2);
+    const auto loop = sampled_loop(plant, Sampling<double>{period, period});
+    const auto undelayed = sampled_loop(plant, Sampling<double>{period, 0.0});
+    EXPECT_TRUE(loop.present_force.isZero(0.0));
+    EXPECT_EQ(loop.previous_force, undelayed.present_force);
+    EXPECT_EQ(loop.transition, undelayed.transition);
+  }
+}
+
+TEST(SampledLoop, TheTwoPartsOfTheForceAddUpToTheWholePeriod) {
+  test::Random random(76);
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto plant = random_plant(random);
+    const double period = random.log_uniform(1e-4, 0.2);
+    const auto loop = sampled_loop(plant, Sampling<double>{period, period * random.unit()});
+    const auto whole = sampled_loop(plant, Sampling<double>{period, 0.0});
+    const Vector<double, 4> sum = loop.previous_force + loop.present_force;
+    const double scale = whole.present_force.cwiseAbs().maxCoeff();
+    EXPECT_LE((sum - whole.present_force).cwiseAbs().maxCoeff(), 1e-12 * scale);
+    EXPECT_LE(largest(loop.transition - whole.transition),
+              1e-12 * std::max(1.0, largest(whole.transition)));
+  }
+}
+
+TEST(SampledLoop, FreeMassesMoveOnTheParabolasOfHandCalculation) {
+  for (const double period : {0.001, 0.5}) {
+    for (const double fraction : {0.0, 0.3, 1.0}) {
+      const double delay = fraction * period, after = period - delay;
+      const auto loop = sampled_loop(FreeMasses<double>{}, Sampling<double>{period, delay});
+      const PdGains<double> gains{-2.0, -3.0};
+      // Displacement and velocity per newton on 1 kg: u_j pushes for `after`, u_{j−1} for `delay`
+      // and then coasts.
+      const double present = after * after / 2, previous = delay * period - delay * delay / 2;
+      Matrix<double, 5> expected = Matrix<double, 5>::Zero();
+      expected.row(0) << 1 - 2 * present, period - 3 * present, 0, 0, previous;
+      expected.row(1) << -2 * after, 1 - 3 * after, 0, 0, delay;
+      expected.row(2) << present, 1.5 * present, 1, period, -0.5 * previous;
+      expected.row(3) << after, 1.5 * after, 0, 1, -0.5 * delay;
+      expected.row(4) << -2, -3, 0, 0, 0;
+      EXPECT_LE((loop.engaged_map(gains) - expected).cwiseAbs().maxCoeff(), 1e-15 * 10);
+      Matrix<double, 5> idle = Matrix<double, 5>::Zero();
+      idle.row(0) << 1, period, 0, 0, previous;
+      idle.row(1) << 0, 1, 0, 0, delay;
+      idle.row(2) << 0, 0, 1, period, -0.5 * previous;
+      idle.row(3) << 0, 0, 0, 1, -0.5 * delay;
+      EXPECT_LE((loop.backlash_map() - idle).cwiseAbs().maxCoeff(), 1e-15 * 10);
+    }
+  }
+}
+
+TEST(SampledLoop, ItsMapsAreTheEquationOfMotionUnderAPiecewiseConstantForce) {
+  test::Random random(77);
+  const PdGains<double> gains{-557.0, -13.0};
+  const auto plant = kollar2022_plant();
+  const double period = 0.01;
+  for (const double delay : {0.0, period / 3, period}) {
+    const auto loop = sampled_loop(plant, Sampling<double>{period, delay});
+    for (int draw = 0; draw < 5; ++draw) {
+      auto extended = random.matrix<Vector<double, 5>>();
+      extended[4] *= 100.0;
+      const Vector<double, 4> z = extended.head<4>();
+      for (const bool engaged : {true, false}) {
+        const double present = engaged ? (gains.feedback_row() * z).value() : 0.0;
+        const Vector<double, 4> until = integrate(plant, z, extended[4], delay);
+        Vector<double, 5> expected;
+        expected << integrate(plant, until, present, period - delay), present;
+        const Matrix<double, 5> map = engaged ? loop.engaged_map(gains) : loop.backlash_map();
+        // Runge–Kutta's own error here: (‖A‖ τ / 1000)⁴ is far below 1e−9; velocities reach about
+        // 100 m/s.
+        EXPECT_LE((map * extended - expected).cwiseAbs().maxCoeff(), 1e-9 * 100.0) << delay;
+      }
+    }
+  }
+}
+
+TEST(SampledLoop, TheLastRowOfTheBacklashMapIsZero) {
+  const auto loop = sampled_loop(kollar2022_plant(), Sampling<double>{0.01, 0.004});
+  EXPECT_TRUE(loop.backlash_map().row(4).isZero(0.0));
+  EXPECT_EQ(loop.engaged_map({0.0, 0.0}), loop.backlash_map());
+}
+
+TEST(Sampling, WhatIsOutOfRangeIsRefused) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  for (const double period : {0.0, -0.001, infinity, -infinity, not_a_number}) {
+    EXPECT_THROW(validate(Sampling<double>{period, 0.0}), InvalidParameter) << period;
+  }
+  for (const double delay : {-1e-9, std::nextafter(0.01, 1.0), infinity, -infinity, not_a_number}) {
+    try {
+      validate(Sampling<double>{0.01, delay});
+      ADD_FAILURE() << delay;
+    } catch (const InvalidParameter& error) {
+      EXPECT_EQ(error.name(), "processing delay");
+      EXPECT_EQ(error.unit(), "s");
+      EXPECT_EQ(error.admissible(), "between 0 and 0.01");
+    }
+  }
+  for (const double delay : {0.0, 0.005, 0.01})
+    EXPECT_NO_THROW(validate(Sampling<double>{0.01, delay}));
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,26 @@
+#include "holdfast/core/select.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+namespace holdfast {
+namespace {
+
+TEST(Select, PicksOneOfTwoValuesByTheMask) {
+  EXPECT_EQ(select(true, 1.5, 2.5), 1.5);
+  EXPECT_EQ(select(false, 1.5, 2.5), 2.5);
+}
+
+TEST(Select, TheMaskOfAPlainNumberIsBool) {
+  EXPECT_TRUE((std::is_same_v<Mask<double>, bool>));
+  EXPECT_TRUE((std::is_same_v<Mask<float>, bool>));
+}
+
+TEST(Select, AnyAndAllOfOneLaneAreTheLane) {
+  EXPECT_TRUE(any(true) && all(true));
+  EXPECT_FALSE(any(false) || all(false));
+}
+
+}  // namespace
+}  // namespace holdfast
