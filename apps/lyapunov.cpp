@@ -26,7 +26,8 @@ SampledLoop<double> tangent_loop_of(const Case& the_case, const Options& options
 std::vector<Column> columns(const Options& options) {
   if (!options.history) {
     return {
-        {"exponent", "", "number of the exponent, largest first", "integer"},
+        {"exponent", "",
+         "number of the exponent, in the order of the QR; descending once converged", "integer"},
         {"per_sample", "", "natural logarithm per sample; -inf where a direction is annihilated"},
         {"per_second", "1/s", "per sample over the sampling period"},
         {"standard_error", "", "of per_sample, by batch means"}};
@@ -53,8 +54,8 @@ void run(const JobContext& context, const Options& options) {
   LyapunovObserver observer(tangent_loop_of(context.case_data, options),
                             gains_of(context.case_data));
   auto motion = motion_of(context.case_data);
-  const auto outcome =
-      run_trajectory(motion, steps, {}, observer, [&](const MotionSample<double>& sample) {
+  const auto outcome = run_trajectory(
+      motion, steps, {}, StopWhenInterrupted(), observer, [&](const MotionSample<double>& sample) {
         if (options.history)
           write_history_row(table.writer(), sample.time + period, observer.spectrum());
       });

@@ -27,8 +27,10 @@ void run(const JobContext& context, const Options& options) {
   const std::optional<Kick> kick = kick_of(options);
   if (options.from > options.duration)
     throw WrongInput("--from lies after --duration: no row is left");
+  if (kick && kick->time > options.duration) throw WrongInput("--kick acts after --duration");
   auto motion =
       options.no_control ? uncontrolled_motion_of(context.case_data) : motion_of(context.case_data);
+  const double from = options.from * (1.0 - 1e-12);  // an instant meant as a sample is one
   const std::int64_t samples =
       samples_within(options.duration, context.case_data.control.sampling_period);
   Table table(context,
@@ -39,9 +41,9 @@ void run(const JobContext& context, const Options& options) {
                {"v2_m_per_s", "m/s", "velocity of the absorber"},
                {"control_force_N", "N", "force decided at this sample; 0 in the backlash"},
                {"in_backlash", "", "1: the drive is in its backlash, 0: it transmits", "integer"}});
-  const auto outcome =
-      run_trajectory(motion, samples, kick, [&](const MotionSample<double>& sample) {
-        if (sample.time < options.from) return;
+  const auto outcome = run_trajectory(
+      motion, samples, kick, StopWhenInterrupted(), [&](const MotionSample<double>& sample) {
+        if (sample.time < from) return;
         table.row(sample.time, sample.state[0], sample.state[1], sample.state[2], sample.state[3],
                   sample.control_force, sample.engaged ? 0 : 1);
       });

@@ -2,12 +2,26 @@
 
 #include <system_error>
 
+#include "errors.hpp"
 #include "metadata.hpp"
 
 namespace holdfast::program {
+namespace {
+
+/// A name that promises netCDF would lie about what stands in the file.
+const std::optional<std::filesystem::path>& csv_target(
+    const std::optional<std::filesystem::path>& path) {
+  if (path && path->extension() == ".nc") {
+    throw WrongInput("--output " + path->string() +
+                     ": netCDF is not written by this version; give a name that ends in .csv");
+  }
+  return path;
+}
+
+}  // namespace
 
 Table::Table(const JobContext& context, const std::vector<Column>& columns)
-    : output_(context.output), writer_(output_, columns) {
+    : output_(csv_target(context.output)), writer_(output_, columns) {
   if (!output_.is_file()) return;
   const std::filesystem::path& target = output_.target();
   metadata_ = std::make_unique<OutputFile>(metadata_path(target));

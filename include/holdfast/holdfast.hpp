@@ -12,6 +12,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/axis.hpp"
+#include "holdfast/core/balancing.hpp"
 #include "holdfast/core/batch_means.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"

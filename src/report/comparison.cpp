@@ -110,8 +110,8 @@ void compare_delay(Rows& rows) {
                "one more sample of delay costs about two thirds of the admissible period"));
     rows.push_back(number("Fig. 5: frequency that allows the longest period", "4.1 Hz", 4.1, 0.15,
                           frequency_of_longest_period(fraction), "Hz", reading,
-                          "the longest periods are found near 3.43 Hz, where P of Eq. 6 is zero "
-                          "and hardly any force acts"));
+                          "near 3.43 Hz, where P of Eq. 6 is zero and hardly any force acts, only "
+                          "τ < 1/(2f) limits the period"));
     rows.push_back(
         statement("§5: the largest period falls below 1 ms when the frequency exceeds 50 Hz",
                   "< 1 ms", rounded(at_50 * 1e3, 3) + " ms at 50 Hz", at_50 < 1e-3, reading,
@@ -165,8 +165,8 @@ void compare_histories(Rows& rows) {
                         0.3, swallowing_backlash() * 1e3, "mm", "δ = 0, transient over by 30 s"));
 }
 
-/// Time from the kick until the peaks of a forcing period are again within 5 % of the undisturbed
-/// ones.
+/// Time from the kick until the peaks of three forcing periods are again within 5 % of the
+/// undisturbed ones.
 double settling_time(const PaperLoop& loop, double kick_time) {
   const std::int64_t samples = samples_within(8.0, loop.sampling_period);
   Recorder kicked(samples), undisturbed(samples);

@@ -60,6 +60,7 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
   expect_refused("lyapunov --tangent best", "tangent");
   expect_refused("spectrum --duration 1 --discard 2", "--discard");
   expect_refused("simulate --threads -1", "threads");
+  expect_refused("simulate --duration 1 --kick 2:0.001", "--kick");
   expect_refused("report", "--output");
 }
 
@@ -75,6 +76,8 @@ TEST(Output, UnwritablePlacesAreRefusedBeforeAnythingIsComputed) {
                  "folder.csv");
   expect_refused("simulate --output '" + folder.path().string() + "'", "folder");
   expect_refused("report --output '/dev/null/report'", "report");
+  expect_refused("stability --output '" + (folder / "x.nc").string() + "'", "netCDF");
+  EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Output, FullDiskIsReportedAndLeavesNothing) {

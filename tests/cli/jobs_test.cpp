@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -86,6 +87,39 @@ TEST(Simulate, FromDropsTheRowsBeforeAndNothingElse) {
   ASSERT_EQ(tail.rows(), 501U);
   EXPECT_EQ(tail.text(0, "time_s"), "0.5");
   EXPECT_EQ(tail.text(500, "z1_m"), whole.text(1000, "z1_m"));
+}
+
+TEST(Simulate, FromKeepsTheSampleThatIsMeantInSpiteOfRounding) {
+  const CsvTable table =
+      table_of("simulate --duration 0.055 --from 0.055 --set control.sampling_period=0.011");
+  EXPECT_EQ(table.rows(), 1U);
+}
+
+TEST(Coverage, OfAMotionAtRestHasNoAnswer) {
+  const Outcome outcome = run_holdfast("coverage --set excitation.amplitude=0 --durations 1,2");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.errors.find("stands still"), std::string::npos) << outcome.errors;
+}
+
+TEST(MaxDelay, NeverPassesHalfAForcingPeriodWhereItShallAttenuate) {
+  const CsvTable table = table_of("max-delay --frequency 3:4:11");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_LE(table.number(row, "max_sampling_period_s"), 0.5 / table.number(row, "frequency_Hz"));
+    EXPECT_GT(table.number(row, "max_sampling_period_s"), 0.0);
+  }
+}
+
+TEST(Boundary, KeepsItsLowerEdgeHoweverFastTheSampling) {
+  for (const std::string period : {"1e-3", "1e-5", "1e-7"}) {
+    const CsvTable table =
+        table_of("boundary --p -600:-500 --set control.sampling_period=" + period);
+    double nearest = 1e9;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      if (table.text(row, "curve") != "complex_pair") continue;
+      nearest = std::min(nearest, std::abs(table.number(row, "differential_gain") + 33.7));
+    }
+    EXPECT_LT(nearest, 0.5) << period;
+  }
 }
 
 TEST(Simulate, WithoutControlThereIsNoForceAndNoBacklash) {

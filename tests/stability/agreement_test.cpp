@@ -23,9 +23,10 @@ namespace holdfast {
 namespace {
 
 struct Verdicts {
-  bool hurwitz, schur_cohn, eigenvalues, intervals;
+  bool hurwitz, schur_cohn, schur_cohn_in_lambda, eigenvalues, intervals;
   bool agree() const {
-    return hurwitz == schur_cohn && hurwitz == eigenvalues && hurwitz == intervals;
+    return hurwitz == schur_cohn && hurwitz == schur_cohn_in_lambda && hurwitz == eigenvalues &&
+           hurwitz == intervals;
   }
 };
 
@@ -36,7 +37,8 @@ Verdicts verdicts(const SampledLoop<double>& loop, const PdGains<double>& gains)
   if (in_w[5] < 0) in_w = -in_w;
   Verdicts result{};
   result.hurwitz = hurwitz_conditions<double, 6>(in_w).satisfied();
-  result.schur_cohn = schur_cohn_stable<double, 6>(in_powers_of_lambda<double, 6>(in_mu));
+  result.schur_cohn = schur_cohn_stable_in_mu<double, 6>(in_mu);
+  result.schur_cohn_in_lambda = schur_cohn_stable<double, 6>(in_powers_of_lambda<double, 6>(in_mu));
   result.eigenvalues = spectral_radius<double, 5>(loop.engaged_map(gains)) < 1.0;
   for (const auto& interval : stable_differential_gains(polynomial, gains.proportional)) {
     result.intervals = result.intervals || interval.contains(gains.differential);
@@ -75,24 +77,28 @@ struct Tally {
   }
 };
 
-/// Hurwitz and the intervals work in powers of λ − 1 and owe nothing to fast sampling. When the
-/// roots crowd at λ = 1, coefficients in powers of λ no longer hold where the roots are: Schur–Cohn
-/// is held to what rounding them leaves.
+/// Hurwitz, Schur–Cohn and the intervals work in powers of λ − 1 and owe nothing to fast sampling.
+/// When the roots crowd at λ = 1, coefficients in powers of λ no longer hold where the roots are:
+/// Schur–Cohn on those is held to what rounding them leaves.
 class Tallies {
  public:
   void take(const Verdicts& found, const test::Growth& truth, double sampling_period) {
     hurwitz_.take(found.hurwitz, truth, sampling_period);
     intervals_.take(found.intervals, truth, sampling_period);
     schur_cohn_.take(found.schur_cohn, truth, sampling_period);
+    schur_cohn_in_lambda_.take(found.schur_cohn_in_lambda, truth, sampling_period);
     eigenvalues_.take(found.eigenvalues, truth, sampling_period);
   }
   void check() const {
-    for (const Tally* tally : {&hurwitz_, &intervals_, &schur_cohn_, &eigenvalues_}) tally->check();
+    for (const Tally* tally :
+         {&hurwitz_, &intervals_, &schur_cohn_, &schur_cohn_in_lambda_, &eigenvalues_})
+      tally->check();
   }
 
  private:
   Tally hurwitz_{"hurwitz", 0.0}, intervals_{"intervals", 0.0};
-  Tally schur_cohn_{"schur_cohn", 1000.0}, eigenvalues_{"eigenvalues", 0.0};
+  Tally schur_cohn_{"schur_cohn", 0.0}, schur_cohn_in_lambda_{"schur_cohn_in_lambda", 1000.0};
+  Tally eigenvalues_{"eigenvalues", 0.0};
 };
 
 TEST(StabilityRoads, AgreeOnRandomLoopsUnlessARootIsOnTheCircle) {

@@ -29,12 +29,12 @@ inline void validate(const PhaseWindow& window) {
 class Coverage {
  public:
   /// @param cells_per_side  1 … 10 000; the window has its square of cells
+  /// @throws InvalidParameter for an empty window or another number of cells
   Coverage(const PhaseWindow& window, std::size_t cells_per_side)
-      : window_(window),
-        side_(cells_per_side),
-        visited_cells_(cells_per_side * cells_per_side, false) {
+      : window_(window), side_(cells_per_side) {
     validate(window);
     require_within("cells per side", static_cast<double>(cells_per_side), "", 1.0, 1e4);
+    visited_cells_.assign(cells_per_side * cells_per_side, false);
   }
 
   void operator()(const MotionSample<double>& sample) {

@@ -22,8 +22,10 @@ namespace holdfast {
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
 /// A tangent map of rank r < Size annihilates Size − r directions: those exponents are exactly −∞,
-/// and no logarithm of round-off is ever taken. Source: Kollár 2022, Eq. (16), whose Gram–Schmidt
-/// steps are this QR with a worse conditioning; G. Benettin et al., Meccanica 15 (1980).
+/// and no logarithm of round-off is taken. The rank is that to working precision: a direction that
+/// one step contracts by more than about 10¹⁵ against the others counts as annihilated. Source:
+/// Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning; G.
+/// Benettin et al., Meccanica 15 (1980).
 template <class Scalar, int Size>
 class LyapunovSpectrum {
  public:

@@ -32,8 +32,9 @@ struct SpectralLine {
 ///
 /// @param signal           x_n, N ≥ 2 samples, finite
 /// @param sampling_period  τ (s), > 0
+/// Work: N log N where N has small prime factors only, N times the largest factor otherwise.
 /// @return N/2 + 1 lines at k / (N τ)
-/// @throws InvalidParameter for fewer than two samples or τ ≤ 0
+/// @throws InvalidParameter for fewer than two or more than 10⁹ samples, or τ ≤ 0
 inline std::vector<SpectralLine> amplitude_spectrum(std::vector<double> signal,
                                                     double sampling_period, SpectralWindow window) {
   require_positive("sampling period tau", sampling_period, "s");
@@ -63,6 +64,7 @@ inline std::vector<SpectralLine> amplitude_spectrum(std::vector<double> signal,
 /// @return 0 when f τ is no fraction with q ≤ `largest`: the two never coincide in reach
 inline std::int64_t samples_per_coincidence(double frequency, double sampling_period,
                                             std::int64_t largest = 1'000'000) {
+  if (!(frequency * sampling_period < 1e15)) return 0;
   const auto ratio = reconstruct_rational(frequency * sampling_period, largest);
   return ratio ? ratio->denominator : 0;
 }

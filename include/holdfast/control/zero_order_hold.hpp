@@ -2,7 +2,7 @@
 
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "holdfast/core/resolvent.hpp"
+#include "holdfast/core/balancing.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -25,12 +25,8 @@ namespace detail {
 /// its eigenvalues by that factor; the squarings that the norm asks for would cost as many digits.
 template <class Scalar, int Size>
 Matrix<Scalar, Size> balanced_exponential(const Matrix<Scalar, Size>& matrix) {
-  const Vector<Scalar, Size> factors = balancing(matrix);
-  const Vector<Scalar, Size> inverse_factors = factors.cwiseInverse();
-  const Matrix<Scalar, Size> balanced =
-      inverse_factors.asDiagonal() * matrix * factors.asDiagonal();
-  const Matrix<Scalar, Size> exponential = balanced.exp();
-  return factors.asDiagonal() * exponential * inverse_factors.asDiagonal();
+  const BalancedMatrix<Scalar, Size> similar(matrix);
+  return similar.restored(similar.balanced.exp());
 }
 
 }  // namespace detail

@@ -11,10 +11,10 @@ namespace holdfast {
 /// Mean of a long correlated series with its standard error, in constant memory.
 ///
 /// The series is cut into equal batches; when all `Batches` are full, neighbours are merged and the
-/// batch length doubles, so that between Batches/2 and Batches complete batches always cover the
-/// series. The error is that of the mean of the batch means; it is honest once a batch is longer
-/// than the correlation. Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using
-/// standardized time series, 1990.
+/// batch length doubles, so that between Batches/2 and Batches complete batches cover a
+/// series of more than Batches values. The error is that of the mean of the batch means; it is
+/// honest once a batch is longer than the correlation. Source: P. W. Glynn, D. L. Iglehart,
+/// Simulation output analysis using standardized time series, 1990.
 template <class Scalar, std::size_t Batches = 64>
 class BatchMeans {
   static_assert(Batches % 2 == 0 && Batches >= 4, "batches are merged in pairs");

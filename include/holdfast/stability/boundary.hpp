@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
 #include "holdfast/core/polynomial.hpp"
 #include "holdfast/stability/affine_polynomial.hpp"
 
@@ -100,6 +101,7 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, BoundaryCurve curve
     }
     return;
   }
+  if (std::abs(p) <= Scalar(1e-9) * polynomial.proportional.cwiseAbs().maxCoeff()) return;
   const Scalar vertical = -base / p;
   if (!(vertical >= Scalar(range.lower) && vertical <= Scalar(range.upper))) return;
   points.push_back({curve, angle, {vertical, -infinity}});
@@ -171,17 +173,18 @@ class CurveTracer {
   GainsAt gains_at_;
 };
 
-/// Traces a root-pair curve over angles given by a geometric progression of a parameter in (0, ∞).
+/// Traces a root-pair curve over angles of which a parameter takes geometric steps, 40 a decade.
 template <class Scalar, class GainsAt, class AngleOf>
 void append_pairs(std::vector<BoundaryPoint<Scalar>>& points, BoundaryCurve curve,
-                  const ProportionalRange& range, GainsAt gains_at, AngleOf angle_of) {
+                  const ProportionalRange& range, const Interval<Scalar>& parameter,
+                  GainsAt gains_at, AngleOf angle_of) {
   const CurveTracer<Scalar, GainsAt> tracer(curve, range, std::move(gains_at));
-  const int steps_per_decade = 40;
-  const int decades = 10;
-  Scalar from = angle_of(Scalar(1e-6));
-  for (int k = 1; k <= steps_per_decade * decades; ++k) {
-    const Scalar to =
-        angle_of(Scalar(1e-6) * std::pow(Scalar(10), Scalar(k) / Scalar(steps_per_decade)));
+  const Scalar decades = std::log10(parameter.upper / parameter.lower);
+  const int steps = static_cast<int>(std::ceil(Scalar(40) * decades));
+  Scalar from = angle_of(parameter.lower);
+  for (int k = 1; k <= steps; ++k) {
+    const Scalar exponent = decades * Scalar(k) / Scalar(steps);
+    const Scalar to = angle_of(parameter.lower * std::pow(Scalar(10), exponent));
     tracer.trace(from, to, points);
     from = to;
   }
@@ -192,7 +195,7 @@ void append_pairs(std::vector<BoundaryPoint<Scalar>>& points, BoundaryCurve curv
 /// The whole boundary of the sampled loop over a range of P: the lines λ = +1 and λ = −1 (their two
 /// ends) and the curve λ = e^{±iθ} (ascending θ). A line that the plant does not have (no gain
 /// moves the root there) is absent; λ = +1 is absent for the two-mass plant, whose force moves no
-/// static equilibrium.
+/// static equilibrium. θ runs from 10⁻⁴ of the plant's mean root angle to π − 2·10⁻⁶.
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>
@@ -201,17 +204,20 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(const AffinePolynomial<Sca
   require_finite("lower end of the proportional gains", range.lower, "N/m");
   require_positive("width of the range of proportional gains", range.upper - range.lower, "N/m");
   std::vector<BoundaryPoint<Scalar>> points;
+  // Mean |μ| of the plant's four roots; the fifth, of the stored force, is near −1.
+  const Scalar plant_root = std::pow(std::abs(polynomial.base[0]), Scalar(0.25));
   detail::append_line(points, BoundaryCurve::plus_one, Scalar(0), polynomial, Scalar(0), range);
   detail::append_line(points, BoundaryCurve::minus_one, pi<Scalar>, polynomial, Scalar(-2), range);
   detail::append_pairs(
-      points, BoundaryCurve::complex_pair, range,
+      points, BoundaryCurve::complex_pair, range, {Scalar(1e-4) * plant_root, Scalar(1e6)},
       [&polynomial](const Scalar& angle) { return complex_pair_gains(polynomial, angle); },
       [](const Scalar& parameter) { return Scalar(2) * std::atan(parameter); });
   return points;
 }
 
 /// The whole boundary of the continuous loop over a range of P: the line s = 0 (absent where no
-/// gain moves a root there) and the curve s = ±iω (ascending ω).
+/// gain moves a root there) and the curve s = ±iω (ascending ω, four decades on either side of the
+/// plant's mean root).
 /// @param polynomial  `characteristic_polynomial(plant)`, in s
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>
@@ -220,11 +226,14 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(const AffinePolynomial<Sca
   require_finite("lower end of the proportional gains", range.lower, "N/m");
   require_positive("width of the range of proportional gains", range.upper - range.lower, "N/m");
   std::vector<BoundaryPoint<Scalar>> points;
+  const Scalar plant_root =
+      std::pow(std::abs(polynomial.base[0] / polynomial.base[4]), Scalar(0.25));
   detail::append_line(points, BoundaryCurve::zero, Scalar(0), polynomial, Scalar(0), range);
   detail::append_pairs(
       points, BoundaryCurve::imaginary_pair, range,
+      {Scalar(1e-4) * plant_root, Scalar(1e4) * plant_root},
       [&polynomial](const Scalar& omega) { return imaginary_pair_gains(polynomial, omega); },
-      [](const Scalar& parameter) { return Scalar(1e2) * parameter; });
+      [](const Scalar& omega) { return omega; });
   return points;
 }
 

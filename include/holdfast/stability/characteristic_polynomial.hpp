@@ -36,9 +36,10 @@ AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant
 ///
 ///     det(λI − S) = λ det(λI − A_d) − K adj(λI − A_d) (λ Γ₀ + Γ₁)
 ///
-/// When sampling is fast all roots crowd around λ = 1, where powers of λ lose them to round-off;
-/// powers of λ − 1 do not. `in_powers_of_lambda` and `in_half_plane` (mobius_zhukovsky.hpp) change
-/// the variable. All |λ| < 1 ⇔ asymptotically stable. For δ = 0, λ = 0 is a structural root.
+/// When sampling is fast the plant's four roots crowd around λ = 1 (the fifth stays near 0), where
+/// powers of λ lose them to round-off; powers of λ − 1 do not. `in_powers_of_lambda` and
+/// `in_half_plane` (mobius_zhukovsky.hpp) change the variable. All |λ| < 1 ⇔ asymptotically stable.
+/// For δ = 0, λ = 0 is a structural root.
 template <class Scalar>
 AffinePolynomial<Scalar, 5> characteristic_polynomial(const SampledLoop<Scalar>& loop) {
   const auto open_loop = resolvent<Scalar, 4>(loop.increment);

@@ -22,7 +22,7 @@ struct GainGrid {
 
 /// Calls `visit(gains, stable)` for every cell of the grid, P slowest; nothing is stored.
 ///
-/// Work per cell: one affine polynomial along D (Degree + 1 multiply-adds) and Hurwitz's
+/// Work per cell: one affine polynomial (2 (Degree + 1) multiply-adds) and Hurwitz's
 /// conditions.
 /// @param polynomial  in a variable whose stable half-plane is Re < 0:
 /// `characteristic_polynomial(plant)`

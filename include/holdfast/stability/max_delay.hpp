@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -19,7 +20,8 @@ namespace holdfast {
 /// What a sampling period must allow to count as feasible.
 enum class DelayCriterion {
   stable,      ///< some differential gain stabilises the loop
-  attenuates,  ///< some stabilising differential gain brings the steady amplitude below that of no
+  attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising
+               ///< differential gain brings the steady amplitude below that of no
                ///< control
 };
 
@@ -36,18 +38,19 @@ struct MaxDelayQuestion {
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
   DelayCriterion criterion = DelayCriterion::attenuates;
   ForceHold hold = ForceHold::sampled;
-  double delay_fraction = 0.0;    ///< δ/τ, 0 … 1, kept while τ varies
-  double shortest_period = 1e-5;  ///< s; where the search starts
-  double longest_period = 1.0;    ///< s; where it gives up
-  double search_ratio = 1.01;     ///< > 1: infeasible windows narrower than this may be missed
+  double delay_fraction = 0.0;  ///< δ/τ, 0 … 1, kept while τ varies
+  double shortest_period =
+      1e-5;                     ///< s; the search starts there, or at 1/1000 of the forcing period
+  double longest_period = 1.0;  ///< s; where it gives up
+  double search_ratio = 1.01;   ///< > 1: infeasible windows narrower than this may be missed
 };
 
 /// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
 struct MaxDelay {
   MaxDelayOutcome outcome;
   double sampling_period;    ///< τ* (s)
-  double differential_gain;  ///< D (N s/m) that serves at τ*: of least amplitude, or amid the
-                             ///< stable interval
+  double differential_gain;  ///< D (N s/m) at τ*: of least amplitude, or amid the stable interval;
+                             ///< a limit of gains that serve, not one to use without a margin
 };
 
 /// The differential gain that makes one sampling period feasible, if there is one.
@@ -63,6 +66,7 @@ inline std::optional<double> feasible_differential_gain(const TwoDof<double>& pl
       stable_differential_gains(characteristic_polynomial(loop), question.proportional_gain);
   if (intervals.empty()) return std::nullopt;
   if (question.criterion == DelayCriterion::stable) return intervals.front().representative();
+  if (2.0 * question.frequency * sampling_period >= 1.0) return std::nullopt;
 
   const double omega = 2.0 * pi<double> * question.frequency;
   const SteadyResponse<double> response(loop, harmonic_input(plant, loop, question.hold, omega),
@@ -92,7 +96,7 @@ inline MaxDelay max_sampling_period(const TwoDof<double>& plant, const MaxDelayQ
     return feasible_differential_gain(plant, question, period);
   };
 
-  double feasible = question.shortest_period;
+  double feasible = std::min(question.shortest_period, 1e-3 / question.frequency);
   std::optional<double> gain = gain_at(feasible);
   if (!gain) return {MaxDelayOutcome::never, 0.0, std::numeric_limits<double>::quiet_NaN()};
 

@@ -10,7 +10,8 @@ namespace holdfast {
 ///
 /// maps |λ| < 1 onto Re w < 0, so that Hurwitz's conditions on q decide the sampled loop:
 /// q₀ = 0 is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0 a pair on the unit
-/// circle. Source: Kollár 2022, §4.1, whose b_j are these coefficients up to the order of counting.
+/// circle. Source: Kollár 2022, §4.1; its b_j belong to the loop with δ = 0 without the root λ = 0,
+/// of degree 4, so that these coefficients are the b_j times (1 + w).
 /// @return q, constant coefficient first, same degree as p
 template <class Scalar, int Size>
 Vector<Scalar, Size> in_half_plane(const Vector<Scalar, Size>& in_powers_of_mu) {

@@ -44,7 +44,7 @@ struct HurwitzConditions {
   }
 };
 
-/// Hurwitz determinants without division, 6 (degree 4) or 13 (degree 5) multiplications.
+/// Hurwitz determinants without division, 5 (degree 4) or 10 (degree 5) multiplications.
 ///
 ///     x₁ = H₂ = a_{n−1} a_{n−2} − a_n a_{n−3},   x₂ = a_{n−1} a_{n−4} − a_n a_{n−5}
 ///     H₃ = a_{n−3} x₁ − a_{n−1} x₂,              H₄ = (a₁ a₂ − a₀ a₃) x₁ − x₂²   (degree 5)

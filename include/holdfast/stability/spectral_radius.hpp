@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <complex>
 
-#include "holdfast/core/resolvent.hpp"
+#include "holdfast/core/balancing.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -14,10 +14,8 @@ namespace detail {
 /// largest entry, and a loop holds forces beside displacements.
 template <class Scalar, int Size>
 Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Size>& matrix) {
-  const Vector<Scalar, Size> factors = balancing(matrix);
-  const Matrix<Scalar, Size> balanced =
-      factors.cwiseInverse().asDiagonal() * matrix * factors.asDiagonal();
-  return Eigen::EigenSolver<Matrix<Scalar, Size>>(balanced, false).eigenvalues();
+  return Eigen::EigenSolver<Matrix<Scalar, Size>>(BalancedMatrix(matrix).balanced, false)
+      .eigenvalues();
 }
 
 }  // namespace detail
