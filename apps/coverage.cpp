@@ -29,8 +29,7 @@ PhaseWindow window_of(const JobContext& context, const Options& options, double 
   PhaseExtent extent(duration / 2.0);
   auto motion = motion_of(context.case_data);
   const std::int64_t samples = samples_within(duration, context.case_data.control.sampling_period);
-  require_completed(run_trajectory(motion, samples, {}, StopWhenInterrupted(), extent),
-                    motion.time());
+  run_to_completion(motion, samples, {}, extent);
   if (!(extent.displacement() > 0) || !(extent.velocity() > 0)) {
     throw NoAnswer("the motion stands still, so it has no window of its own; give --window");
   }
@@ -57,9 +56,7 @@ void run(const JobContext& context, const Options& options) {
   for (const double duration : durations) {
     const std::int64_t samples =
         samples_within(duration, context.case_data.control.sampling_period);
-    const auto outcome =
-        run_trajectory(motion, samples - motion.index(), {}, StopWhenInterrupted(), coverage);
-    require_completed(outcome, motion.time());
+    run_to_completion(motion, samples - motion.index(), {}, coverage);
     table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
   }
   table.commit();

@@ -24,7 +24,7 @@ void run(const JobContext& context, const Options& options) {
                          "Euclidean norm of the difference of [z1, v1, z2, v2] in SI units"}});
   const std::int64_t samples =
       samples_within(options.duration, context.case_data.control.sampling_period);
-  const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
+  const auto outcome = run_deviation(first, second, samples, [&table](const Deviation& deviation) {
     table.row(deviation.time, deviation.displacement, deviation.state);
   });
   require_completed(outcome, first.time());

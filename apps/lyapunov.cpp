@@ -54,12 +54,10 @@ void run(const JobContext& context, const Options& options) {
   LyapunovObserver observer(tangent_loop_of(context.case_data, options),
                             gains_of(context.case_data));
   auto motion = motion_of(context.case_data);
-  const auto outcome = run_trajectory(
-      motion, steps, {}, StopWhenInterrupted(), observer, [&](const MotionSample<double>& sample) {
-        if (options.history)
-          write_history_row(table.writer(), sample.time + period, observer.spectrum());
-      });
-  require_completed(outcome, motion.time());
+  run_to_completion(motion, steps, {}, observer, [&](const MotionSample<double>& sample) {
+    if (options.history)
+      write_history_row(table.writer(), sample.time + period, observer.spectrum());
+  });
   if (!options.history) {
     const auto exponents = observer.spectrum().exponents();
     const auto errors = observer.spectrum().standard_errors();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "holdfast/motion/trajectory.hpp"
 #include "interrupt.hpp"
@@ -26,5 +28,16 @@ class StopWhenInterrupted {
 
 /// Throws NoAnswer when the motion diverged, saying when.
 void require_completed(TrajectoryOutcome outcome, double time);
+
+/// Runs `samples` samples of a motion past the observers, as `run_trajectory` does, to the last
+/// one. Ends early only by an exception: when the program is asked to stop, or NoAnswer when the
+/// motion diverges.
+template <class Motion, class... Observers>
+void run_to_completion(Motion& motion, std::int64_t samples, const std::optional<Kick>& kick,
+                       Observers&&... observers) {
+  const TrajectoryOutcome outcome = run_trajectory(motion, samples, kick, StopWhenInterrupted(),
+                                                   std::forward<Observers>(observers)...);
+  require_completed(outcome, motion.time());
+}
 
 }  // namespace holdfast::program

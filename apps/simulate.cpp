@@ -1,5 +1,6 @@
 #include "axis.hpp"
 #include "errors.hpp"
+#include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
@@ -30,7 +31,6 @@ void run(const JobContext& context, const Options& options) {
   if (kick && kick->time > options.duration) throw WrongInput("--kick acts after --duration");
   auto motion =
       options.no_control ? uncontrolled_motion_of(context.case_data) : motion_of(context.case_data);
-  const double from = options.from * (1.0 - 1e-12);  // an instant meant as a sample is one
   const std::int64_t samples =
       samples_within(options.duration, context.case_data.control.sampling_period);
   Table table(context,
@@ -41,13 +41,11 @@ void run(const JobContext& context, const Options& options) {
                {"v2_m_per_s", "m/s", "velocity of the absorber"},
                {"control_force_N", "N", "force decided at this sample; 0 in the backlash"},
                {"in_backlash", "", "1: the drive is in its backlash, 0: it transmits", "integer"}});
-  const auto outcome = run_trajectory(
-      motion, samples, kick, StopWhenInterrupted(), [&](const MotionSample<double>& sample) {
-        if (sample.time < from) return;
-        table.row(sample.time, sample.state[0], sample.state[1], sample.state[2], sample.state[3],
-                  sample.control_force, sample.engaged ? 0 : 1);
-      });
-  require_completed(outcome, motion.time());
+  run_to_completion(motion, samples, kick, [&table, &options](const MotionSample<double>& sample) {
+    if (!not_before(sample.time, options.from)) return;
+    table.row(sample.time, sample.state[0], sample.state[1], sample.state[2], sample.state[3],
+              sample.control_force, sample.engaged ? 0 : 1);
+  });
   table.commit();
 }
 

@@ -29,12 +29,9 @@ std::vector<double> steady_record(const JobContext& context, const Options& opti
   std::vector<double> record;
   record.reserve(static_cast<std::size_t>(kept));
   auto motion = motion_of(context.case_data);
-  const auto outcome = run_trajectory(motion, samples, {}, StopWhenInterrupted(),
-                                      [&](const MotionSample<double>& sample) {
-                                        if (sample.index >= samples - kept)
-                                          record.push_back(sample.state[0]);
-                                      });
-  require_completed(outcome, motion.time());
+  run_to_completion(motion, samples, {}, [&](const MotionSample<double>& sample) {
+    if (sample.index >= samples - kept) record.push_back(sample.state[0]);
+  });
   return record;
 }
 

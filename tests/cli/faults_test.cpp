@@ -32,7 +32,7 @@ TEST(WrongInput, CaseValuesAreNamedWithTheirRange) {
 
 TEST(WrongInput, UnknownKeysComeWithTheNearestKnownOne) {
   expect_refused("simulate --set control.sampling_perod=0.1", "control.sampling_period");
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "case.toml") << "[backlash]\nwidht = 0.001\n";
   expect_refused("simulate --case '" + (folder / "case.toml").string() + "'", "case.toml:2");
   expect_refused("simulate --case '" + (folder / "case.toml").string() + "'", "width");
@@ -71,7 +71,7 @@ TEST(WrongInput, UnknownJobComesWithTheNearestOne) {
 }
 
 TEST(Output, UnwritablePlacesAreRefusedBeforeAnythingIsComputed) {
-  const Folder folder;
+  const TemporaryFolder folder;
   expect_refused("simulate --output '" + (folder / "no/such/folder.csv").string() + "'",
                  "folder.csv");
   expect_refused("simulate --output '" + folder.path().string() + "'", "folder");
@@ -100,19 +100,19 @@ TEST(Output, ClosedPipeEndsTheProgram) {
 }
 
 TEST(Output, FileAndMetadataAppearTogether) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome =
       run_holdfast("simulate --duration 0.1 --output '" + (folder / "motion.csv").string() + "'");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   std::vector<std::string> names = folder.names();
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"motion.csv", "motion.csv-metadata.json"}));
-  EXPECT_NE(text_of(folder / "motion.csv-metadata.json").find("\"sampling_period\": 0.001"),
+  EXPECT_NE(read_text(folder / "motion.csv-metadata.json").find("\"sampling_period\": 0.001"),
             std::string::npos);
 }
 
 TEST(NoAnswer, DivergingMotionSaysWhenAndLeavesNoFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome = run_holdfast(
       "simulate --duration 1000 --set control.sampling_period=0.011 --set "
       "control.processing_delay=0.011 "

@@ -160,7 +160,7 @@ TEST(Threads, DoNotChangeAnyByte) {
 }
 
 TEST(Wind, GivesFrequencyAndAmplitude) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "wind.toml")
       << "[wind]\nspeed = 1.0\ndiameter = 0.02\neffective_length = 5.0\n";
   // f = 0.2 · 1 / 0.02 = 10 Hz, F = ½ · 1.225 · 1² · 0.02 · 5 · 1 = 0.06125 N.

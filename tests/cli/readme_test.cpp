@@ -21,14 +21,14 @@ std::string block_of(const std::string& readme, const std::string& file) {
 }
 
 TEST(Readme, ShowsTheProgramThatIsCompiledAndWhatItPrints) {
-  const std::string readme = text_of(source / "README.md");
+  const std::string readme = read_text(source / "README.md");
   for (const std::string file : {"examples/first_program.cpp", "examples/first_program.txt"}) {
-    EXPECT_EQ(block_of(readme, file), text_of(source / file)) << file;
+    EXPECT_EQ(block_of(readme, file), read_text(source / file)) << file;
   }
 }
 
 TEST(Readme, CommandLinesOfTheProgramAreAccepted) {
-  std::istringstream readme(text_of(source / "README.md"));
+  std::istringstream readme(read_text(source / "README.md"));
   int tried = 0;
   for (std::string line; std::getline(readme, line);) {
     if (line.rfind("holdfast ", 0) != 0 || line.find("my-") != std::string::npos) continue;
@@ -43,7 +43,7 @@ TEST(Readme, CommandLinesOfTheProgramAreAccepted) {
 TEST(Readme, LinksLeadToFilesThatExist) {
   for (const std::string page :
        {"README.md", "docs/theory.md", "docs/notation.md", "docs/reading-the-paper.md"}) {
-    const std::string text = text_of(source / page);
+    const std::string text = read_text(source / page);
     for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
       const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
       if (target.find("://") != std::string::npos) continue;

@@ -19,12 +19,12 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 }
 
 void expect_every_figure_as_table_and_picture(const fs::path& report) {
-  const std::string page = text_of(report / "report.html");
+  const std::string page = read_text(report / "report.html");
   for (const std::string figure :
        {"fig03",  "fig04a", "fig04b", "fig05",  "fig06a", "fig06b", "fig07a",  "fig07b",
         "fig08a", "fig08b", "fig09a", "fig09b", "fig09c", "fig10a", "fig10b",  "fig11a",
         "fig11b", "fig12a", "fig12b", "fig12c", "fig13a", "fig13b", "table2a", "table2b"}) {
-    const std::string picture = text_of(report / "pictures" / (figure + ".svg"));
+    const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
     EXPECT_NE(picture.find("<svg"), std::string::npos) << figure;
     EXPECT_NE(picture.find("</svg>"), std::string::npos) << figure;
     EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
@@ -43,14 +43,14 @@ void expect_no_partial_file_and_metadata_beside_every_table(const fs::path& repo
 }
 
 void expect_nothing_loaded_from_elsewhere(const fs::path& report) {
-  const std::string page = text_of(report / "report.html");
+  const std::string page = read_text(report / "report.html");
   EXPECT_EQ(count_of(page, "src=\"http"), 0U);
   EXPECT_EQ(count_of(page, "<script"), 0U);
   EXPECT_EQ(count_of(page, "<link"), 0U);
 }
 
 void expect_verdicts_with_reasons_where_they_differ(const fs::path& report) {
-  const std::string page = text_of(report / "report.html");
+  const std::string page = read_text(report / "report.html");
   EXPECT_GE(count_of(page, "<td class=\"agrees\">"), 25U);
   const std::size_t differing = count_of(page, "<td class=\"differs\">");
   EXPECT_GE(differing, 1U);
@@ -59,7 +59,7 @@ void expect_verdicts_with_reasons_where_they_differ(const fs::path& report) {
 
 // One report for all that is to be seen in it: it takes seconds.
 TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path report = folder / "report";
   const Outcome outcome = run_holdfast("report --output '" + report.string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
@@ -70,22 +70,22 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
 }
 
 TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome = run_holdfast("report --set control.sampling_period=0.005 --output '" +
                                        (folder / "mine").string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  const std::string page = text_of(folder / "mine/report.html");
+  const std::string page = read_text(folder / "mine/report.html");
   EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
   EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
 }
 
 TEST(Report, OfADivergingCaseSaysSoInThePage) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome = run_holdfast(
       "report --set control.sampling_period=0.011 --set control.processing_delay=0.011 --output '" +
       (folder / "mine").string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(text_of(folder / "mine/report.html").find("No picture: the motion diverges"),
+  EXPECT_NE(read_text(folder / "mine/report.html").find("No picture: the motion diverges"),
             std::string::npos);
 }
 

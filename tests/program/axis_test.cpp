@@ -5,13 +5,13 @@
 #include <random>
 
 #include "errors.hpp"
-#include "temporary_folder.hpp"
+#include "support/message_of.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
 namespace {
 
-using testing::message_of;
+using tests::message_of;
 
 TEST(Axis, EndsAreExactAndPointsRise) {
   std::mt19937_64 random(3);

@@ -7,14 +7,15 @@
 
 #include "builtin_case.hpp"
 #include "errors.hpp"
-#include "temporary_folder.hpp"
+#include "support/message_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace holdfast::program {
 namespace {
 
-using testing::message_of;
-using testing::TemporaryFolder;
-using testing::write_text;
+using tests::message_of;
+using tests::TemporaryFolder;
+using tests::write_text;
 
 Case from_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return load_case_text(text, "case.toml", overrides);
@@ -70,7 +71,7 @@ TEST(BuiltinCase, IsTableOneAndTheExaminedControl) {
 
 TEST(BuiltinCase, IsTheFileInTheDataFolder) {
   const auto file = std::filesystem::path(HOLDFAST_SOURCE_DIR) / "data" / "kollar2022.toml";
-  EXPECT_EQ(std::string(builtin_case_text), testing::read_text(file));
+  EXPECT_EQ(std::string(builtin_case_text), tests::read_text(file));
   expect_same_case(load_case(file, {}), load_case(std::nullopt, {}));
 }
 

@@ -8,12 +8,12 @@
 
 #include "case_file.hpp"
 #include "errors.hpp"
-#include "temporary_folder.hpp"
+#include "support/message_of.hpp"
 
 namespace holdfast::program {
 namespace {
 
-using testing::message_of;
+using tests::message_of;
 
 const double infinity = std::numeric_limits<double>::infinity();
 

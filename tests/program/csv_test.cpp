@@ -8,14 +8,15 @@
 #include <random>
 
 #include "errors.hpp"
-#include "temporary_folder.hpp"
+#include "support/message_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace holdfast::program {
 namespace {
 
-using testing::message_of;
-using testing::read_text;
-using testing::TemporaryFolder;
+using tests::message_of;
+using tests::read_text;
+using tests::TemporaryFolder;
 
 const double infinity = std::numeric_limits<double>::infinity();
 

@@ -9,16 +9,17 @@
 #include <csignal>
 
 #include "errors.hpp"
-#include "temporary_folder.hpp"
+#include "support/message_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::message_of;
-using testing::read_text;
-using testing::TemporaryFolder;
-using testing::write_text;
+using tests::message_of;
+using tests::read_text;
+using tests::TemporaryFolder;
+using tests::write_text;
 
 /// Runs the work in a child whose standard output is `descriptor`; gives how the child ended.
 template <typename Work>

@@ -5,15 +5,15 @@
 #include "case_file.hpp"
 #include "errors.hpp"
 #include "metadata.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::read_text;
-using testing::TemporaryFolder;
-using testing::write_text;
+using tests::read_text;
+using tests::TemporaryFolder;
+using tests::write_text;
 
 const std::vector<Column> columns = {{"time_s", "s", "time"},
                                      {"in_backlash", "", "1 inside the gap", "boolean"}};

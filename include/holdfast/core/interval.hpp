@@ -14,10 +14,10 @@ struct Interval {
 
   /// A point inside: the middle, or one unit (or one magnitude) beyond the finite end.
   Scalar representative() const {
-    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    if (lower == -infinity && upper == infinity) return Scalar(0);
-    if (lower == -infinity) return upper - (Scalar(1) + (upper < 0 ? -upper : upper));
-    if (upper == infinity) return lower + (Scalar(1) + (lower < 0 ? -lower : lower));
+    constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();
+    if (lower == -unbounded && upper == unbounded) return Scalar(0);
+    if (lower == -unbounded) return upper - (Scalar(1) + (upper < 0 ? -upper : upper));
+    if (upper == unbounded) return lower + (Scalar(1) + (lower < 0 ? -lower : lower));
     return lower + (upper - lower) / Scalar(2);
   }
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/stepper.hpp"
 
 namespace holdfast {
@@ -31,7 +32,7 @@ class PhaseExtent {
   explicit PhaseExtent(double from) : from_(from) {}
 
   void operator()(const MotionSample<double>& sample) {
-    if (sample.time < from_) return;
+    if (!not_before(sample.time, from_)) return;
     displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
     velocity_ = std::fmax(velocity_, std::abs(sample.state[1]));
   }
@@ -88,7 +89,7 @@ class SwitchLog {
 
   void operator()(const MotionSample<double>& sample) {
     const bool inside = !sample.engaged;
-    if (inside != inside_ && sample.time >= from_)
+    if (inside != inside_ && not_before(sample.time, from_))
       switches_.push_back({sample.index, sample.time, inside});
     inside_ = inside;
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "holdfast/core/errors.hpp"
+#include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/stepper.hpp"
 
 namespace holdfast {
@@ -30,7 +31,7 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
   require_positive("sampling period tau", sampling_period, "s");
   const double periods = duration / sampling_period;
   require_within("number of samples", periods, "", 0.0, 9.0e15);
-  return static_cast<std::int64_t>(std::floor(periods * (1.0 + 1e-12))) + 1;
+  return static_cast<std::int64_t>(std::floor(periods * (1.0 + instant_round_off))) + 1;
 }
 
 /// Runs `samples` samples of a motion and shows each to every observer, `observer(const
@@ -42,11 +43,8 @@ template <class Motion, class... Observers>
 TrajectoryOutcome run_trajectory(Motion& motion, std::int64_t samples,
                                  const std::optional<Kick>& kick, Observers&&... observers) {
   bool kicked = !kick;
-  // 5 · 0.011 is less than 0.055: an instant meant as a whole number of periods is not late by
-  // round-off.
-  const double kick_time = kick ? kick->time - 1e-12 * std::abs(kick->time) : 0.0;
   for (std::int64_t taken = 0; taken < samples; ++taken) {
-    if (!kicked && motion.time() >= kick_time) {
+    if (!kicked && not_before(motion.time(), kick->time)) {
       motion.displace_conductor(kick->displacement);
       kicked = true;
     }

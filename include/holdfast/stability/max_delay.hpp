@@ -38,11 +38,10 @@ struct MaxDelayQuestion {
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
   DelayCriterion criterion = DelayCriterion::attenuates;
   ForceHold hold = ForceHold::sampled;
-  double delay_fraction = 0.0;  ///< δ/τ, 0 … 1, kept while τ varies
-  double shortest_period =
-      1e-5;                     ///< s; the search starts there, or at 1/1000 of the forcing period
-  double longest_period = 1.0;  ///< s; where it gives up
-  double search_ratio = 1.01;   ///< > 1: infeasible windows narrower than this may be missed
+  double delay_fraction = 0.0;    ///< δ/τ, 0 … 1, kept while τ varies
+  double shortest_period = 1e-5;  ///< s; the search starts there, or at 1/(1000 f) if less
+  double longest_period = 1.0;    ///< s; where it gives up
+  double search_ratio = 1.01;     ///< > 1: infeasible windows narrower than this may be missed
 };
 
 /// The largest sampling period τ* such that every τ in (0, τ*] is feasible.

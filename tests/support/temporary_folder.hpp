@@ -8,8 +8,9 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-namespace holdfast::program::testing {
+namespace holdfast::tests {
 
 /// An empty folder of its own that goes with the object.
 class TemporaryFolder {
@@ -31,6 +32,15 @@ class TemporaryFolder {
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
+  /// The names of what lies in it, hidden files too.
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+      result.push_back(entry.path().filename().string());
+    }
+    return result;
+  }
+
   /// How many files lie in it, hidden ones too.
   std::ptrdiff_t files() const {
     return std::distance(std::filesystem::directory_iterator(path_),
@@ -50,15 +60,4 @@ inline std::string read_text(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The message of the exception of that type that the work throws; a failure when it throws none.
-template <typename Exception, typename Work>
-std::string message_of(const Work& work) {
-  try {
-    work();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "(nothing was thrown)";
-}
-
-}  // namespace holdfast::program::testing
+}  // namespace holdfast::tests
