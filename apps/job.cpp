@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "case_file.hpp"
+#include "damping_fit.hpp"
+#include "exit.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
@@ -76,12 +78,15 @@ void Job::add_text(const std::string& name, std::string& value,
   options_->add_option(name, value, description)->capture_default_str();
 }
 
-JobContext Job::context() const {
+JobContext Job::context(PlantNeed need) const {
   JobContext context;
   context.job = options_->get_name();
   std::optional<std::filesystem::path> file;
   if (common_->case_file) file = *common_->case_file;
   context.case_data = load_case(file, common_->overrides);
+  const std::string warning = wind_warning(context.case_data);
+  if (!warning.empty() && !common_->quiet) report_error("warning: " + warning);
+  if (need == PlantNeed::whole) settle_plant(context.case_data);
   context.options = given_options(*options_);
   if (common_->output) context.output = *common_->output;
   context.quiet = common_->quiet;

@@ -10,6 +10,9 @@
 
 namespace holdfast::program {
 
+/// Whether a job needs the two-mass plant of the case.
+enum class PlantNeed { whole, none };
+
 /// One job of the program on its command line: its own options and those that every job
 /// understands.
 class Job {
@@ -25,7 +28,9 @@ class Job {
   void add_text(const std::string& name, std::string& value, const std::string& description) const;
 
   /// Checked case, output and the options that were given; call once the command line is read.
-  JobContext context() const;
+  /// A plant that the case does not give is reduced from its conductor, unless the job does
+  /// without.
+  JobContext context(PlantNeed need = PlantNeed::whole) const;
 
   /// The --case and --set options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;
@@ -63,9 +68,16 @@ void add_spectrum(CLI::App& program);
 void add_deviation(CLI::App& program);
 void add_coverage(CLI::App& program);
 void add_lyapunov(CLI::App& program);
+void add_reduce(CLI::App& program);
+void add_statics(CLI::App& program);
+void add_modes(CLI::App& program);
+void add_decay(CLI::App& program);
+void add_peaks(CLI::App& program);
+void add_fit(CLI::App& program);
 void add_report(CLI::App& program);
 
 namespace question {
+inline constexpr const char* cable = "What plant is my cable with its absorber?";
 inline constexpr const char* gains = "Which gains are stable, and which are best?";
 inline constexpr const char* delay = "How slow may the computer be?";
 inline constexpr const char* motion = "How does it move?";

@@ -15,9 +15,16 @@ constexpr const char* examples =
     "  holdfast stability --set control.sampling_period=0.01  stable gains with a 10 ms computer\n"
     "  holdfast max-delay --frequency 5:50:10                 how slow may the computer be?\n"
     "  holdfast simulate --duration 1 --output motion.csv     the motion from rest\n"
+    "  holdfast reduce --case line.toml                       the plant of a conductor\n"
     "  holdfast JOB --help                                    every option with unit and default\n";
 
 void add_jobs(CLI::App& program) {
+  add_reduce(program);
+  add_statics(program);
+  add_modes(program);
+  add_decay(program);
+  add_peaks(program);
+  add_fit(program);
   add_stability(program);
   add_boundary(program);
   add_response(program);

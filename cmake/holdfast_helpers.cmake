@@ -21,3 +21,15 @@ function(holdfast_add_warnings)
       $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)
   endif()
 endfunction()
+
+# Makes the target holdfast::<adapter> where the option HOLDFAST_WITH_<ADAPTER> is on and its package
+# is there; says what is left out otherwise.
+macro(holdfast_add_adapter adapter part what debian_package)
+  string(TOUPPER ${adapter} holdfast_adapter_option)
+  if(HOLDFAST_WITH_${holdfast_adapter_option})
+    cmake_language(CALL holdfast_find_${adapter})
+    if(NOT TARGET holdfast::${adapter} AND HOLDFAST_TOP_LEVEL)
+      holdfast_report_missing("${part}" "${what}" ${debian_package})
+    endif()
+  endif()
+endmacro()

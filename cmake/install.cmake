@@ -18,6 +18,7 @@ write_basic_package_version_file(holdfast-config-version.cmake
   COMPATIBILITY SameMinorVersion
   ARCH_INDEPENDENT)
 install(FILES
+  cmake/holdfast-adapters.cmake
   ${PROJECT_BINARY_DIR}/holdfast-config.cmake
   ${PROJECT_BINARY_DIR}/holdfast-config-version.cmake
   DESTINATION ${HOLDFAST_PACKAGE_DIR})

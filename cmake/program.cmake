@@ -41,6 +41,13 @@ function(holdfast_add_program)
     PUBLIC holdfast::holdfast CLI11::CLI11 tomlplusplus::tomlplusplus
            nlohmann_json::nlohmann_json Threads::Threads
     PRIVATE holdfast_warnings)
+  foreach(adapter IN ITEMS sundials ceres)
+    if(TARGET holdfast::${adapter})
+      string(TOUPPER ${adapter} name)
+      target_compile_definitions(holdfast_program PUBLIC HOLDFAST_HAS_${name})
+      target_link_libraries(holdfast_program PRIVATE holdfast::${adapter})
+    endif()
+  endforeach()
 
   # The name `holdfast` belongs to the library's target, so the executable's target has another.
   add_executable(holdfast_executable ${program_sources})

@@ -92,12 +92,19 @@ struct Case {
 
   bool plant_given = false;      // the user gave a key of [plant]
   bool conductor_given = false;  // the user gave a key of [conductor], [absorber] or [reduction]
+  // The frequencies of [reduction] are computed from the conductor: it is the user's, they are not.
+  bool first_frequency_computed = false;
+  bool second_frequency_computed = false;
 };
 
 /// The harmonic force on the conductor: [excitation] as given, or made from [wind]:
 /// frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
 /// effective_length·lift_coefficient (N).
 case_tables::Excitation effective_excitation(const Case& the_case);
+
+/// Why the wind's vortices are not those of aeolian vibration (3 to 150 Hz), in words for a
+/// warning; empty where they are, or there is no wind.
+std::string wind_warning(const Case& the_case);
 
 /// The proportional gain in force (N/m): the number given, or for "tuned" Eq. 6,
 /// P = k2 − m2 ω², with ω = 2π·frequency of effective_excitation().

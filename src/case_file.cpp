@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "builtin_case.hpp"
+#include "cable_of_case.hpp"
 #include "errors.hpp"
 #include "input.hpp"
 #include "text.hpp"
@@ -85,7 +86,7 @@ class CaseReader {
   void note_user(const CaseKey& key);
   const Given* last_given(const std::vector<std::string>& keys) const;
   void check_wind() const;
-  void settle_plant() const;
+  void settle_frequencies();
   void check_faults() const;
 
   Case case_;
@@ -240,17 +241,23 @@ void CaseReader::check_wind() const {
                    wind_place_ + ")");
 }
 
-/// The one place that decides where the plant comes from.
-void CaseReader::settle_plant() const {
-  if (case_.plant_given || !case_.conductor_given) return;
-  const auto by_user = std::find_if(given_.begin(), given_.end(), [](const Given& given) {
-    const CaseKey* key = find_case_key(given.key);
-    const std::string table = key->table();
-    const bool conductor = table == "conductor" || table == "absorber" || table == "reduction";
-    return given.layer != Layer::builtin && conductor;
+/// The built-in frequencies of [reduction] belong to the built-in conductor; another one's are
+/// computed where they are not given.
+void CaseReader::settle_frequencies() {
+  const bool another = std::any_of(given_.begin(), given_.end(), [](const Given& given) {
+    return given.layer != Layer::builtin && given.key.rfind("conductor.", 0) == 0 &&
+           given.key != "conductor.damping_ratio";
   });
-  throw WrongInput(by_user->place +
-                   ": the plant cannot yet be reduced from the conductor: give [plant]");
+  if (!another || !conductor_fault(case_).message.empty()) return;
+  const auto given_by_user = [this](const std::string& key) {
+    const Given* given = last_given({key});
+    return given != nullptr && given->layer != Layer::builtin;
+  };
+  const auto [first, second] = default_frequencies(case_);
+  case_.first_frequency_computed = !given_by_user("reduction.first_frequency");
+  case_.second_frequency_computed = !given_by_user("reduction.second_frequency");
+  if (case_.first_frequency_computed) case_.reduction.first_frequency = first;
+  if (case_.second_frequency_computed) case_.reduction.second_frequency = second;
 }
 
 void CaseReader::check_faults() const {
@@ -262,8 +269,8 @@ void CaseReader::check_faults() const {
 
 Case CaseReader::finish() {
   check_wind();
+  settle_frequencies();
   check_faults();
-  settle_plant();
   return case_;
 }
 

@@ -249,21 +249,6 @@ CaseFault control_fault(const Case& c) {
               quantity("control.sampling_period", c.control.sampling_period, "s")};
 }
 
-CaseFault conductor_fault(const Case& c) {
-  const double span = c.conductor.span;
-  if (!(c.absorber.position < span)) {
-    return {{"absorber.position", "conductor.span"},
-            quantity("absorber.position", c.absorber.position, "m") + " must be less than " +
-                quantity("conductor.span", span, "m")};
-  }
-  if (!(c.conductor.sag < span / 2.0)) {
-    return {{"conductor.sag", "conductor.span"},
-            quantity("conductor.sag", c.conductor.sag, "m") + " must be less than half of " +
-                quantity("conductor.span", span, "m")};
-  }
-  return {};
-}
-
 CaseFault reduction_fault(const Case& c) {
   const Reduction& r = c.reduction;
   if (!(r.first_frequency < r.second_frequency)) {
@@ -369,6 +354,31 @@ double case_value(const Case& the_case, std::string_view name) {
   const double* value = key.number(copy);
   if (value == nullptr) throw WrongInput(key.name + ": the case has no [wind]");
   return *value;
+}
+
+CaseFault conductor_fault(const Case& the_case) {
+  const double span = the_case.conductor.span;
+  if (!(the_case.absorber.position < span)) {
+    return {{"absorber.position", "conductor.span"},
+            quantity("absorber.position", the_case.absorber.position, "m") + " must be less than " +
+                quantity("conductor.span", span, "m")};
+  }
+  if (!(the_case.conductor.sag < span / 2.0)) {
+    return {{"conductor.sag", "conductor.span"},
+            quantity("conductor.sag", the_case.conductor.sag, "m") + " must be less than half of " +
+                quantity("conductor.span", span, "m")};
+  }
+  const auto& c = the_case.conductor;
+  const double tension = c.mass_per_length * c.gravity * span * span / (8.0 * c.sag);
+  constexpr double largest_strain = 0.1;
+  if (!(tension <= largest_strain * c.youngs_modulus * c.area)) {
+    return {{"conductor.youngs_modulus", "conductor.area", "conductor.sag",
+             "conductor.mass_per_length", "conductor.span", "conductor.gravity"},
+            "the conductor's own weight would stretch it by " +
+                format_number(tension / (c.youngs_modulus * c.area)) +
+                " of its length, more than a cable bears; admissible is at most 0.1"};
+  }
+  return {};
 }
 
 CaseFault first_fault(const Case& the_case) {

@@ -66,6 +66,9 @@ struct CaseFault {
 };
 CaseFault first_fault(const Case& the_case);
 
+/// The part of it that is about [conductor] and [absorber].
+CaseFault conductor_fault(const Case& the_case);
+
 /// Throws WrongInput when first_fault() finds one.
 void check_case(const Case& the_case);
 

@@ -15,7 +15,7 @@ struct Comparison {
   std::string why;       ///< where it does not agree: why
 };
 
-/// Every comparable number of Kollár 2022, Figs. 3–13 and Table 2, computed now from its plant.
+/// Every comparable number of Kollár 2022, Figs. 2–13 and Tables 1 and 2, computed now.
 std::vector<Comparison> compare_with_paper();
 
 }  // namespace holdfast::program

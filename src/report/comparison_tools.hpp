@@ -46,6 +46,9 @@ Comparison statement(const std::string& quantity, const std::string& paper_text,
                      const std::string& ours, bool holds, const std::string& reading,
                      const std::string& why = "");
 
+/// Fig. 2 and Table 1: the plant from its conductor.
+void compare_cable(std::vector<Comparison>& rows);
+
 /// Figs. 9–13 and Table 2: what kind of motion it is.
 void compare_characteristics(std::vector<Comparison>& rows);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/figure_text.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
@@ -9,36 +10,8 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-Arguments joined(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
-std::string unbroken(const std::string& label) {
-  std::string result;
-  for (const char character : label) {
-    if (character == ' ') {
-      result += "\u00a0";
-    } else {
-      result += character;
-    }
-  }
-  // Inside the braces the blank belongs to gnuplot's syntax.
-  const std::string italic = "{/:Italic\u00a0";
-  for (std::size_t at = result.find(italic); at != std::string::npos;
-       at = result.find(italic, at + 1)) {
-    result.replace(at, italic.size(), "{/:Italic ");
-  }
-  return result;
-}
-
 std::string range(double from, double to) {
   return "[" + format_number(from) + ":" + format_number(to) + "]";
-}
-
-/// Axis labels. Blanks beside a change of font are lost in SVG unless they do not break.
-std::string axes(const std::string& x, const std::string& y) {
-  return "set xlabel \"" + unbroken(x) + "\"\nset ylabel \"" + unbroken(y) + "\"\n";
 }
 
 /// One curve of a boundary table, drawn in a line style.

@@ -25,6 +25,16 @@ struct Figure {
 std::vector<std::string> loop_settings(const std::string& sampling_period,
                                        const std::string& backlash_width);
 
+/// The cable at the absorber: statics, first peaks after a force is removed, one such vibration.
+/// @param force  MIN:MAX:COUNT, N
+Figure statics_figure(const std::string& name, const std::string& title, const std::string& caption,
+                      const std::string& force);
+Figure peaks_figure(const std::string& name, const std::string& title, const std::string& caption,
+                    const std::string& force, const std::vector<std::string>& settings);
+/// @param force     N; @param duration  s
+Figure decay_figure(const std::string& name, const std::string& title, const std::string& caption,
+                    const std::string& force, const std::string& duration);
+
 /// The window of gains that a stability chart shows.
 struct ChartWindow {
   double p_min, p_max;  ///< N/m

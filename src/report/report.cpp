@@ -107,7 +107,8 @@ class ReportWriter {
 
 std::string introduction_of(bool builtin) {
   if (!builtin) return "Figures for the case at the end of this page.";
-  return "Figures 3 to 13 and Table 2 of L. E. Kollár, <cite>Dynamics of digitally controlled "
+  return "Figures 2 to 13 and Tables 1 and 2 of L. E. Kollár, <cite>Dynamics of digitally "
+         "controlled "
          "forced vibration "
          "of suspended cables</cite>, Nonlinear Dynamics (2022), computed anew, and each number of "
          "the paper beside "

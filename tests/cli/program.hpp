@@ -12,6 +12,14 @@
 
 namespace holdfast::tests {
 
+/// Whether the program was built with SUNDIALS and with Ceres Solver.
+inline constexpr bool both_packages =
+#if defined(HOLDFAST_HAS_SUNDIALS) && defined(HOLDFAST_HAS_CERES)
+    true;
+#else
+    false;
+#endif
+
 /// What a command line of the program did.
 struct Outcome {
   int exit_code;
@@ -25,13 +33,14 @@ struct Outcome {
   }
 };
 
-/// Runs `holdfast ARGUMENTS` in a shell; `redirection` is put behind them.
-inline Outcome run_holdfast(const std::string& arguments, const std::string& redirection = "") {
+/// Runs `holdfast ARGUMENTS` in a shell at `place`; `redirection` is put behind them.
+inline Outcome run_holdfast(const std::string& arguments, const std::string& redirection = "",
+                            const std::string& place = ".") {
   const TemporaryFolder folder;
   const std::string output = (folder / "out").string(), errors = (folder / "err").string();
   const std::string destination = redirection.empty() ? " >'" + output + "'" : " " + redirection;
-  const std::string command = std::string("'") + HOLDFAST_PROGRAM + "' " + arguments + destination +
-                              " 2>'" + errors + "' </dev/null";
+  const std::string command = "cd '" + place + "' && '" + HOLDFAST_PROGRAM + "' " + arguments +
+                              destination + " 2>'" + errors + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};
 }

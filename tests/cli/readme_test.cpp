@@ -27,13 +27,21 @@ TEST(Readme, ShowsTheProgramThatIsCompiledAndWhatItPrints) {
   }
 }
 
+/// A job that needs an optional package says so where the build has none.
+bool asks_for_a_package(const Outcome& outcome) {
+  return outcome.exit_code == 1 && outcome.errors.find("install lib") != std::string::npos;
+}
+
 TEST(Readme, CommandLinesOfTheProgramAreAccepted) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory_symlink(source / "data", folder / "data");
   std::istringstream readme(read_text(source / "README.md"));
   int tried = 0;
   for (std::string line; std::getline(readme, line);) {
     if (line.rfind("holdfast ", 0) != 0 || line.find("my-") != std::string::npos) continue;
     const std::string arguments = line.substr(9, line.find('#') - 9);
-    const Outcome outcome = run_holdfast(arguments, ">/dev/null");
+    const Outcome outcome = run_holdfast(arguments, ">/dev/null", folder.path().string());
+    if (!both_packages && asks_for_a_package(outcome)) continue;
     EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.errors;
     ++tried;
   }

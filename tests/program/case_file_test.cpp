@@ -6,6 +6,7 @@
 #include <random>
 
 #include "builtin_case.hpp"
+#include "cable_of_case.hpp"
 #include "errors.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
@@ -226,16 +227,51 @@ TEST(CaseFile, FaultsBetweenKeysPointAtTheValueGivenLast) {
   EXPECT_TRUE(holds(refusal("[control]\nprocessing_delay = 0.005\n"), "case.toml:2: "));
 }
 
-TEST(CaseFile, WithoutAPlantTheConductorCannotBeUsedYet) {
-  for (const char* text : {"[conductor]\nspan = 7\n", "[absorber]\nmass = 0.2\n",
-                           "[reduction]\nfirst_frequency = 2\n"}) {
-    EXPECT_TRUE(holds(refusal(text), "case.toml:2: ")) << refusal(text);
-    EXPECT_TRUE(holds(refusal(text), "give [plant]")) << refusal(text);
+TEST(CaseFile, AnotherConductorHasItsOwnFrequencies) {
+  const Case builtin = from_text("");
+  const Case longer = from_text("[conductor]\nspan = 7\n");
+  EXPECT_TRUE(longer.conductor_given && longer.first_frequency_computed);
+  EXPECT_EQ(longer.reduction.first_frequency, default_frequencies(longer).first);
+  EXPECT_EQ(longer.reduction.second_frequency, default_frequencies(longer).second);
+  EXPECT_NE(longer.reduction.first_frequency, builtin.reduction.first_frequency);
+  const Case half = from_text("[conductor]\nspan = 7\n[reduction]\nfirst_frequency = 1.5\n");
+  EXPECT_EQ(half.reduction.first_frequency, 1.5);
+  EXPECT_EQ(half.reduction.second_frequency, longer.reduction.second_frequency);
+  EXPECT_FALSE(half.first_frequency_computed);
+}
+
+TEST(CaseFile, DampingAndAbsorberLeaveTheFrequenciesOfTheConductor) {
+  for (const char* text : {"[conductor]\ndamping_ratio = 0.03\n", "[absorber]\nmass = 0.1\n"}) {
+    const Case the_case = from_text(text);
+    EXPECT_TRUE(the_case.conductor_given);
+    EXPECT_EQ(the_case.reduction.first_frequency, from_text("").reduction.first_frequency);
   }
-  EXPECT_TRUE(holds(override_refusal("conductor.span=7"), "--set conductor.span=7: "));
+}
+
+TEST(CaseFile, AGivenPlantIsUsedAsItIs) {
   const Case both = from_text("[conductor]\nspan = 7\n[plant]\nabsorber_mass = 0.2\n");
   EXPECT_EQ(both.conductor.span, 7.0);
   EXPECT_TRUE(both.conductor_given && both.plant_given);
+  EXPECT_EQ(both.plant.absorber_mass, 0.2);
+  EXPECT_EQ(both.plant.conductor_mass, 0.0767);
+}
+
+TEST(CaseFile, TheConductorsShapeIsChecked) {
+  EXPECT_TRUE(holds(refusal("[conductor]\nsag = 3.2\n"), "case.toml:2: "));
+  EXPECT_TRUE(holds(refusal("[conductor]\nsag = 3.2\n"), "half of conductor.span = 6.4 m"));
+  EXPECT_TRUE(holds(refusal("[absorber]\nposition = 6.4\n"), "less than conductor.span"));
+  EXPECT_TRUE(holds(override_refusal("absorber.position=-1"), "greater than 0 m"));
+}
+
+TEST(CaseFile, WindOutsideAeolianVibrationIsToldWhy) {
+  EXPECT_EQ(wind_warning(from_text("")), "");
+  Case the_case = from_text(wind_table);
+  the_case.wind->speed = 0.1;  // 6.25 Hz
+  EXPECT_EQ(wind_warning(the_case), "");
+  the_case.wind->speed = 0.01;
+  EXPECT_TRUE(holds(wind_warning(the_case), "0.625 Hz, outside the 3 to 150 Hz"));
+  the_case.wind->speed = 10.0;
+  EXPECT_TRUE(holds(wind_warning(the_case), "625 Hz, outside the 3 to 150 Hz"));
 }
 
 TEST(CaseFile, WindMakesTheExcitation) {

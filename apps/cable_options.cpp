@@ -1,0 +1,48 @@
+#include "cable_options.hpp"
+
+#include "holdfast/plant/free_decay.hpp"
+#include "loop_of_case.hpp"
+
+namespace holdfast::program {
+
+CableDecayQuestion CableOptions::question(double force) const {
+  const auto reading = absorber == "rigid"    ? AbsorberReading::rigid_mass
+                       : absorber == "spring" ? AbsorberReading::spring_mass
+                                              : AbsorberReading::weight;
+  return {force, duration, interval, elements, reading};
+}
+
+void add_cable_options(const Job& job, CableOptions& options) {
+  job->add_option("--absorber", options.absorber,
+                  "How the absorber loads the cable: weight (without inertia), rigid mass, or "
+                  "spring (mass on its spring and damper)")
+      ->check(CLI::IsMember({"weight", "rigid", "spring"}))
+      ->type_name("")
+      ->capture_default_str();
+  job->add_flag("--equal-displacement", options.equal_displacement,
+                "The plant starts as far displaced as the cable, not under the same force");
+  job->add_option("--elements", options.elements, "Bars of the continuous cable")
+      ->check(CLI::Range(4, 20000))
+      ->type_name("N")
+      ->capture_default_str();
+  job->add_option("--duration", options.duration, "Time after the removal, s")
+      ->check(number_from(1e-6, 1e6))
+      ->type_name("")
+      ->capture_default_str();
+  job->add_option("--interval", options.interval, "Time between rows, s")
+      ->check(number_from(1e-9, 1e6))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+double plant_start(const JobContext& context, const CableOptions& options, double force,
+                   double cable_displacement) {
+  if (options.equal_displacement) return cable_displacement;
+  return force / plant_of(context.case_data).conductor_stiffness;
+}
+
+DecayRecord plant_decay(const JobContext& context, double start, const DecayRecord& cable) {
+  return {cable.times, free_decay(plant_of(context.case_data), start, cable.times)};
+}
+
+}  // namespace holdfast::program

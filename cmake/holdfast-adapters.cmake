@@ -1,0 +1,43 @@
+# The optional parts of the library, each a target where its package is found:
+#   holdfast::sundials   headers holdfast/sundials/, with SUNDIALS 6 or 7 (Debian libsundials-dev)
+#   holdfast::ceres      headers holdfast/ceres/, with Ceres Solver 2 (Debian libceres-dev)
+# The build of the project and the installed package both read this file.
+
+# Sets `result` to the SUNDIALS target of that part, shared or static; empty where there is none.
+function(holdfast_find_sundials_part part result)
+  set(${result} "" PARENT_SCOPE)
+  foreach(name IN ITEMS SUNDIALS::${part}_shared SUNDIALS::${part} SUNDIALS::${part}_static)
+    if(TARGET ${name})
+      set(${result} ${name} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+endfunction()
+
+macro(holdfast_find_sundials)
+  if(NOT TARGET holdfast::sundials)
+    find_package(SUNDIALS 6 QUIET CONFIG)
+    if(NOT SUNDIALS_FOUND)
+      find_package(SUNDIALS 7 QUIET CONFIG)
+    endif()
+    if(SUNDIALS_FOUND)
+      add_library(holdfast::sundials INTERFACE IMPORTED GLOBAL)
+      target_link_libraries(holdfast::sundials INTERFACE holdfast::holdfast)
+      # Version 7 keeps what all parts share in one of its own, version 6 in each.
+      foreach(part IN ITEMS cvode nvecserial sunmatrixband sunlinsolband sunnonlinsolfixedpoint core)
+        holdfast_find_sundials_part(${part} holdfast_sundials_target)
+        target_link_libraries(holdfast::sundials INTERFACE ${holdfast_sundials_target})
+      endforeach()
+    endif()
+  endif()
+endmacro()
+
+macro(holdfast_find_ceres)
+  if(NOT TARGET holdfast::ceres)
+    find_package(Ceres 2 QUIET CONFIG)
+    if(Ceres_FOUND)
+      add_library(holdfast::ceres INTERFACE IMPORTED GLOBAL)
+      target_link_libraries(holdfast::ceres INTERFACE holdfast::holdfast Ceres::ceres)
+    endif()
+  endif()
+endmacro()

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// Displacement of one point over time.
+struct DecayRecord {
+  std::vector<double> times;          ///< s, ascending
+  std::vector<double> displacements;  ///< m, from the equilibrium, downward positive
+};
+
+/// What describes the decay after a load is removed. NaN where the record is too short for it.
+struct DecayMeasures {
+  double first_peak;       ///< m, the opposite peak: extreme between the first two crossings
+  double first_peak_time;  ///< t₁ (s)
+  double period;           ///< T (s), mean of two cycles from the first crossing of equilibrium on
+  double logarithmic_decrement;  ///< δ per cycle, from the first four peaks, two cycles
+};
+
+/// One extreme between two crossings of the equilibrium.
+struct DecayPeak {
+  double time;   ///< s
+  double value;  ///< m
+};
+
+/// The times (s) at which a record crosses the equilibrium, on the chord between two samples, and
+/// the extremes between successive crossings, at the vertex of the parabola through the three
+/// samples about each. A ripple that does not reach the equilibrium makes no peak.
+struct DecayEvents {
+  std::vector<double> crossings;
+  std::vector<DecayPeak> peaks;  ///< peaks[k] lies between crossings[k] and crossings[k + 1]
+};
+
+namespace detail {
+
+/// Vertex of the parabola through the samples k − 1, k, k + 1.
+inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
+  const auto& t = record.times;
+  const auto& z = record.displacements;
+  const double before = t[k - 1] - t[k], after = t[k + 1] - t[k];
+  const double left = (z[k - 1] - z[k]) / before, right = (z[k + 1] - z[k]) / after;
+  const double curvature = (right - left) / (after - before);
+  if (curvature == 0.0) return {t[k], z[k]};
+  const double slope = left - curvature * before;
+  const double shift = -0.5 * slope / curvature;
+  return {t[k] + shift, z[k] + 0.5 * slope * shift};
+}
+
+}  // namespace detail
+
+/// @throws InvalidParameter for columns of unequal length
+inline DecayEvents decay_events(const DecayRecord& record) {
+  const auto& t = record.times;
+  const auto& z = record.displacements;
+  if (t.size() != z.size())
+    throw InvalidParameter("number of displacements", static_cast<double>(z.size()), "",
+                           "the number of times");
+  DecayEvents events;
+  std::size_t extreme = 0;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    const bool crossed = (z[k - 1] < 0.0) != (z[k] < 0.0);
+    if (crossed) {
+      if (!events.crossings.empty()) events.peaks.push_back(detail::vertex(record, extreme));
+      events.crossings.push_back(t[k - 1] + (t[k] - t[k - 1]) * z[k - 1] / (z[k - 1] - z[k]));
+    }
+    if (crossed || std::abs(z[k]) > std::abs(z[extreme])) extreme = k;
+  }
+  return events;
+}
+
+/// δ per cycle of four successive peaks of alternating sign: the slope of the straight line through
+/// ln |peak| by least squares, twice, a cycle having two peaks:
+/// δ = −2 [−3 l₁ − l₂ + l₃ + 3 l₄]/10, l = ln |peak|.
+template <class Scalar>
+Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
+  using std::abs;
+  using std::log;
+  const Scalar outer = log(abs(peaks[0] / peaks[3])), inner = log(abs(peaks[1] / peaks[2]));
+  return (Scalar(3) * outer + inner) / Scalar(5);
+}
+
+/// The measures of a decay that starts displaced at the record's first instant.
+inline DecayMeasures decay_measures(const DecayRecord& record) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const DecayEvents events = decay_events(record);
+  const auto& peaks = events.peaks;
+  DecayMeasures measures{none, none, none, none};
+  if (!peaks.empty()) {
+    measures.first_peak = peaks[0].value;
+    measures.first_peak_time = peaks[0].time - record.times.front();
+  }
+  if (events.crossings.size() >= 5)
+    measures.period = 0.5 * (events.crossings[4] - events.crossings[0]);
+  if (peaks.size() >= 4)
+    measures.logarithmic_decrement = logarithmic_decrement<double>(
+        {peaks[0].value, peaks[1].value, peaks[2].value, peaks[3].value});
+  return measures;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "holdfast/cable/catenary.hpp"
+#include "holdfast/cable/conductor.hpp"
+
+namespace holdfast {
+
+/// How an equilibrium was sought.
+enum class EquilibriumOutcome {
+  converged,      ///< the supports are met to round-off
+  not_converged,  ///< they are not: the load is beyond what the number type can resolve
+};
+
+/// Equilibrium of the whole cable under one vertical point load.
+template <class Scalar>
+struct LoadedCable {
+  Scalar tension;         ///< H (N), horizontal, the same all along
+  Scalar vertical_force;  ///< V (N), upward, of the left support
+  EquilibriumOutcome outcome;
+};
+
+/// The exact statics of an elastic cable: two catenaries that meet under the point load.
+///
+/// The unstretched length is what gives the bare cable its sag at mid-span. With a load P (N,
+/// downward) at the unstretched coordinate s_p, the vertical force drops by P there, and (H, V)
+/// follow from the right support being at (L, 0). The two equations are the gradient of the
+/// complementary energy ∫ (T²/2EA + T) ds − H L, strictly convex in (H, V): the equilibrium is
+/// unique for every load, and Newton's method with backtracking finds it from anywhere.
+/// Source: Irvine 1981, Sect. 1.4.
+template <class Scalar>
+class HangingCable {
+ public:
+  /// @param conductor  admissible in the sense of `validate`
+  explicit HangingCable(const Conductor<Scalar>& conductor)
+      : weight_(conductor.weight_per_length()),
+        stiffness_(conductor.axial_stiffness()),
+        span_(conductor.span) {
+    settle_length(conductor);
+  }
+
+  /// l₀ (m), the length of the cable laid out without tension.
+  const Scalar& unstretched_length() const { return length_; }
+  /// H (N) of the bare cable.
+  const Scalar& bare_tension() const { return bare_tension_; }
+  const Scalar& span() const { return span_; }
+  const Scalar& axial_stiffness() const { return stiffness_; }
+  const Scalar& weight_per_length() const { return weight_; }
+
+  /// The bare cable.
+  LoadedCable<Scalar> bare() const {
+    return {bare_tension_, weight_ * length_ / Scalar(2), EquilibriumOutcome::converged};
+  }
+
+  /// s (m): the material point of the bare cable that hangs at x, 0 ≤ x ≤ L.
+  Scalar material_coordinate(const Scalar& x) const {
+    using std::abs;
+    Scalar below(0), above = length_, s = length_ * x / span_;
+    for (int step = 0; step < 100; ++step) {
+      const Scalar miss = extent(bare(), s).horizontal - x;
+      (miss > Scalar(0) ? above : below) = s;
+      const Scalar change = miss / horizontal_stretch(bare(), s);
+      if (!(abs(change) > resolution() * length_)) break;
+      const Scalar next = s - change;
+      s = next > below && next < above ? next : (below + above) / Scalar(2);
+    }
+    return s;
+  }
+
+  /// Equilibrium with a load P (N, downward positive, any size) at s_p (m), 0 < s_p < l₀.
+  LoadedCable<Scalar> under_load(const Scalar& load, const Scalar& place) const;
+
+  /// What the two catenaries span from the left to the right support, and its derivative by (H, V).
+  CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
+                               const Scalar& place) const {
+    const auto left = extent(cable, place);
+    const auto right =
+        catenary_extent<Scalar>(weight_, stiffness_, cable.tension,
+                                cable.vertical_force - weight_ * place - load, length_ - place);
+    return {left.horizontal + right.horizontal, left.vertical + right.vertical,
+            left.derivative + right.derivative};
+  }
+
+  /// Where the material point s stands, s not beyond the load: x and drop (m).
+  CatenaryExtent<Scalar> extent(const LoadedCable<Scalar>& cable, const Scalar& s) const {
+    return catenary_extent<Scalar>(weight_, stiffness_, cable.tension, cable.vertical_force, s);
+  }
+
+  /// The same for any s, with the load P at s_p.
+  Vector<Scalar, 2> point(const LoadedCable<Scalar>& cable, const Scalar& load, const Scalar& place,
+                          const Scalar& s) const {
+    const auto left = extent(cable, s < place ? s : place);
+    if (!(s > place)) return {left.horizontal, left.vertical};
+    const auto beyond =
+        catenary_extent<Scalar>(weight_, stiffness_, cable.tension,
+                                cable.vertical_force - weight_ * place - load, s - place);
+    return {left.horizontal + beyond.horizontal, left.vertical + beyond.vertical};
+  }
+
+ private:
+  static Scalar resolution() { return Scalar(4) * std::numeric_limits<Scalar>::epsilon(); }
+
+  /// dx/ds = H/EA + H/T.
+  Scalar horizontal_stretch(const LoadedCable<Scalar>& cable, const Scalar& s) const {
+    using std::hypot;
+    const Scalar vertical = cable.vertical_force - weight_ * s;
+    return cable.tension / stiffness_ + cable.tension / hypot(cable.tension, vertical);
+  }
+
+  void settle_length(const Conductor<Scalar>& conductor);
+  static Vector<Scalar, 2> step_within(const Vector<Scalar, 2>& newton, const Scalar& tension);
+
+  Scalar weight_, stiffness_, span_;
+  Scalar length_{}, bare_tension_{};
+};
+
+/// Half of the bare cable: H and l with x(l) = L/2 and y(l) = f, V = w l, by Newton's method.
+template <class Scalar>
+void HangingCable<Scalar>::settle_length(const Conductor<Scalar>& conductor) {
+  const Vector<Scalar, 2> target(span_ / Scalar(2), conductor.sag);
+  Scalar tension = conductor.parabolic_tension(), half = conductor.effective_length() / Scalar(2);
+  for (int step = 0; step < 100; ++step) {
+    const Scalar support = weight_ * half;
+    const auto extent = catenary_extent<Scalar>(weight_, stiffness_, tension, support, half);
+    using std::hypot;
+    const Scalar taut = hypot(tension, support);
+    Matrix<Scalar, 2> jacobian;  // by H, and by l with V = w l
+    jacobian.col(0) = extent.derivative.col(0);
+    jacobian.col(1) << tension / stiffness_ + tension / taut, support / stiffness_ + support / taut;
+    const Vector<Scalar, 2> miss(extent.horizontal - target[0], extent.vertical - target[1]);
+    const Vector<Scalar, 2> change = step_within(-(jacobian.inverse() * miss).eval(), tension);
+    tension += change[0];
+    half += change[1];
+    if (!(change.cwiseAbs().cwiseQuotient(Vector<Scalar, 2>(tension, half)).maxCoeff() >
+          resolution()))
+      break;
+  }
+  bare_tension_ = tension;
+  length_ = Scalar(2) * half;
+}
+
+/// A Newton step cut so that the tension keeps at least a tenth of itself.
+template <class Scalar>
+Vector<Scalar, 2> HangingCable<Scalar>::step_within(const Vector<Scalar, 2>& newton,
+                                                    const Scalar& tension) {
+  const Scalar floor = Scalar(-0.9) * tension;
+  if (!(newton[0] < floor)) return newton;
+  return newton * (floor / newton[0]);
+}
+
+template <class Scalar>
+LoadedCable<Scalar> HangingCable<Scalar>::under_load(const Scalar& load,
+                                                     const Scalar& place) const {
+  LoadedCable<Scalar> cable = bare();
+  cable.vertical_force += load * (Scalar(1) - place / length_);
+  const auto miss_of = [&](const CatenaryExtent<Scalar>& extent) {
+    return Vector<Scalar, 2>(extent.horizontal - span_, extent.vertical);
+  };
+  auto spanned = whole(cable, load, place);
+  Scalar miss = miss_of(spanned).norm();
+  for (int step = 0; step < 200 && miss > resolution() * span_; ++step) {
+    Vector<Scalar, 2> change =
+        step_within(-(spanned.derivative.inverse() * miss_of(spanned)).eval(), cable.tension);
+    bool closer = false;
+    for (int halving = 0; halving < 40 && !closer; ++halving, change /= Scalar(2)) {
+      const LoadedCable<Scalar> trial{cable.tension + change[0], cable.vertical_force + change[1],
+                                      cable.outcome};
+      const auto trial_spanned = whole(trial, load, place);
+      const Scalar trial_miss = miss_of(trial_spanned).norm();
+      closer = trial_miss < miss;
+      if (!closer) continue;
+      cable = trial;
+      spanned = trial_spanned;
+      miss = trial_miss;
+    }
+    if (!closer) break;
+  }
+  const bool met = miss < Scalar(1e6) * resolution() * span_;
+  cable.outcome = met ? EquilibriumOutcome::converged : EquilibriumOutcome::not_converged;
+  return cable;
+}
+
+/// Force and displacement of the cable's point under the load, after the exact statics.
+///
+/// The interface is that of `IrvinePointLoad`; w counts from the bare cable.
+template <class Scalar>
+class CatenaryPointLoad {
+ public:
+  /// @param conductor  admissible in the sense of `validate`
+  /// @param position   x_p (m), inside the span: the load sits at the material point that hangs
+  ///                   there in the bare cable
+  CatenaryPointLoad(const Conductor<Scalar>& conductor, const Scalar& position)
+      : cable_(conductor),
+        place_(cable_.material_coordinate(position)),
+        bare_drop_(cable_.extent(cable_.bare(), place_).vertical),
+        lowest_load_(-conductor.weight() / Scalar(2)) {}
+
+  const HangingCable<Scalar>& cable() const { return cable_; }
+  /// s_p (m).
+  const Scalar& material_coordinate() const { return place_; }
+
+  /// H (N) under a load P (N).
+  Scalar tension(const Scalar& load) const { return cable_.under_load(load, place_).tension; }
+
+  /// Displacement (m) of the loaded point under a load P (N).
+  Scalar displacement(const Scalar& load) const {
+    return cable_.extent(cable_.under_load(load, place_), place_).vertical - bare_drop_;
+  }
+
+  /// Displacement (m) of the material point that hangs at x in the bare cable.
+  Scalar deflection(const Scalar& x, const Scalar& load) const {
+    const Scalar s = cable_.material_coordinate(x);
+    const auto loaded = cable_.under_load(load, place_);
+    return cable_.point(loaded, load, place_, s)[1] - cable_.extent(cable_.bare(), s).vertical;
+  }
+
+  /// dP/dw (N/m) at a load P (N).
+  ///
+  /// The supports stay: J d(H, V) = J_right [0, 1]ᵀ dP, with J, J_right the derivatives of the
+  /// whole cable and of its part beyond the load; the loaded point then moves by the left part's
+  /// derivative.
+  Scalar stiffness(const Scalar& load) const {
+    const auto loaded = cable_.under_load(load, place_);
+    const auto left = cable_.extent(loaded, place_).derivative;
+    const auto whole = cable_.whole(loaded, load, place_).derivative;
+    const Vector<Scalar, 2> right = whole.col(1) - left.col(1);
+    const Vector<Scalar, 2> change = whole.inverse() * right;
+    return Scalar(1) / left.row(1).dot(change);
+  }
+
+  /// Below −μ g L/2 (N) the load lifts the cable out of the shape that the other models know.
+  Scalar lowest_load() const { return lowest_load_; }
+
+ private:
+  HangingCable<Scalar> cable_;
+  Scalar place_, bare_drop_, lowest_load_;
+};
+
+}  // namespace holdfast

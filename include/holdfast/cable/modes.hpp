@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "holdfast/cable/conductor.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Symmetry of an in-plane mode about mid-span.
+enum class ModeFamily {
+  symmetric,      ///< the cable stretches: the frequency depends on λ²
+  antisymmetric,  ///< it does not, to first order: the frequency is that of the taut string
+};
+
+/// One in-plane mode of a shallow cable.
+struct CableMode {
+  ModeFamily family;
+  double dimensionless_frequency;  ///< ω̄ = ω L/√(H/μ), > 0
+  double frequency;                ///< ω/2π (Hz)
+
+  /// Shape at x̂ = x/L, 0 … 1, with largest magnitude near 1:
+  /// sin(ω̄ x̂), or [cos(ω̄/2) − cos(ω̄/2 − ω̄ x̂)]/(1 + |cos(ω̄/2)|), Irvine's symmetric shape freed
+  /// of its pole at cos(ω̄/2) = 0, the taut string.
+  double shape(double place) const {
+    if (family == ModeFamily::antisymmetric) return std::sin(dimensionless_frequency * place);
+    const double half = dimensionless_frequency / 2, at_support = std::cos(half);
+    return (at_support - std::cos(half - dimensionless_frequency * place)) /
+           (1.0 + std::abs(at_support));
+  }
+};
+
+/// ω̄ of the n-th symmetric mode, n ≥ 1: with y = ω̄/2,
+///
+///     tan y = y − (4/λ²) y³.
+///
+/// Multiplied by cos y the equation has no pole, and opposite signs at y = (n ∓ 1/2) π, so that
+/// one bisection serves every λ² > 0: the crossovers λ² = (2nπ)², where y = nπ, the taut string
+/// and the inextensible cable. Source: H. M. Irvine, T. K. Caughey, The linear theory of free
+/// vibrations of a suspended cable, Proc. R. Soc. A 341 (1974).
+inline double symmetric_frequency(int n, double irvine_parameter) {
+  const auto residual = [irvine_parameter](double y) {
+    return std::sin(y) - (y - 4.0 / irvine_parameter * y * y * y) * std::cos(y);
+  };
+  double below = (n - 0.5) * pi<double>, above = (n + 0.5) * pi<double>;
+  const bool rising = n % 2 == 0;  // sin(below) = −1 for even n
+  while (true) {
+    const double middle = 0.5 * (below + above);
+    if (middle <= below || middle >= above) return 2.0 * middle;
+    const bool left_of_root = (residual(middle) < 0.0) == rising;
+    (left_of_root ? below : above) = middle;
+  }
+}
+
+/// The `count` lowest in-plane modes in ascending frequency; where two coincide (a crossover) the
+/// symmetric one comes first.
+/// @throws InvalidParameter for an inadmissible conductor, or count < 1
+inline std::vector<CableMode> irvine_modes(const Conductor<double>& conductor, int count) {
+  validate(conductor);
+  require_within("number of modes", count, "", 1, 100000);
+  const double to_hertz = conductor.transverse_wave_speed() / conductor.span / (2.0 * pi<double>);
+  std::vector<CableMode> modes;
+  for (int n = 1; n <= count; ++n) {
+    const double symmetric = symmetric_frequency(n, conductor.irvine_parameter());
+    const double antisymmetric = 2.0 * n * pi<double>;
+    modes.push_back({ModeFamily::symmetric, symmetric, symmetric * to_hertz});
+    modes.push_back({ModeFamily::antisymmetric, antisymmetric, antisymmetric * to_hertz});
+  }
+  std::stable_sort(modes.begin(), modes.end(), [](const CableMode& a, const CableMode& b) {
+    return a.dimensionless_frequency < b.dimensionless_frequency;
+  });
+  modes.resize(static_cast<std::size_t>(count));
+  return modes;
+}
+
+}  // namespace holdfast

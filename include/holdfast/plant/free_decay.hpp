@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "holdfast/cable/decay_measures.hpp"
+#include "holdfast/core/exponential.hpp"
+#include "holdfast/plant/two_dof.hpp"
+
+namespace holdfast {
+
+/// z(t) = e^{At} z(0) of the plant without control that starts at rest, conductor and absorber both
+/// displaced by z₀: what is left when a load on the conductor is removed.
+template <class Scalar>
+Vector<Scalar, 4> free_decay_at(const TwoDof<Scalar>& plant, const Scalar& displacement,
+                                const Scalar& time) {
+  const Matrix<Scalar, 4> exponent = plant.state_matrix() * time;
+  return exponential(exponent) *
+         Vector<Scalar, 4>(displacement, Scalar(0), displacement, Scalar(0));
+}
+
+/// z₁ (m) of that motion at the given instants (s), ascending from the first, which is the start.
+/// The transition e^{Ah} is made anew only where the interval h changes.
+template <class Scalar>
+std::vector<Scalar> free_decay(const TwoDof<Scalar>& plant, const Scalar& displacement,
+                               const std::vector<double>& times) {
+  std::vector<Scalar> displacements;
+  if (times.empty()) return displacements;
+  displacements.reserve(times.size());
+  Vector<Scalar, 4> state(displacement, Scalar(0), displacement, Scalar(0));
+  displacements.push_back(state[0]);
+  const Matrix<Scalar, 4> generator = plant.state_matrix();
+  Matrix<Scalar, 4> transition = Matrix<Scalar, 4>::Identity();
+  double interval = 0.0;
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double step = times[k] - times[k - 1];
+    if (!(std::abs(step - interval) <= 1e-9 * interval)) {
+      interval = step;
+      const Matrix<Scalar, 4> exponent = generator * Scalar(interval);
+      transition = exponential(exponent);
+    }
+    state = (transition * state).eval();
+    displacements.push_back(state[0]);
+  }
+  return displacements;
+}
+
+/// First opposite peak over the initial displacement, period (s) and logarithmic decrement.
+template <class Scalar>
+struct RelativeDecay {
+  Scalar first_peak;       ///< < 0
+  Scalar first_peak_time;  ///< s
+  Scalar period;           ///< s
+  Scalar logarithmic_decrement;
+};
+
+/// The crossings and peaks of the plant's decay from 1 m, sampled 400 times in the period of both
+/// masses on the conductor's spring, over four such periods.
+inline DecayEvents free_decay_events(const TwoDof<double>& plant) {
+  constexpr int samples_per_period = 400, periods = 4;
+  const double period =
+      2.0 * pi<double> *
+      std::sqrt((plant.conductor_mass + plant.absorber_mass) / plant.conductor_stiffness);
+  DecayRecord record;
+  for (int k = 0; k <= periods * samples_per_period; ++k)
+    record.times.push_back(k * period / samples_per_period);
+  record.displacements = free_decay(plant, 1.0, record.times);
+  return decay_events(record);
+}
+
+/// The measures of `decay_measures`, to round-off and for any number type: each crossing and peak
+/// found on samples is moved by Newton's method on the closed-form motion.
+/// @param events  `free_decay_events` of the same plant's values
+/// @return nothing for a decay with fewer than five crossings in four periods (overdamped)
+template <class Scalar>
+std::optional<RelativeDecay<Scalar>> relative_decay(const TwoDof<Scalar>& plant,
+                                                    const DecayEvents& events) {
+  if (events.crossings.size() < 5 || events.peaks.size() < 4) return std::nullopt;
+  const Matrix<Scalar, 4> generator = plant.state_matrix();
+  // Where the component `order` of (z₁, ż₁) vanishes: Newton's method.
+  const auto settled = [&](double near, int order) {
+    Scalar time(near);
+    for (int step = 0; step < 3; ++step) {
+      const Vector<Scalar, 4> state = free_decay_at(plant, Scalar(1), time);
+      const Vector<Scalar, 4> rate = generator * state;
+      time -= state[order] / rate[order];
+    }
+    return time;
+  };
+  std::array<Scalar, 4> peaks;
+  RelativeDecay<Scalar> decay;
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    const Scalar time = settled(events.peaks[k].time, 1);
+    if (k == 0) decay.first_peak_time = time;
+    peaks[k] = free_decay_at(plant, Scalar(1), time)[0];
+  }
+  decay.first_peak = peaks[0];
+  decay.period = (settled(events.crossings[4], 0) - settled(events.crossings[0], 0)) / Scalar(2);
+  decay.logarithmic_decrement = logarithmic_decrement(peaks);
+  return decay;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,216 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <unsupported/Eigen/AutoDiff>
+
+#include "holdfast/cable/statics.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// How a straight line is laid through the force-displacement relationship of the cable (Eq. 2).
+enum class StiffnessReading {
+  tangent,        ///< slope at the equilibrium with the absorber's weight
+  secant,         ///< (F(below) − F(−above)) / (below + above)
+  least_squares,  ///< slope of the line nearest to F(w) over −above … below
+};
+
+/// Displacements (m) from the equilibrium with the absorber's weight over which k₁ is read.
+struct ReadingRange {
+  double below;  ///< downward, ≥ 0
+  double above;  ///< upward, ≥ 0
+};
+
+/// k₁ = ΔP/Δw (N/m), Eq. (2), read from the statics at the absorber's place.
+///
+/// The least-squares line need not pass through the equilibrium; its integrals are taken over the
+/// whole range, not over chosen points.
+/// @throws InvalidParameter for a negative or (but for the tangent) empty range, and where the
+/// range reaches beyond what the statics are valid for
+template <class Statics>
+double conductor_stiffness(const Statics& statics, StiffnessReading reading,
+                           const ReadingRange& range);
+
+/// What a pair of natural frequencies is asked of the two-mass plant.
+template <class Scalar>
+struct FrequencyReduction {
+  Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
+  Scalar absorber_mass;        ///< m₂ (kg), > 0
+  Scalar first_frequency;      ///< ω₁/2π (Hz), > 0
+  Scalar second_frequency;     ///< ω₂/2π (Hz), > ω₁/2π
+};
+
+/// One solution of the reduction.
+struct ReducedMasses {
+  double absorber_stiffness;  ///< k₂ (N/m)
+  double conductor_mass;      ///< m₁ (kg)
+  /// Condition numbers Σ |∂ ln k₂/∂ ln p|, Σ |∂ ln m₁/∂ ln p| over p = k₁, m₂, ω₁, ω₂: how many
+  /// times a relative error of the inputs comes out larger.
+  double stiffness_condition;
+  double mass_condition;
+};
+
+enum class ReductionOutcome {
+  two_solutions,    ///< both roots are real and apart
+  double_solution,  ///< they coincide: the outputs answer to no finite error of the inputs
+  no_solution,      ///< no real plant has these frequencies
+};
+
+/// m₁ and k₂ from two natural frequencies.
+struct ReductionResult {
+  ReductionOutcome outcome;
+  /// ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: the room before the two roots meet; negative without solution.
+  double discriminant;
+  /// The smaller k₂ first; NaN without solution. The paper's Table 1 takes the smaller.
+  std::array<ReducedMasses, 2> solutions;
+  double largest_absorber_mass;         ///< kg, the largest m₂ for which a plant exists
+  double smallest_conductor_stiffness;  ///< N/m, the smallest k₁ for which one exists
+};
+
+/// k₁ (1/ω₁ − 1/ω₂)² (kg), the largest m₂ for which a plant exists.
+template <class Scalar>
+Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
+  const Scalar room = (Scalar(1) / asked.first_frequency - Scalar(1) / asked.second_frequency) /
+                      Scalar(2 * pi<double>);
+  return asked.conductor_stiffness * room * room;
+}
+
+/// ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1, negative where no real plant exists.
+template <class Scalar>
+Scalar reduction_discriminant(const FrequencyReduction<Scalar>& asked) {
+  return largest_absorber_mass(asked) / asked.absorber_mass - Scalar(1);
+}
+
+/// k₂, a root of the condition that the undamped plant has the frequencies ω₁ and ω₂:
+///
+///     k₂²/m₂ + k₂ (m₂ ω₁²ω₂²/k₁ − ω₁² − ω₂²) + m₂ ω₁²ω₂² = 0,
+///
+/// written with Ω = ω₁ ω₂ and q = (ω₁² + ω₂² − m₂ Ω²/k₁)/(2 Ω) ≥ 1 as k₂ = m₂ Ω (q ∓ √(q² − 1)),
+/// whose two signs are each other's inverses. q² − 1 is formed as (q − 1)(q + 1) from
+/// q − 1 = ((ω₂ − ω₁)² − m₂ Ω²/k₁)/(2 Ω) = m₂ Ω/(2 k₁) times the discriminant, so that it has the
+/// discriminant's sign to the last bit.
+template <class Scalar>
+Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool larger) {
+  using std::sqrt;
+  const Scalar first = Scalar(2 * pi<double>) * asked.first_frequency;
+  const Scalar second = Scalar(2 * pi<double>) * asked.second_frequency;
+  const Scalar scale = asked.absorber_mass * first * second;
+  const Scalar excess =
+      scale / (Scalar(2) * asked.conductor_stiffness) * reduction_discriminant(asked);
+  const Scalar grown = Scalar(1) + excess + sqrt(excess * (excess + Scalar(2)));
+  return larger ? Scalar(scale * grown) : Scalar(scale / grown);
+}
+
+/// m₁ = k₁ k₂/(m₂ ω₁²ω₂²) (kg), the product of the two squared frequencies.
+template <class Scalar>
+Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
+                              const Scalar& absorber_stiffness) {
+  const Scalar product =
+      Scalar(4 * pi<double> * pi<double>) * asked.first_frequency * asked.second_frequency;
+  return asked.conductor_stiffness * absorber_stiffness / (asked.absorber_mass * product * product);
+}
+
+/// m₁ and k₂ of the plant with the natural frequencies asked for. A real plant exists only if
+/// 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome says so and names the largest m₂ and the smallest
+/// k₁ that have one.
+/// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
+inline ReductionResult reduce_to_frequencies(const FrequencyReduction<double>& asked);
+
+/// c₁ = 2 m₁ ω ζ (N s/m), Eq. (3), ω = √(k₁/m₁) of the conductor without absorber.
+/// @throws InvalidParameter for non-positive m₁, k₁ or ζ outside 0 … 1
+inline double conductor_damping(double conductor_mass, double conductor_stiffness_value,
+                                double damping_ratio) {
+  require_positive("conductor mass m1", conductor_mass, "kg");
+  require_positive("conductor stiffness k1", conductor_stiffness_value, "N/m");
+  require_within("damping ratio zeta", damping_ratio, "", 0.0, 1.0);
+  return 2.0 * std::sqrt(conductor_mass * conductor_stiffness_value) * damping_ratio;
+}
+
+// ---------------------------------------------------------------------------------------------
+
+namespace detail {
+
+/// Slope of the straight line nearest to F(w) over `middle` ± `half`: ∫ (w − w̄) F dw/∫ (w − w̄)² dw
+/// by 16-point Gauss–Legendre, whose nodes lie in pairs about the middle.
+template <class Statics>
+double least_squares_slope(const Statics& statics, double middle, double half) {
+  static constexpr std::array<double, 8> nodes{
+      0.0950125098376374, 0.2816035507792589, 0.4580167776572274, 0.6178762444026438,
+      0.7554044083550030, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499};
+  static constexpr std::array<double, 8> weights{
+      0.1894506104550685, 0.1826034150449236, 0.1691565193950025, 0.1495959888165767,
+      0.1246289712555339, 0.0951585116824928, 0.0622535239386479, 0.0271524594117541};
+  double moment = 0.0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double offset = half * nodes[k];
+    moment +=
+        weights[k] * nodes[k] * (statics.force(middle + offset) - statics.force(middle - offset));
+  }
+  return 1.5 * moment / half;
+}
+
+/// A number that carries its derivatives by ln k₁, ln m₂, ln ω₁, ln ω₂.
+using ReductionDual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 4, 1>>;
+
+inline FrequencyReduction<ReductionDual> logarithmic_seeds(
+    const FrequencyReduction<double>& asked) {
+  const auto seed = [](double value, int index) {
+    return ReductionDual(value, value * Eigen::Matrix<double, 4, 1>::Unit(index));
+  };
+  return {seed(asked.conductor_stiffness, 0), seed(asked.absorber_mass, 1),
+          seed(asked.first_frequency, 2), seed(asked.second_frequency, 3)};
+}
+
+inline ReducedMasses reduced_masses(const FrequencyReduction<double>& asked, bool larger) {
+  const auto seeded = logarithmic_seeds(asked);
+  const ReductionDual stiffness = absorber_stiffness_root(seeded, larger);
+  const ReductionDual mass = reduced_conductor_mass(seeded, stiffness);
+  return {stiffness.value(), mass.value(), stiffness.derivatives().lpNorm<1>() / stiffness.value(),
+          mass.derivatives().lpNorm<1>() / mass.value()};
+}
+
+}  // namespace detail
+
+template <class Statics>
+double conductor_stiffness(const Statics& statics, StiffnessReading reading,
+                           const ReadingRange& range) {
+  if (reading == StiffnessReading::tangent) return statics.stiffness(0.0);
+  require_non_negative("reading range below", range.below, "m");
+  require_non_negative("reading range above", range.above, "m");
+  require_positive("width of the reading range", range.below + range.above, "m");
+  const double width = range.below + range.above;
+  if (reading == StiffnessReading::secant)
+    return (statics.force(range.below) - statics.force(-range.above)) / width;
+  return detail::least_squares_slope(statics, 0.5 * (range.below - range.above), 0.5 * width);
+}
+
+inline ReductionResult reduce_to_frequencies(const FrequencyReduction<double>& asked) {
+  require_positive("conductor stiffness k1", asked.conductor_stiffness, "N/m");
+  require_positive("absorber mass m2", asked.absorber_mass, "kg");
+  require_positive("first frequency", asked.first_frequency, "Hz");
+  require_positive("second frequency", asked.second_frequency, "Hz");
+  if (asked.second_frequency <= asked.first_frequency)
+    throw InvalidParameter("second frequency", asked.second_frequency, "Hz",
+                           "above the first frequency");
+  ReductionResult result{};
+  result.largest_absorber_mass = largest_absorber_mass(asked);
+  result.smallest_conductor_stiffness =
+      asked.conductor_stiffness * (asked.absorber_mass / result.largest_absorber_mass);
+  result.discriminant = reduction_discriminant(asked);
+  if (result.discriminant < 0.0) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    result.outcome = ReductionOutcome::no_solution;
+    result.solutions.fill({none, none, none, none});
+    return result;
+  }
+  result.outcome = result.discriminant > 0.0 ? ReductionOutcome::two_solutions
+                                             : ReductionOutcome::double_solution;
+  result.solutions = {detail::reduced_masses(asked, false), detail::reduced_masses(asked, true)};
+  return result;
+}
+
+}  // namespace holdfast

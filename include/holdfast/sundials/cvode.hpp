@@ -1,0 +1,292 @@
+#pragma once
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_types.h>
+#include <sunlinsol/sunlinsol_band.h>
+#include <sunmatrix/sunmatrix_band.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <Eigen/Core>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "holdfast/core/errors.hpp"
+
+/// Time integration of the library's continuous models by CVODE, SUNDIALS 6 and 7.
+///
+/// The one part of the library, with ceres/, that needs a package besides Eigen. SUNDIALS itself
+/// owns the namespace ::sundials, hence this name.
+namespace holdfast::cvode {
+
+/// How an integration ended; each case is a family of CVODE's return flags.
+enum class IntegrationOutcome {
+  completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN
+  too_much_work,       ///< CV_TOO_MUCH_WORK: the limit of steps was reached
+  too_much_accuracy,   ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
+  error_test_failed,   ///< CV_ERR_FAILURE: the step shrank without passing the error test
+  convergence_failed,  ///< CV_CONV_FAILURE and its kin: Newton or the fixed point did not converge
+  linear_solver_failed,    ///< CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL
+  right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and its kin: the rates were not finite
+                           ///< (on the way, Adams' fixed point calls it convergence_failed)
+  out_of_memory,           ///< a handle could not be made
+  refused,                 ///< any other flag: CVODE was asked what it does not do
+};
+
+/// The outcome that a flag of CVODE means.
+inline IntegrationOutcome outcome_of_flag(int flag) {
+  switch (flag) {
+    case CV_SUCCESS:
+    case CV_TSTOP_RETURN:
+    case CV_ROOT_RETURN:
+      return IntegrationOutcome::completed;
+    case CV_TOO_MUCH_WORK:
+      return IntegrationOutcome::too_much_work;
+    case CV_TOO_MUCH_ACC:
+      return IntegrationOutcome::too_much_accuracy;
+    case CV_ERR_FAILURE:
+      return IntegrationOutcome::error_test_failed;
+    case CV_CONV_FAILURE:
+    case CV_NLS_INIT_FAIL:
+    case CV_NLS_SETUP_FAIL:
+    case CV_NLS_FAIL:
+      return IntegrationOutcome::convergence_failed;
+    case CV_LINIT_FAIL:
+    case CV_LSETUP_FAIL:
+    case CV_LSOLVE_FAIL:
+      return IntegrationOutcome::linear_solver_failed;
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+      return IntegrationOutcome::right_hand_side_failed;
+    case CV_MEM_FAIL:
+    case CV_MEM_NULL:
+      return IntegrationOutcome::out_of_memory;
+    default:
+      return IntegrationOutcome::refused;
+  }
+}
+
+/// CVODE's name of a flag: "CV_TOO_MUCH_WORK".
+inline std::string name_of_flag(int flag) {
+  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
+  return name ? std::string(name.get()) : "flag " + std::to_string(flag);
+}
+
+/// What the integration cost.
+struct IntegrationCost {
+  long steps = 0;
+  long rate_evaluations = 0;
+  long jacobian_evaluations = 0;
+};
+
+/// Local error per step and the limit of steps between two outputs.
+struct Tolerances {
+  double relative = 1e-6;  ///< > 0
+  double absolute = 1e-9;  ///< > 0, in the units of the states (m, m/s)
+  long largest_number_of_steps = 2000000;
+};
+
+namespace detail {
+
+/// A system states its Jacobian if it has half_bandwidth() and jacobian(state, set).
+template <class System, class = void>
+struct HasBandedJacobian : std::false_type {};
+template <class System>
+struct HasBandedJacobian<System,
+                         std::void_t<decltype(std::declval<const System&>().half_bandwidth())>>
+    : std::true_type {};
+
+struct FreeContext {
+  void operator()(SUNContext context) const { SUNContext_Free(&context); }
+};
+struct FreeVector {
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+};
+struct FreeMatrix {
+  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+};
+struct FreeLinearSolver {
+  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+};
+struct FreeNonlinearSolver {
+  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
+};
+struct FreeIntegrator {
+  void operator()(void* memory) const { CVodeFree(&memory); }
+};
+
+template <class Handle, class Free>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
+
+inline SUNContext make_context() {
+  SUNContext context = nullptr;
+#if SUNDIALS_VERSION_MAJOR >= 7
+  if (SUNContext_Create(SUN_COMM_NULL, &context) != SUN_SUCCESS) return nullptr;
+  SUNContext_ClearErrHandlers(context);  // a library does not print
+#else
+  if (SUNContext_Create(nullptr, &context) != 0) return nullptr;
+#endif
+  return context;
+}
+
+}  // namespace detail
+
+/// One integration of an autonomous system ẏ = rate(y) from a given state.
+///
+/// @tparam System  has `int states()`, `void rate(const double* y, double* rate)`; with also
+/// `int half_bandwidth()` and `jacobian(y, set)`, set(row, column, value), it is taken to be stiff:
+/// BDF and Newton's method with a banded matrix; without, Adams' method and a fixed point.
+///
+/// The system must outlive the integrator. Not to be copied or moved: CVODE holds its address.
+template <class System>
+class Integrator {
+ public:
+  /// @throws InvalidParameter for tolerances that are not positive
+  Integrator(const System& system, const Eigen::VectorXd& initial_state,
+             const Tolerances& tolerances);
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// Integrates to the instant `time` (s). Once it has failed it stays failed.
+  IntegrationOutcome advance_to(double time) {
+    if (outcome_ != IntegrationOutcome::completed) return outcome_;
+    sunrealtype reached = 0.0;
+    check(CVode(memory_.get(), time, state_.get(), &reached, CV_NORMAL));
+    return outcome_;
+  }
+
+  /// The state (states() numbers) at the instant last reached.
+  const double* state() const { return N_VGetArrayPointer(state_.get()); }
+  IntegrationOutcome outcome() const { return outcome_; }
+  /// CVODE's own words on a failure: the flag's name, and its message where it gave one.
+  const std::string& words() const { return words_; }
+
+  IntegrationCost cost() const {
+    IntegrationCost cost;
+    if (!memory_) return cost;
+    CVodeGetNumSteps(memory_.get(), &cost.steps);
+    CVodeGetNumRhsEvals(memory_.get(), &cost.rate_evaluations);
+    if constexpr (banded) CVodeGetNumJacEvals(memory_.get(), &cost.jacobian_evaluations);
+    return cost;
+  }
+
+ private:
+  static constexpr bool banded = detail::HasBandedJacobian<System>::value;
+
+  static int rate(sunrealtype, N_Vector state, N_Vector rate_of_state, void* self) {
+    const auto& system = static_cast<Integrator*>(self)->system_;
+    system.rate(N_VGetArrayPointer(state), N_VGetArrayPointer(rate_of_state));
+    // A rate that is not finite asks CVODE for a smaller step.
+    const Eigen::Map<const Eigen::VectorXd> rates(N_VGetArrayPointer(rate_of_state),
+                                                  system.states());
+    return rates.allFinite() ? 0 : 1;
+  }
+
+  static int jacobian(sunrealtype, N_Vector state, N_Vector, SUNMatrix matrix, void* self, N_Vector,
+                      N_Vector, N_Vector) {
+    const auto& system = static_cast<Integrator*>(self)->system_;
+    system.jacobian(N_VGetArrayPointer(state), [matrix](int row, int column, double value) {
+      SM_ELEMENT_B(matrix, row, column) = value;
+    });
+    return 0;
+  }
+
+#if SUNDIALS_VERSION_MAJOR < 7
+  static void note_message(int, const char*, const char*, char* message, void* self) {
+    static_cast<Integrator*>(self)->message_ = message;
+  }
+#else
+  static void note_message(int, const char*, const char*, const char* message, SUNErrCode,
+                           void* self, SUNContext) {
+    if (message != nullptr) static_cast<Integrator*>(self)->message_ = message;
+  }
+#endif
+
+  void listen_to_messages() {
+#if SUNDIALS_VERSION_MAJOR < 7
+    check(CVodeSetErrHandlerFn(memory_.get(), &note_message, this));
+#else
+    SUNContext_PushErrHandler(context_.get(), &note_message, this);
+#endif
+  }
+
+  bool check(int flag) {
+    if (flag >= 0 || outcome_ != IntegrationOutcome::completed) return flag >= 0;
+    outcome_ = outcome_of_flag(flag);
+    words_ = name_of_flag(flag) + (message_.empty() ? "" : ": " + message_);
+    return false;
+  }
+
+  bool lacks_memory(bool made) {
+    if (made) return false;
+    outcome_ = IntegrationOutcome::out_of_memory;
+    words_ = "CV_MEM_FAIL";
+    return true;
+  }
+
+  void use_banded_newton();
+  void use_fixed_point();
+
+  const System& system_;
+  IntegrationOutcome outcome_ = IntegrationOutcome::completed;
+  std::string words_, message_;
+  // Freed in the opposite order: everything before its context.
+  detail::Owned<SUNContext, detail::FreeContext> context_;
+  detail::Owned<N_Vector, detail::FreeVector> state_;
+  detail::Owned<SUNMatrix, detail::FreeMatrix> matrix_;
+  detail::Owned<SUNLinearSolver, detail::FreeLinearSolver> linear_solver_;
+  detail::Owned<SUNNonlinearSolver, detail::FreeNonlinearSolver> nonlinear_solver_;
+  std::unique_ptr<void, detail::FreeIntegrator> memory_;
+};
+
+// ---------------------------------------------------------------------------------------------
+
+template <class System>
+Integrator<System>::Integrator(const System& system, const Eigen::VectorXd& initial_state,
+                               const Tolerances& tolerances)
+    : system_(system), context_(detail::make_context()) {
+  require_positive("relative tolerance", tolerances.relative, "");
+  require_positive("absolute tolerance", tolerances.absolute, "");
+  if (lacks_memory(context_ != nullptr)) return;
+  state_.reset(N_VNew_Serial(system.states(), context_.get()));
+  if (lacks_memory(state_ != nullptr)) return;
+  Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), system.states()) = initial_state;
+  memory_.reset(CVodeCreate(banded ? CV_BDF : CV_ADAMS, context_.get()));
+  if (lacks_memory(memory_ != nullptr)) return;
+  listen_to_messages();
+  check(CVodeInit(memory_.get(), &Integrator::rate, 0.0, state_.get()));
+  check(CVodeSetUserData(memory_.get(), this));
+  check(CVodeSStolerances(memory_.get(), tolerances.relative, tolerances.absolute));
+  check(CVodeSetMaxNumSteps(memory_.get(), tolerances.largest_number_of_steps));
+  check(CVodeSetMaxHnilWarns(memory_.get(), -1));  // SUNDIALS 7 prints these warnings itself
+  if constexpr (banded)
+    use_banded_newton();
+  else
+    use_fixed_point();
+}
+
+template <class System>
+void Integrator<System>::use_banded_newton() {
+  const int reach = system_.half_bandwidth();
+  matrix_.reset(SUNBandMatrix(system_.states(), reach, reach, context_.get()));
+  if (lacks_memory(matrix_ != nullptr)) return;
+  linear_solver_.reset(SUNLinSol_Band(state_.get(), matrix_.get(), context_.get()));
+  if (lacks_memory(linear_solver_ != nullptr)) return;
+  check(CVodeSetLinearSolver(memory_.get(), linear_solver_.get(), matrix_.get()));
+  check(CVodeSetJacFn(memory_.get(), &Integrator::jacobian));
+}
+
+template <class System>
+void Integrator<System>::use_fixed_point() {
+  nonlinear_solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
+  if (lacks_memory(nonlinear_solver_ != nullptr)) return;
+  check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
+}
+
+}  // namespace holdfast::cvode

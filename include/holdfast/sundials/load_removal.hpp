@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "holdfast/cable/decay_measures.hpp"
+#include "holdfast/cable/elements.hpp"
+#include "holdfast/sundials/cvode.hpp"
+
+namespace holdfast::cvode {
+
+/// How the vibration after the removal of a load was found.
+enum class LoadRemovalOutcome {
+  completed,
+  no_equilibrium,      ///< the loaded cable has none that Newton's method finds
+  slack,               ///< a bar lost its tension: the cable model ends there
+  integration_failed,  ///< CVODE gave up; its words are in the result
+};
+
+/// The vibration at the absorber's place after a force is removed at t = 0.
+struct LoadRemoval {
+  LoadRemovalOutcome outcome;
+  std::string words;            ///< CVODE's own words, where it gave up
+  double last_time;             ///< s, the last instant of the record
+  double initial_displacement;  ///< m, under the force, from the equilibrium with the weight
+  DecayRecord record;           ///< at t = 0, interval, 2 interval, …
+  IntegrationCost cost;
+};
+
+/// Removes `force` (N) from the cable at rest and follows it.
+/// @param cable     `CableElements` or `CondensedCable`
+/// @param force     N, downward positive
+/// @param duration  s, > 0; the record ends at the last multiple of the interval not after it
+/// @param interval  s between the record's instants, > 0
+/// @throws InvalidParameter outside these ranges
+template <class Cable>
+LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
+                         const Tolerances& tolerances = {}) {
+  require_finite("force", force, "N");
+  require_positive("interval", interval, "s");
+  require_positive("duration", duration, "s");
+  LoadRemoval result{LoadRemovalOutcome::completed, "", 0.0, 0.0, {}, {}};
+  const auto start = cable.held_by(force);
+  if (start.outcome != EquilibriumOutcome::converged) {
+    result.outcome = LoadRemovalOutcome::no_equilibrium;
+    return result;
+  }
+  const auto is_slack = [&cable](const double* state) {
+    if constexpr (std::is_same_v<Cable, CableElements>)
+      return cable.chain().smallest_tension(cable.positions(state)) <= 0.0;
+    else
+      return cable.tension(state) <= 0.0;
+  };
+  const auto samples = static_cast<long>(std::floor(duration / interval * (1.0 + 1e-12)));
+  Integrator<Cable> integrator(cable, start.state, tolerances);
+  result.initial_displacement = cable.displacement(start.state);
+  for (long k = 0; k <= samples; ++k) {
+    const double time = static_cast<double>(k) * interval;
+    if (k > 0) integrator.advance_to(time);
+    if (integrator.outcome() != IntegrationOutcome::completed) {
+      result.outcome = LoadRemovalOutcome::integration_failed;
+      result.words = integrator.words();
+      break;
+    }
+    if (is_slack(integrator.state())) {
+      result.outcome = LoadRemovalOutcome::slack;
+      break;
+    }
+    result.last_time = time;
+    result.record.times.push_back(time);
+    result.record.displacements.push_back(cable.displacement(integrator.state()));
+  }
+  result.cost = integrator.cost();
+  return result;
+}
+
+}  // namespace holdfast::cvode

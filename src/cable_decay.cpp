@@ -1,0 +1,80 @@
+#include "cable_decay.hpp"
+
+#include "cable_of_case.hpp"
+#include "errors.hpp"
+#include "interrupt.hpp"
+#include "text.hpp"
+
+#ifdef HOLDFAST_HAS_SUNDIALS
+#include "holdfast/cable/condensed_cable.hpp"
+#include "holdfast/sundials/load_removal.hpp"
+#endif
+
+namespace holdfast::program {
+
+#ifdef HOLDFAST_HAS_SUNDIALS
+
+namespace {
+
+template <class Cable>
+CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
+  const auto removal =
+      cvode::load_removal(cable, question.force, question.duration, question.interval);
+  const std::string force = "a force of " + format_number(question.force) + " N";
+  switch (removal.outcome) {
+    case cvode::LoadRemovalOutcome::completed:
+      break;
+    case cvode::LoadRemovalOutcome::slack:
+      throw WrongInput("after " + force + " is removed the cable goes slack within " +
+                       format_number(removal.last_time + question.interval) +
+                       " s, and its model ends: take a smaller force");
+    case cvode::LoadRemovalOutcome::no_equilibrium:
+      throw NoAnswer("under " + force + " no equilibrium of the elements was found");
+    case cvode::LoadRemovalOutcome::integration_failed:
+      throw NoAnswer("CVODE gave up after " + format_number(removal.last_time) +
+                     " s: " + one_line(removal.words));
+  }
+  throw_if_interrupted();
+  return {removal.initial_displacement, removal.record};
+}
+
+}  // namespace
+
+bool has_sundials() { return true; }
+void require_sundials() {}
+
+CableDecay cable_decay(const Case& the_case, const CableDecayQuestion& question) {
+  require_force_within_statics(the_case, question.force);
+  return decay_of(elements_of(the_case, question.elements, question.reading), question);
+}
+
+CableDecay condensed_decay(const Case& the_case, const CableDecayQuestion& question) {
+  require_force_within_statics(the_case, question.force);
+  const CondensedCable<8> cable(conductor_of(the_case), the_case.absorber.position,
+                                the_case.absorber.mass, rayleigh_damping_of(the_case));
+  return decay_of(cable, question);
+}
+
+#else
+
+bool has_sundials() { return false; }
+
+void require_sundials() {
+  throw NoAnswer(
+      "the continuous cable needs SUNDIALS, which this program was built without: install the "
+      "package libsundials-dev and build again");
+}
+
+CableDecay cable_decay(const Case&, const CableDecayQuestion&) {
+  require_sundials();
+  return {};
+}
+
+CableDecay condensed_decay(const Case&, const CableDecayQuestion&) {
+  require_sundials();
+  return {};
+}
+
+#endif
+
+}  // namespace holdfast::program

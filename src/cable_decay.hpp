@@ -1,0 +1,38 @@
+#pragma once
+
+#include "case.hpp"
+#include "holdfast/cable/decay_measures.hpp"
+#include "holdfast/cable/elements.hpp"
+
+namespace holdfast::program {
+
+/// Whether the program was built with SUNDIALS.
+bool has_sundials();
+
+/// Throws NoAnswer, naming the package to install, in a program built without SUNDIALS.
+void require_sundials();
+
+/// A load that is removed from the continuous cable of a case.
+struct CableDecayQuestion {
+  double force;     ///< N, downward positive
+  double duration;  ///< s
+  double interval;  ///< s between the instants of the record
+  int elements = 100;
+  AbsorberReading reading = AbsorberReading::weight;
+};
+
+/// The vibration of the absorber's place.
+struct CableDecay {
+  double initial_displacement;  ///< m
+  DecayRecord record;
+};
+
+/// Throws WrongInput where the force is beyond the statics or the cable goes slack; NoAnswer where
+/// CVODE gives up, in its words, or where the program was built without SUNDIALS, naming the
+/// package.
+CableDecay cable_decay(const Case& the_case, const CableDecayQuestion& question);
+
+/// The same by the condensed model, the cheap second opinion; the absorber by its weight.
+CableDecay condensed_decay(const Case& the_case, const CableDecayQuestion& question);
+
+}  // namespace holdfast::program

@@ -1,0 +1,117 @@
+#include "cable_of_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "errors.hpp"
+#include "holdfast/cable/modes.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+FrequencyReduction<double> asked_of(const Case& the_case) {
+  return {conductor_stiffness_of(the_case), the_case.absorber.mass,
+          the_case.reduction.first_frequency, the_case.reduction.second_frequency};
+}
+
+/// Five significant digits.
+std::string rounded_text(double value) {
+  const double scale = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
+  return format_number(std::round(value * scale) / scale);
+}
+
+NoAnswer no_plant(const FrequencyReduction<double>& asked, const ReductionResult& result) {
+  return NoAnswer(
+      "no two-mass plant has the natural frequencies " + rounded_text(asked.first_frequency) +
+      " and " + rounded_text(asked.second_frequency) +
+      " Hz with k1 = " + rounded_text(asked.conductor_stiffness) + " N/m and an absorber of " +
+      rounded_text(asked.absorber_mass) + " kg: the absorber may weigh " +
+      rounded_text(result.largest_absorber_mass) + " kg at most, or k1 must be " +
+      rounded_text(result.smallest_conductor_stiffness) + " N/m at least");
+}
+
+}  // namespace
+
+Conductor<double> conductor_of(const Case& the_case) {
+  const auto& c = the_case.conductor;
+  return {c.mass_per_length, c.span, c.sag, c.area, c.youngs_modulus, c.damping_ratio, c.gravity};
+}
+
+StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case) {
+  return irvine_statics(conductor_of(the_case), the_case.absorber.position, the_case.absorber.mass);
+}
+
+StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case) {
+  return exact_statics(conductor_of(the_case), the_case.absorber.position, the_case.absorber.mass);
+}
+
+StiffnessReading stiffness_reading_of(const Case& the_case) {
+  const std::string& reading = the_case.reduction.stiffness_reading;
+  if (reading == "tangent") return StiffnessReading::tangent;
+  return reading == "secant" ? StiffnessReading::secant : StiffnessReading::least_squares;
+}
+
+ReadingRange reading_range_of(const Case& the_case) {
+  return {the_case.reduction.reading_below, the_case.reduction.reading_above};
+}
+
+double conductor_stiffness_of(const Case& the_case) {
+  return conductor_stiffness(irvine_statics_of(the_case), stiffness_reading_of(the_case),
+                             reading_range_of(the_case));
+}
+
+ReductionResult reduction_of(const Case& the_case) {
+  return reduce_to_frequencies(asked_of(the_case));
+}
+
+TwoDof<double> plant_without_absorber_damping(const Case& the_case) {
+  const FrequencyReduction<double> asked = asked_of(the_case);
+  const ReductionResult result = reduce_to_frequencies(asked);
+  if (result.outcome == ReductionOutcome::no_solution) throw no_plant(asked, result);
+  const ReducedMasses& smaller = result.solutions.front();
+  return {smaller.conductor_mass,
+          asked.conductor_stiffness,
+          conductor_damping(smaller.conductor_mass, asked.conductor_stiffness,
+                            the_case.conductor.damping_ratio),
+          asked.absorber_mass,
+          smaller.absorber_stiffness,
+          0.0};
+}
+
+RayleighDamping rayleigh_damping_of(const Case& the_case) {
+  return rayleigh_damping(the_case.conductor.damping_ratio, the_case.reduction.first_frequency,
+                          the_case.reduction.second_frequency);
+}
+
+CableElements elements_of(const Case& the_case, int elements, AbsorberReading reading) {
+  const HangingAbsorber absorber{reading, the_case.absorber.mass, the_case.plant.absorber_stiffness,
+                                 the_case.plant.absorber_damping};
+  return {conductor_of(the_case), the_case.absorber.position, elements, absorber,
+          rayleigh_damping_of(the_case)};
+}
+
+std::pair<double, double> default_frequencies(const Case& the_case) {
+  constexpr std::size_t wanted = 6;
+  const double place = the_case.absorber.position / the_case.conductor.span;
+  std::vector<double> moving;
+  // A place near a support is moved by high modes only; the first of all stands in for the first.
+  const auto modes = irvine_modes(conductor_of(the_case), 200);
+  for (const CableMode& mode : modes) {
+    if (std::abs(mode.shape(place)) >= 0.1) moving.push_back(mode.frequency);
+  }
+  if (moving.size() < wanted) return {modes[0].frequency, modes[wanted - 1].frequency};
+  return {moving.front(), moving[wanted - 1]};
+}
+
+void require_force_within_statics(const Case& the_case, double force) {
+  const double lowest = irvine_statics_of(the_case).lowest_force();
+  if (force > lowest) return;
+  throw WrongInput("a force of " + format_number(force) +
+                   " N lifts the cable by half of its own weight or more, where its statics end: "
+                   "admissible is greater than " +
+                   rounded_text(lowest) + " N");
+}
+
+}  // namespace holdfast::program

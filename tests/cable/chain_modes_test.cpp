@@ -1,0 +1,162 @@
+#include "holdfast/cable/chain_modes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace holdfast {
+namespace {
+
+/// A string of strain 1 % and next to no sag: λ² below 1e-4.
+Conductor<double> taut_string() {
+  auto conductor = kollar2022_conductor();
+  conductor.sag = 1e-4 * conductor.span;
+  conductor.youngs_modulus = 100.0 * conductor.parabolic_tension() / conductor.area;
+  return conductor;
+}
+
+/// Frequency (Hz) of the n-th mode of the taut string: H on the mass per unstretched length, which
+/// the strain spreads over more length.
+double string_frequency(const Conductor<double>& conductor, int n) {
+  const HangingCable<double> cable(conductor);
+  const double stretched = conductor.mass_per_length * cable.unstretched_length() / conductor.span;
+  return n / (2 * conductor.span) * std::sqrt(cable.bare_tension() / stretched);
+}
+
+/// The same of N equal bars: ω² = (2 − 2 cos θ) H/(l m), θ = nπ/N, with m the lumped mass of a
+/// node, or m (4 + 2 cos θ)/6 for the consistent one.
+double chain_string_frequency(const Conductor<double>& conductor, int elements, int n,
+                              MassModel model) {
+  const double turn = n * pi<double> / elements;
+  const double lumped = string_frequency(conductor, n) * std::sin(turn / 2) / (turn / 2);
+  return model == MassModel::lumped ? lumped : lumped / std::sqrt((4 + 2 * std::cos(turn)) / 6);
+}
+
+double mode_frequency(const Conductor<double>& conductor, int elements, int n, MassModel model) {
+  return elements_modes(conductor, elements, n, model).modes.back().frequency;
+}
+
+TEST(ChainModes, TheyAreTheEigenvectorsOfStiffnessAndMass) {
+  const auto conductor = kollar2022_conductor();
+  const BarChain chain(conductor, conductor.span / 2, 20);
+  const Eigen::MatrixXd stiffness(tangent_stiffness(chain, chain_equilibrium(chain, 0.0).nodes));
+  for (const auto model : {MassModel::lumped, MassModel::consistent}) {
+    const Eigen::MatrixXd mass = detail::mass_matrix(chain, model);
+    const auto found = elements_modes(conductor, 20, 38, model);
+    ASSERT_EQ(found.outcome, EquilibriumOutcome::converged);
+    ASSERT_EQ(found.modes.size(), 38U);
+    double previous = 0.0;
+    for (const auto& mode : found.modes) {
+      const double squared = std::pow(2 * pi<double> * mode.frequency, 2);
+      EXPECT_LE((stiffness * mode.shape - squared * (mass * mode.shape)).norm(),
+                1e-11 * stiffness.norm());
+      EXPECT_NEAR(mode.shape.cwiseAbs().maxCoeff(), 1.0, 1e-14);
+      EXPECT_GE(mode.frequency, previous);
+      previous = mode.frequency;
+    }
+  }
+}
+
+TEST(ChainModes, BothMassModelsCarryTheCablesMass) {
+  const auto conductor = kollar2022_conductor();
+  const BarChain chain(conductor, conductor.span / 2, 20);
+  // A common motion of the free nodes: of the outer bars only a part moves with them.
+  Eigen::VectorXd common = Eigen::VectorXd::Zero(38);
+  for (Eigen::Index k = 1; k < 38; k += 2) common[k] = 1.0;
+  const double bar = conductor.mass_per_length * chain.length(0);
+  const Eigen::MatrixXd lumped = detail::mass_matrix(chain, MassModel::lumped);
+  const Eigen::MatrixXd consistent = detail::mass_matrix(chain, MassModel::consistent);
+  EXPECT_NEAR(common.dot(lumped * common), (18 + 2 * 0.5) * bar, 1e-14);
+  EXPECT_NEAR(common.dot(consistent * common), (18 + 2 / 3.0) * bar, 1e-14);
+  for (int node = 0; node < chain.free_nodes(); ++node)
+    EXPECT_EQ(lumped(2 * node, 2 * node), chain.mass(node));
+}
+
+TEST(ChainModes, ATautStringOfBarsHasItsClosedForm) {
+  const auto conductor = taut_string();
+  for (const auto model : {MassModel::lumped, MassModel::consistent})
+    for (int n = 1; n <= 4; ++n)
+      EXPECT_NEAR(
+          mode_frequency(conductor, 20, n, model) / chain_string_frequency(conductor, 20, n, model),
+          1.0, 1e-5)
+          << n;
+}
+
+TEST(ChainModes, OnATautStringLumpedMassesAreLowAndConsistentOnesHighBothByTheSquareOfTheLength) {
+  const auto conductor = taut_string();
+  // Antisymmetric ones, which the little sag that is left leaves alone.
+  for (const int n : {2, 4}) {
+    const double limit = string_frequency(conductor, n);
+    const auto miss = [&](int elements, MassModel model) {
+      return mode_frequency(conductor, elements, n, model) / limit - 1.0;
+    };
+    for (const int elements : {16, 32}) {
+      EXPECT_LT(miss(elements, MassModel::lumped), 0.0);
+      EXPECT_GT(miss(elements, MassModel::consistent), 0.0);
+      for (const auto model : {MassModel::lumped, MassModel::consistent})
+        EXPECT_NEAR(std::log2(miss(elements, model) / miss(2 * elements, model)), 2.0, 0.1) << n;
+    }
+  }
+}
+
+TEST(ChainModes, FamiliesAreThoseOfTheShapes) {
+  const auto found = elements_modes(kollar2022_conductor(), 40, 6);
+  for (const auto& mode : found.modes) {
+    const double sign = mode.family == ModeFamily::symmetric ? 1.0 : -1.0;
+    for (Eigen::Index node = 0; node < 39; ++node)
+      EXPECT_NEAR(mode.shape[2 * node + 1], sign * mode.shape[2 * (38 - node) + 1], 1e-7);
+  }
+}
+
+/// The paper's conductor with another sag ratio and Young's modulus, λ² held.
+Conductor<double> shallower(double sag_ratio, double parameter) {
+  auto conductor = kollar2022_conductor();
+  conductor.sag = sag_ratio * conductor.span;
+  conductor.youngs_modulus *= parameter / conductor.irvine_parameter();
+  return conductor;
+}
+
+/// Relative difference between the elements' frequencies, freed of the error of their length, and
+/// Irvine–Caughey's, for the first `count` modes.
+std::vector<double> apart_from_irvine(const Conductor<double>& conductor, int count) {
+  const auto coarse = elements_modes(conductor, 60, count).modes;
+  const auto fine = elements_modes(conductor, 120, count).modes;
+  const auto irvine = irvine_modes(conductor, count);
+  std::vector<double> apart;
+  for (std::size_t k = 0; k < irvine.size(); ++k) {
+    const double limit = fine[k].frequency + (fine[k].frequency - coarse[k].frequency) / 3;
+    apart.push_back(std::abs(limit / irvine[k].frequency - 1.0));
+    EXPECT_EQ(fine[k].family, irvine[k].family) << k;
+  }
+  return apart;
+}
+
+TEST(ChainModes, TheyApproachIrvineAndCaugheyWithTheSquareOfTheSagRatio) {
+  for (const double parameter : {20.0, 400.0}) {
+    const auto deep = apart_from_irvine(shallower(1.0 / 20, parameter), 4);
+    const auto middle = apart_from_irvine(shallower(1.0 / 80, parameter), 4);
+    const auto shallow = apart_from_irvine(shallower(1.0 / 320, parameter), 4);
+    for (std::size_t k = 0; k < deep.size(); ++k) {
+      EXPECT_NEAR(std::log(deep[k] / middle[k]) / std::log(4.0), 2.0, 0.2) << parameter << ' ' << k;
+      EXPECT_LT(shallow[k], 0.1 * middle[k]) << parameter << ' ' << k;
+      EXPECT_LT(shallow[k], 1e-4) << parameter << ' ' << k;
+    }
+  }
+}
+
+TEST(ChainModes, BadInputIsRefused) {
+  auto conductor = kollar2022_conductor();
+  for (const int elements : {-2, 0, 1, 11})
+    EXPECT_THROW(elements_modes(conductor, elements, 1), InvalidParameter) << elements;
+  for (const int count : {0, 19, -1})
+    EXPECT_THROW(elements_modes(conductor, 10, count), InvalidParameter) << count;
+  EXPECT_NO_THROW(elements_modes(conductor, 10, 18));
+  conductor.sag = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(elements_modes(conductor, 10, 1), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast

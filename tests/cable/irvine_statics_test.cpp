@@ -1,0 +1,169 @@
+#include "holdfast/cable/irvine_statics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+struct ParabolicCase {
+  Conductor<double> conductor;
+  double position;
+  double load;
+
+  IrvinePointLoad<double> model() const { return {conductor, position}; }
+  double relative_load() const { return load / conductor.weight(); }
+};
+
+ParabolicCase random_parabolic_case(test::Random& random) {
+  const double span = random.log_uniform(1.0, 500.0);
+  const Conductor<double> conductor{random.log_uniform(0.01, 10.0),
+                                    span,
+                                    span * random.log_uniform(0.003, 0.12),
+                                    random.log_uniform(1e-6, 1e-3),
+                                    random.log_uniform(1e8, 2e11),
+                                    0.01,
+                                    9.81};
+  const double relative =
+      random.sign() > 0 ? random.log_uniform(0.001, 20.0) : -random.log_uniform(0.001, 0.49);
+  return {conductor, span * random.uniform(0.02, 0.98), relative * conductor.weight()};
+}
+
+TEST(IrvineStatics, TheAdditionalTensionSolvesTheCubic) {
+  test::Random random(311);
+  for (int draw = 0; draw < 500; ++draw) {
+    const auto which = random_parabolic_case(random);
+    const double h = which.model().relative_additional_tension(which.load);
+    const double parameter = which.conductor.irvine_parameter(), p = which.relative_load();
+    const double x = which.position / which.conductor.span;
+    const double terms[] = {h * h * h, (2 + parameter / 24) * h * h, (1 + parameter / 12) * h,
+                            -parameter / 2 * x * (1 - x) * p * (1 + p)};
+    double sum = 0.0, size = 0.0;
+    for (const double term : terms) sum += term, size += std::abs(term);
+    EXPECT_LE(std::abs(sum), 1e-14 * size);
+    EXPECT_GT(h, -1.0);
+  }
+}
+
+/// ∫ [(μg/H) w + ½ w'²] dx over the span, by Simpson's rule on either side of the kink, w' by the
+/// parabolas' own central differences, which are exact.
+double lengthening(const ParabolicCase& which) {
+  const auto model = which.model();
+  const double weight = which.conductor.weight_per_length() / which.conductor.parabolic_tension();
+  const auto piece = [&](double from, double to) {
+    const auto integrand = [&](double x, double slope) {
+      return weight * model.deflection(x, which.load) + slope * slope / 2;
+    };
+    // w is a parabola here: its slope is linear between those of the halves' chords.
+    const double middle = (from + to) / 2, half = middle - from;
+    const double w0 = model.deflection(from, which.load);
+    const double w1 = model.deflection(middle, which.load);
+    const double w2 = model.deflection(to, which.load);
+    const double slope = (w2 - w0) / (2 * half), bend = (w2 - 2 * w1 + w0) / (half * half);
+    return half / 3 *
+           (integrand(from, slope - bend * half) + 4 * integrand(middle, slope) +
+            integrand(to, slope + bend * half));
+  };
+  return piece(0.0, which.position) + piece(which.position, which.conductor.span);
+}
+
+TEST(IrvineStatics, TheCableStretchesAsMuchAsItsTensionAsks) {
+  test::Random random(312);
+  for (int draw = 0; draw < 300; ++draw) {
+    const auto which = random_parabolic_case(random);
+    const auto& c = which.conductor;
+    const double added = which.model().tension(which.load) - c.parabolic_tension();
+    const double stretch = added * c.effective_length() / c.axial_stiffness();
+    const double scale =
+        c.effective_length() * c.parabolic_tension() / c.axial_stiffness() + c.sag * c.sag / c.span;
+    EXPECT_NEAR(lengthening(which), stretch, 1e-11 * (scale + std::abs(stretch)));
+  }
+}
+
+TEST(IrvineStatics, TheLoadIsCarriedByTheKinkAndTheSupportsStandStill) {
+  test::Random random(313);
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto which = random_parabolic_case(random);
+    const auto model = which.model();
+    const double span = which.conductor.span, place = which.position;
+    const double step = 1e-4 * std::fmin(place, span - place);
+    const auto w = [&](double x) { return model.deflection(x, which.load); };
+    // One-sided second-order differences are exact on a parabola.
+    const double before = (3 * w(place) - 4 * w(place - step) + w(place - 2 * step)) / (2 * step);
+    const double after = (-3 * w(place) + 4 * w(place + step) - w(place + 2 * step)) / (2 * step);
+    EXPECT_NEAR(model.tension(which.load) * (before - after) / which.load, 1.0, 1e-7);
+    EXPECT_EQ(w(0.0), 0.0);
+    EXPECT_NEAR(w(span), 0.0, 1e-14 * span);
+    EXPECT_EQ(model.displacement(which.load), w(place / span * span));
+  }
+}
+
+TEST(IrvineStatics, TheStiffnessIsTheDerivativeOfTheLoad) {
+  test::Random random(314);
+  for (int draw = 0; draw < 300; ++draw) {
+    const auto which = random_parabolic_case(random);
+    const auto model = which.model();
+    const double step = 1e-5 * std::abs(which.load);
+    const double slope =
+        (model.displacement(which.load + step) - model.displacement(which.load - step)) /
+        (2 * step);
+    EXPECT_NEAR(model.stiffness(which.load) * slope, 1.0, 1e-5);
+  }
+}
+
+TEST(IrvineStatics, SmallLoadsObeyReciprocity) {
+  const auto conductor = kollar2022_conductor();
+  for (const double load : {1e-4, -1e-4}) {
+    const double there = IrvinePointLoad<double>(conductor, 0.64).deflection(4.1, load);
+    const double back = IrvinePointLoad<double>(conductor, 4.1).deflection(0.64, load);
+    EXPECT_NEAR(there / back, 1.0, 1e-3);
+    EXPECT_GT(std::abs(back), 1e-7);
+  }
+}
+
+TEST(IrvineStatics, MirrorImagesBehaveAlike) {
+  const auto conductor = kollar2022_conductor();
+  const IrvinePointLoad<double> left(conductor, 0.64), right(conductor, 6.4 - 0.64);
+  for (const double load : {-1.0, 0.5, 3.0}) {
+    EXPECT_NEAR(left.displacement(load), right.displacement(load), 1e-14);
+    EXPECT_NEAR(left.deflection(2.0, load), right.deflection(4.4, load), 1e-14);
+  }
+}
+
+TEST(IrvineStatics, ATautStringIsAHingeUnderTheLoad) {
+  auto conductor = kollar2022_conductor();
+  conductor.youngs_modulus = 1.0;  // λ² → 0
+  const IrvinePointLoad<double> model(conductor, 0.64);
+  const double load = 0.2;
+  EXPECT_NEAR(model.tension(load), conductor.parabolic_tension(), 1e-5);
+  EXPECT_NEAR(
+      model.displacement(load) / (load * 0.64 * (6.4 - 0.64) / 6.4 / conductor.parabolic_tension()),
+      1.0, 1e-5);
+}
+
+TEST(IrvineStatics, TheLoadOfHalfTheWeightIsWhereTheCubicTurnsBack) {
+  const auto conductor = kollar2022_conductor();
+  const IrvinePointLoad<double> model(conductor, 0.64);
+  const double lowest = model.lowest_load();
+  EXPECT_NEAR(lowest, -conductor.weight() / 2, 1e-15);
+  // P̂(1 + P̂) and with it the tension are even about it.
+  for (const double away : {0.1, 0.7})
+    EXPECT_NEAR(model.tension(lowest + away), model.tension(lowest - away), 1e-13);
+  EXPECT_LT(model.tension(lowest + 0.05), model.tension(lowest + 0.1));
+}
+
+TEST(IrvineStatics, ExtendedPrecisionAgrees) {
+  const auto c = kollar2022_conductor();
+  const Conductor<long double> precise{c.mass_per_length, c.span,          c.sag,    c.area,
+                                       c.youngs_modulus,  c.damping_ratio, c.gravity};
+  const IrvinePointLoad<long double> fine(precise, 0.64L);
+  const IrvinePointLoad<double> coarse(c, 0.64);
+  for (const double load : {-1.0, 0.2, 1.5696, 30.0})
+    EXPECT_NEAR(coarse.displacement(load), static_cast<double>(fine.displacement(load)), 1e-15);
+}
+
+}  // namespace
+}  // namespace holdfast

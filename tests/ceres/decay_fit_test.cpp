@@ -1,0 +1,189 @@
+#include "holdfast/ceres/decay_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace holdfast::fit {
+namespace {
+
+constexpr double start = 3.76e-3;
+
+TwoDof<double> plant_with(double absorber_damping) {
+  TwoDof<double> plant = kollar2022_plant();
+  plant.absorber_damping = absorber_damping;
+  return plant;
+}
+
+/// The plant's own decay over 4 s with Gaussian noise.
+DecayRecord record_of(const TwoDof<double>& plant, double noise, unsigned seed) {
+  DecayRecord record;
+  for (int k = 0; k <= 1000; ++k) record.times.push_back(4e-3 * k);
+  record.displacements = free_decay(plant, start, record.times);
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> scatter(0.0, 1.0);
+  for (double& displacement : record.displacements) displacement += noise * scatter(generator);
+  return record;
+}
+
+TEST(DecayFit, FindsTheDampingOfAnExactRecord) {
+  for (const double damping : {0.5, 1.0, 2.0, 4.0, 8.0, 20.0}) {
+    const DecayFit fit = fit_decay(record_of(plant_with(damping), 0.0, 1), plant_with(3.0));
+    ASSERT_EQ(fit.outcome, FitOutcome::converged);
+    EXPECT_NEAR(fit.minima.front().plant.absorber_damping, damping, 1e-6 * damping);
+    EXPECT_LE(fit.minima.front().residual, 1e-9 * start);
+  }
+}
+
+TEST(DecayFit, RecoversTheDampingFromNoiseWithinItsStandardError) {
+  // Of Gaussian errors 68 % lie within one standard error: of 120 draws 82 ± 5.
+  int within_one = 0, draws = 0;
+  for (const double damping : {0.5, 1.0, 2.0, 4.0, 8.0, 20.0}) {
+    for (unsigned seed = 1; seed <= 20; ++seed, ++draws) {
+      const DecayFit fit =
+          fit_decay(record_of(plant_with(damping), 0.01 * start, seed), plant_with(4.0));
+      ASSERT_EQ(fit.outcome, FitOutcome::converged);
+      const DecayMinimum& best = fit.minima.front();
+      const double error = std::abs(best.plant.absorber_damping - damping);
+      EXPECT_LT(error, 4.0 * best.standard_errors[0]) << "c2 = " << damping << ", seed " << seed;
+      EXPECT_LT(best.standard_errors[0], 0.02 * damping);
+      within_one += error < best.standard_errors[0] ? 1 : 0;
+    }
+  }
+  EXPECT_GE(within_one, 0.55 * draws);
+  EXPECT_LE(within_one, 0.82 * draws) << "the standard errors are too wide";
+}
+
+TEST(DecayFit, RobustLossWithstandsADropout) {
+  DecayRecord record = record_of(plant_with(4.0), 0.01 * start, 3);
+  for (std::size_t k = 45; k < 62; ++k) record.displacements[k] = 0.0;  // the sensor drops out
+  DecayQuestion question;
+  question.fit_initial_displacement = false;
+  record.displacements.front() = start;
+  const double robust =
+      fit_decay(record, plant_with(2.0), question).minima.front().plant.absorber_damping;
+  question.robust = false;
+  const double plain =
+      fit_decay(record, plant_with(2.0), question).minima.front().plant.absorber_damping;
+  EXPECT_NEAR(robust, 4.0, 0.1);
+  EXPECT_LT(std::abs(robust - 4.0), 0.3 * std::abs(plain - 4.0));
+}
+
+TEST(DecayFit, FindsAllFiveParameters) {
+  TwoDof<double> guess = plant_with(3.0);
+  guess.conductor_mass *= 1.1;
+  guess.conductor_stiffness *= 0.95;
+  guess.conductor_damping *= 1.3;
+  guess.absorber_stiffness *= 0.9;
+  DecayQuestion question;
+  question.free = {PlantParameter::conductor_mass, PlantParameter::conductor_stiffness,
+                   PlantParameter::conductor_damping, PlantParameter::absorber_stiffness,
+                   PlantParameter::absorber_damping};
+  const DecayFit fit = fit_decay(record_of(plant_with(4.0), 0.0, 1), guess, question);
+  ASSERT_EQ(fit.outcome, FitOutcome::converged);
+  const TwoDof<double>& found = fit.minima.front().plant;
+  EXPECT_NEAR(found.conductor_mass, 0.0767, 1e-5);
+  EXPECT_NEAR(found.conductor_stiffness, 50.3, 1e-3);
+  EXPECT_NEAR(found.conductor_damping, 0.079, 1e-4);
+  EXPECT_NEAR(found.absorber_stiffness, 74.4, 1e-2);
+  EXPECT_NEAR(found.absorber_damping, 4.0, 1e-3);
+}
+
+TEST(DecayFit, StandardErrorsKeepTheOrderOfTheQuestion) {
+  DecayQuestion forth, back;
+  forth.free = {PlantParameter::conductor_damping, PlantParameter::absorber_damping};
+  back.free = {PlantParameter::absorber_damping, PlantParameter::conductor_damping};
+  const DecayRecord record = record_of(plant_with(4.0), 0.01 * start, 5);
+  const auto first = fit_decay(record, plant_with(4.0), forth).minima.front().standard_errors;
+  const auto second = fit_decay(record, plant_with(4.0), back).minima.front().standard_errors;
+  EXPECT_NEAR(first[0], second[1], 1e-6 * first[0]);
+  EXPECT_NEAR(first[1], second[0], 1e-6 * first[1]);
+  EXPECT_NE(first[0], first[1]);
+}
+
+TEST(DecayFit, DerivativesAgreeWithDifferences) {
+  const DecayRecord record = record_of(plant_with(4.0), 0.0, 1);
+  for (const auto target :
+       {DecayTarget::time_history, DecayTarget::first_peak_period_and_decrement}) {
+    DecayQuestion question;
+    question.target = target;
+    question.free = {PlantParameter::conductor_stiffness, PlantParameter::absorber_damping};
+    question.fit_initial_displacement = false;
+    const detail::DecayResiduals residuals{record, decay_measures(record), target, plant_with(2.5),
+                                           std::numeric_limits<double>::infinity()};
+    const auto at = [&](double stiffness, double damping) {
+      return detail::linearise(residuals, question, {0.0, stiffness, 0.0, 0.0, damping, 0.0});
+    };
+    const double step = 1e-6;
+    const Eigen::VectorXd by_damping =
+        (at(0.0, step).residuals - at(0.0, -step).residuals) / (2.0 * step);
+    const Eigen::VectorXd by_stiffness =
+        (at(step, 0.0).residuals - at(-step, 0.0).residuals) / (2.0 * step);
+    const Eigen::MatrixXd jacobian = at(0.0, 0.0).jacobian;
+    EXPECT_LE((jacobian.col(0) - by_stiffness).norm(), 1e-6 * by_stiffness.norm());
+    EXPECT_LE((jacobian.col(1) - by_damping).norm(), 1e-6 * by_damping.norm());
+  }
+}
+
+TEST(DecayFit, ReportsBothBranchesOfFirstPeakAndPeriod) {
+  // r1 falls and rises again with c₂: a record of c₂ = 4.9 has the first peak of c₂ = 0.9 too.
+  DecayQuestion question;
+  question.target = DecayTarget::first_peak_and_period;
+  const DecayFit fit = fit_decay(record_of(plant_with(4.9), 0.0, 1), plant_with(3.0), question);
+  ASSERT_GE(fit.minima.size(), 2U);
+  EXPECT_NEAR(fit.minima[0].plant.absorber_damping, 4.9, 1e-2);
+  EXPECT_GT(fit.minima[1].plant.absorber_damping, 0.6);
+  EXPECT_LT(fit.minima[1].plant.absorber_damping, 1.2);
+  EXPECT_GT(fit.minima[1].cost, fit.minima[0].cost);
+  EXPECT_LE(fit.minima[0].found_from + fit.minima[1].found_from, fit.starts);
+}
+
+TEST(DecayFit, HuberResidualIsSmoothAndLinearFarOut) {
+  EXPECT_EQ(detail::huber_residual(0.5, 1.0), 0.5);
+  EXPECT_EQ(detail::huber_residual(-1.0, 1.0), -1.0);
+  const double far = detail::huber_residual(-8.0, 1.0);
+  EXPECT_LT(far, 0.0);
+  EXPECT_NEAR(far * far, 2.0 * 8.0 - 1.0, 1e-14) << "twice Huber's loss";
+}
+
+TEST(DecayFit, RefusesWhatCannotBeFitted) {
+  const DecayRecord good = record_of(plant_with(4.0), 0.0, 1);
+  const TwoDof<double> plant = plant_with(4.0);
+  DecayRecord record = good;
+  record.times[5] = record.times[4];
+  EXPECT_THROW(fit_decay(record, plant), InvalidParameter);
+  record = good;
+  record.displacements[7] = std::nan("");
+  EXPECT_THROW(fit_decay(record, plant), InvalidParameter);
+  record = good;
+  record.displacements[0] = 0.0;
+  EXPECT_THROW(fit_decay(record, plant), InvalidParameter);
+  record = good;
+  record.displacements.pop_back();
+  EXPECT_THROW(fit_decay(record, plant), InvalidParameter);
+  EXPECT_THROW(fit_decay({{0.0, 1.0}, {1.0, 0.5}}, plant), InvalidParameter);
+  DecayQuestion question;
+  question.free = {};
+  EXPECT_THROW(fit_decay(good, plant, question), InvalidParameter);
+  question.free = {PlantParameter::absorber_damping, PlantParameter::absorber_damping};
+  EXPECT_THROW(fit_decay(good, plant, question), InvalidParameter);
+  question.free = {PlantParameter::conductor_mass, PlantParameter::absorber_damping};
+  question.target = DecayTarget::first_peak_and_period;
+  EXPECT_THROW(fit_decay(good, plant, question), InvalidParameter);
+}
+
+TEST(DecayFit, OfARecordWithoutPeaksHasNoMinimum) {
+  DecayRecord record;
+  for (int k = 0; k < 100; ++k) {
+    record.times.push_back(0.01 * k);
+    record.displacements.push_back(start * std::exp(-0.05 * k));
+  }
+  DecayQuestion question;
+  question.target = DecayTarget::first_peak_and_period;
+  EXPECT_EQ(fit_decay(record, plant_with(4.0), question).outcome, FitOutcome::no_minimum);
+}
+
+}  // namespace
+}  // namespace holdfast::fit

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "cable_decay.hpp"
+#include "cli/program.hpp"
+#include "csv.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+using program::CsvTable;
+
+CsvTable cable_table(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.errors, "");
+  return program::parse_csv(outcome.output, arguments);
+}
+
+void expect_names(const std::string& arguments, const std::string& header) {
+  const auto lines = lines_of(run_holdfast(arguments).output);
+  ASSERT_FALSE(lines.empty()) << arguments;
+  EXPECT_EQ(lines.front(), header) << arguments;
+}
+
+/// Exit code 2 (or another), one line that mentions something, nothing written.
+void expect_fails(const std::string& arguments, const std::string& mentioned, int code = 2) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, code) << arguments;
+  EXPECT_EQ(outcome.error_lines(), 1U) << arguments << "\n" << outcome.errors;
+  EXPECT_NE(outcome.errors.find(mentioned), std::string::npos) << arguments << "\n"
+                                                               << outcome.errors;
+  EXPECT_EQ(outcome.output, "") << arguments;
+}
+
+std::map<std::string, double> values_of(const CsvTable& table) {
+  std::map<std::string, double> values;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    values[table.text(row, "quantity")] = table.number(row, "value");
+  return values;
+}
+
+TEST(Statics, FourModelsBesideEachOther) {
+  const CsvTable table = cable_table("statics --force -0.4:0.4:5");
+  EXPECT_EQ(table.names(),
+            (std::vector<std::string>{"force_N", "exact_m", "irvine_m", "linear_m", "elements_m"}));
+  ASSERT_EQ(table.rows(), 5U);
+  EXPECT_EQ(table.number(2, "exact_m"), 0.0);
+  EXPECT_NEAR(table.number(3, "exact_m"), 3.76e-3, 5e-6);
+  EXPECT_NEAR(table.number(3, "irvine_m"), 3.845e-3, 4e-6);
+  EXPECT_NEAR(table.number(3, "linear_m"), 0.2 / 50.3, 1e-12);
+  EXPECT_NEAR(table.number(3, "elements_m"), table.number(3, "exact_m"), 1e-6);
+}
+
+TEST(Modes, FamiliesAndFrequencies) {
+  const CsvTable table = cable_table("modes --count 6");
+  ASSERT_EQ(table.rows(), 6U);
+  const double irvine[] = {2.056, 2.934, 4.113, 5.043, 6.169, 7.114};
+  const double elements[] = {2.038, 2.928, 4.100, 5.036, 6.158, 7.108};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(table.number(k, "mode"), static_cast<double>(k + 1));
+    EXPECT_EQ(table.text(k, "family"), k % 2 == 0 ? "antisymmetric" : "symmetric");
+    EXPECT_NEAR(table.number(k, "irvine_Hz"), irvine[k], 1e-3 * irvine[k]);
+    EXPECT_NEAR(table.number(k, "elements_Hz"), elements[k], 1e-3 * elements[k]);
+  }
+}
+
+TEST(Reduce, GivesThePlantAndHowSureItIs) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS and Ceres Solver";
+  const CsvTable table = cable_table("reduce");
+  EXPECT_EQ(table.names(), (std::vector<std::string>{"quantity", "symbol", "value", "unit"}));
+  auto values = values_of(table);
+  EXPECT_NEAR(values.at("conductor_stiffness"), 50.17, 0.1);
+  EXPECT_NEAR(values.at("conductor_damping"), 0.079, 0.001);
+  EXPECT_EQ(values.at("absorber_mass"), 0.16);
+  EXPECT_GT(values.at("absorber_damping"), 3.6);
+  EXPECT_LT(values.at("absorber_damping"), 5.9);
+  EXPECT_LT(values.at("absorber_damping_second_minimum"), 1.2);
+  EXPECT_GT(values.at("absorber_stiffness_condition"), 10.0) << "close to the double root";
+  // The two frequencies of [reduction] are those of the plant: their squares' sum and product.
+  const double m1 = values.at("conductor_mass"), k1 = values.at("conductor_stiffness");
+  const double m2 = values.at("absorber_mass"), k2 = values.at("absorber_stiffness");
+  const double first = std::pow(2.0 * M_PI * 1.999, 2), second = std::pow(2.0 * M_PI * 6.998, 2);
+  EXPECT_NEAR((k1 + k2) / m1 + k2 / m2, first + second, 1e-9 * second);
+  EXPECT_NEAR(k1 * k2 / (m1 * m2), first * second, 1e-9 * first * second);
+}
+
+TEST(Reduce, WithoutARealPlantSaysWhatWouldHaveOne) {
+  expect_fails(
+      "reduce --set reduction.first_frequency=2.056 --set reduction.second_frequency=7.114",
+      "the absorber may weigh 0.15", 1);
+  expect_fails("simulate --set conductor.span=6.4", "the absorber may weigh", 1);
+}
+
+TEST(Reduce, AnotherConductorCarriesTheWholeProgram) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS and Ceres Solver";
+  const std::string span =
+      std::string("--case '") + HOLDFAST_SOURCE_DIR + "/data/acsr-drake-300m.toml'";
+  const auto values = values_of(cable_table("reduce " + span));
+  EXPECT_EQ(values.at("absorber_mass"), 5.0);
+  EXPECT_GT(values.at("conductor_mass"), 0.0);
+  EXPECT_EQ(cable_table("simulate --duration 0.01 " + span).rows(), 11U);
+}
+
+TEST(Decay, ComparesTheContinuousCableWithThePlant) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS";
+  const CsvTable table = cable_table("decay --duration 0.5 --equal-displacement");
+  EXPECT_EQ(table.names(), (std::vector<std::string>{"time_s", "elements_m", "two_dof_m"}));
+  ASSERT_EQ(table.rows(), 501U);
+  EXPECT_NEAR(table.number(0, "elements_m"), 3.758e-3, 4e-6);
+  EXPECT_EQ(table.number(0, "two_dof_m"), table.number(0, "elements_m"));
+  const CsvTable same_force = cable_table("decay --duration 0.1");
+  EXPECT_NEAR(same_force.number(0, "two_dof_m"), 0.2 / 50.3, 1e-12);
+  for (const std::string absorber : {"rigid", "spring"})
+    EXPECT_EQ(cable_table("decay --duration 0.1 --elements 20 --absorber " + absorber).rows(),
+              101U);
+}
+
+TEST(Peaks, DiscrepancyIsThatOfTheTwoColumns) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS";
+  const CsvTable table = cable_table("peaks --force 0.1:0.4:4");
+  ASSERT_EQ(table.rows(), 4U);
+  for (std::size_t row = 0; row < 4; ++row) {
+    const double cable = table.number(row, "elements_peak_m");
+    const double plant = table.number(row, "two_dof_peak_m");
+    EXPECT_LT(cable, 0.0) << "above the equilibrium";
+    EXPECT_NEAR(table.number(row, "discrepancy"), std::abs(plant - cable) / -cable, 1e-12);
+    EXPECT_LT(table.number(row, "discrepancy"), 0.1) << "Fig. 2b";
+  }
+}
+
+TEST(Fit, ReadsARecordAndReportsEveryMinimum) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS and Ceres Solver";
+  expect_names("fit", "quantity,value,standard_error,unit");
+  const auto built_in = values_of(cable_table("fit"));
+  EXPECT_GT(built_in.at("absorber_damping"), 3.6);
+  EXPECT_LT(built_in.at("absorber_damping"), 5.9);
+  EXPECT_LT(built_in.at("absorber_damping_minimum_2"), 1.2);
+  const auto record = values_of(cable_table(std::string("fit --data '") + HOLDFAST_SOURCE_DIR +
+                                            "/data/kollar2022-decay.csv'"));
+  EXPECT_GT(record.at("absorber_damping"), 3.6);
+  EXPECT_LT(record.at("absorber_damping"), 5.9);
+}
+
+TEST(Cable, WrongInputIsOneLineAndNothingIsWritten) {
+  expect_fails("reduce --set conductor.sag=3.2", "--set conductor.sag=3.2");
+  expect_fails("statics --set absorber.position=7", "--set absorber.position=7");
+  expect_fails("reduce --set conductor.youngs_modulus=1e3", "would stretch it");
+  expect_fails("statics --force -9:1:5", "admissible is greater than -2.9");
+  expect_fails("modes --count 0", "--count");
+  expect_fails("modes --elements 7", "--elements");
+  const TemporaryFolder folder;
+  std::ofstream(folder / "gap.csv") << "time_s,displacement_m\n0,1\n1,.9\n2,.8\n3,.7\n4,.6\n5,.5\n"
+                                       "6,.4\n9,.3\n10,.2\n";
+  if (!both_packages) return;
+  const std::string out = " --output '" + (folder / "out.csv").string() + "'";
+  expect_fails("fit --data '" + (folder / "gap.csv").string() + "'" + out, "gap.csv:9: a gap");
+  expect_fails("fit --parameters absorber_dampin" + out, "absorber_dampin");
+  expect_fails("decay --force 40" + out, "slack");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"gap.csv"});
+}
+
+TEST(Cable, WithoutThePackagesTheJobsNameThem) {
+  if (both_packages) GTEST_SKIP() << "both are here";
+  if (!program::has_sundials()) expect_fails("decay", "libsundials-dev", 1);
+#ifndef HOLDFAST_HAS_CERES
+  expect_fails("fit", "libceres-dev", 1);
+#endif
+}
+
+TEST(Wind, OutsideAeolianVibrationTheProgramWarns) {
+  const Outcome outcome = run_holdfast(
+      "max-delay --frequency 10:10:1 --set wind.speed=0.01 --set wind.diameter=0.0032 "
+      "--set wind.effective_length=2");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.errors.find("outside the 3 to 150 Hz"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.error_lines(), 1U);
+}
+
+}  // namespace
+}  // namespace holdfast::tests
