@@ -1,18 +1,29 @@
 #include "cable_options.hpp"
 
+#include "errors.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "loop_of_case.hpp"
+#include "text.hpp"
 
 namespace holdfast::program {
 
-CableDecayQuestion CableOptions::question(double force) const {
+CableDecayQuestion CableOptions::question(double force, double usual_duration) const {
   const auto reading = absorber == "rigid"    ? AbsorberReading::rigid_mass
                        : absorber == "spring" ? AbsorberReading::spring_mass
                                               : AbsorberReading::weight;
-  return {force, duration, interval, elements, reading};
+  constexpr double most_rows = 1e7;
+  const double time = duration.value_or(usual_duration);
+  if (interval > time)
+    throw WrongInput("--interval = " + format_number(interval) + ": admissible is at most " +
+                     format_number(time) + ", the --duration");
+  if (time > most_rows * interval)
+    throw WrongInput("--interval = " + format_number(interval) + ": admissible is at least " +
+                     format_number(time / most_rows) + ", ten million rows in the --duration of " +
+                     format_number(time));
+  return {force, time, interval, elements, reading};
 }
 
-void add_cable_options(const Job& job, CableOptions& options) {
+void add_cable_options(const Job& job, CableOptions& options, const std::string& usual_duration) {
   job->add_option("--absorber", options.absorber,
                   "How the absorber loads the cable: weight (without inertia), rigid mass, or "
                   "spring (mass on its spring and damper)")
@@ -25,10 +36,10 @@ void add_cable_options(const Job& job, CableOptions& options) {
       ->check(CLI::Range(4, 20000))
       ->type_name("N")
       ->capture_default_str();
-  job->add_option("--duration", options.duration, "Time after the removal, s")
+  job->add_option("--duration", options.duration,
+                  "Time after the removal, s; default: " + usual_duration)
       ->check(number_from(1e-6, 1e6))
-      ->type_name("")
-      ->capture_default_str();
+      ->type_name("");
   job->add_option("--interval", options.interval, "Time between rows, s")
       ->check(number_from(1e-9, 1e6))
       ->type_name("")

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cable_decay.hpp"
@@ -9,17 +10,20 @@ namespace holdfast::program {
 
 /// Options that the jobs about the continuous cable share.
 struct CableOptions {
-  double duration = 10.0;
+  std::optional<double> duration;
   double interval = 0.001;
   int elements = 100;
   std::string absorber = "weight";
   bool equal_displacement = false;
 
-  CableDecayQuestion question(double force) const;
+  /// @param usual_duration  s, where none is given
+  /// Throws WrongInput for an interval beyond the duration, or so short that the rows are too many.
+  CableDecayQuestion question(double force, double usual_duration) const;
 };
 
 /// `--elements`, `--absorber`, `--equal-displacement`, `--duration` and `--interval`.
-void add_cable_options(const Job& job, CableOptions& options);
+/// @param usual_duration  what the help says of the time where none is given
+void add_cable_options(const Job& job, CableOptions& options, const std::string& usual_duration);
 
 /// Where the plant starts (m) beside a cable that a force (N) has displaced: as far as the cable,
 /// or where the same force holds it, F/k1.

@@ -14,7 +14,8 @@ void run(const JobContext& context, const Options& options) {
               {{"time_s", "s", "since the force was removed"},
                {"elements_m", "m", "displacement of the absorber's place, continuous cable"},
                {"two_dof_m", "m", "displacement z1 of the two-mass plant"}});
-  const CableDecay cable = cable_decay(context.case_data, options.cable.question(options.force));
+  const CableDecay cable =
+      cable_decay(context.case_data, options.cable.question(options.force, 10.0));
   const double start =
       plant_start(context, options.cable, options.force, cable.initial_displacement);
   const DecayRecord plant = plant_decay(context, start, cable.record);
@@ -34,7 +35,7 @@ void add_decay(CLI::App& program) {
       ->check(number_from(-1e9, 1e9))
       ->type_name("")
       ->capture_default_str();
-  add_cable_options(job, options->cable);
+  add_cable_options(job, options->cable, "10");
   job->final_callback([job, options] {
     require_sundials();
     run(job.context(), *options);

@@ -84,9 +84,8 @@ JobContext Job::context(PlantNeed need) const {
   std::optional<std::filesystem::path> file;
   if (common_->case_file) file = *common_->case_file;
   context.case_data = load_case(file, common_->overrides);
-  const std::string warning = wind_warning(context.case_data);
-  if (!warning.empty() && !common_->quiet) report_error("warning: " + warning);
-  if (need == PlantNeed::whole) settle_plant(context.case_data);
+  report_warning(wind_warning(context.case_data), common_->quiet);
+  if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
   context.options = given_options(*options_);
   if (common_->output) context.output = *common_->output;
   context.quiet = common_->quiet;

@@ -1,4 +1,5 @@
 #include <array>
+#include <string>
 
 #include "cable_of_case.hpp"
 #include "errors.hpp"
@@ -15,20 +16,24 @@ struct Options {
   int elements = 200;
 };
 
-/// Frequencies of the finite elements of one family, ascending.
+/// Frequencies of the finite elements of one family, ascending, without the modes along the span,
+/// which Irvine and Caughey do not have.
 std::vector<double> of_family(const ElementsModes& modes, ModeFamily family) {
   std::vector<double> frequencies;
   for (const ElementsMode& mode : modes.modes)
-    if (mode.family == family) frequencies.push_back(mode.frequency);
+    if (mode.family == family && mode.along_share < 0.5) frequencies.push_back(mode.frequency);
   return frequencies;
 }
 
 void run(const JobContext& context, const Options& options) {
   if (options.elements % 2 != 0 || options.elements < 4 * options.count)
-    throw WrongInput("--elements must be even and at least four times --count");
+    throw WrongInput("--elements = " + std::to_string(options.elements) + ": with --count = " +
+                     std::to_string(options.count) + ", admissible is an even number from " +
+                     std::to_string(4 * options.count) + " on");
   const Conductor<double> conductor = conductor_of(context.case_data);
   const auto irvine = irvine_modes(conductor, options.count);
-  const ElementsModes elements = elements_modes(conductor, options.elements, 2 * options.count + 2);
+  const ElementsModes elements =
+      elements_modes(conductor, options.elements, 2 * (options.elements - 1));
   if (elements.outcome != EquilibriumOutcome::converged)
     throw NoAnswer("no equilibrium of the elements was found");
   const std::array<std::vector<double>, 2> found = {of_family(elements, ModeFamily::symmetric),
@@ -58,7 +63,7 @@ void add_modes(CLI::App& program) {
       ->type_name("N")
       ->capture_default_str();
   job->add_option("--elements", options->elements, "Bars of the continuous cable, even")
-      ->check(CLI::Range(4, 2000))
+      ->check(CLI::Range(4, 1000))
       ->type_name("N")
       ->capture_default_str();
   job->final_callback([job, options] { run(job.context(PlantNeed::none), *options); });

@@ -12,21 +12,27 @@
 namespace holdfast::program {
 namespace {
 
-/// c2 with its error and the other minimum; NaN with a line on standard error where the fit needs a
-/// package that is missing.
+/// c2 with how sure it is; NaN with a line on standard error where the fit needs a package that is
+/// missing, or the decay does not determine it.
 struct AbsorberDamping {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double standard_error = value;
-  double second_minimum = value;
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double value = none, standard_error = none, misfit = none;
+  double lowest = none, highest = none, second_minimum = none;
 };
 
-AbsorberDamping fitted_damping(const Case& the_case, const TwoDof<double>& plant) {
+AbsorberDamping fitted_damping(const JobContext& context, const TwoDof<double>& plant) {
   AbsorberDamping damping;
   try {
-    const auto minima = fit_absorber_damping(the_case, plant).minima;
-    damping.value = minima[0].plant.absorber_damping;
-    damping.standard_error = minima[0].standard_errors[0];
+    const AbsorberDampingFit found = fit_absorber_damping(context.case_data, plant);
+    const auto& minima = found.fit.minima;
+    damping = {minima[0].plant.absorber_damping,
+               minima[0].standard_errors[0],
+               found.misfit,
+               found.lowest,
+               found.highest,
+               AbsorberDamping::none};
     if (minima.size() > 1) damping.second_minimum = minima[1].plant.absorber_damping;
+    report_warning(misfit_warning(found), context.quiet);
   } catch (const NoAnswer& reason) {
     report_error(std::string("absorber_damping is left open: ") + reason.what());
   }
@@ -46,8 +52,10 @@ void write_readings(Table& table, const Case& the_case) {
   const auto irvine = irvine_statics_of(the_case);
   const auto exact = exact_statics_of(the_case);
   const ReadingRange range = reading_range_of(the_case);
+  const bool readable = range.below + range.above > 0.0;
+  if (readable) require_reading_range(the_case);
   const auto row = [&](const std::string& name, StiffnessReading reading) {
-    if (reading != StiffnessReading::tangent && !(range.below + range.above > 0.0)) return;
+    if (reading != StiffnessReading::tangent && !readable) return;
     table.row("conductor_stiffness_" + name, "k1", conductor_stiffness(irvine, reading, range),
               "N/m");
     table.row("conductor_stiffness_" + name + "_exact", "k1",
@@ -62,11 +70,15 @@ void write_certainty(Table& table, const ReductionResult& result, const Absorber
   table.row("discriminant", "", result.discriminant, "");
   table.row("conductor_mass_condition", "", result.solutions[0].mass_condition, "");
   table.row("absorber_stiffness_condition", "", result.solutions[0].stiffness_condition, "");
+  table.row("conductor_damping_condition", "", result.solutions[0].damping_condition, "");
   table.row("conductor_mass_other_root", "m1", result.solutions[1].conductor_mass, "kg");
   table.row("absorber_stiffness_other_root", "k2", result.solutions[1].absorber_stiffness, "N/m");
   table.row("largest_absorber_mass", "m2", result.largest_absorber_mass, "kg");
   table.row("smallest_conductor_stiffness", "k1", result.smallest_conductor_stiffness, "N/m");
   table.row("absorber_damping_standard_error", "c2", damping.standard_error, "N s/m");
+  table.row("absorber_damping_misfit", "", damping.misfit, "");
+  table.row("absorber_damping_lowest", "c2", damping.lowest, "N s/m");
+  table.row("absorber_damping_highest", "c2", damping.highest, "N s/m");
   table.row("absorber_damping_second_minimum", "c2", damping.second_minimum, "N s/m");
 }
 
@@ -90,7 +102,7 @@ void run(const JobContext& context) {
                         {"symbol", "", "in the equations", "string"},
                         {"value", "", "in the unit beside it"},
                         {"unit", "", "SI", "string"}});
-  const AbsorberDamping damping = fitted_damping(the_case, plant);
+  const AbsorberDamping damping = fitted_damping(context, plant);
   write_plant(table, plant, damping);
   write_certainty(table, reduction_of(the_case), damping);
   write_readings(table, the_case);

@@ -18,15 +18,15 @@ namespace {
 
 template <class Cable>
 CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
-  const auto removal =
-      cvode::load_removal(cable, question.force, question.duration, question.interval);
+  const auto removal = cvode::load_removal(cable, question.force, question.duration,
+                                           question.interval, {}, throw_if_interrupted);
   const std::string force = "a force of " + format_number(question.force) + " N";
   switch (removal.outcome) {
     case cvode::LoadRemovalOutcome::completed:
       break;
     case cvode::LoadRemovalOutcome::slack:
       throw WrongInput("after " + force + " is removed the cable goes slack within " +
-                       format_number(removal.last_time + question.interval) +
+                       format_number(removal.last_time) +
                        " s, and its model ends: take a smaller force");
     case cvode::LoadRemovalOutcome::no_equilibrium:
       throw NoAnswer("under " + force + " no equilibrium of the elements was found");
@@ -34,7 +34,6 @@ CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
       throw NoAnswer("CVODE gave up after " + format_number(removal.last_time) +
                      " s: " + one_line(removal.words));
   }
-  throw_if_interrupted();
   return {removal.initial_displacement, removal.record};
 }
 

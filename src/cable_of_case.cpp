@@ -22,14 +22,20 @@ std::string rounded_text(double value) {
   return format_number(std::round(value * scale) / scale);
 }
 
-NoAnswer no_plant(const FrequencyReduction<double>& asked, const ReductionResult& result) {
+NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
+                  const ReductionResult& result) {
+  const bool computed = the_case.first_frequency_computed || the_case.second_frequency_computed;
+  const std::string remedy =
+      computed ? "; the frequencies are computed from the conductor where "
+                 "reduction.first_frequency and reduction.second_frequency are not given"
+               : "";
   return NoAnswer(
       "no two-mass plant has the natural frequencies " + rounded_text(asked.first_frequency) +
       " and " + rounded_text(asked.second_frequency) +
       " Hz with k1 = " + rounded_text(asked.conductor_stiffness) + " N/m and an absorber of " +
       rounded_text(asked.absorber_mass) + " kg: the absorber may weigh " +
       rounded_text(result.largest_absorber_mass) + " kg at most, or k1 must be " +
-      rounded_text(result.smallest_conductor_stiffness) + " N/m at least");
+      rounded_text(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
 }
 
 }  // namespace
@@ -57,7 +63,23 @@ ReadingRange reading_range_of(const Case& the_case) {
   return {the_case.reduction.reading_below, the_case.reduction.reading_above};
 }
 
+void require_reading_range(const Case& the_case) {
+  const ReadingRange range = reading_range_of(the_case);
+  const auto irvine = irvine_statics_of(the_case);
+  const double highest = irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));
+  if (!(-range.above > highest))
+    throw WrongInput("reduction.reading_above = " + format_number(range.above) +
+                     " m: the absorber's place cannot be lifted so far before the statics end; "
+                     "admissible is less than " +
+                     rounded_text(-highest) + " m");
+  if (!(range.below <= the_case.conductor.sag))
+    throw WrongInput("reduction.reading_below = " + format_number(range.below) +
+                     " m: admissible is at most the sag, " + format_number(the_case.conductor.sag) +
+                     " m");
+}
+
 double conductor_stiffness_of(const Case& the_case) {
+  if (stiffness_reading_of(the_case) != StiffnessReading::tangent) require_reading_range(the_case);
   return conductor_stiffness(irvine_statics_of(the_case), stiffness_reading_of(the_case),
                              reading_range_of(the_case));
 }
@@ -69,7 +91,7 @@ ReductionResult reduction_of(const Case& the_case) {
 TwoDof<double> plant_without_absorber_damping(const Case& the_case) {
   const FrequencyReduction<double> asked = asked_of(the_case);
   const ReductionResult result = reduce_to_frequencies(asked);
-  if (result.outcome == ReductionOutcome::no_solution) throw no_plant(asked, result);
+  if (result.outcome == ReductionOutcome::no_solution) throw no_plant(the_case, asked, result);
   const ReducedMasses& smaller = result.solutions.front();
   return {smaller.conductor_mass,
           asked.conductor_stiffness,

@@ -17,7 +17,11 @@ StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case
 StiffnessReading stiffness_reading_of(const Case& the_case);
 ReadingRange reading_range_of(const Case& the_case);
 
-/// k1 (N/m) from Eq. 1 with the case's reading.
+/// Throws WrongInput, naming the key, for a range of the readings of k1 beyond what Eq. 1 is valid
+/// for: upward as `require_force_within_statics`, downward by the sag.
+void require_reading_range(const Case& the_case);
+
+/// k1 (N/m) from Eq. 1 with the case's reading. Throws what require_reading_range() throws.
 double conductor_stiffness_of(const Case& the_case);
 
 /// m1 and k2 from that k1, the absorber's mass and the two frequencies of [reduction].

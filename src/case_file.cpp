@@ -89,7 +89,7 @@ class CaseReader {
   void settle_frequencies();
   void check_faults() const;
 
-  Case case_;
+  Case case_, builtin_;
   std::vector<Given> given_;
   std::string wind_place_;
   Layer wind_layer_ = Layer::builtin;
@@ -114,6 +114,7 @@ void CaseReader::read_text(std::string_view text, const std::string& name, Layer
                               value_text(*entry.node);
     set(entry.key, *entry.node, place, layer);
   }
+  if (layer == Layer::builtin) builtin_ = case_;
 }
 
 /// The file's values in the order of its lines, so that the first mistake is the one reported.
@@ -241,12 +242,14 @@ void CaseReader::check_wind() const {
                    wind_place_ + ")");
 }
 
-/// The built-in frequencies of [reduction] belong to the built-in conductor; another one's are
-/// computed where they are not given.
+/// The built-in frequencies of [reduction] belong to the built-in conductor and the absorber's
+/// place on it; another one's are computed where they are not given.
 void CaseReader::settle_frequencies() {
-  const bool another = std::any_of(given_.begin(), given_.end(), [](const Given& given) {
-    return given.layer != Layer::builtin && given.key.rfind("conductor.", 0) == 0 &&
-           given.key != "conductor.damping_ratio";
+  const auto& keys = case_keys();
+  const bool another = std::any_of(keys.begin(), keys.end(), [this](const CaseKey& key) {
+    const bool shapes = key.name == "absorber.position" ||
+                        (key.table() == "conductor" && key.name != "conductor.damping_ratio");
+    return shapes && *key.number(case_) != *key.number(builtin_);
   });
   if (!another || !conductor_fault(case_).message.empty()) return;
   const auto given_by_user = [this](const std::string& key) {

@@ -370,13 +370,15 @@ CaseFault conductor_fault(const Case& the_case) {
   }
   const auto& c = the_case.conductor;
   const double tension = c.mass_per_length * c.gravity * span * span / (8.0 * c.sag);
-  constexpr double largest_strain = 0.1;
-  if (!(tension <= largest_strain * c.youngs_modulus * c.area)) {
+  const double strain = tension / (c.youngs_modulus * c.area);
+  // Below, the stretch of a bar of the continuous cable drowns in the round-off of its length.
+  constexpr double smallest_strain = 1e-10, largest_strain = 0.1;
+  if (!(strain >= smallest_strain && strain <= largest_strain)) {
     return {{"conductor.youngs_modulus", "conductor.area", "conductor.sag",
              "conductor.mass_per_length", "conductor.span", "conductor.gravity"},
-            "the conductor's own weight would stretch it by " +
-                format_number(tension / (c.youngs_modulus * c.area)) +
-                " of its length, more than a cable bears; admissible is at most 0.1"};
+            "the conductor's own weight would stretch it by " + format_number(strain) +
+                " of its length; admissible is from 1e-10, less than which cannot be computed, to "
+                "0.1, more than which no cable bears"};
   }
   return {};
 }

@@ -1,10 +1,15 @@
 #include "damping_fit.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "cable_decay.hpp"
 #include "cable_of_case.hpp"
 #include "errors.hpp"
+#include "text.hpp"
 
 #ifdef HOLDFAST_HAS_CERES
 #include "holdfast/ceres/decay_fit.hpp"
@@ -42,40 +47,89 @@ fit::DecayFit fit_record(const DecayRecord&, const TwoDof<double>&, const fit::D
 DecayRecord record_for_fit(const Case& the_case) {
   constexpr int periods = 6, samples_per_period = 250;
   const double period = 1.0 / the_case.reduction.first_frequency;
-  const double weight = the_case.absorber.mass * the_case.conductor.gravity;
   CableDecayQuestion question{};
-  question.force = std::max(0.2, weight / 8.0);
+  question.force = the_case.absorber.mass * the_case.conductor.gravity / 8.0;
   question.duration = periods * period;
   question.interval = period / samples_per_period;
   question.elements = 60;
   return cable_decay(the_case, question).record;
 }
 
-fit::DecayFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant) {
-  require_ceres();
-  const DecayRecord record = record_for_fit(the_case);
+namespace {
+
+DecayRecord first_part(const DecayRecord& record, double duration) {
+  DecayRecord part;
+  for (std::size_t k = 0; k < record.times.size(); ++k) {
+    if (record.times[k] > duration * (1.0 + 1e-9)) break;
+    part.times.push_back(record.times[k]);
+    part.displacements.push_back(record.displacements[k]);
+  }
+  return part;
+}
+
+/// One reading of c2 from a decay that starts at a computed displacement; none where the decay does
+/// not determine it.
+std::optional<AbsorberDampingFit> damping_by(fit::DecayTarget target, const DecayRecord& record,
+                                             const TwoDof<double>& plant) {
   fit::DecayQuestion question;
   question.fit_initial_displacement = false;
-  question.target = fit::DecayTarget::first_peak_and_period;
+  question.target = target;
   try {
-    return fit_record(record, plant, question);
+    AbsorberDampingFit found{target, fit_record(record, plant, question), 0.0, 0.0, 0.0};
+    const fit::DecayMinimum& best = found.fit.minima.front();
+    const double unit = fit::is_measured(target) ? 1.0 : std::abs(record.displacements.front());
+    found.misfit = best.residual / unit;
+    found.lowest = found.highest = best.plant.absorber_damping;
+    return found;
   } catch (const NoAnswer&) {
-    question.target = fit::DecayTarget::time_history;
-    return fit_record(record, plant, question);
+    return std::nullopt;
   }
 }
 
-void settle_plant(Case& the_case) {
-  if (the_case.plant_given || !the_case.conductor_given) return;
+}  // namespace
+
+AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant) {
+  require_ceres();
+  constexpr double largest_misfit = 0.1;
+  const DecayRecord record = record_for_fit(the_case);
+  std::optional<AbsorberDampingFit> found =
+      damping_by(fit::DecayTarget::first_peak_and_period, record, plant);
+  if (found && !(found->misfit <= largest_misfit)) found.reset();
+  std::vector<AbsorberDampingFit> histories;
+  for (const double periods : {1.0, 2.0, 3.0, 6.0}) {
+    const double window = periods / the_case.reduction.first_frequency;
+    auto history = damping_by(fit::DecayTarget::time_history, first_part(record, window), plant);
+    if (history) histories.push_back(std::move(*history));
+  }
+  if (!found && !histories.empty()) found = histories.back();
+  if (!found)
+    throw NoAnswer("the decay of the continuous cable does not determine the absorber's damping");
+  for (const AbsorberDampingFit& history : histories) {
+    found->lowest = std::min(found->lowest, history.lowest);
+    found->highest = std::max(found->highest, history.highest);
+  }
+  return *found;
+}
+
+std::string misfit_warning(const AbsorberDampingFit& found) {
+  if (found.misfit <= 0.3) return "";
+  return "the two-mass plant misses the cable's decay by " +
+         format_number(std::round(found.misfit * 100.0)) +
+         " % of its start: no absorber_damping makes it follow";
+}
+
+std::string settle_plant(Case& the_case) {
+  if (the_case.plant_given || !the_case.conductor_given) return "";
   const TwoDof<double> reduced = plant_without_absorber_damping(the_case);
+  const AbsorberDampingFit found = fit_absorber_damping(the_case, reduced);
   auto& plant = the_case.plant;
   plant.conductor_mass = reduced.conductor_mass;
   plant.conductor_stiffness = reduced.conductor_stiffness;
   plant.conductor_damping = reduced.conductor_damping;
   plant.absorber_mass = reduced.absorber_mass;
   plant.absorber_stiffness = reduced.absorber_stiffness;
-  plant.absorber_damping =
-      fit_absorber_damping(the_case, reduced).minima.front().plant.absorber_damping;
+  plant.absorber_damping = found.fit.minima.front().plant.absorber_damping;
+  return misfit_warning(found);
 }
 
 }  // namespace holdfast::program

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "case.hpp"
 #include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/ceres/decay_question.hpp"
@@ -15,16 +17,31 @@ void require_ceres();
 fit::DecayFit fit_record(const DecayRecord& record, const TwoDof<double>& plant,
                          const fit::DecayQuestion& question);
 
-/// The decay of the case's continuous cable that a fit without data reads: 0.2 N (or, for a
-/// heavier absorber, an eighth of its weight) removed, six periods of the first frequency.
+/// The decay of the case's continuous cable that a fit without data reads: an eighth of the
+/// absorber's weight removed, six periods of the first frequency.
 DecayRecord record_for_fit(const Case& the_case);
 
-/// c2 of a plant reduced from the conductor, all minima: fitted to the first peak and the period of
-/// that decay, or to its time history where the cable's motion has no such peaks.
-fit::DecayFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant);
+/// c2 of a plant reduced from the conductor, and how sure it is.
+struct AbsorberDampingFit {
+  fit::DecayTarget target;  ///< what was met
+  fit::DecayFit fit;        ///< all minima
+  double misfit;            ///< residual of the deepest, of z(0) or of the measures
+  /// The least and the largest c2 (N s/m) over all readings of that decay: first peak and period,
+  /// and the time history over 1, 2, 3 and 6 periods.
+  double lowest, highest;
+};
+
+/// Fits c2 to the first peak and the period of that decay where the plant meets them to a tenth,
+/// else to its time history. Throws NoAnswer where neither determines it.
+AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant);
+
+/// What the user has to know of that fit: that the plant's decay is not the cable's, where it
+/// misses it by more than three tenths. Empty otherwise.
+std::string misfit_warning(const AbsorberDampingFit& found);
 
 /// Completes a case whose plant is not given: reduces it from the conductor and fits c2.
+/// @return the warning of that fit, or an empty text
 /// Throws NoAnswer where there is no such plant, or a package is missing.
-void settle_plant(Case& the_case);
+std::string settle_plant(Case& the_case);
 
 }  // namespace holdfast::program

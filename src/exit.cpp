@@ -25,6 +25,10 @@ void report_error(const std::string& message) {
   std::fflush(stderr);
 }
 
+void report_warning(const std::string& message, bool quiet) {
+  if (!message.empty() && !quiet) report_error("warning: " + message);
+}
+
 int run_guarded(const std::function<int()>& work) {
   install_signal_handlers();
   try {

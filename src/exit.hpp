@@ -21,4 +21,7 @@ int run_guarded(const std::function<int()>& work);
 /// Writes `holdfast: ` and the message on one line of standard error.
 void report_error(const std::string& message);
 
+/// The same with `warning: ` before it; nothing when there is none or it is not wanted.
+void report_warning(const std::string& message, bool quiet);
+
 }  // namespace holdfast::program

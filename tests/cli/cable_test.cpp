@@ -93,17 +93,46 @@ TEST(Reduce, WithoutARealPlantSaysWhatWouldHaveOne) {
   expect_fails(
       "reduce --set reduction.first_frequency=2.056 --set reduction.second_frequency=7.114",
       "the absorber may weigh 0.15", 1);
-  expect_fails("simulate --set conductor.span=6.4", "the absorber may weigh", 1);
+  expect_fails("simulate --set conductor.span=6.5", "the absorber may weigh", 1);
 }
 
 TEST(Reduce, AnotherConductorCarriesTheWholeProgram) {
   if (!both_packages) GTEST_SKIP() << "needs SUNDIALS and Ceres Solver";
   const std::string span =
       std::string("--case '") + HOLDFAST_SOURCE_DIR + "/data/acsr-drake-300m.toml'";
-  const auto values = values_of(cable_table("reduce " + span));
+  const auto values = values_of(cable_table("reduce --quiet " + span));
   EXPECT_EQ(values.at("absorber_mass"), 5.0);
   EXPECT_GT(values.at("conductor_mass"), 0.0);
-  EXPECT_EQ(cable_table("simulate --duration 0.01 " + span).rows(), 11U);
+  EXPECT_EQ(cable_table("simulate --quiet --duration 0.01 " + span).rows(), 11U);
+  // Without more words a fit is the one that the reduction makes.
+  const auto fitted = values_of(cable_table("fit --quiet " + span));
+  EXPECT_EQ(fitted.at("absorber_damping"), values.at("absorber_damping"));
+  const Outcome warned = run_holdfast("reduce " + span);
+  EXPECT_EQ(warned.error_lines(), 1U) << warned.errors;
+  EXPECT_NE(warned.errors.find("no absorber_damping makes it follow"), std::string::npos);
+}
+
+TEST(Reduce, APeakThatThePlantCannotMeetIsNotTaken) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS and Ceres Solver";
+  const std::string stay =
+      std::string("--case '") + HOLDFAST_SOURCE_DIR + "/data/stay-cable-sutong.toml'";
+  const auto values = values_of(cable_table("reduce --quiet " + stay));
+  EXPECT_LT(values.at("absorber_damping_misfit"), 0.5);
+  EXPECT_LT(values.at("absorber_damping_standard_error"), 0.2 * values.at("absorber_damping"));
+  EXPECT_LE(values.at("absorber_damping_lowest"), values.at("absorber_damping"));
+  EXPECT_GE(values.at("absorber_damping_highest"), values.at("absorber_damping"));
+}
+
+TEST(Reduce, TheFrequenciesFollowTheConductorAndTheAbsorbersPlace) {
+  const auto frequency = [](const std::string& setting) {
+    const Outcome outcome = run_holdfast("reduce --quiet " + setting);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return values_of(program::parse_csv(outcome.output, setting)).at("first_frequency");
+  };
+  // What is set to what it was changes nothing.
+  EXPECT_EQ(frequency("--set conductor.youngs_modulus=18e9"), frequency(""));
+  // The antisymmetric first mode has a node at mid-span.
+  EXPECT_GT(frequency("--set absorber.position=3.2 --set absorber.mass=0.05"), 2.5);
 }
 
 TEST(Decay, ComparesTheContinuousCableWithThePlant) {
@@ -133,6 +162,30 @@ TEST(Peaks, DiscrepancyIsThatOfTheTwoColumns) {
   }
 }
 
+TEST(Peaks, UnderNoForceThereIsNone) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS";
+  const CsvTable table = cable_table("peaks --force 0:0:1");
+  EXPECT_EQ(table.number(0, "elements_peak_m"), 0.0);
+  EXPECT_TRUE(std::isnan(table.number(0, "discrepancy")));
+}
+
+TEST(Peaks, TheUsualDurationIsThatOfTheCable) {
+  if (!both_packages) GTEST_SKIP() << "needs SUNDIALS";
+  const std::string stay =
+      std::string("--quiet --case '") + HOLDFAST_SOURCE_DIR + "/data/stay-cable-sutong.toml'";
+  const CsvTable table = cable_table("peaks --force 100:1000:2 " + stay);
+  for (std::size_t row = 0; row < 2; ++row) EXPECT_LT(table.number(row, "elements_peak_m"), 0.0);
+}
+
+TEST(Modes, ThoseAlongTheSpanAreLeftOut) {
+  // So soft a cable has its first mode along the span among those across it.
+  const CsvTable table = cable_table("modes --count 8 --set conductor.youngs_modulus=1.5e7");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "family") != "antisymmetric") continue;
+    EXPECT_NEAR(table.number(row, "elements_Hz") / table.number(row, "irvine_Hz"), 1.0, 0.02);
+  }
+}
+
 TEST(Fit, ReadsARecordAndReportsEveryMinimum) {
   if (!both_packages) GTEST_SKIP() << "needs SUNDIALS and Ceres Solver";
   expect_names("fit", "quantity,value,standard_error,unit");
@@ -152,7 +205,10 @@ TEST(Cable, WrongInputIsOneLineAndNothingIsWritten) {
   expect_fails("reduce --set conductor.youngs_modulus=1e3", "would stretch it");
   expect_fails("statics --force -9:1:5", "admissible is greater than -2.9");
   expect_fails("modes --count 0", "--count");
-  expect_fails("modes --elements 7", "--elements");
+  expect_fails("modes --elements 7", "admissible is an even number from 24 on");
+  expect_fails("reduce --set absorber.position=0.01", "reduction.reading_above = 0.007 m");
+  expect_fails("reduce --set reduction.reading_below=1", "reduction.reading_below = 1 m");
+  expect_fails("reduce --set conductor.youngs_modulus=1e20", "would stretch it");
   const TemporaryFolder folder;
   std::ofstream(folder / "gap.csv") << "time_s,displacement_m\n0,1\n1,.9\n2,.8\n3,.7\n4,.6\n5,.5\n"
                                        "6,.4\n9,.3\n10,.2\n";
@@ -160,7 +216,16 @@ TEST(Cable, WrongInputIsOneLineAndNothingIsWritten) {
   const std::string out = " --output '" + (folder / "out.csv").string() + "'";
   expect_fails("fit --data '" + (folder / "gap.csv").string() + "'" + out, "gap.csv:9: a gap");
   expect_fails("fit --parameters absorber_dampin" + out, "absorber_dampin");
-  expect_fails("decay --force 40" + out, "slack");
+  for (const std::string interval : {"0.001", "0.5"})
+    expect_fails("decay --force 40 --interval " + interval + out, "slack");
+  expect_fails("decay --duration 1e6 --interval 1e-9" + out, "--interval");
+  expect_fails("decay --duration 1 --interval 2" + out, "--interval");
+  expect_fails("fit --parameters absorber_damping,absorber_damping" + out, "--parameters");
+  expect_fails("fit --target peak --parameters conductor_mass,absorber_damping" + out,
+               "--target peak determines 1");
+  expect_fails("fit --parameters absorber_damping," + out, "a name is missing");
+  expect_fails("fit --parameters conductor_damping --set plant.conductor_damping=0" + out,
+               "plant.conductor_damping");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"gap.csv"});
 }
 

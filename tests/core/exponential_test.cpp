@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace holdfast {
@@ -42,6 +43,12 @@ TEST(Exponential, ItsInverseIsThatOfTheOppositeMatrix) {
   const Matrix<double, 4> opposite = -matrix;
   const Matrix<double, 4> product = exponential(matrix) * exponential(opposite);
   EXPECT_LE((product - Matrix<double, 4>::Identity()).norm(), 1e-12);
+}
+
+TEST(Exponential, OfAnInfiniteEntryIsNotFinite) {
+  Matrix<double, 2> matrix = Matrix<double, 2>::Identity();
+  matrix(0, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(exponential(matrix).allFinite());
 }
 
 }  // namespace

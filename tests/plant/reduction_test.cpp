@@ -72,7 +72,7 @@ TEST(Reduction, APlantIsFoundAgainFromItsOwnFrequencies) {
   test::Random random(383);
   for (int draw = 0; draw < 200; ++draw) {
     const Asked unknown{random.log_uniform(1, 1000), random.log_uniform(0.01, 10), 0.0, 0.0};
-    const ReducedMasses plant{random.log_uniform(1, 1000), random.log_uniform(0.01, 10), 0, 0};
+    const ReducedMasses plant{random.log_uniform(1, 1000), random.log_uniform(0.01, 10), 0, 0, 0};
     const auto squared = squared_frequencies(unknown, plant);
     Asked asked = unknown;
     asked.first_frequency = std::sqrt(squared[0]) / (2 * pi<double>);
@@ -95,7 +95,7 @@ TEST(Reduction, TheConditionNumbersAreTheSumsOfTheRelativeDerivatives) {
     const auto asked = random_reduction(random, random.log_uniform(1e-2, 10.0));
     const auto result = reduce_to_frequencies(asked);
     for (const std::size_t root : {0U, 1U}) {
-      double stiffness = 0.0, mass = 0.0;
+      double stiffness = 0.0, mass = 0.0, damping = 0.0;
       for (double Asked::*input : inputs) {
         Asked below = asked, above = asked;
         const double step = 1e-6;
@@ -106,9 +106,14 @@ TEST(Reduction, TheConditionNumbersAreTheSumsOfTheRelativeDerivatives) {
         stiffness +=
             std::abs(std::log(high.absorber_stiffness / low.absorber_stiffness)) / (2 * step);
         mass += std::abs(std::log(high.conductor_mass / low.conductor_mass)) / (2 * step);
+        const auto c1 = [](const Asked& of, const ReducedMasses& with) {
+          return conductor_damping(with.conductor_mass, of.conductor_stiffness, 0.02);
+        };
+        damping += std::abs(std::log(c1(above, high) / c1(below, low))) / (2 * step);
       }
       EXPECT_NEAR(result.solutions[root].stiffness_condition / stiffness, 1.0, 1e-5);
       EXPECT_NEAR(result.solutions[root].mass_condition / mass, 1.0, 1e-5);
+      EXPECT_NEAR(result.solutions[root].damping_condition / damping, 1.0, 1e-5);
     }
   }
 }

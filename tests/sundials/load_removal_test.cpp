@@ -150,7 +150,11 @@ TEST(LoadRemoval, ACableThatLosesItsTensionEndsTheRecordThere) {
     EXPECT_EQ(found.outcome, LoadRemovalOutcome::slack) << force;
     EXPECT_LT(found.last_time, 0.1) << force;
     ASSERT_FALSE(found.record.times.empty()) << force;
-    EXPECT_EQ(found.last_time, found.record.times.back()) << force;
+    EXPECT_GE(found.last_time, found.record.times.back()) << force;
+    EXPECT_LT(found.last_time, found.record.times.back() + 0.001) << force;
+    // Whatever the instants that are asked for, the cable goes slack at the same one.
+    for (const double interval : {0.2, 0.05, 0.0103})
+      EXPECT_NEAR(load_removal(cable, force, 1.0, interval).last_time, found.last_time, 1e-5);
     EXPECT_TRUE(found.words.empty()) << found.words;
   };
   for (const double force : {-20.0, 20.0}) {
@@ -165,7 +169,8 @@ TEST(LoadRemoval, AnIntegrationThatFailsEndsTheRecordInCvodesWords) {
   const auto found = load_removal(kollar_cable(weight_alone, 10), 0.2, 1.0, 0.1, few);
   EXPECT_EQ(found.outcome, LoadRemovalOutcome::integration_failed);
   EXPECT_NE(found.words.find("CV_TOO_MUCH_WORK"), std::string::npos) << found.words;
-  EXPECT_EQ(found.last_time, 0.0);
+  EXPECT_GT(found.last_time, 0.0);
+  EXPECT_LT(found.last_time, 0.1);
   EXPECT_EQ(found.record.times.size(), 1U);
 }
 

@@ -19,14 +19,16 @@ enum class MassModel {
 struct ElementsMode {
   ModeFamily family;      ///< by the symmetry of the vertical displacement about mid-span
   double frequency;       ///< Hz
+  double along_share;     ///< share of the kinetic energy that moves along the span, 0 … 1
   Eigen::VectorXd shape;  ///< 2(N − 1): x, y of each free node, largest magnitude 1
 };
 
 /// Undamped modes of the bare cable about its equilibrium.
 struct ElementsModes {
   EquilibriumOutcome outcome;  ///< of the equilibrium
-  std::vector<ElementsMode>
-      modes;  ///< ascending frequency; vertical modes and those along the cable
+  /// Ascending frequency; those across the span and those along it, which `along_share` tells
+  /// apart. None without an equilibrium.
+  std::vector<ElementsMode> modes;
 };
 
 namespace detail {
@@ -51,6 +53,13 @@ inline Eigen::MatrixXd mass_matrix(const BarChain& chain, MassModel model) {
   return matrix;
 }
 
+/// Share of φᵀ M φ of a shape's displacements along the span.
+inline double along_share(const Eigen::MatrixXd& mass, const Eigen::VectorXd& shape) {
+  Eigen::VectorXd along = shape;
+  for (Eigen::Index k = 1; k < along.size(); k += 2) along[k] = 0.0;
+  return along.dot(mass * along) / shape.dot(mass * shape);
+}
+
 /// Positive where a shape is its own mirror image, negative where it is the opposite of it.
 inline ModeFamily family_of(const Eigen::VectorXd& shape) {
   const Eigen::Index nodes = shape.size() / 2;
@@ -73,15 +82,19 @@ inline ElementsModes elements_modes(const Conductor<double>& conductor, int elem
   require_within("number of modes", count, "", 1, 2.0 * (elements - 1));
   const BarChain chain(conductor, conductor.span / 2, elements);
   const ChainEquilibrium rest = chain_equilibrium(chain, 0.0);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      Eigen::MatrixXd(tangent_stiffness(chain, rest.nodes)), detail::mass_matrix(chain, model));
   ElementsModes result{rest.outcome, {}};
+  if (rest.outcome != EquilibriumOutcome::converged) return result;
+  const Eigen::MatrixXd mass = detail::mass_matrix(chain, model);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      Eigen::MatrixXd(tangent_stiffness(chain, rest.nodes)), mass);
   for (int k = 0; k < count; ++k) {
     Eigen::VectorXd shape = solver.eigenvectors().col(k);
+    const double along = detail::along_share(mass, shape);
     shape /= shape.cwiseAbs().maxCoeff();
-    const double squared = std::fmax(solver.eigenvalues()[k], 0.0);
-    result.modes.push_back(
-        {detail::family_of(shape), std::sqrt(squared) / (2.0 * pi<double>), std::move(shape)});
+    // Every bar is in tension, so no eigenvalue is negative but by round-off.
+    const double frequency =
+        std::sqrt(std::fmax(solver.eigenvalues()[k], 0.0)) / (2.0 * pi<double>);
+    result.modes.push_back({detail::family_of(shape), frequency, along, std::move(shape)});
   }
   return result;
 }

@@ -38,14 +38,16 @@ class CondensedCable {
 
   static constexpr int states() { return 2 * coordinates; }
 
-  /// The state at rest under a further force (N).
+  /// The state at rest under a further force (N), and whether that and the equilibrium with the
+  /// weight alone were found.
   struct Start {
     Eigen::VectorXd state;
     EquilibriumOutcome outcome;
   };
   Start held_by(double force) const {
     const auto [held, outcome] = equilibrium(resting_load_ + force);
-    Start start{Eigen::VectorXd::Zero(states()), outcome};
+    const bool found = rest_outcome_ == EquilibriumOutcome::converged;
+    Start start{Eigen::VectorXd::Zero(states()), found ? outcome : rest_outcome_};
     start.state.template head<coordinates>() = held;
     return start;
   }
@@ -62,6 +64,9 @@ class CondensedCable {
   double tension(const double* state) const {
     return tension_ + additional_tension(Eigen::Map<const Coordinates>(state));
   }
+
+  /// The tension (N): the cable is one while it is positive.
+  double margin(const double* state) const { return tension(state); }
 
   /// d(state)/dt.
   void rate(const double* state, double* rate_of_state) const {
@@ -99,6 +104,7 @@ class CondensedCable {
   double tension_, stretch_, slope_, resting_load_;
   Square mass_ = Square::Zero(), stiffness_ = Square::Zero(), inverse_mass_, damping_;
   Coordinates load_shape_, place_, rest_;
+  EquilibriumOutcome rest_outcome_;
 };
 
 template <int Sines>
@@ -131,7 +137,9 @@ CondensedCable<Sines>::CondensedCable(const Conductor<double>& conductor, double
   place_[Sines] = 1.0;
   mass_ *= conductor.mass_per_length;
   inverse_mass_ = mass_.llt().solve(Square::Identity());
-  rest_ = equilibrium(resting_load_).coordinates;
+  const Equilibrium rest = equilibrium(resting_load_);
+  rest_ = rest.coordinates;
+  rest_outcome_ = rest.outcome;
   damping_ = damping.mass_factor * mass_ + damping.stiffness_factor * tangent(rest_);
 }
 

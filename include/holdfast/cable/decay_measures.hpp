@@ -20,8 +20,8 @@ struct DecayRecord {
 struct DecayMeasures {
   double first_peak;       ///< m, the opposite peak: extreme between the first two crossings
   double first_peak_time;  ///< t₁ (s)
-  double period;           ///< T (s), mean of two cycles from the first crossing of equilibrium on
-  double logarithmic_decrement;  ///< δ per cycle, from the first four peaks, two cycles
+  double period;  ///< T (s), mean of two cycles from the first crossing of the equilibrium on
+  double logarithmic_decrement;  ///< δ per cycle, from the first four peaks
 };
 
 /// One extreme between two crossings of the equilibrium.
@@ -32,7 +32,11 @@ struct DecayPeak {
 
 /// The times (s) at which a record crosses the equilibrium, on the chord between two samples, and
 /// the extremes between successive crossings, at the vertex of the parabola through the three
-/// samples about each. A ripple that does not reach the equilibrium makes no peak.
+/// samples about each.
+///
+/// A ripple makes no peak: a swing counts once it reaches a twentieth of the swing before it. Where
+/// noise crosses the equilibrium to and fro before that, the crossing is midway between the first
+/// and the last. Noise still lifts each peak by about two of its standard deviations.
 struct DecayEvents {
   std::vector<double> crossings;
   std::vector<DecayPeak> peaks;  ///< peaks[k] lies between crossings[k] and crossings[k + 1]
@@ -62,15 +66,26 @@ inline DecayEvents decay_events(const DecayRecord& record) {
   if (t.size() != z.size())
     throw InvalidParameter("number of displacements", static_cast<double>(z.size()), "",
                            "the number of times");
+  constexpr double smallest_swing = 0.05;
   DecayEvents events;
-  std::size_t extreme = 0;
+  std::size_t extreme = 0;  // of the swing that is under way
+  double first = 0.0, last = 0.0;
+  bool crossing = false;  // whether the equilibrium was crossed since that swing was last seen
   for (std::size_t k = 1; k < t.size(); ++k) {
-    const bool crossed = (z[k - 1] < 0.0) != (z[k] < 0.0);
-    if (crossed) {
-      if (!events.crossings.empty()) events.peaks.push_back(detail::vertex(record, extreme));
-      events.crossings.push_back(t[k - 1] + (t[k] - t[k - 1]) * z[k - 1] / (z[k - 1] - z[k]));
+    if ((z[k - 1] < 0.0) != (z[k] < 0.0)) {
+      last = t[k - 1] + (t[k] - t[k - 1]) * z[k - 1] / (z[k - 1] - z[k]);
+      if (!crossing) first = last;
+      crossing = true;
     }
-    if (crossed || std::abs(z[k]) > std::abs(z[extreme])) extreme = k;
+    const bool other_side = (z[k] < 0.0) != (z[extreme] < 0.0);
+    const bool swings = std::abs(z[k]) >= smallest_swing * std::abs(z[extreme]);
+    if (other_side && swings) {
+      if (!events.crossings.empty()) events.peaks.push_back(detail::vertex(record, extreme));
+      events.crossings.push_back(0.5 * (first + last));
+    }
+    if (swings) crossing = false;
+    if ((other_side && swings) || (!other_side && std::abs(z[k]) > std::abs(z[extreme])))
+      extreme = k;
   }
   return events;
 }

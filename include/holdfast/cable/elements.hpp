@@ -70,7 +70,8 @@ class CableElements {
   /// Equilibrium with the absorber's weight.
   const ChainEquilibrium& rest() const { return rest_; }
 
-  /// The state at rest under a further force (N) at the absorber's place, and how it was found.
+  /// The state at rest under a further force (N) at the absorber's place, and whether that and the
+  /// equilibrium with the weight alone were found.
   struct Start {
     Eigen::VectorXd state;
     EquilibriumOutcome outcome;
@@ -95,6 +96,9 @@ class CableElements {
   /// undamped motion.
   double energy(const Eigen::VectorXd& state) const;
 
+  /// The smallest tension (N) of the bars: the cable is one while it is positive.
+  double margin(const double* state) const { return chain_.smallest_tension(positions(state)); }
+
   /// Positions of the free nodes.
   BarChain::Nodes positions(const double* state) const;
 
@@ -108,6 +112,24 @@ class CableElements {
         node == chain_.loaded_node() && absorber_.reading == AbsorberReading::rigid_mass;
     return chain_.mass(node) + (carries ? absorber_.mass : 0.0);
   }
+  /// Place (m) and velocity (m/s) of a node.
+  template <class Scalar>
+  struct NodeMotion {
+    Vector<Scalar, 2> place, velocity;
+  };
+  /// The supports are nodes −1 and free_nodes().
+  template <class Scalar>
+  NodeMotion<Scalar> motion_of(const Scalar* state, int node) const;
+  /// Force (N) of a bar on its left node, elastic and damping.
+  template <class Scalar>
+  Vector<Scalar, 2> pull_of(int bar, const NodeMotion<Scalar>& left,
+                            const NodeMotion<Scalar>& right) const;
+  /// Writes the rates of the mass on its spring; its force (N) on the loaded node.
+  template <class Scalar>
+  Scalar spring_rate(const Scalar* state, Scalar* rate_of_state) const;
+  /// The spring's entries but those that the loaded node has without it.
+  template <class Set>
+  void spring_jacobian(Set&& set) const;
   double resting_load() const { return absorber_.mass * chain_.conductor().gravity; }
 
   BarChain chain_;
@@ -136,14 +158,15 @@ inline CableElements::CableElements(const Conductor<double>& conductor, double p
   require_non_negative("stiffness factor beta", damping.stiffness_factor, "s");
   rest_ = chain_equilibrium(chain_, resting_load());
   for (int e = 0; e < chain_.elements(); ++e)
-    bar_damping_.push_back(damping_.stiffness_factor * bar_stiffness(chain_.reach(rest_.nodes, e),
-                                                                     chain_.length(e),
-                                                                     chain_.axial_stiffness()));
+    bar_damping_.emplace_back(
+        damping_.stiffness_factor *
+        bar_stiffness(chain_.reach(rest_.nodes, e), chain_.length(e), chain_.axial_stiffness()));
 }
 
 inline CableElements::Start CableElements::held_by(double force) const {
   const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
-  Start start{Eigen::VectorXd::Zero(states()), held.outcome};
+  const bool found = rest_.outcome == EquilibriumOutcome::converged;
+  Start start{Eigen::VectorXd::Zero(states()), found ? held.outcome : rest_.outcome};
   for (int node = 0; node < chain_.free_nodes(); ++node)
     start.state.segment<2>(first_state(node)) = held.nodes.col(node);
   if (sprung()) {
@@ -154,89 +177,111 @@ inline CableElements::Start CableElements::held_by(double force) const {
 }
 
 template <class Scalar>
-void CableElements::rate(const Scalar* state, Scalar* rate_of_state) const {
-  using Pair = Vector<Scalar, 2>;
-  const auto pair_at = [state](int index) { return Pair(state[index], state[index + 1]); };
+CableElements::NodeMotion<Scalar> CableElements::motion_of(const Scalar* state, int node) const {
   const Scalar zero(0);
-  // Each bar is computed once: it pulls its left node forth and its right node back.
-  Pair from(zero, zero), from_velocity(zero, zero), pull_before(zero, zero);
-  for (int e = 0; e <= chain_.free_nodes(); ++e) {
-    const bool at_support = e == chain_.free_nodes();
-    const int index = at_support ? 0 : first_state(e);
-    const Pair to = at_support ? Pair(Scalar(chain_.conductor().span), zero) : pair_at(index);
-    const Pair to_velocity = at_support ? Pair(zero, zero) : pair_at(index + 2);
-    const Matrix<double, 2>& damper = bar_damping_[static_cast<std::size_t>(e)];
-    const Pair closing = to_velocity - from_velocity;
-    const Pair pull = bar_pull<Scalar>(to - from, chain_.length(e), chain_.axial_stiffness()) +
-                      Pair(damper(0, 0) * closing[0] + damper(0, 1) * closing[1],
-                           damper(1, 0) * closing[0] + damper(1, 1) * closing[1]);
-    if (e > 0) {
-      const int node = e - 1, own = first_state(node);
-      Pair force = pull - pull_before;
-      force[1] += Scalar(chain_.mass(node) * chain_.conductor().gravity);
-      if (node == chain_.loaded_node()) {
-        force[1] += Scalar(resting_load());
-        if (sprung()) {
-          const Scalar lag = state[own + 4] - displacement(state);
-          const Scalar closing_speed = state[own + 5] - state[own + 3];
-          const Scalar spring = absorber_.stiffness * lag + absorber_.damping * closing_speed;
-          force[1] += spring;
-          rate_of_state[own + 4] = state[own + 5];
-          rate_of_state[own + 5] = -spring / Scalar(absorber_.mass);
-        }
-      }
-      for (int i = 0; i < 2; ++i) {
-        rate_of_state[own + i] = state[own + 2 + i];
-        rate_of_state[own + 2 + i] =
-            force[i] / Scalar(inertia(node)) - damping_.mass_factor * state[own + 2 + i];
-      }
-    }
-    from = to;
-    from_velocity = to_velocity;
-    pull_before = pull;
+  if (node < 0) return {{zero, zero}, {zero, zero}};
+  if (node == chain_.free_nodes()) {
+    return {{Scalar(chain_.conductor().span), zero}, {zero, zero}};
   }
+  const Scalar* own = state + first_state(node);
+  return {{own[0], own[1]}, {own[2], own[3]}};
+}
+
+template <class Scalar>
+Vector<Scalar, 2> CableElements::pull_of(int bar, const NodeMotion<Scalar>& left,
+                                         const NodeMotion<Scalar>& right) const {
+  const Matrix<double, 2>& damper = bar_damping_[static_cast<std::size_t>(bar)];
+  const Vector<Scalar, 2> closing = right.velocity - left.velocity;
+  const Vector<Scalar, 2> damping(damper(0, 0) * closing[0] + damper(0, 1) * closing[1],
+                                  damper(1, 0) * closing[0] + damper(1, 1) * closing[1]);
+  return bar_pull<Scalar>(right.place - left.place, chain_.length(bar), chain_.axial_stiffness()) +
+         damping;
+}
+
+template <class Scalar>
+Scalar CableElements::spring_rate(const Scalar* state, Scalar* rate_of_state) const {
+  const int own = first_state(chain_.loaded_node());
+  const Scalar lag = state[own + 4] - displacement(state);
+  const Scalar closing_speed = state[own + 5] - state[own + 3];
+  const Scalar spring = absorber_.stiffness * lag + absorber_.damping * closing_speed;
+  rate_of_state[own + 4] = state[own + 5];
+  rate_of_state[own + 5] = -spring / Scalar(absorber_.mass);
+  return spring;
+}
+
+template <class Scalar>
+void CableElements::rate(const Scalar* state, Scalar* rate_of_state) const {
+  // Each bar is computed once: it pulls its left node forth and its right node back.
+  NodeMotion<Scalar> here = motion_of(state, 0);
+  Vector<Scalar, 2> pull_before = pull_of(0, motion_of(state, -1), here);
+  for (int node = 0; node < chain_.free_nodes(); ++node) {
+    const NodeMotion<Scalar> next = motion_of(state, node + 1);
+    const Vector<Scalar, 2> pull_behind = pull_of(node + 1, here, next);
+    Vector<Scalar, 2> force = pull_behind - pull_before;
+    force[1] += Scalar(chain_.mass(node) * chain_.conductor().gravity);
+    if (node == chain_.loaded_node()) {
+      force[1] += Scalar(resting_load());
+      if (sprung()) force[1] += spring_rate(state, rate_of_state);
+    }
+    Scalar* own = rate_of_state + first_state(node);
+    for (int i = 0; i < 2; ++i) {
+      own[i] = here.velocity[i];
+      own[2 + i] = force[i] / Scalar(inertia(node)) - damping_.mass_factor * here.velocity[i];
+    }
+    here = next;
+    pull_before = pull_behind;
+  }
+}
+
+template <class Set>
+void CableElements::spring_jacobian(Set&& set) const {
+  const int own = first_state(chain_.loaded_node());
+  const double node = inertia(chain_.loaded_node()), mass = absorber_.mass;
+  const double stiffness = absorber_.stiffness, damping = absorber_.damping;
+  set(own + 3, own + 4, stiffness / node);
+  set(own + 3, own + 5, damping / node);
+  set(own + 4, own + 5, 1.0);
+  set(own + 5, own + 1, stiffness / mass);
+  set(own + 5, own + 3, damping / mass);
+  set(own + 5, own + 4, -stiffness / mass);
+  set(own + 5, own + 5, -damping / mass);
 }
 
 template <class Set>
 void CableElements::jacobian(const double* state, Set&& set) const {
   const BarChain::Nodes nodes = positions(state);
-  const auto bar = [&](int e) {
+  const auto stiffness = [&](int e) {
     return bar_stiffness(chain_.reach(nodes, e), chain_.length(e), chain_.axial_stiffness());
   };
   const auto damper = [&](int e) { return bar_damping_[static_cast<std::size_t>(e)]; };
-  const auto block = [&](int row, int column, const Matrix<double, 2>& values) {
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) set(row + i, column + j, values(i, j));
+  // Acceleration of a node by the places and velocities of a node.
+  const auto blocks = [&](int of, int by, const Matrix<double, 2>& place,
+                          const Matrix<double, 2>& velocity) {
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        set(first_state(of) + 2 + i, first_state(by) + j, place(i, j));
+        set(first_state(of) + 2 + i, first_state(by) + 2 + j, velocity(i, j));
+      }
+    }
   };
-  Matrix<double, 2> before = bar(0);
+  Matrix<double, 2> before = stiffness(0);
   for (int node = 0; node < chain_.free_nodes(); ++node) {
     const int own = first_state(node);
     const double inverse = 1.0 / inertia(node);
-    const Matrix<double, 2> behind = bar(node + 1);
-    Matrix<double, 2> position = -inverse * (before + behind);
+    const Matrix<double, 2> behind = stiffness(node + 1);
+    Matrix<double, 2> place = -inverse * (before + behind);
     Matrix<double, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
                                  damping_.mass_factor * Matrix<double, 2>::Identity();
     if (sprung() && node == chain_.loaded_node()) {
-      position(1, 1) -= inverse * absorber_.stiffness;
+      place(1, 1) -= inverse * absorber_.stiffness;
       velocity(1, 1) -= inverse * absorber_.damping;
-      set(own + 3, own + 4, inverse * absorber_.stiffness);
-      set(own + 3, own + 5, inverse * absorber_.damping);
-      set(own + 4, own + 5, 1.0);
-      set(own + 5, own + 1, absorber_.stiffness / absorber_.mass);
-      set(own + 5, own + 3, absorber_.damping / absorber_.mass);
-      set(own + 5, own + 4, -absorber_.stiffness / absorber_.mass);
-      set(own + 5, own + 5, -absorber_.damping / absorber_.mass);
+      spring_jacobian(set);
     }
     for (int i = 0; i < 2; ++i) set(own + i, own + 2 + i, 1.0);
-    block(own + 2, own, position);
-    block(own + 2, own + 2, velocity);
-    if (node > 0) {
-      block(own + 2, first_state(node - 1), inverse * before);
-      block(own + 2, first_state(node - 1) + 2, inverse * damper(node));
-    }
+    blocks(node, node, place, velocity);
+    if (node > 0) blocks(node, node - 1, inverse * before, inverse * damper(node));
     if (node + 1 < chain_.free_nodes()) {
-      block(own + 2, first_state(node + 1), inverse * behind);
-      block(own + 2, first_state(node + 1) + 2, inverse * damper(node + 1));
+      blocks(node, node + 1, inverse * behind, inverse * damper(node + 1));
     }
     before = behind;
   }

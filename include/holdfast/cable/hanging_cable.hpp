@@ -10,11 +10,11 @@ namespace holdfast {
 
 /// How an equilibrium was sought.
 enum class EquilibriumOutcome {
-  converged,      ///< the supports are met to round-off
-  not_converged,  ///< they are not: the load is beyond what the number type can resolve
+  converged,      ///< the forces balance, or the supports are met to 2·10⁻¹¹ of the span
+  not_converged,  ///< they do not: the load is beyond what the number type can resolve
 };
 
-/// Equilibrium of the whole cable under one vertical point load.
+/// Equilibrium of the whole cable under one vertical point load; NaN where it was not found.
 template <class Scalar>
 struct LoadedCable {
   Scalar tension;         ///< H (N), horizontal, the same all along
@@ -51,7 +51,7 @@ class HangingCable {
 
   /// The bare cable.
   LoadedCable<Scalar> bare() const {
-    return {bare_tension_, weight_ * length_ / Scalar(2), EquilibriumOutcome::converged};
+    return {bare_tension_, weight_ * length_ / Scalar(2), bare_outcome_};
   }
 
   /// s (m): the material point of the bare cable that hangs at x, 0 ≤ x ≤ L.
@@ -100,6 +100,8 @@ class HangingCable {
   }
 
  private:
+  /// How near the supports are met, in spans.
+  static Scalar largest_miss() { return Scalar(1e5) * std::numeric_limits<Scalar>::epsilon(); }
   static Scalar resolution() { return Scalar(4) * std::numeric_limits<Scalar>::epsilon(); }
 
   /// dx/ds = H/EA + H/T.
@@ -114,6 +116,7 @@ class HangingCable {
 
   Scalar weight_, stiffness_, span_;
   Scalar length_{}, bare_tension_{};
+  EquilibriumOutcome bare_outcome_ = EquilibriumOutcome::not_converged;
 };
 
 /// Half of the bare cable: H and l with x(l) = L/2 and y(l) = f, V = w l, by Newton's method.
@@ -130,6 +133,8 @@ void HangingCable<Scalar>::settle_length(const Conductor<Scalar>& conductor) {
     jacobian.col(0) = extent.derivative.col(0);
     jacobian.col(1) << tension / stiffness_ + tension / taut, support / stiffness_ + support / taut;
     const Vector<Scalar, 2> miss(extent.horizontal - target[0], extent.vertical - target[1]);
+    bare_outcome_ = miss.norm() < largest_miss() * span_ ? EquilibriumOutcome::converged
+                                                         : EquilibriumOutcome::not_converged;
     const Vector<Scalar, 2> change = step_within(-(jacobian.inverse() * miss).eval(), tension);
     tension += change[0];
     half += change[1];
@@ -177,14 +182,18 @@ LoadedCable<Scalar> HangingCable<Scalar>::under_load(const Scalar& load,
     }
     if (!closer) break;
   }
-  const bool met = miss < Scalar(1e6) * resolution() * span_;
-  cable.outcome = met ? EquilibriumOutcome::converged : EquilibriumOutcome::not_converged;
-  return cable;
+  if (miss < largest_miss() * span_) {
+    cable.outcome = EquilibriumOutcome::converged;
+    return cable;
+  }
+  const Scalar none = std::numeric_limits<Scalar>::quiet_NaN();
+  return {none, none, EquilibriumOutcome::not_converged};
 }
 
 /// Force and displacement of the cable's point under the load, after the exact statics.
 ///
-/// The interface is that of `IrvinePointLoad`; w counts from the bare cable.
+/// The interface is that of `IrvinePointLoad`; w counts from the bare cable. NaN where
+/// `HangingCable::under_load` finds no equilibrium.
 template <class Scalar>
 class CatenaryPointLoad {
  public:

@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +16,8 @@
 
 #include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/ceres/decay_question.hpp"
+#include "holdfast/ceres/decay_residuals.hpp"
 #include "holdfast/core/errors.hpp"
-#include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/two_dof.hpp"
 
 /// Fits of the plant to records by Ceres Solver. Needs a package besides Eigen.
@@ -27,8 +28,8 @@ namespace holdfast::fit {
 /// and both minima are reported.
 ///
 /// The parameters are fitted by their logarithms, within a factor 10⁶ of the given plant's
-/// either way (c₂: of the critical damping 2 √(k₂m₂)); derivatives come from dual numbers through
-/// the motion's closed form.
+/// either way (c₂: of the critical damping 2 √(k₂m₂), z₀: of the record's); derivatives come from
+/// dual numbers through the motion's closed form.
 /// @param plant  the values of the parameters that are not free, and where the others start
 /// @throws InvalidParameter for an inadmissible plant, a record with fewer instants than unknowns,
 /// or not ascending, or not finite, or not starting displaced; or no free parameter
@@ -39,90 +40,12 @@ inline DecayFit fit_decay(const DecayRecord& record, const TwoDof<double>& plant
 
 namespace detail {
 
-inline double value_of(double number) { return number; }
-template <class T, int N>
-double value_of(const ::ceres::Jet<T, N>& number) {
-  return number.a;
-}
-
-constexpr std::size_t plant_parameters = 5;             // in the order of PlantParameter
-constexpr std::size_t unknowns = plant_parameters + 1;  // and z₀
-
-/// The plant whose parameters are those of `reference` times e^θ.
-template <class Scalar>
-TwoDof<Scalar> scaled_plant(const TwoDof<double>& reference,
-                            const std::array<Scalar, plant_parameters>& theta) {
-  using std::exp;
-  return {
-      reference.conductor_mass * exp(theta[0]),     reference.conductor_stiffness * exp(theta[1]),
-      reference.conductor_damping * exp(theta[2]),  Scalar(reference.absorber_mass),
-      reference.absorber_stiffness * exp(theta[3]), reference.absorber_damping * exp(theta[4])};
-}
-
-template <class Scalar>
-TwoDof<double> values_of(const TwoDof<Scalar>& plant) {
-  return {value_of(plant.conductor_mass),     value_of(plant.conductor_stiffness),
-          value_of(plant.conductor_damping),  value_of(plant.absorber_mass),
-          value_of(plant.absorber_stiffness), value_of(plant.absorber_damping)};
-}
-
-/// ± √(2 ρ(r)) of Huber's loss ρ: its square is what a least-squares solver then adds up.
-template <class Scalar>
-Scalar huber_residual(const Scalar& residual, double scale) {
-  using std::abs;
-  using std::sqrt;
-  if (!(abs(residual) > Scalar(scale))) return residual;
-  const Scalar root = sqrt(Scalar(2.0 * scale) * abs(residual) - Scalar(scale * scale));
-  return residual < Scalar(0) ? Scalar(-root) : root;
-}
-
-/// Residuals of a record as Ceres asks for them: θ of the five parameters and of z₀.
-struct DecayResiduals {
-  const DecayRecord& record;
-  DecayMeasures measures;
-  DecayTarget target;
-  TwoDof<double> reference;
-  double huber_scale;  // m; ∞ for plain least squares
-
-  int count() const {
-    if (!is_measured(target)) return static_cast<int>(record.times.size());
-    return target == DecayTarget::first_peak_and_period ? 2 : 3;
-  }
-
-  template <class Scalar>
-  bool operator()(const Scalar* m1, const Scalar* k1, const Scalar* c1, const Scalar* k2,
-                  const Scalar* c2, const Scalar* start, Scalar* residuals) const {
-    const auto plant = scaled_plant<Scalar>(reference, {*m1, *k1, *c1, *k2, *c2});
-    if (is_measured(target)) return compare_measures(plant, residuals);
-    using std::exp;
-    const auto motion =
-        free_decay(plant, Scalar(record.displacements.front() * exp(*start)), record.times);
-    bool finite = true;
-    for (std::size_t k = 0; k < motion.size(); ++k) {
-      residuals[k] = huber_residual(Scalar(motion[k] - record.displacements[k]), huber_scale);
-      finite = finite && std::isfinite(value_of(residuals[k]));
-    }
-    return finite;
-  }
-
- private:
-  template <class Scalar>
-  bool compare_measures(const TwoDof<Scalar>& plant, Scalar* residuals) const {
-    const auto decay = relative_decay(plant, free_decay_events(values_of(plant)));
-    if (!decay) return false;
-    const double first_peak = measures.first_peak / record.displacements.front();
-    residuals[0] = decay->first_peak / first_peak - 1.0;
-    residuals[1] = decay->period / measures.period - 1.0;
-    if (target == DecayTarget::first_peak_period_and_decrement)
-      residuals[2] = decay->logarithmic_decrement / measures.logarithmic_decrement - 1.0;
-    return std::isfinite(value_of(residuals[0] + residuals[1] + residuals[count() - 1]));
-  }
-};
+using Theta = std::array<double, unknowns>;
 
 /// Where one run of Ceres ended.
 struct DecayRun {
   bool at_minimum;  // inside the admissible range, converged
-  std::array<double, unknowns> theta;
+  Theta theta;
   double cost;
 };
 
@@ -140,8 +63,40 @@ inline std::unique_ptr<DecayCost> decay_cost(const DecayResiduals& residuals) {
   return std::make_unique<DecayCost>(new DecayResiduals(residuals), residuals.count());
 }
 
+/// Residuals (count), without a robust loss, and their derivatives by the free θ (count × free).
+struct Linearisation {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+
+  bool finite() const { return residuals.allFinite() && jacobian.allFinite(); }
+};
+
+inline Linearisation linearise(const DecayResiduals& residuals, const DecayQuestion& question,
+                               const Theta& theta) {
+  const int count = residuals.count();
+  Linearisation result{Eigen::VectorXd(count), Eigen::MatrixXd(count, unknowns)};
+  std::array<const double*, unknowns> at{};
+  std::array<double*, unknowns> columns{};
+  for (std::size_t k = 0; k < unknowns; ++k) {
+    at[k] = &theta[k];
+    columns[k] = result.jacobian.col(static_cast<Eigen::Index>(k)).data();
+  }
+  DecayResiduals plain = residuals;
+  plain.huber_scale = std::numeric_limits<double>::infinity();
+  if (!decay_cost(plain)->Evaluate(at.data(), result.residuals.data(), columns.data()))
+    result.residuals.setConstant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Index kept = 0;
+  const auto free = free_unknowns(question);
+  for (std::size_t k = 0; k < unknowns; ++k) {
+    if (!free[k]) continue;
+    result.jacobian.col(kept++) = result.jacobian.col(static_cast<Eigen::Index>(k)).eval();
+  }
+  result.jacobian.conservativeResize(Eigen::NoChange, kept);
+  return result;
+}
+
 inline DecayRun run_from(const DecayResiduals& residuals, const DecayQuestion& question,
-                         const std::array<double, unknowns>& start) {
+                         const Theta& start) {
   constexpr double reach = 13.8155;  // ln 10⁶
   DecayRun run{false, start, 0.0};
   const auto free = free_unknowns(question);
@@ -155,6 +110,8 @@ inline DecayRun run_from(const DecayResiduals& residuals, const DecayQuestion& q
     problem.SetParameterLowerBound(blocks[k], 0, -reach);
     problem.SetParameterUpperBound(blocks[k], 0, reach);
   }
+  // Ceres prints what it cannot evaluate; a library does not.
+  if (!linearise(residuals, question, start).finite()) return run;
   ::ceres::Solver::Options options;
   options.logging_type = ::ceres::SILENT;
   options.linear_solver_type = ::ceres::DENSE_QR;
@@ -171,33 +128,6 @@ inline DecayRun run_from(const DecayResiduals& residuals, const DecayQuestion& q
   return run;
 }
 
-/// Residuals (count) and their derivatives by the free θ (count × free) at a point.
-struct Linearisation {
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;
-};
-
-inline Linearisation linearise(const DecayResiduals& residuals, const DecayQuestion& question,
-                               const std::array<double, unknowns>& theta) {
-  const int count = residuals.count();
-  Linearisation result{Eigen::VectorXd(count), Eigen::MatrixXd(count, unknowns)};
-  std::array<const double*, unknowns> at{};
-  std::array<double*, unknowns> columns{};
-  for (std::size_t k = 0; k < unknowns; ++k) {
-    at[k] = &theta[k];
-    columns[k] = result.jacobian.col(static_cast<Eigen::Index>(k)).data();
-  }
-  decay_cost(residuals)->Evaluate(at.data(), result.residuals.data(), columns.data());
-  Eigen::Index kept = 0;
-  const auto free = free_unknowns(question);
-  for (std::size_t k = 0; k < unknowns; ++k) {
-    if (!free[k]) continue;
-    result.jacobian.col(kept++) = result.jacobian.col(static_cast<Eigen::Index>(k)).eval();
-  }
-  result.jacobian.conservativeResize(Eigen::NoChange, kept);
-  return result;
-}
-
 /// 1.4826 times the median of |r|: the standard deviation of Gaussian noise, whatever a few
 /// outliers do.
 inline double median_deviation(const Eigen::VectorXd& residuals) {
@@ -208,28 +138,33 @@ inline double median_deviation(const Eigen::VectorXd& residuals) {
   return 1.4826 * *middle;
 }
 
-inline double parameter_of(const TwoDof<double>& plant, PlantParameter parameter) {
-  switch (parameter) {
-    case PlantParameter::conductor_mass:
-      return plant.conductor_mass;
-    case PlantParameter::conductor_stiffness:
-      return plant.conductor_stiffness;
-    case PlantParameter::conductor_damping:
-      return plant.conductor_damping;
-    case PlantParameter::absorber_stiffness:
-      return plant.absorber_stiffness;
-    case PlantParameter::absorber_damping:
-      break;
+/// Variance of θ over (JᵀJ)⁻¹. Of a time history: [Σψ²/(n − p)]/(mean ψ′)² with the bounded
+/// residuals ψ of Huber's loss; without outliers, or a robust loss, the residuals' scatter. Of
+/// measures: their misfit, not less than 1 % of each. Source: P. J. Huber, Robust Statistics, 1981,
+/// Sect. 7.6.
+inline double variance_factor(const DecayResiduals& residuals, const Linearisation& at) {
+  const auto freedom = static_cast<double>(at.residuals.size() - at.jacobian.cols());
+  if (is_measured(residuals.target))
+    return std::fmax(at.residuals.squaredNorm() / freedom, 0.01 * 0.01);
+  double squares = 0.0, inside = 0.0;
+  for (const double residual : at.residuals) {
+    const double bounded = std::fmin(std::abs(residual), residuals.huber_scale);
+    squares += bounded * bounded;
+    inside += std::abs(residual) <= residuals.huber_scale ? 1.0 : 0.0;
   }
-  return plant.absorber_damping;
+  const double share = inside / static_cast<double>(at.residuals.size());
+  return squares / freedom / (share * share);
 }
 
-/// σ_p = p σ_θ, with the covariance s² (JᵀJ)⁻¹ of θ. NaN where the record says nothing of θ.
-inline std::vector<double> standard_errors(const Linearisation& at, const TwoDof<double>& plant,
+/// σ_p = p σ_θ, with the covariance of θ.
+inline std::vector<double> standard_errors(const DecayResiduals& residuals, const Linearisation& at,
+                                           const TwoDof<double>& plant,
                                            const DecayQuestion& question) {
-  const Eigen::Index count = at.residuals.size(), free = at.jacobian.cols();
-  const double variance = at.residuals.squaredNorm() / static_cast<double>(count - free);
+  const Eigen::Index free = at.jacobian.cols();
+  if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(at.jacobian).rank() < free)
+    return std::vector<double>(question.free.size(), std::numeric_limits<double>::quiet_NaN());
   const Eigen::MatrixXd covariance =
+      variance_factor(residuals, at) *
       (at.jacobian.transpose() * at.jacobian).ldlt().solve(Eigen::MatrixXd::Identity(free, free));
   // The columns stand in the order of the unknowns, the answer in that of the question.
   std::vector<PlantParameter> ordered = question.free;
@@ -237,8 +172,7 @@ inline std::vector<double> standard_errors(const Linearisation& at, const TwoDof
   std::vector<double> errors;
   for (const PlantParameter parameter : question.free) {
     const auto place = std::find(ordered.begin(), ordered.end(), parameter) - ordered.begin();
-    errors.push_back(parameter_of(plant, parameter) *
-                     std::sqrt(variance * covariance(place, place)));
+    errors.push_back(parameter_of(plant, parameter) * std::sqrt(covariance(place, place)));
   }
   return errors;
 }
@@ -246,16 +180,25 @@ inline std::vector<double> standard_errors(const Linearisation& at, const TwoDof
 inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayQuestion& question,
                                const DecayRun& run) {
   const Linearisation at = linearise(residuals, question, run.theta);
+  const auto& theta = run.theta;
   DecayMinimum minimum{};
-  minimum.plant = scaled_plant<double>(
-      residuals.reference, {run.theta[0], run.theta[1], run.theta[2], run.theta[3], run.theta[4]});
-  minimum.initial_displacement =
-      residuals.record.displacements.front() * std::exp(run.theta.back());
-  minimum.standard_errors = standard_errors(at, minimum.plant, question);
-  minimum.residual = std::sqrt(at.residuals.squaredNorm() / static_cast<double>(residuals.count()));
+  minimum.plant =
+      scaled_plant<double>(residuals.reference, {theta[0], theta[1], theta[2], theta[3], theta[4]});
+  minimum.initial_displacement = residuals.record.displacements.front() * std::exp(theta.back());
+  minimum.standard_errors = standard_errors(residuals, at, minimum.plant, question);
+  minimum.residual = std::sqrt(at.residuals.squaredNorm() / residuals.count());
+  if (!is_measured(question.target)) minimum.residual *= residuals.amplitude();
   minimum.cost = run.cost;
   minimum.found_from = 1;
   return minimum;
+}
+
+/// Whether the record says anything: the standard error of at least one parameter is below its
+/// value. On a flat end of the range a solver converges wherever it stands.
+inline bool is_determined(const DecayMinimum& minimum, const DecayQuestion& question) {
+  for (std::size_t k = 0; k < question.free.size(); ++k)
+    if (minimum.standard_errors[k] <= parameter_of(minimum.plant, question.free[k])) return true;
+  return false;
 }
 
 /// Adds a minimum, or one more start to the minimum that it repeats.
@@ -277,17 +220,26 @@ inline void collect(std::vector<DecayMinimum>& minima, const DecayMinimum& found
   known->found_from = starts;
 }
 
-/// c₂ of the starts: from 1/32 to 4 times the critical damping 2 √(k₂m₂) of the absorber, by twos.
-inline std::vector<TwoDof<double>> starts_of(const TwoDof<double>& plant,
-                                             const DecayQuestion& question) {
-  const bool damping_is_free = std::find(question.free.begin(), question.free.end(),
-                                         PlantParameter::absorber_damping) != question.free.end();
-  if (!damping_is_free) return {plant};
-  const double critical = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
-  std::vector<TwoDof<double>> starts;
-  for (double ratio = 1.0 / 32.0; ratio <= 4.0; ratio *= 2.0) {
-    starts.push_back(plant);
-    starts.back().absorber_damping = ratio * critical;
+inline bool damping_is_free(const DecayQuestion& question) {
+  return std::find(question.free.begin(), question.free.end(), PlantParameter::absorber_damping) !=
+         question.free.end();
+}
+
+/// The plant that θ = 0 stands for; c₂, if free, is the critical damping 2 √(k₂m₂).
+inline TwoDof<double> reference_of(TwoDof<double> plant, const DecayQuestion& question) {
+  if (damping_is_free(question))
+    plant.absorber_damping = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
+  return plant;
+}
+
+/// c₂, if free, from 1/32 to 4 times the critical damping by twos.
+inline std::vector<Theta> starts_of(const DecayQuestion& question) {
+  if (!damping_is_free(question)) return {Theta{}};
+  std::vector<Theta> starts;
+  for (int power = -5; power <= 2; ++power) {
+    starts.push_back({});
+    starts.back()[static_cast<std::size_t>(PlantParameter::absorber_damping)] =
+        power * std::log(2.0);
   }
   return starts;
 }
@@ -323,27 +275,43 @@ inline void validate(const DecayRecord& record, const TwoDof<double>& plant,
                            "", "fewer than the measures that are to be met");
 }
 
+/// Runs on from where others ended, now with Huber's loss, whose scale is that of the deepest;
+/// twice, as the first scale is of minima that outliers have moved.
+inline void make_robust(DecayResiduals& residuals, const DecayQuestion& question,
+                        std::vector<DecayRun>& runs) {
+  const auto deeper = [](const DecayRun& a, const DecayRun& b) { return a.cost < b.cost; };
+  for (int pass = 0; pass < 2 && !runs.empty(); ++pass) {
+    const auto deepest = std::min_element(runs.begin(), runs.end(), deeper);
+    const double deviation =
+        median_deviation(linearise(residuals, question, deepest->theta).residuals);
+    if (!(deviation > 1e-12)) return;  // an exact record: nothing lies far out
+    residuals.huber_scale = 1.345 * deviation;
+    for (DecayRun& run : runs) run = run_from(residuals, question, run.theta);
+  }
+}
+
 }  // namespace detail
 
 inline DecayFit fit_decay(const DecayRecord& record, const TwoDof<double>& plant,
                           const DecayQuestion& question) {
   detail::validate(record, plant, question);
-  constexpr double plain = std::numeric_limits<double>::infinity();
   DecayFit fit{FitOutcome::no_minimum, {}, 0};
-  const bool robust = question.robust && question.target == DecayTarget::time_history;
   const DecayMeasures measures = decay_measures(record);
   if (is_measured(question.target) && !std::isfinite(measures.logarithmic_decrement)) return fit;
-  for (const TwoDof<double>& start : detail::starts_of(plant, question)) {
+  detail::DecayResiduals residuals{record, measures, question.target,
+                                   detail::reference_of(plant, question)};
+  std::vector<detail::DecayRun> runs;
+  for (const detail::Theta& start : detail::starts_of(question)) {
     ++fit.starts;
-    detail::DecayResiduals residuals{record, measures, question.target, start, plain};
-    detail::DecayRun run = detail::run_from(residuals, question, {});
-    if (run.at_minimum && robust) {
-      const auto scatter = detail::linearise(residuals, question, run.theta).residuals;
-      residuals.huber_scale = 1.345 * detail::median_deviation(scatter);
-      if (residuals.huber_scale > 0.0) run = detail::run_from(residuals, question, run.theta);
-    }
+    const detail::DecayRun run = detail::run_from(residuals, question, start);
+    if (run.at_minimum) runs.push_back(run);
+  }
+  if (question.robust && !is_measured(question.target))
+    detail::make_robust(residuals, question, runs);
+  for (const detail::DecayRun& run : runs) {
     if (!run.at_minimum) continue;
-    detail::collect(fit.minima, detail::minimum_of(residuals, question, run), question);
+    const DecayMinimum minimum = detail::minimum_of(residuals, question, run);
+    if (detail::is_determined(minimum, question)) detail::collect(fit.minima, minimum, question);
   }
   std::sort(fit.minima.begin(), fit.minima.end(),
             [](const DecayMinimum& a, const DecayMinimum& b) { return a.cost < b.cost; });

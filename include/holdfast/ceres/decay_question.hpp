@@ -16,6 +16,23 @@ enum class PlantParameter {
   absorber_damping,
 };
 
+/// The value of that parameter, in its unit of TwoDof.
+inline double parameter_of(const TwoDof<double>& plant, PlantParameter parameter) {
+  switch (parameter) {
+    case PlantParameter::conductor_mass:
+      return plant.conductor_mass;
+    case PlantParameter::conductor_stiffness:
+      return plant.conductor_stiffness;
+    case PlantParameter::conductor_damping:
+      return plant.conductor_damping;
+    case PlantParameter::absorber_stiffness:
+      return plant.absorber_stiffness;
+    case PlantParameter::absorber_damping:
+      break;
+  }
+  return plant.absorber_damping;
+}
+
 /// What of the record is to be met.
 enum class DecayTarget {
   first_peak_and_period,            ///< each relative to itself
@@ -30,9 +47,9 @@ inline bool is_measured(DecayTarget target) { return target != DecayTarget::time
 struct DecayQuestion {
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};  ///< none twice
   DecayTarget target = DecayTarget::time_history;
-  /// Huber's loss at 1.345 standard deviations, those taken from the median of the plain fit's
-  /// residuals: outliers of the record then count little, and Gaussian noise loses 5 % of its
-  /// information. Only for the time history.
+  /// Huber's loss at 1.345 standard deviations, those taken from the median residual of the deepest
+  /// minimum, the same for all starts: outliers of the record then count little, and Gaussian noise
+  /// loses 5 % of its information. Only for the time history.
   bool robust = true;
   /// Whether z₀ is fitted too (a measured record) or is the record's first value (a computed one).
   /// Only for the time history.
@@ -43,19 +60,23 @@ struct DecayQuestion {
 struct DecayMinimum {
   TwoDof<double> plant;
   double initial_displacement;  ///< z₀ (m)
-  /// Standard errors of the free parameters in the order of the question, from the curvature at the
-  /// minimum and the residuals' scatter. They speak of noise; of a model that cannot follow the
-  /// record, the residual speaks.
+  /// Standard errors of the free parameters in the order of the question; NaN where the record does
+  /// not determine them. Time history: from the residuals' scatter, with a robust loss by Huber's
+  /// sandwich formula. Measures: from their misfit, but not less than from 1 % of each. They speak
+  /// of noise; of a model that cannot follow the record, the residual speaks.
   std::vector<double> standard_errors;
   double residual;  ///< root mean square: m for the time history, relative for the measures
-  double cost;      ///< ½ Σ residual² (m², or relative): the minimum's depth
-  int found_from;   ///< how many of the starts led here
+  /// ½ Σ loss, the minimum's depth, dimensionless: the time history is counted in |z(0)|.
+  double cost;
+  int found_from;  ///< how many of the starts led here
 };
 
 /// How a fit ended.
 enum class FitOutcome {
-  converged,   ///< at least one start led to a minimum
-  no_minimum,  ///< all ran to the edge of the admissible range, or could not be evaluated
+  converged,  ///< at least one start led to a minimum
+  /// All ran to the edge of the admissible range, could not be evaluated, or ended where the record
+  /// says nothing: standard errors beyond the values.
+  no_minimum,
 };
 
 struct DecayFit {

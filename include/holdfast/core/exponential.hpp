@@ -10,13 +10,15 @@ namespace holdfast {
 /// differentiation among them, for which Eigen's Padé approximants are not made.
 ///
 /// Scaling and squaring: e^M = (e^{M/2^s})^{2^s} with ‖M/2^s‖ ≤ 1/2, where 15 terms of the series
-/// leave (1/2)^16/16! < 10⁻¹⁷. For `double` alone, `zero_order_hold` is quicker.
+/// leave (1/2)^16/16! < 10⁻¹⁷; an entry that is not finite makes the result so. For `double` alone,
+/// `zero_order_hold` is quicker.
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {
   Scalar norm = matrix.cwiseAbs().rowwise().sum().maxCoeff();
   int squarings = 0;
   Scalar factor(1);
-  for (; norm > Scalar(0.5); norm /= Scalar(2), factor /= Scalar(2)) ++squarings;
+  for (; norm > Scalar(0.5) && squarings < 1100; norm /= Scalar(2), factor /= Scalar(2))
+    ++squarings;
   const Matrix<Scalar, Size> scaled = matrix * factor;
   const Matrix<Scalar, Size> identity = Matrix<Scalar, Size>::Identity();
   Matrix<Scalar, Size> sum = identity;

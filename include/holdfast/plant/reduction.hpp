@@ -29,8 +29,8 @@ struct ReadingRange {
 ///
 /// The least-squares line need not pass through the equilibrium; its integrals are taken over the
 /// whole range, not over chosen points.
-/// @throws InvalidParameter for a negative or (but for the tangent) empty range, and where the
-/// range reaches beyond what the statics are valid for
+/// @throws InvalidParameter, but for the tangent, which needs no range, for a negative or empty
+/// range and where it reaches beyond what the statics are valid for
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,
                            const ReadingRange& range);
@@ -52,6 +52,7 @@ struct ReducedMasses {
   /// times a relative error of the inputs comes out larger.
   double stiffness_condition;
   double mass_condition;
+  double damping_condition;  ///< the same of c₁ by Eq. (3), besides the 1 that ζ counts
 };
 
 enum class ReductionOutcome {
@@ -169,8 +170,10 @@ inline ReducedMasses reduced_masses(const FrequencyReduction<double>& asked, boo
   const auto seeded = logarithmic_seeds(asked);
   const ReductionDual stiffness = absorber_stiffness_root(seeded, larger);
   const ReductionDual mass = reduced_conductor_mass(seeded, stiffness);
+  const double damping_condition =
+      0.5 * (mass.derivatives() / mass.value() + Eigen::Matrix<double, 4, 1>::Unit(0)).lpNorm<1>();
   return {stiffness.value(), mass.value(), stiffness.derivatives().lpNorm<1>() / stiffness.value(),
-          mass.derivatives().lpNorm<1>() / mass.value()};
+          mass.derivatives().lpNorm<1>() / mass.value(), damping_condition};
 }
 
 }  // namespace detail
@@ -204,7 +207,7 @@ inline ReductionResult reduce_to_frequencies(const FrequencyReduction<double>& a
   if (result.discriminant < 0.0) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result.outcome = ReductionOutcome::no_solution;
-    result.solutions.fill({none, none, none, none});
+    result.solutions.fill({none, none, none, none, none});
     return result;
   }
   result.outcome = result.discriminant > 0.0 ? ReductionOutcome::two_solutions

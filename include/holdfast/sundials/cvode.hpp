@@ -26,6 +26,7 @@ namespace holdfast::cvode {
 /// How an integration ended; each case is a family of CVODE's return flags.
 enum class IntegrationOutcome {
   completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN
+  model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero
   too_much_work,       ///< CV_TOO_MUCH_WORK: the limit of steps was reached
   too_much_accuracy,   ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
   error_test_failed,   ///< CV_ERR_FAILURE: the step shrank without passing the error test
@@ -42,8 +43,9 @@ inline IntegrationOutcome outcome_of_flag(int flag) {
   switch (flag) {
     case CV_SUCCESS:
     case CV_TSTOP_RETURN:
-    case CV_ROOT_RETURN:
       return IntegrationOutcome::completed;
+    case CV_ROOT_RETURN:
+      return IntegrationOutcome::model_ended;
     case CV_TOO_MUCH_WORK:
       return IntegrationOutcome::too_much_work;
     case CV_TOO_MUCH_ACC:
@@ -102,6 +104,13 @@ struct HasBandedJacobian<System,
                          std::void_t<decltype(std::declval<const System&>().half_bandwidth())>>
     : std::true_type {};
 
+/// A system says how far it is from the end of its model if it has margin(state).
+template <class System, class = void>
+struct HasMargin : std::false_type {};
+template <class System>
+struct HasMargin<System, std::void_t<decltype(std::declval<const System&>().margin(
+                             std::declval<const double*>()))>> : std::true_type {};
+
 struct FreeContext {
   void operator()(SUNContext context) const { SUNContext_Free(&context); }
 };
@@ -141,13 +150,16 @@ inline SUNContext make_context() {
 ///
 /// @tparam System  has `int states()`, `void rate(const double* y, double* rate)`; with also
 /// `int half_bandwidth()` and `jacobian(y, set)`, set(row, column, value), it is taken to be stiff:
-/// BDF and Newton's method with a banded matrix; without, Adams' method and a fixed point.
+/// BDF and Newton's method with a banded matrix; without, Adams' method and a fixed point. With
+/// `double margin(const double* y)` the integration ends where that falls to zero, looked for in
+/// every step of the integrator, whatever the instants that are asked for.
 ///
 /// The system must outlive the integrator. Not to be copied or moved: CVODE holds its address.
 template <class System>
 class Integrator {
  public:
-  /// @throws InvalidParameter for tolerances that are not positive
+  /// @param initial_state  states() numbers, in SI units
+  /// @throws InvalidParameter for another number of them, or tolerances that are not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances);
   Integrator(const Integrator&) = delete;
@@ -156,13 +168,14 @@ class Integrator {
   /// Integrates to the instant `time` (s). Once it has failed it stays failed.
   IntegrationOutcome advance_to(double time) {
     if (outcome_ != IntegrationOutcome::completed) return outcome_;
-    sunrealtype reached = 0.0;
-    check(CVode(memory_.get(), time, state_.get(), &reached, CV_NORMAL));
+    check(CVode(memory_.get(), time, state_.get(), &time_, CV_NORMAL));
     return outcome_;
   }
 
   /// The state (states() numbers) at the instant last reached.
   const double* state() const { return N_VGetArrayPointer(state_.get()); }
+  /// That instant (s).
+  double time() const { return time_; }
   IntegrationOutcome outcome() const { return outcome_; }
   /// CVODE's own words on a failure: the flag's name, and its message where it gave one.
   const std::string& words() const { return words_; }
@@ -170,14 +183,19 @@ class Integrator {
   IntegrationCost cost() const {
     IntegrationCost cost;
     if (!memory_) return cost;
-    CVodeGetNumSteps(memory_.get(), &cost.steps);
-    CVodeGetNumRhsEvals(memory_.get(), &cost.rate_evaluations);
-    if constexpr (banded) CVodeGetNumJacEvals(memory_.get(), &cost.jacobian_evaluations);
+    const auto count = [this](int (*get)(void*, long*)) {
+      long number = 0;
+      return get(memory_.get(), &number) == CV_SUCCESS ? number : 0;
+    };
+    cost.steps = count(&CVodeGetNumSteps);
+    cost.rate_evaluations = count(&CVodeGetNumRhsEvals);
+    if constexpr (banded) cost.jacobian_evaluations = count(&CVodeGetNumJacEvals);
     return cost;
   }
 
  private:
   static constexpr bool banded = detail::HasBandedJacobian<System>::value;
+  static constexpr bool bounded = detail::HasMargin<System>::value;
 
   static int rate(sunrealtype, N_Vector state, N_Vector rate_of_state, void* self) {
     const auto& system = static_cast<Integrator*>(self)->system_;
@@ -194,6 +212,11 @@ class Integrator {
     system.jacobian(N_VGetArrayPointer(state), [matrix](int row, int column, double value) {
       SM_ELEMENT_B(matrix, row, column) = value;
     });
+    return 0;
+  }
+
+  static int margin(sunrealtype, N_Vector state, sunrealtype* value, void* self) {
+    *value = static_cast<Integrator*>(self)->system_.margin(N_VGetArrayPointer(state));
     return 0;
   }
 
@@ -217,8 +240,10 @@ class Integrator {
   }
 
   bool check(int flag) {
-    if (flag >= 0 || outcome_ != IntegrationOutcome::completed) return flag >= 0;
-    outcome_ = outcome_of_flag(flag);
+    if (outcome_ != IntegrationOutcome::completed) return false;
+    const bool warning = flag > 0 && flag != CV_ROOT_RETURN;
+    outcome_ = warning ? IntegrationOutcome::completed : outcome_of_flag(flag);
+    if (outcome_ == IntegrationOutcome::completed) return true;
     words_ = name_of_flag(flag) + (message_.empty() ? "" : ": " + message_);
     return false;
   }
@@ -232,10 +257,12 @@ class Integrator {
 
   void use_banded_newton();
   void use_fixed_point();
+  void watch_margin();
 
   const System& system_;
   IntegrationOutcome outcome_ = IntegrationOutcome::completed;
   std::string words_, message_;
+  double time_ = 0.0;
   // Freed in the opposite order: everything before its context.
   detail::Owned<SUNContext, detail::FreeContext> context_;
   detail::Owned<N_Vector, detail::FreeVector> state_;
@@ -253,6 +280,9 @@ Integrator<System>::Integrator(const System& system, const Eigen::VectorXd& init
     : system_(system), context_(detail::make_context()) {
   require_positive("relative tolerance", tolerances.relative, "");
   require_positive("absolute tolerance", tolerances.absolute, "");
+  if (initial_state.size() != system.states())
+    throw InvalidParameter("number of initial states", static_cast<double>(initial_state.size()),
+                           "", "states() of the system");
   if (lacks_memory(context_ != nullptr)) return;
   state_.reset(N_VNew_Serial(system.states(), context_.get()));
   if (lacks_memory(state_ != nullptr)) return;
@@ -269,6 +299,17 @@ Integrator<System>::Integrator(const System& system, const Eigen::VectorXd& init
     use_banded_newton();
   else
     use_fixed_point();
+  if constexpr (bounded) watch_margin();
+}
+
+template <class System>
+void Integrator<System>::watch_margin() {
+  if (outcome_ != IntegrationOutcome::completed) return;
+  if (system_.margin(N_VGetArrayPointer(state_.get())) <= 0.0) {
+    outcome_ = IntegrationOutcome::model_ended;
+    return;
+  }
+  check(CVodeRootInit(memory_.get(), 1, &Integrator::margin));
 }
 
 template <class System>

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <string>
-#include <type_traits>
 
 #include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/cable/elements.hpp"
@@ -21,8 +20,8 @@ enum class LoadRemovalOutcome {
 /// The vibration at the absorber's place after a force is removed at t = 0.
 struct LoadRemoval {
   LoadRemovalOutcome outcome;
-  std::string words;            ///< CVODE's own words, where it gave up
-  double last_time;             ///< s, the last instant of the record
+  std::string words;  ///< CVODE's own words, where it gave up
+  double last_time;   ///< s, of the record's end, or where the cable went slack or CVODE gave up
   double initial_displacement;  ///< m, under the force, from the equilibrium with the weight
   DecayRecord record;           ///< at t = 0, interval, 2 interval, …
   IntegrationCost cost;
@@ -34,9 +33,10 @@ struct LoadRemoval {
 /// @param duration  s, > 0; the record ends at the last multiple of the interval not after it
 /// @param interval  s between the record's instants, > 0
 /// @throws InvalidParameter outside these ranges
-template <class Cable>
+/// @param at_each    called with no arguments before each instant; what it throws ends the run
+template <class Cable, class AtEach>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
-                         const Tolerances& tolerances = {}) {
+                         const Tolerances& tolerances, AtEach&& at_each) {
   require_finite("force", force, "N");
   require_positive("interval", interval, "s");
   require_positive("duration", duration, "s");
@@ -46,33 +46,35 @@ LoadRemoval load_removal(const Cable& cable, double force, double duration, doub
     result.outcome = LoadRemovalOutcome::no_equilibrium;
     return result;
   }
-  const auto is_slack = [&cable](const double* state) {
-    if constexpr (std::is_same_v<Cable, CableElements>)
-      return cable.chain().smallest_tension(cable.positions(state)) <= 0.0;
-    else
-      return cable.tension(state) <= 0.0;
-  };
   const auto samples = static_cast<long>(std::floor(duration / interval * (1.0 + 1e-12)));
   Integrator<Cable> integrator(cable, start.state, tolerances);
   result.initial_displacement = cable.displacement(start.state);
   for (long k = 0; k <= samples; ++k) {
+    at_each();
     const double time = static_cast<double>(k) * interval;
     if (k > 0) integrator.advance_to(time);
+    result.last_time = integrator.time();
+    if (integrator.outcome() == IntegrationOutcome::model_ended) {
+      result.outcome = LoadRemovalOutcome::slack;
+      break;
+    }
     if (integrator.outcome() != IntegrationOutcome::completed) {
       result.outcome = LoadRemovalOutcome::integration_failed;
       result.words = integrator.words();
       break;
     }
-    if (is_slack(integrator.state())) {
-      result.outcome = LoadRemovalOutcome::slack;
-      break;
-    }
-    result.last_time = time;
     result.record.times.push_back(time);
     result.record.displacements.push_back(cable.displacement(integrator.state()));
   }
   result.cost = integrator.cost();
   return result;
+}
+
+/// The same, not to be ended from outside.
+template <class Cable>
+LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
+                         const Tolerances& tolerances = {}) {
+  return load_removal(cable, force, duration, interval, tolerances, [] {});
 }
 
 }  // namespace holdfast::cvode
