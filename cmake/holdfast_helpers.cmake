@@ -1,9 +1,13 @@
 # Small functions that the project's own CMake files share.
 
-# Says that a part is left out because a package is missing; fails instead where
-# HOLDFAST_REQUIRE_PACKAGES is on, so that no check passes by having been skipped.
+# Says that a part is left out because a package is missing, and the reason that the package itself
+# gave, if one follows; fails instead where HOLDFAST_REQUIRE_PACKAGES is on, so that no check passes
+# by having been skipped.
 function(holdfast_report_missing part what debian_package)
   set(text "${part}: not built, because ${what} is missing (Debian package ${debian_package})")
+  if(ARGN)
+    string(APPEND text ". Reason given: ${ARGN}")
+  endif()
   if(HOLDFAST_REQUIRE_PACKAGES)
     message(FATAL_ERROR "${text}")
   endif()
@@ -29,7 +33,7 @@ macro(holdfast_add_adapter adapter part what debian_package)
   if(HOLDFAST_WITH_${holdfast_adapter_option})
     cmake_language(CALL holdfast_find_${adapter})
     if(NOT TARGET holdfast::${adapter} AND HOLDFAST_TOP_LEVEL)
-      holdfast_report_missing("${part}" "${what}" ${debian_package})
+      holdfast_report_missing("${part}" "${what}" ${debian_package} ${${what}_NOT_FOUND_MESSAGE})
     endif()
   endif()
 endmacro()

@@ -33,7 +33,7 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
       "no two-mass plant has the natural frequencies " + rounded_text(asked.first_frequency) +
       " and " + rounded_text(asked.second_frequency) +
       " Hz with k1 = " + rounded_text(asked.conductor_stiffness) + " N/m and an absorber of " +
-      rounded_text(asked.absorber_mass) + " kg: the absorber may weigh " +
+      rounded_text(asked.absorber_mass) + " kg: with this k1 the absorber may weigh " +
       rounded_text(result.largest_absorber_mass) + " kg at most, or k1 must be " +
       rounded_text(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
 }
@@ -125,6 +125,15 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
   }
   if (moving.size() < wanted) return {modes[0].frequency, modes[wanted - 1].frequency};
   return {moving.front(), moving[wanted - 1]};
+}
+
+std::string deep_cable_warning(const Case& the_case) {
+  const double ratio = the_case.conductor.sag / the_case.conductor.span;
+  if (ratio <= 0.125) return "";
+  return "conductor.sag is " + rounded_text(ratio) +
+         " of conductor.span: Eq. 1 and Irvine's modes are those of shallow cables, up to 0.125; "
+         "the "
+         "exact statics and the finite elements hold";
 }
 
 void require_force_within_statics(const Case& the_case, double force) {

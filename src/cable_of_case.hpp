@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "case.hpp"
@@ -40,6 +41,10 @@ CableElements elements_of(const Case& the_case, int elements, AbsorberReading re
 /// Frequencies (Hz) that a reduction takes when none are given: of Irvine's modes that move the
 /// absorber's place by a tenth of their largest displacement or more, the first and the sixth.
 std::pair<double, double> default_frequencies(const Case& the_case);
+
+/// What the user has to know of a sag above an eighth of the span: Eq. 1 and Irvine's modes are
+/// those of shallow cables. Empty otherwise.
+std::string deep_cable_warning(const Case& the_case);
 
 /// Throws WrongInput where a force (N) on the absorber's place lies outside what Eq. 1 and the
 /// exact statics are valid for: it would lift the cable by half of its own weight.

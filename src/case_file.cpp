@@ -158,6 +158,8 @@ void CaseReader::read_override(const std::string& text) {
   if (equals == std::string::npos) throw WrongInput(place + ": expected key=value");
   const std::string name(trimmed(std::string_view(text).substr(0, equals)));
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
+  if (is_case_table(name))
+    throw WrongInput(place + ": [" + name + "] is a table; set one of its keys, " + name + ".KEY");
   if (find_case_key(name) == nullptr) throw WrongInput(place + ": " + unknown_key(name));
   if (value.empty()) throw WrongInput(place + ": expected key=value");
   const toml::table parsed = parse_override_value(value, place);
@@ -187,7 +189,8 @@ void CaseReader::set_number(const CaseKey& key, const toml::node& node, const st
     *key.tuned(case_) = true;
     return;
   }
-  if (!node.is_number()) throw WrongInput(place + ": must be " + key.admissible());
+  if (!node.is_number())
+    throw WrongInput(place + ": must be a number; admissible is " + key.admissible());
   const double value = node.value<double>().value_or(std::nan(""));
   if (!std::isfinite(value)) {
     throw WrongInput(place + ": must be finite; admissible is " + key.admissible());

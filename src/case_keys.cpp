@@ -221,7 +221,8 @@ std::size_t distance_to(std::string_view name, const CaseKey& key) {
   // A key given without its table, or in the wrong one, is near as well.
   const std::size_t dot = name.rfind('.');
   const std::string_view last = dot == std::string_view::npos ? name : name.substr(dot + 1);
-  return std::min(edit_distance(name, key.name), edit_distance(last, key.short_name()) + 1);
+  const std::size_t elsewhere = dot == std::string_view::npos ? 1 : 2;
+  return std::min(edit_distance(name, key.name), edit_distance(last, key.short_name()) + elsewhere);
 }
 
 const CaseKey& number_key_named(std::string_view name) {

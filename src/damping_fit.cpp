@@ -67,23 +67,32 @@ DecayRecord first_part(const DecayRecord& record, double duration) {
   return part;
 }
 
-/// One reading of c2 from a decay that starts at a computed displacement; none where the decay does
-/// not determine it.
-std::optional<AbsorberDampingFit> damping_by(fit::DecayTarget target, const DecayRecord& record,
-                                             const TwoDof<double>& plant) {
+/// One reading of c2 from a decay that starts at a computed displacement.
+struct DampingReading {
+  fit::DecayFit fit;
+  double misfit;  // relative to the measures, or to z(0)
+
+  double value() const { return fit.minima.front().plant.absorber_damping; }
+};
+
+/// None where the decay does not determine it.
+std::optional<DampingReading> damping_by(fit::DecayTarget target, const DecayRecord& record,
+                                         const TwoDof<double>& plant) {
   fit::DecayQuestion question;
   question.fit_initial_displacement = false;
   question.target = target;
   try {
-    AbsorberDampingFit found{target, fit_record(record, plant, question), 0.0, 0.0, 0.0};
-    const fit::DecayMinimum& best = found.fit.minima.front();
+    fit::DecayFit found = fit_record(record, plant, question);
     const double unit = fit::is_measured(target) ? 1.0 : std::abs(record.displacements.front());
-    found.misfit = best.residual / unit;
-    found.lowest = found.highest = best.plant.absorber_damping;
-    return found;
+    const double misfit = found.minima.front().residual / unit;
+    return DampingReading{std::move(found), misfit};
   } catch (const NoAnswer&) {
     return std::nullopt;
   }
+}
+
+double misfit_of(const std::optional<DampingReading>& reading) {
+  return reading ? reading->misfit : std::nan("");
 }
 
 }  // namespace
@@ -92,30 +101,38 @@ AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<doubl
   require_ceres();
   constexpr double largest_misfit = 0.1;
   const DecayRecord record = record_for_fit(the_case);
-  std::optional<AbsorberDampingFit> found =
-      damping_by(fit::DecayTarget::first_peak_and_period, record, plant);
-  if (found && !(found->misfit <= largest_misfit)) found.reset();
-  std::vector<AbsorberDampingFit> histories;
+  const auto peak = damping_by(fit::DecayTarget::first_peak_and_period, record, plant);
+  std::vector<std::optional<DampingReading>> histories;  // the whole one last
   for (const double periods : {1.0, 2.0, 3.0, 6.0}) {
     const double window = periods / the_case.reduction.first_frequency;
-    auto history = damping_by(fit::DecayTarget::time_history, first_part(record, window), plant);
-    if (history) histories.push_back(std::move(*history));
+    histories.push_back(
+        damping_by(fit::DecayTarget::time_history, first_part(record, window), plant));
   }
-  if (!found && !histories.empty()) found = histories.back();
-  if (!found)
+  const std::optional<DampingReading>& whole = histories.back();
+  const bool by_peak = peak && peak->misfit <= largest_misfit;
+  if (!by_peak && !whole)
     throw NoAnswer("the decay of the continuous cable does not determine the absorber's damping");
-  for (const AbsorberDampingFit& history : histories) {
-    found->lowest = std::min(found->lowest, history.lowest);
-    found->highest = std::max(found->highest, history.highest);
+  const DampingReading& taken = by_peak ? *peak : *whole;
+  AbsorberDampingFit found{
+      by_peak ? fit::DecayTarget::first_peak_and_period : fit::DecayTarget::time_history,
+      taken.fit,
+      misfit_of(peak),
+      misfit_of(whole),
+      taken.value(),
+      taken.value()};
+  for (const auto& history : histories) {
+    if (!history) continue;
+    found.lowest = std::min(found.lowest, history->value());
+    found.highest = std::max(found.highest, history->value());
   }
-  return *found;
+  return found;
 }
 
 std::string misfit_warning(const AbsorberDampingFit& found) {
-  if (found.misfit <= 0.3) return "";
-  return "the two-mass plant misses the cable's decay by " +
-         format_number(std::round(found.misfit * 100.0)) +
-         " % of its start: no absorber_damping makes it follow";
+  if (fit::is_measured(found.target)) return "";
+  return "no absorber_damping makes the two-mass plant meet the first peak and period of the "
+         "continuous cable's decay; the one found misses its course by " +
+         format_number(std::round(found.history_misfit * 100.0)) + " % of the start";
 }
 
 std::string settle_plant(Case& the_case) {

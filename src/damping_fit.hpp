@@ -25,7 +25,8 @@ DecayRecord record_for_fit(const Case& the_case);
 struct AbsorberDampingFit {
   fit::DecayTarget target;  ///< what was met
   fit::DecayFit fit;        ///< all minima
-  double misfit;            ///< residual of the deepest, of z(0) or of the measures
+  double peak_misfit;       ///< what c2 misses of peak and period at best, relative; NaN: no peak
+  double history_misfit;    ///< and of the time history over six periods, of z(0); NaN likewise
   /// The least and the largest c2 (N s/m) over all readings of that decay: first peak and period,
   /// and the time history over 1, 2, 3 and 6 periods.
   double lowest, highest;
@@ -36,7 +37,7 @@ struct AbsorberDampingFit {
 AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant);
 
 /// What the user has to know of that fit: that the plant's decay is not the cable's, where it
-/// misses it by more than three tenths. Empty otherwise.
+/// cannot meet its first peak and period. Empty otherwise.
 std::string misfit_warning(const AbsorberDampingFit& found);
 
 /// Completes a case whose plant is not given: reduces it from the conductor and fits c2.

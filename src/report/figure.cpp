@@ -63,7 +63,7 @@ Figure stability_figure(const std::string& name, const std::string& title,
 }
 
 Figure delay_figure(const std::string& name, const std::string& title, const std::string& caption,
-                    const std::vector<std::string>& settings) {
+                    const std::vector<std::string>& settings, const std::string& remark) {
   const Arguments frequencies = {"--frequency", "3:60:115"};
   Figure figure{name, title, caption, {}, "", 360.0};
   for (const std::string criterion : {"attenuates", "stable"}) {
@@ -73,11 +73,7 @@ Figure delay_figure(const std::string& name, const std::string& title, const std
   }
   figure.plot =
       axes("excitation frequency {/:Italic f} (Hz)", "largest sampling period (ms)") +
-      "set logscale y\nset yrange [1:1000]\nset xrange [0:60]\n"
-      "set arrow from 4.1, graph 0 to 4.1, graph 1 nohead lc rgb '#444444' dt 3\n"
-      "set label '4.1 Hz' at 4.6, 1.4 tc rgb '#444444'\n"
-      "plot @" +
-      name +
+      "set logscale y\nset yrange [1:1000]\nset xrange [0:60]\n" + remark + "plot @" + name +
       "-stable@ using 1:($3*1e3) with lines ls 4 dt 2 title 'some D stabilises', \\\n"
       "  @" +
       name +

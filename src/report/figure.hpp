@@ -45,8 +45,9 @@ struct ChartWindow {
 Figure stability_figure(const std::string& name, const std::string& title,
                         const std::string& caption, const ChartWindow& window,
                         const std::vector<std::string>& settings);
+/// @param remark  lines for gnuplot that mark something in the picture
 Figure delay_figure(const std::string& name, const std::string& title, const std::string& caption,
-                    const std::vector<std::string>& settings);
+                    const std::vector<std::string>& settings, const std::string& remark = "");
 Figure history_figure(const std::string& name, const std::string& title, const std::string& caption,
                       const std::string& from, const std::string& to,
                       const std::vector<std::string>& settings);
