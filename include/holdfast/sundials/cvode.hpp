@@ -162,8 +162,11 @@ class Integrator {
   /// @throws InvalidParameter for another number of them, or tolerances that are not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances);
+  ~Integrator() = default;
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
+  Integrator(Integrator&&) = delete;
+  Integrator& operator=(Integrator&&) = delete;
 
   /// Integrates to the instant `time` (s). Once it has failed it stays failed.
   IntegrationOutcome advance_to(double time) {
