@@ -1,7 +1,5 @@
 #include "cable_decay.hpp"
 
-#include <cmath>
-
 #include "cable_of_case.hpp"
 #include "errors.hpp"
 #include "interrupt.hpp"
@@ -28,7 +26,7 @@ CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
       break;
     case cvode::LoadRemovalOutcome::slack:
       throw WrongInput("after " + force + " is removed the cable goes slack within " +
-                       format_number(std::round(removal.last_time * 1e4) / 1e4) +
+                       format_rounded(removal.last_time) +
                        " s, and its model ends: take a smaller force");
     case cvode::LoadRemovalOutcome::no_equilibrium:
       throw NoAnswer("under " + force + " no equilibrium of the elements was found");

@@ -16,12 +16,6 @@ FrequencyReduction<double> asked_of(const Case& the_case) {
           the_case.reduction.first_frequency, the_case.reduction.second_frequency};
 }
 
-/// Five significant digits.
-std::string rounded_text(double value) {
-  const double scale = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
-  return format_number(std::round(value * scale) / scale);
-}
-
 NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
                   const ReductionResult& result) {
   const bool computed = the_case.first_frequency_computed || the_case.second_frequency_computed;
@@ -30,12 +24,12 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
                  "reduction.first_frequency and reduction.second_frequency are not given"
                : "";
   return NoAnswer(
-      "no two-mass plant has the natural frequencies " + rounded_text(asked.first_frequency) +
-      " and " + rounded_text(asked.second_frequency) +
-      " Hz with k1 = " + rounded_text(asked.conductor_stiffness) + " N/m and an absorber of " +
-      rounded_text(asked.absorber_mass) + " kg: with this k1 the absorber may weigh " +
-      rounded_text(result.largest_absorber_mass) + " kg at most, or k1 must be " +
-      rounded_text(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
+      "no two-mass plant has the natural frequencies " + format_rounded(asked.first_frequency) +
+      " and " + format_rounded(asked.second_frequency) +
+      " Hz with k1 = " + format_rounded(asked.conductor_stiffness) + " N/m and an absorber of " +
+      format_rounded(asked.absorber_mass) + " kg: with this k1 the absorber may weigh " +
+      format_rounded(result.largest_absorber_mass) + " kg at most, or k1 must be " +
+      format_rounded(result.smallest_conductor_stiffness) + " N/m at least" + remedy);
 }
 
 }  // namespace
@@ -71,7 +65,7 @@ void require_reading_range(const Case& the_case) {
     throw WrongInput("reduction.reading_above = " + format_number(range.above) +
                      " m: the absorber's place cannot be lifted so far before the statics end; "
                      "admissible is less than " +
-                     rounded_text(-highest) + " m");
+                     format_rounded(-highest) + " m");
   if (!(range.below <= the_case.conductor.sag))
     throw WrongInput("reduction.reading_below = " + format_number(range.below) +
                      " m: admissible is at most the sag, " + format_number(the_case.conductor.sag) +
@@ -130,7 +124,7 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
 std::string deep_cable_warning(const Case& the_case) {
   const double ratio = the_case.conductor.sag / the_case.conductor.span;
   if (ratio <= 0.125) return "";
-  return "conductor.sag is " + rounded_text(ratio) +
+  return "conductor.sag is " + format_rounded(ratio) +
          " of conductor.span: Eq. 1 and Irvine's modes are those of shallow cables, up to 0.125; "
          "the "
          "exact statics and the finite elements hold";
@@ -142,7 +136,7 @@ void require_force_within_statics(const Case& the_case, double force) {
   throw WrongInput("a force of " + format_number(force) +
                    " N lifts the cable by half of its own weight or more, where its statics end: "
                    "admissible is greater than " +
-                   rounded_text(lowest) + " N");
+                   format_rounded(lowest) + " N");
 }
 
 }  // namespace holdfast::program

@@ -36,6 +36,7 @@ struct Entry {
 std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
 std::string value_text(const toml::node& node) {
+  if (const auto number = node.value_exact<double>()) return format_number(*number);
   std::ostringstream stream;
   stream.imbue(std::locale::classic());
   node.visit([&](const auto& value) { stream << value; });

@@ -377,7 +377,7 @@ CaseFault conductor_fault(const Case& the_case) {
   if (!(strain >= smallest_strain && strain <= largest_strain)) {
     return {{"conductor.youngs_modulus", "conductor.area", "conductor.sag",
              "conductor.mass_per_length", "conductor.span", "conductor.gravity"},
-            "the conductor's own weight would stretch it by " + format_number(strain) +
+            "the conductor's own weight would stretch it by " + format_rounded(strain) +
                 " of its length; admissible is from 1e-10, less than which cannot be computed, to "
                 "0.1, more than which no cable bears"};
   }

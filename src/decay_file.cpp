@@ -58,9 +58,9 @@ class DecayTable {
     for (std::size_t row = 1; row < times.size(); ++row) {
       const double step = times[row] - times[row - 1];
       if (step <= 1.5 * usual) continue;
-      throw fault(row, "a gap of " + format_number(step) +
+      throw fault(row, "a gap of " + format_rounded(step) +
                            " s before this row, where the rows usually are " +
-                           format_number(usual) + " s apart");
+                           format_rounded(usual) + " s apart");
     }
   }
 

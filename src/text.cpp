@@ -54,6 +54,13 @@ std::string format_number(double value) {
   return std::string(digits.data(), result.ptr);
 }
 
+std::string format_rounded(double value) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                    std::chars_format::general, 5);
+  return std::string(digits.data(), result.ptr);
+}
+
 std::optional<double> parse_number(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   if (plus) text.remove_prefix(1);

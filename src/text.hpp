@@ -19,6 +19,9 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// The shortest decimal digits that read back as the same double; `inf`, `-inf` and `nan`.
 std::string format_number(double value);
 
+/// Five significant digits at most, for messages: `0.6`, `1354.1`, `2e-07`.
+std::string format_rounded(double value);
+
 /// The number that the whole text stands for, or nothing. `inf` and `nan` are numbers here.
 std::optional<double> parse_number(std::string_view text);
 

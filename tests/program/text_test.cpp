@@ -80,5 +80,12 @@ TEST(Text, SplitKeepsEmptyParts) {
   EXPECT_EQ(split("", ':').size(), 1u);
 }
 
+TEST(FormatRounded, GivesFiveDigitsAtMost) {
+  EXPECT_EQ(format_rounded(0.6000000000000001), "0.6");
+  EXPECT_EQ(format_rounded(1354.087523), "1354.1");
+  EXPECT_EQ(format_rounded(-2e-7), "-2e-07");
+  EXPECT_EQ(format_rounded(100.0), "100");
+}
+
 }  // namespace
 }  // namespace holdfast::program
