@@ -29,7 +29,8 @@ TEST(Readme, ShowsTheProgramThatIsCompiledAndWhatItPrints) {
 
 /// A job that needs an optional package says so where the build has none.
 bool asks_for_a_package(const Outcome& outcome) {
-  return outcome.exit_code == 1 && outcome.errors.find("install lib") != std::string::npos;
+  return outcome.exit_code == 1 &&
+         outcome.errors.find("install the package lib") != std::string::npos;
 }
 
 TEST(Readme, CommandLinesOfTheProgramAreAccepted) {
@@ -49,8 +50,8 @@ TEST(Readme, CommandLinesOfTheProgramAreAccepted) {
 }
 
 TEST(Readme, LinksLeadToFilesThatExist) {
-  for (const std::string page :
-       {"README.md", "docs/theory.md", "docs/notation.md", "docs/reading-the-paper.md"}) {
+  for (const std::string page : {"README.md", "docs/theory.md", "docs/notation.md",
+                                 "docs/reading-the-paper.md", "docs/performance.md"}) {
     const std::string text = read_text(source / page);
     for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
       const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
