@@ -49,8 +49,7 @@ void write_minimum(Table& table, const fit::DecayQuestion& question,
 
 /// Where a fit starts: the case's plant, or what its conductor reduces to with c2 still open.
 TwoDof<double> start_of(const Case& the_case) {
-  if (the_case.plant_given || !the_case.conductor_given) return plant_of(the_case);
-  return plant_without_absorber_damping(the_case);
+  return plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
 }
 
 /// That the plant does not follow the record, where it misses it by three tenths of its start.

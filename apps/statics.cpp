@@ -31,9 +31,8 @@ void run(const JobContext& context, const Options& options) {
   const auto irvine = irvine_statics_of(the_case);
   const auto exact = exact_statics_of(the_case);
   const CableElements cable = elements_of(the_case, options.elements, AbsorberReading::weight);
-  const double stiffness = the_case.plant_given || !the_case.conductor_given
-                               ? the_case.plant.conductor_stiffness
-                               : conductor_stiffness_of(the_case);
+  const double stiffness = plant_is_reduced(the_case) ? conductor_stiffness_of(the_case)
+                                                      : the_case.plant.conductor_stiffness;
   Table table(context,
               {{"force_N", "N", "beyond the absorber's weight, downward"},
                {"exact_m", "m", "displacement of the absorber's place, two elastic catenaries"},

@@ -12,6 +12,12 @@
 
 namespace holdfast::program {
 
+CableDecayQuestion usual_decay(const Case& the_case) {
+  const double period = 1.0 / the_case.reduction.first_frequency;
+  const double force = the_case.absorber.mass * the_case.conductor.gravity / 8.0;
+  return {force, 6.0 * period, period / 250.0};
+}
+
 #ifdef HOLDFAST_HAS_SUNDIALS
 
 namespace {

@@ -21,6 +21,10 @@ struct CableDecayQuestion {
   AbsorberReading reading = AbsorberReading::weight;
 };
 
+/// What is asked where nobody says: an eighth of the absorber's weight removed, six periods of the
+/// first frequency of [reduction], 250 instants in each.
+CableDecayQuestion usual_decay(const Case& the_case);
+
 /// The vibration of the absorber's place.
 struct CableDecay {
   double initial_displacement;  ///< m

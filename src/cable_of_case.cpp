@@ -34,6 +34,10 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
 
 }  // namespace
 
+bool plant_is_reduced(const Case& the_case) {
+  return the_case.conductor_given && !the_case.plant_given;
+}
+
 Conductor<double> conductor_of(const Case& the_case) {
   const auto& c = the_case.conductor;
   return {c.mass_per_length, c.span, c.sag, c.area, c.youngs_modulus, c.damping_ratio, c.gravity};

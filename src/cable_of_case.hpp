@@ -11,6 +11,9 @@
 
 namespace holdfast::program {
 
+/// Whether the plant comes from the conductor: one is given and no plant beside it.
+bool plant_is_reduced(const Case& the_case);
+
 /// The library's objects for [conductor], [absorber] and [reduction] of a case.
 Conductor<double> conductor_of(const Case& the_case);
 StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cable_of_case.hpp"
 #include "errors.hpp"
 #include "text.hpp"
 
@@ -369,9 +370,8 @@ CaseFault conductor_fault(const Case& the_case) {
             quantity("conductor.sag", the_case.conductor.sag, "m") + " must be less than half of " +
                 quantity("conductor.span", span, "m")};
   }
-  const auto& c = the_case.conductor;
-  const double tension = c.mass_per_length * c.gravity * span * span / (8.0 * c.sag);
-  const double strain = tension / (c.youngs_modulus * c.area);
+  const auto conductor = conductor_of(the_case);
+  const double strain = conductor.parabolic_tension() / conductor.axial_stiffness();
   // Below, the stretch of a bar of the continuous cable drowns in the round-off of its length.
   constexpr double smallest_strain = 1e-10, largest_strain = 0.1;
   if (!(strain >= smallest_strain && strain <= largest_strain)) {

@@ -45,12 +45,7 @@ fit::DecayFit fit_record(const DecayRecord&, const TwoDof<double>&, const fit::D
 #endif
 
 DecayRecord record_for_fit(const Case& the_case) {
-  constexpr int periods = 6, samples_per_period = 250;
-  const double period = 1.0 / the_case.reduction.first_frequency;
-  CableDecayQuestion question{};
-  question.force = the_case.absorber.mass * the_case.conductor.gravity / 8.0;
-  question.duration = periods * period;
-  question.interval = period / samples_per_period;
+  CableDecayQuestion question = usual_decay(the_case);
   question.elements = 60;
   return cable_decay(the_case, question).record;
 }
@@ -136,7 +131,7 @@ std::string misfit_warning(const AbsorberDampingFit& found) {
 }
 
 std::string settle_plant(Case& the_case) {
-  if (the_case.plant_given || !the_case.conductor_given) return "";
+  if (!plant_is_reduced(the_case)) return "";
   const TwoDof<double> reduced = plant_without_absorber_damping(the_case);
   const AbsorberDampingFit found = fit_absorber_damping(the_case, reduced);
   auto& plant = the_case.plant;

@@ -17,8 +17,7 @@ void require_ceres();
 fit::DecayFit fit_record(const DecayRecord& record, const TwoDof<double>& plant,
                          const fit::DecayQuestion& question);
 
-/// The decay of the case's continuous cable that a fit without data reads: an eighth of the
-/// absorber's weight removed, six periods of the first frequency.
+/// The usual decay of the case's continuous cable, which a fit without data reads.
 DecayRecord record_for_fit(const Case& the_case);
 
 /// c2 of a plant reduced from the conductor, and how sure it is.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable_decay.hpp"
+#include "cable_of_case.hpp"
 #include "loop_of_case.hpp"
 #include "text.hpp"
 
@@ -180,9 +182,9 @@ std::vector<Figure> paper_figures() {
 
 std::vector<Figure> case_figures(const Case& the_case) {
   Figures figures = loop_figures(the_case);
-  if (the_case.plant_given || !the_case.conductor_given) return figures;
-  const std::string force =
-      format_number(the_case.absorber.mass * the_case.conductor.gravity / 8.0);
+  if (!plant_is_reduced(the_case)) return figures;
+  const CableDecayQuestion decay = usual_decay(the_case);
+  const std::string force = format_number(decay.force);
   figures.insert(
       figures.begin(),
       {statics_figure("statics", "Displacement and force at the absorber",
@@ -190,7 +192,7 @@ std::vector<Figure> case_figures(const Case& the_case) {
                       "-" + force + ":" + force + ":41"),
        decay_figure("decay", "Vibration after " + force + " N is removed",
                     "The continuous cable, and the plant from the same displacement.", force,
-                    format_number(6.0 / the_case.reduction.first_frequency))});
+                    format_number(decay.duration))});
   return figures;
 }
 
