@@ -73,9 +73,9 @@ Job::Job(CLI::App& program, const std::string& name, const std::string& question
       ->group(group);
 }
 
-void Job::add_text(const std::string& name, std::string& value,
-                   const std::string& description) const {
-  options_->add_option(name, value, description)->capture_default_str();
+CLI::Option* Job::add_text(const std::string& name, std::string& value,
+                           const std::string& description) const {
+  return options_->add_option(name, value, description)->capture_default_str();
 }
 
 JobContext Job::context(PlantNeed need) const {

@@ -25,7 +25,8 @@ class Job {
   CLI::App* operator->() const { return options_; }
 
   /// An option that holds one word or number as text, with its default.
-  void add_text(const std::string& name, std::string& value, const std::string& description) const;
+  CLI::Option* add_text(const std::string& name, std::string& value,
+                        const std::string& description) const;
 
   /// Checked case, output and the options that were given; call once the command line is read.
   /// A plant that the case does not give is reduced from its conductor, unless the job does
@@ -63,6 +64,7 @@ void add_stability(CLI::App& program);
 void add_boundary(CLI::App& program);
 void add_max_delay(CLI::App& program);
 void add_response(CLI::App& program);
+void add_design(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_spectrum(CLI::App& program);
 void add_deviation(CLI::App& program);

@@ -28,6 +28,7 @@ void add_jobs(CLI::App& program) {
   add_stability(program);
   add_boundary(program);
   add_response(program);
+  add_design(program);
   add_max_delay(program);
   add_simulate(program);
   add_spectrum(program);

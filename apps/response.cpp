@@ -1,12 +1,7 @@
-#include <limits>
-
 #include "axis.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/chart.hpp"
-#include "holdfast/stability/response.hpp"
+#include "chart_rows.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
-#include "table.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -24,21 +19,13 @@ void run(const JobContext& context, const Options& options) {
       harmonic_input(plant_of(context.case_data), loop, force_hold_of(context.case_data), omega);
   const SteadyResponse<double> response(loop, input, omega);
   const GainGrid grid{parse_axis("--p", options.p), parse_axis("--d", options.d)};
-  Table table(
-      context,
-      {{"proportional_gain", "N/m", "P"},
-       {"differential_gain", "N.s/m", "D"},
-       {"stable", "", "1: asymptotically stable, 0: not", "integer"},
-       {"amplitude_m", "m", "steady amplitude of z1 without backlash; nan where unstable"},
-       {"ratio_to_uncontrolled", "", "amplitude over that without control; nan where unstable"}});
-  visit_stability_chart(
-      characteristic_polynomial(loop).transformed(in_half_plane<double, 6>), grid,
-      [&](const PdGains<double>& gains, bool stable) {
-        const double none = std::numeric_limits<double>::quiet_NaN();
-        const double amplitude = excitation.amplitude * response.amplitude_per_force(gains);
-        table.row(gains.proportional, gains.differential, stable ? 1 : 0, stable ? amplitude : none,
-                  stable ? response.ratio_to_uncontrolled(gains) : none);
-      });
+  GridTable table(
+      context, {{"proportional_gain", "N/m", "P"}, grid.proportional},
+      {{"differential_gain", "N.s/m", "D"}, grid.differential},
+      {{{"stable", "", "1: asymptotically stable, 0: not", "integer"}, "unstable stable"},
+       {{"amplitude_m", "m", "steady amplitude of z1 without backlash; nan where unstable"}},
+       {{"ratio_to_uncontrolled", "", "amplitude over that without control; nan where unstable"}}});
+  append_response_chart(context, loop, response, excitation.amplitude, grid, table);
   table.commit();
 }
 

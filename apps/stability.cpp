@@ -1,10 +1,11 @@
+#include <array>
+
 #include "axis.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/chart.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
+#include "chart_rows.hpp"
+#include "input.hpp"
 #include "job.hpp"
+#include "loop_axis.hpp"
 #include "loop_of_case.hpp"
-#include "table.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -12,49 +13,42 @@ namespace {
 struct Options {
   std::string p = "-1000:200:121";
   std::string d = "-40:20:121";
+  std::vector<std::string> axes;
   bool continuous = false;
   bool radius = false;
 };
 
-std::vector<Column> columns(const Options& options) {
-  std::vector<Column> result = {{"proportional_gain", "N/m", "P"},
-                                {"differential_gain", "N.s/m", "D"},
-                                {"stable", "", "1: asymptotically stable, 0: not", "integer"}};
+std::vector<GridColumn> columns(const Options& options) {
+  std::vector<GridColumn> result = {
+      {{"stable", "", "1: asymptotically stable, 0: not", "integer"}, "unstable stable"}};
   if (!options.radius) return result;
   if (options.continuous) {
-    result.push_back({"spectral_abscissa", "1/s", "largest real part of a characteristic root"});
+    result.push_back({{"spectral_abscissa", "1/s", "largest real part of a characteristic root"}});
   } else {
-    result.push_back({"spectral_radius", "", "largest modulus of a characteristic root"});
+    result.push_back({{"spectral_radius", "", "largest modulus of a characteristic root"}});
   }
   return result;
 }
 
-double growth(const Options& options, const TwoDof<double>& plant, const SampledLoop<double>& loop,
-              const PdGains<double>& gains) {
-  if (!options.continuous) return spectral_radius<double, 5>(loop.engaged_map(gains));
-  const Matrix<double, 4> closed =
-      plant.state_matrix() + plant.control_input() * gains.feedback_row();
-  return spectral_abscissa<double, 4>(closed);
+void run_over_gains(const JobContext& context, const Options& options) {
+  const GainGrid grid{parse_axis("--p", options.p), parse_axis("--d", options.d)};
+  GridTable table(context, {{"proportional_gain", "N/m", "P"}, grid.proportional},
+                  {{"differential_gain", "N.s/m", "D"}, grid.differential}, columns(options));
+  if (options.continuous) {
+    append_continuous_chart(context, plant_of(context.case_data), grid, options.radius, table);
+  } else {
+    const LoopChart chart{loop_point_of(context.case_data),
+                          {LoopParameter::proportional_gain, grid.proportional},
+                          {LoopParameter::differential_gain, grid.differential}};
+    append_sampled_chart(context, chart, options.radius, table);
+  }
+  table.commit();
 }
 
-void run(const JobContext& context, const Options& options) {
-  const TwoDof<double> plant = plant_of(context.case_data);
-  const SampledLoop<double> loop = loop_of(context.case_data);
-  const GainGrid grid{parse_axis("--p", options.p), parse_axis("--d", options.d)};
-  Table table(context, columns(options));
-  const auto write = [&](const PdGains<double>& gains, bool stable) {
-    table.writer().cell(gains.proportional);
-    table.writer().cell(gains.differential);
-    table.writer().cell(stable ? 1 : 0);
-    if (options.radius) table.writer().cell(growth(options, plant, loop, gains));
-    table.writer().end_row();
-  };
-  if (options.continuous) {
-    visit_stability_chart(characteristic_polynomial(plant), grid, write);
-  } else {
-    visit_stability_chart(characteristic_polynomial(loop).transformed(in_half_plane<double, 6>),
-                          grid, write);
-  }
+void run_over_axes(const JobContext& context, const Options& options) {
+  const auto [chart, slow, fast] = loop_chart_of(context.case_data, options.axes);
+  GridTable table(context, slow, fast, columns(options));
+  append_sampled_chart(context, chart, options.radius, table);
   table.commit();
 }
 
@@ -63,12 +57,23 @@ void run(const JobContext& context, const Options& options) {
 void add_stability(CLI::App& program) {
   const Job job(program, "stability", question::gains, "Chart of stable gains (P, D)");
   const auto options = std::make_shared<Options>();
-  job.add_text("--p", options->p, "Proportional gains P, MIN:MAX:COUNT, N/m");
-  job.add_text("--d", options->d, "Differential gains D, MIN:MAX:COUNT, N s/m");
-  job->add_flag("--continuous", options->continuous, "Without sampling: the continuous loop");
+  CLI::Option* p = job.add_text("--p", options->p, "Proportional gains P, MIN:MAX:COUNT, N/m");
+  CLI::Option* d = job.add_text("--d", options->d, "Differential gains D, MIN:MAX:COUNT, N s/m");
+  CLI::Option* continuous =
+      job->add_flag("--continuous", options->continuous, "Without sampling: the continuous loop");
+  job->add_option("--axis", options->axes,
+                  "KEY=MIN:MAX:COUNT, twice: a chart over two keys of [control] or [plant] instead")
+      ->expected(1)
+      ->take_all()
+      ->excludes(p)
+      ->excludes(d)
+      ->excludes(continuous);
   job->add_flag("--radius", options->radius,
                 "Add the spectral radius (continuous: spectral abscissa)");
-  job->final_callback([job, options] { run(job.context(), *options); });
+  job->final_callback([job, options] {
+    options->axes.empty() ? run_over_gains(job.context(), *options)
+                          : run_over_axes(job.context(), *options);
+  });
 }
 
 }  // namespace holdfast::program

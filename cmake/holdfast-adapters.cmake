@@ -1,4 +1,6 @@
 # The optional parts of the library, each a target where its package is found:
+#   holdfast::simd       headers holdfast/simd/, with xsimd 8 or newer (Debian libxsimd-dev) and
+#                        oneTBB (Debian libtbb-dev)
 #   holdfast::sundials   headers holdfast/sundials/, with SUNDIALS 6 or 7 (Debian libsundials-dev)
 #   holdfast::ceres      headers holdfast/ceres/, with Ceres Solver 2 (Debian libceres-dev)
 # The build of the project and the installed package both read this file.
@@ -38,6 +40,19 @@ macro(holdfast_find_ceres)
     if(Ceres_FOUND)
       add_library(holdfast::ceres INTERFACE IMPORTED GLOBAL)
       target_link_libraries(holdfast::ceres INTERFACE holdfast::holdfast Ceres::ceres)
+    endif()
+  endif()
+endmacro()
+
+macro(holdfast_find_simd)
+  if(NOT TARGET holdfast::simd)
+    find_package(xsimd QUIET CONFIG)
+    find_package(TBB QUIET CONFIG)
+    if(xsimd_FOUND AND TBB_FOUND)
+      add_library(holdfast::simd INTERFACE IMPORTED GLOBAL)
+      # Its headers alone: its target may ask for libraries that only its complex numbers need.
+      target_include_directories(holdfast::simd SYSTEM INTERFACE ${xsimd_INCLUDE_DIRS})
+      target_link_libraries(holdfast::simd INTERFACE holdfast::holdfast TBB::tbb)
     endif()
   endif()
 endmacro()

@@ -27,6 +27,28 @@ function(holdfast_embed_case case_file source_file)
     VERBATIM)
 endfunction()
 
+# Charts as netCDF. The library is loaded when a job asks for it rather than linked, since loading it
+# and what it depends on takes longer than a small job does.
+function(holdfast_use_netcdf target)
+  if(NOT HOLDFAST_WITH_NETCDF)
+    return()
+  endif()
+  find_path(HOLDFAST_NETCDF_INCLUDE_DIR netcdf.h)
+  find_library(HOLDFAST_NETCDF_LIBRARY netcdf)
+  mark_as_advanced(HOLDFAST_NETCDF_INCLUDE_DIR HOLDFAST_NETCDF_LIBRARY)
+  if(NOT HOLDFAST_NETCDF_INCLUDE_DIR OR NOT HOLDFAST_NETCDF_LIBRARY)
+    holdfast_report_missing("charts as netCDF" "the netCDF C library" libnetcdf-dev)
+    return()
+  endif()
+  # The link without a version is there only where programs are built.
+  file(REAL_PATH ${HOLDFAST_NETCDF_LIBRARY} library)
+  target_include_directories(${target} SYSTEM PUBLIC ${HOLDFAST_NETCDF_INCLUDE_DIR})
+  target_compile_definitions(${target}
+    PUBLIC HOLDFAST_HAS_NETCDF
+    PRIVATE HOLDFAST_NETCDF_LIBRARY="${library}")
+  target_link_libraries(${target} PRIVATE ${CMAKE_DL_LIBS})
+endfunction()
+
 function(holdfast_add_program)
   find_package(Threads REQUIRED)
   file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
@@ -41,13 +63,15 @@ function(holdfast_add_program)
     PUBLIC holdfast::holdfast CLI11::CLI11 tomlplusplus::tomlplusplus
            nlohmann_json::nlohmann_json Threads::Threads
     PRIVATE holdfast_warnings)
-  foreach(adapter IN ITEMS sundials ceres)
+  foreach(adapter IN ITEMS simd sundials ceres)
     if(TARGET holdfast::${adapter})
       string(TOUPPER ${adapter} name)
       target_compile_definitions(holdfast_program PUBLIC HOLDFAST_HAS_${name})
       target_link_libraries(holdfast_program PRIVATE holdfast::${adapter})
     endif()
   endforeach()
+
+  holdfast_use_netcdf(holdfast_program)
 
   # The name `holdfast` belongs to the library's target, so the executable's target has another.
   add_executable(holdfast_executable ${program_sources})

@@ -96,6 +96,13 @@ void CsvWriter::end_line() {
   cells_in_row_ = 0;
 }
 
+void CsvWriter::rows_of_text(std::string_view text, std::uint64_t rows) {
+  throw_if_interrupted();
+  flush();
+  output_.write(text);
+  rows_ += rows;
+}
+
 void CsvWriter::flush() {
   output_.write(buffer_);
   buffer_.clear();

@@ -51,6 +51,9 @@ class CsvWriter {
     end_row();
   }
 
+  /// Rows that are text already, each with its cells and its line end as this class writes them.
+  void rows_of_text(std::string_view text, std::uint64_t rows);
+
   /// Hands what is still held back to the output; call before its commit().
   void flush();
 

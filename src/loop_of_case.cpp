@@ -33,6 +33,10 @@ SampledLoop<double> loop_of(const Case& the_case) {
   return sampled_loop(plant_of(the_case), sampling_of(the_case));
 }
 
+LoopPoint loop_point_of(const Case& the_case) {
+  return {plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
+}
+
 HarmonicExcitation<double> excitation_of(const Case& the_case) {
   const auto excitation = effective_excitation(the_case);
   return {excitation.amplitude, excitation.frequency};

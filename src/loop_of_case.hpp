@@ -6,6 +6,7 @@
 #include "holdfast/motion/excitation.hpp"
 #include "holdfast/motion/stepper.hpp"
 #include "holdfast/plant/two_dof.hpp"
+#include "holdfast/stability/loop_point.hpp"
 
 namespace holdfast::program {
 
@@ -14,6 +15,7 @@ TwoDof<double> plant_of(const Case& the_case);
 PdGains<double> gains_of(const Case& the_case);
 Sampling<double> sampling_of(const Case& the_case);
 SampledLoop<double> loop_of(const Case& the_case);
+LoopPoint loop_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);

@@ -51,6 +51,13 @@ std::string unique_name() {
 
 }  // namespace
 
+bool is_netcdf_name(const std::optional<fs::path>& path) {
+  constexpr std::string_view ending = ".nc";
+  const std::string name = path ? path->filename().string() : std::string();
+  return name.size() >= ending.size() &&
+         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 OutputFile::OutputFile(const std::optional<fs::path>& path) {
   if (!path || *path == "-") {
     shown_ = "standard output";

@@ -9,6 +9,9 @@
 
 namespace holdfast::program {
 
+/// Whether a result of that name is asked for as netCDF: the name ends in `.nc`.
+bool is_netcdf_name(const std::optional<std::filesystem::path>& path);
+
 /// A file that appears whole or not at all, or standard output.
 ///
 /// Bytes go to a temporary file in the target's folder, and commit() gives it the target's name;
@@ -37,6 +40,10 @@ class OutputFile {
 
   /// Whether a named file will appear, as opposed to standard output, a device or a pipe.
   bool is_file() const { return !temporary_.empty(); }
+
+  /// The file that gets the target's name at commit(), for a library that writes files itself
+  /// instead of write(); it must have closed the file by then. Empty unless is_file().
+  const std::filesystem::path& temporary() const { return temporary_; }
 
   /// Where the file will appear; symbolic links are followed.
   const std::filesystem::path& target() const { return target_; }

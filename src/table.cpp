@@ -8,12 +8,13 @@
 namespace holdfast::program {
 namespace {
 
-/// A name that promises netCDF would lie about what stands in the file.
+/// A name that promises netCDF would lie about what stands in the file. Charts over two axes
+/// (GridTable) keep the promise and do not come here.
 const std::optional<std::filesystem::path>& csv_target(
     const std::optional<std::filesystem::path>& path) {
-  if (path && path->extension() == ".nc") {
+  if (is_netcdf_name(path)) {
     throw WrongInput("--output " + path->string() +
-                     ": netCDF is not written by this version; give a name that ends in .csv");
+                     ": only stability and response write netCDF; give a name that ends in .csv");
   }
   return path;
 }

@@ -62,6 +62,64 @@ Figure stability_figure(const std::string& name, const std::string& title,
   return figure;
 }
 
+Figure delay_charts_figure(const std::string& name, const std::string& title,
+                           const std::string& caption, const ChartWindow& window,
+                           double sampling_period) {
+  const std::string p = format_number(window.p_min) + ":" + format_number(window.p_max);
+  const std::string d = format_number(window.d_min) + ":" + format_number(window.d_max);
+  Figure figure{name, title, caption, {}, "", 300.0};
+  figure.plot = "set xrange " + range(window.p_min, window.p_max) + "\nset yrange " +
+                range(window.d_min, window.d_max) +
+                "\nset palette defined (0 'white', 1 '#cfe3ef')\nset cbrange [0:1]\n"
+                "unset colorbox\nunset key\nset xtics 400\n"
+                "root(name) = (strcol(1) eq name ? $4 : NaN)\n"
+                "set multiplot layout 1,3 margins 0.09,0.98,0.18,0.88 spacing 0.03,0\n" +
+                axes("{/:Italic P} (N/m)", "{/:Italic D} (N s/m)");
+  const std::vector<std::pair<double, std::string>> delays = {
+      {0.0, "δ = 0"}, {0.5, "δ = τ/2"}, {1.0, "δ = τ"}};
+  for (std::size_t k = 0; k < delays.size(); ++k) {
+    const std::string table = name + "-" + std::to_string(k + 1);
+    const Arguments settings = {
+        "--set", "control.sampling_period=" + format_number(sampling_period), "--set",
+        "control.processing_delay=" + format_number(delays[k].first * sampling_period)};
+    figure.tables.push_back({table + "-boundary", joined({"boundary", "--p", p}, settings)});
+    figure.tables.push_back(
+        {table + "-chart", joined({"stability", "--p", p + ":161", "--d", d + ":161"}, settings)});
+    figure.plot += "set title '" + delays[k].second + "'\nplot @" + table +
+                   "-chart@ using 1:2:3 with image, \\\n" +
+                   boundary_curve(table, "complex_pair", "1", "") + ", \\\n" +
+                   boundary_curve(table, "minus_one", "2", "") +
+                   "\nunset ylabel\nset format y ''\n";
+  }
+  figure.plot += "unset multiplot\n";
+  return figure;
+}
+
+Figure design_figure(const std::string& name, const std::string& title, const std::string& caption,
+                     const std::vector<double>& sampling_periods) {
+  Figure figure{name, title, caption, {}, "", 440.0};
+  std::string gains, attenuations;
+  for (std::size_t k = 0; k < sampling_periods.size(); ++k) {
+    const std::string table = name + "-" + std::to_string(k + 1);
+    figure.tables.push_back(
+        {table, Arguments{"design", "--frequency", "3:60:229", "--set",
+                          "control.sampling_period=" + format_number(sampling_periods[k])}});
+    const std::string file = std::string(k == 0 ? "plot" : ", \\\n ") + " @" + table + "@ using ";
+    const std::string style = " with lines ls " + std::to_string(k + 1) +
+                              " title 'τ = " + format_number(1e3 * sampling_periods[k]) + " ms'";
+    gains += file + "1:3" + style;
+    attenuations += file + "1:5" + style;
+  }
+  figure.plot =
+      "set multiplot layout 2,1 margins 0.11,0.98,0.12,0.92 spacing 0,0.04\n"
+      "set xrange [0:60]\nset yrange [-60:10]\nset format x ''\nset ylabel \"best "
+      "{/:Italic D} (N s/m)\"\n" +
+      gains + "\nunset key\nset yrange [-5:40]\nset format x '%g'\n" +
+      axes("excitation frequency {/:Italic f} (Hz)", "attenuation (dB)") + attenuations +
+      ", \\\n  0 with lines lc rgb '#888888' dt 3\nunset multiplot\n";
+  return figure;
+}
+
 Figure delay_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const std::vector<std::string>& settings, const std::string& remark) {
   const Arguments frequencies = {"--frequency", "3:60:115"};

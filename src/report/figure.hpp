@@ -45,6 +45,15 @@ struct ChartWindow {
 Figure stability_figure(const std::string& name, const std::string& title,
                         const std::string& caption, const ChartWindow& window,
                         const std::vector<std::string>& settings);
+/// Three charts side by side: processing delay 0, half the sampling period and all of it.
+/// @param sampling_period  s
+Figure delay_charts_figure(const std::string& name, const std::string& title,
+                           const std::string& caption, const ChartWindow& window,
+                           double sampling_period);
+/// The best D over the excitation frequency and how far it attenuates, for several computers.
+/// @param sampling_periods  s
+Figure design_figure(const std::string& name, const std::string& title, const std::string& caption,
+                     const std::vector<double>& sampling_periods);
 /// @param remark  lines for gnuplot that mark something in the picture
 Figure delay_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const std::vector<std::string>& settings, const std::string& remark = "");

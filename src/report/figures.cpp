@@ -48,6 +48,13 @@ void add_stability_charts(Figures& figures) {
       stability_figure("fig04b", "Fig. 4b: stable gains, τ = 50 ms",
                        "As Fig. 4a. P = −557 N/m lies to the left of the whole stable region.",
                        {-600, 200, -20, 20}, {"--set", "control.sampling_period=0.05"}));
+  figures.push_back(delay_charts_figure("fig04c", "Fig. 4a with a processing delay, τ = 10 ms",
+                                        "Shaded: stable. Solid: pair λ = e^{±iθ}; dashed: root λ = "
+                                        "−1. The force arrives at once, half "
+                                        "a period and a whole period after its sample.",
+                                        {-1000, 200, -60, 20}, 0.01));
+  figures.push_back(delay_charts_figure("fig04d", "Fig. 4b with a processing delay, τ = 50 ms",
+                                        "As above.", {-600, 200, -20, 20}, 0.05));
 }
 
 void add_histories(Figures& figures) {
@@ -174,6 +181,12 @@ std::vector<Figure> paper_figures() {
                    {},
                    "set arrow from 4.1, graph 0 to 4.1, graph 1 nohead lc rgb '#444444' dt 3\n"
                    "set label '4.1 Hz' at 4.6, 1.4 tc rgb '#444444'\n"));
+  figures.push_back(design_figure(
+      "fig05b", "Best differential gain and its attenuation",
+      "P is tuned to the excitation frequency, D leaves the least steady amplitude of all "
+      "stabilising D. Positive: the amplitude is lower than without control. Lines end where no D "
+      "stabilises.",
+      {0.001, 0.01, 0.02}));
   add_histories(figures);
   add_phase_diagrams(figures);
   add_characteristics(figures);

@@ -13,11 +13,12 @@ set(may_include_motion core cable plant control backlash)
 set(may_include_attractor core cable plant control stability backlash motion)
 set(may_include_sweep core cable plant control stability backlash motion attractor)
 set(all_floors core cable plant control stability backlash motion attractor sweep)
+set(may_include_simd ${all_floors})
 set(may_include_sundials ${all_floors})
 set(may_include_ceres ${all_floors})
 # The umbrella stands on all floors; the program knows the adapters too.
 set(may_include_holdfast.hpp ${all_floors})
-set(may_include_src ${all_floors} sundials ceres holdfast.hpp)
+set(may_include_src ${all_floors} simd sundials ceres holdfast.hpp)
 
 # Paths that a file includes, as written between quotes or angle brackets.
 function(read_includes file result)

@@ -45,6 +45,14 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
   expect_refused("stability --d 1:2", "MIN:MAX:COUNT");
   expect_refused("boundary --p 3:3", "proportional gains");
   expect_refused("max-delay --criterion quick", "criterion");
+  expect_refused("stability --axis control.sampling_period=0.001:0.01:2", "two axes");
+  expect_refused("stability --axis backlash.width=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",
+                 "does not depend on backlash.width");
+  expect_refused("stability --axis plant.absorber_mass=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",
+                 "greater than 0");
+  expect_refused("stability --axis control.processing_delay=0:1:2 --axis plant.absorber_mass=1:2:3",
+                 "processing delay");
+  expect_refused("stability --p 0:1:2 --axis plant.absorber_mass=1:2:3", "excludes");
   expect_refused("max-delay --frequency 0:5:3", "frequency");
   expect_refused("simulate --duration -1", "duration");
   expect_refused("simulate --duration 1 --from 2", "--from");
@@ -76,7 +84,7 @@ TEST(Output, UnwritablePlacesAreRefusedBeforeAnythingIsComputed) {
                  "folder.csv");
   expect_refused("simulate --output '" + folder.path().string() + "'", "folder");
   expect_refused("report --output '/dev/null/report'", "report");
-  expect_refused("stability --output '" + (folder / "x.nc").string() + "'", "netCDF");
+  expect_refused("simulate --output '" + (folder / "x.nc").string() + "'", "netCDF");
   EXPECT_TRUE(folder.names().empty());
 }
 
@@ -127,8 +135,9 @@ TEST(NoAnswer, DivergingMotionSaysWhenAndLeavesNoFile) {
 TEST(Help, ListsJobsAndUnits) {
   const Outcome help = run_holdfast("--help");
   EXPECT_EQ(help.exit_code, 0);
-  for (const std::string job : {"stability", "boundary", "max-delay", "response", "simulate",
-                                "spectrum", "deviation", "coverage", "lyapunov", "report"}) {
+  for (const std::string job :
+       {"stability", "boundary", "max-delay", "response", "design", "simulate", "spectrum",
+        "deviation", "coverage", "lyapunov", "report"}) {
     EXPECT_NE(help.output.find(job), std::string::npos) << job;
     const Outcome of_job = run_holdfast(job + " --help");
     EXPECT_EQ(of_job.exit_code, 0);

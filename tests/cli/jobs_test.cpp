@@ -39,6 +39,12 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "frequency_Hz,proportional_gain,max_sampling_period_s,differential_gain");
   EXPECT_EQ(header_of("response --p -600:0:3 --d -20:0:3"),
             "proportional_gain,differential_gain,stable,amplitude_m,ratio_to_uncontrolled");
+  EXPECT_EQ(header_of("design"),
+            "frequency_Hz,proportional_gain,least_amplitude_gain,ratio_to_uncontrolled,"
+            "attenuation_dB,least_radius_gain,least_radius");
+  EXPECT_EQ(header_of("stability --axis control.sampling_period=0.001:0.01:2 --axis "
+                      "plant.absorber_mass=0.1:0.2:3"),
+            "control.sampling_period,plant.absorber_mass,stable");
   EXPECT_EQ(header_of("simulate --duration 0.1"),
             "time_s,z1_m,v1_m_per_s,z2_m,v2_m_per_s,control_force_N,in_backlash");
   EXPECT_EQ(header_of("spectrum --duration 2"), "frequency_Hz,amplitude_m");

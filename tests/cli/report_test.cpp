@@ -22,10 +22,11 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 void expect_every_figure_as_table_and_picture(const fs::path& report) {
   const std::string page = read_text(report / "report.html");
-  std::vector<std::string> figures = {
-      "fig02a", "fig03",  "fig04a", "fig04b", "fig05",  "fig06a",  "fig06b", "fig07a", "fig07b",
-      "fig08a", "fig08b", "fig09a", "fig09b", "fig09c", "fig10a",  "fig10b", "fig11a", "fig11b",
-      "fig12a", "fig12b", "fig12c", "fig13a", "fig13b", "table2a", "table2b"};
+  std::vector<std::string> figures = {"fig02a", "fig03",  "fig04a",  "fig04b", "fig04c", "fig04d",
+                                      "fig05",  "fig05b", "fig06a",  "fig06b", "fig07a", "fig07b",
+                                      "fig08a", "fig08b", "fig09a",  "fig09b", "fig09c", "fig10a",
+                                      "fig10b", "fig11a", "fig11b",  "fig12a", "fig12b", "fig12c",
+                                      "fig13a", "fig13b", "table2a", "table2b"};
   if (program::has_sundials()) figures.insert(figures.end(), {"fig02b", "fig02c", "fig02d"});
   for (const std::string& figure : figures) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));

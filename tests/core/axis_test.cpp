@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -36,6 +37,30 @@ TEST(Axis, NeverLeavesItsEndsHoweverCloseTheyAre) {
 }
 
 TEST(Axis, OneValueIsTheFirst) { EXPECT_EQ((Axis{3.0, 9.0, 1}.at(0)), 3.0); }
+
+/// The first value beyond a bound, against a search through all values; bounds are drawn on the
+/// values themselves, a round-off beside them and between them.
+TEST(Axis, FirstBeyondABoundIsThatOfASearch) {
+  for (const Axis& axis : {Axis{-1.0, 2.0, 31}, Axis{0.1, 0.7, 1000}, Axis{5.0, 5.0, 1},
+                           Axis{-1e200, 1e200, 7}, Axis{-1e-12, 3.0, 12345}}) {
+    const auto search = [&axis](double bound, bool equal_counts) {
+      std::int64_t index = 0;
+      while (index < axis.count &&
+             (equal_counts ? axis.at(index) < bound : axis.at(index) <= bound)) {
+        ++index;
+      }
+      return index;
+    };
+    for (std::int64_t k = 0; k < axis.count; k += 1 + axis.count / 50) {
+      const double value = axis.at(k), next = axis.at(std::min(k + 1, axis.count - 1));
+      for (const double bound : {value, std::nextafter(value, 1e300), std::nextafter(value, -1e300),
+                                 value / 2 + next / 2, -1e301, 1e301}) {
+        EXPECT_EQ(axis.first_above(bound), search(bound, false)) << axis.count << ' ' << bound;
+        EXPECT_EQ(axis.first_not_below(bound), search(bound, true)) << axis.count << ' ' << bound;
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace holdfast

@@ -90,5 +90,10 @@ TEST(Polynomial, ARootAtZeroStaysExactlyThere) {
             1);
 }
 
+TEST(Derivative, IsThatOfEachPower) {
+  const Polynomial<double, 3> p{5.0, -1.0, 2.0, 4.0};
+  EXPECT_EQ((derivative<double, 4>(p)), (Polynomial<double, 2>{-1.0, 4.0, 12.0}));
+}
+
 }  // namespace
 }  // namespace holdfast

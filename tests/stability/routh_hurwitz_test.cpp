@@ -124,5 +124,44 @@ TEST(RouthHurwitz, ConditionsAreNamedInTheirOrder) {
   EXPECT_EQ(named[5].value, 10 * 35 - 50);
 }
 
+/// Half of the conditions decide as all of them do, and with either sign of the polynomial.
+template <int Degree>
+void expect_half_of_the_conditions_suffices(std::uint64_t seed) {
+  test::Random random(seed);
+  int stable = 0;
+  for (int draw = 0; draw < 200000; ++draw) {
+    Polynomial<double, Degree> p;
+    for (int k = 0; k <= Degree; ++k) p[k] = random.log_uniform(0.1, 10.0);
+    if (random.unit() < 0.2) p[static_cast<int>(random.index(Degree))] *= -1.0;
+    const bool whole = hurwitz_conditions<double, Degree + 1>(p).satisfied();
+    ASSERT_EQ((lienard_chipart_stable<double, Degree + 1>(p)), whole) << p.transpose();
+    ASSERT_EQ((lienard_chipart_stable<double, Degree + 1>(-p)), whole) << p.transpose();
+    ASSERT_EQ((is_hurwitz<double, Degree + 1>(1e100 * p)), whole) << p.transpose();
+    stable += whole ? 1 : 0;
+  }
+  EXPECT_GT(stable, 1000);
+  EXPECT_LT(stable, 190000);
+}
+
+TEST(LienardChipart, DecidesAsAllOfHurwitzsConditionsDo) {
+  expect_half_of_the_conditions_suffices<4>(4);
+  expect_half_of_the_conditions_suffices<5>(5);
+}
+
+TEST(LienardChipart, OfACubicIsThatOfItsRoots) {
+  test::Random random(6);
+  int stable = 0;
+  for (int draw = 0; draw < 20000; ++draw) {
+    Polynomial<double, 3> p;
+    for (int k = 0; k <= 3; ++k) p[k] = random.sign() * random.log_uniform(0.1, 10.0);
+    if (random.unit() < 0.8) p = p.cwiseAbs();
+    double abscissa = -1e9;
+    for (const auto& root : roots(p)) abscissa = std::max(abscissa, root.real());
+    EXPECT_EQ((lienard_chipart_stable<double, 4>(p)), abscissa < 0.0) << p.transpose();
+    stable += abscissa < 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(stable, 1000);
+}
+
 }  // namespace
 }  // namespace holdfast

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace holdfast {
@@ -20,6 +21,34 @@ struct Axis {
     const double weighed =
         min * static_cast<double>(last - index) + max * static_cast<double>(index);
     return std::clamp(weighed / static_cast<double>(last), min, max);
+  }
+
+  /// Index of the first value above `bound`, 0 … count; the values are compared as `at` gives them.
+  std::int64_t first_above(double bound) const {
+    return first_beyond(bound, [bound](double value) { return value > bound; });
+  }
+
+  /// Index of the first value not below `bound`, 0 … count.
+  std::int64_t first_not_below(double bound) const {
+    return first_beyond(bound, [bound](double value) { return value >= bound; });
+  }
+
+ private:
+  /// Where the steps say that the bound lies, corrected by the values where it is that close to
+  /// one.
+  template <class Beyond>
+  std::int64_t first_beyond(double bound, Beyond beyond) const {
+    if (!(bound >= min)) return 0;
+    if (!(bound <= max)) return count;
+    const double steps = static_cast<double>(count - 1);
+    const double position = max > min ? (bound / 2 - min / 2) / (max / 2 - min / 2) * steps : 0.0;
+    auto index = static_cast<std::int64_t>(std::ceil(position));
+    const double to_value = std::abs(position - std::round(position));
+    if (to_value > 1e-6 + 1e-12 * steps) return index;
+    index = static_cast<std::int64_t>(std::round(position));
+    while (index > 0 && beyond(at(index - 1))) --index;
+    while (index < count && !beyond(at(index))) ++index;
+    return index;
   }
 };
 

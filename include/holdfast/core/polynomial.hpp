@@ -36,7 +36,27 @@ Vector<Scalar, DegreePlusOneA + DegreePlusOneB - 1> multiply(
   return product;
 }
 
+/// p′(x); a constant has none.
+template <class Scalar, int Size>
+Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
+  Vector<Scalar, Size - 1> result;
+  for (int k = 1; k < Size; ++k) result[k - 1] = Scalar(k) * polynomial[k];
+  return result;
+}
+
 namespace detail {
+
+/// a b without the standard's care for infinities, which costs several times the product.
+template <class Scalar>
+std::complex<Scalar> plain_product(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// 1 / z, likewise; the roots are scaled to moduli about one.
+template <class Scalar>
+std::complex<Scalar> inverse(const std::complex<Scalar>& z) {
+  return std::conj(z) / std::norm(z);
+}
 
 /// p(x) / p′(x) and whether p(x) is down to its rounding error.
 template <class Scalar>
@@ -50,13 +70,14 @@ NewtonStep<Scalar> newton_step(const std::vector<Scalar>& coefficients,
                                const std::complex<Scalar>& x) {
   std::complex<Scalar> value(0), slope(0);
   Scalar magnitude(0);
+  const Scalar modulus = std::sqrt(std::norm(x));
   for (std::size_t k = coefficients.size(); k-- > 0;) {
-    slope = slope * x + value;
-    value = value * x + coefficients[k];
-    magnitude = magnitude * std::abs(x) + std::abs(coefficients[k]);
+    slope = plain_product(slope, x) + value;
+    value = plain_product(value, x) + coefficients[k];
+    magnitude = magnitude * modulus + std::abs(coefficients[k]);
   }
   const Scalar rounding = std::numeric_limits<Scalar>::epsilon() * magnitude;
-  return {value / slope, std::abs(value) <= rounding};
+  return {plain_product(value, inverse(slope)), std::norm(value) <= rounding * rounding};
 }
 
 /// Moves all approximations once, Gauss–Seidel fashion; true when none moved any more.
@@ -68,9 +89,10 @@ bool aberth_sweep(const std::vector<Scalar>& coefficients,
     const auto newton = newton_step(coefficients, roots[i]);
     std::complex<Scalar> repulsion(0);
     for (std::size_t j = 0; j < roots.size(); ++j) {
-      if (j != i) repulsion += Scalar(1) / (roots[i] - roots[j]);
+      if (j != i) repulsion += inverse(std::complex<Scalar>(roots[i] - roots[j]));
     }
-    const std::complex<Scalar> correction = newton.ratio / (Scalar(1) - newton.ratio * repulsion);
+    const std::complex<Scalar> correction =
+        plain_product(newton.ratio, inverse(Scalar(1) - plain_product(newton.ratio, repulsion)));
     const bool finite = std::isfinite(correction.real()) && std::isfinite(correction.imag());
     if (finite) roots[i] -= correction;
     settled = settled && (newton.converged || !finite);

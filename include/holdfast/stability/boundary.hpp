@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
+#include "holdfast/core/interval.hpp"
 #include "holdfast/core/polynomial.hpp"
-#include "holdfast/core/types.hpp"
 #include "holdfast/stability/affine_polynomial.hpp"
+#include "holdfast/stability/boundary_curves.hpp"
 #include "holdfast/stability/boundary_point.hpp"
 #include "holdfast/stability/curve_tracer.hpp"
 
@@ -60,74 +61,53 @@ std::optional<PdGains<Scalar>> imaginary_pair_gains(const AffinePolynomial<Scala
 
 namespace detail {
 
-/// The two ends, within a P range, of the line base + P p + D d = 0 on which a real root sits at
-/// `x`.
-///
-/// A line without D (velocity feedback is idle at λ = 1 and at s = 0) is vertical: its ends are D =
-/// ∓∞.
-template <class Scalar, int Degree>
-void append_line(std::vector<BoundaryPoint<Scalar>>& points, BoundaryCurve curve,
-                 const Scalar& angle, const AffinePolynomial<Scalar, Degree>& polynomial,
-                 const Scalar& x, const ProportionalRange& range) {
+/// The two ends of a line within a P range; D = ∓∞ where it is vertical.
+template <class Scalar>
+void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<Scalar>& line,
+                 const ProportionalRange& range) {
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  const Scalar base = evaluate(polynomial.base, x);
-  const Scalar p = evaluate(polynomial.proportional, x);
-  const Scalar d = evaluate(polynomial.differential, x);
-  if (std::abs(d) > Scalar(1e-9) * polynomial.differential.cwiseAbs().maxCoeff()) {
-    for (const Scalar end : {Scalar(range.lower), Scalar(range.upper)}) {
-      points.push_back({curve, angle, {end, -(base + end * p) / d}});
+  const Scalar lower(range.lower), upper(range.upper);
+  if (!line.is_vertical()) {
+    for (const Scalar& p : {lower, upper}) {
+      points.push_back({line.curve, line.angle, {p, line.differential_at(p)}});
     }
     return;
   }
-  if (std::abs(p) <= Scalar(1e-9) * polynomial.proportional.cwiseAbs().maxCoeff()) return;
-  const Scalar vertical = -base / p;
-  if (!(vertical >= Scalar(range.lower) && vertical <= Scalar(range.upper))) return;
-  points.push_back({curve, angle, {vertical, -infinity}});
-  points.push_back({curve, angle, {vertical, infinity}});
+  const Scalar p = line.proportional_at(Scalar(0));
+  if (!(p >= lower && p <= upper)) return;
+  points.push_back({line.curve, line.angle, {p, -infinity}});
+  points.push_back({line.curve, line.angle, {p, infinity}});
+}
+
+/// Y of the traced pairs: from 10⁻⁶ of the plant's mean root up to 10⁶ of it, or for the sampled
+/// loop to θ = π − 2·10⁻⁶.
+template <class Scalar, int Degree>
+Interval<Scalar> traced_squares(const BoundaryCurves<Scalar, Degree>& curves) {
+  const Scalar largest = curves.sampled ? Scalar(1e6) / curves.pairs().unit() : Scalar(1e6);
+  return {Scalar(1e-12), largest * largest};
 }
 
 }  // namespace detail
 
-/// The whole boundary of the sampled loop over a range of P: the lines λ = +1 and λ = −1 (their two
-/// ends) and the curve λ = e^{±iθ} (ascending θ). A line that the plant does not have (no gain
-/// moves the root there) is absent; λ = +1 is absent for the two-mass plant, whose force moves no
-/// static equilibrium. θ runs from 10⁻⁴ of the plant's mean root angle to π − 2·10⁻⁶.
-/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1
+/// The whole boundary over a range of P: first the lines (their two ends), then the curve of root
+/// pairs (ascending angle), its points as close together as its bends need, and exactly at the ends
+/// of the range.
+///
+/// Sampled loop (degree 5): λ = +1, λ = −1 and λ = e^{±iθ}. Continuous loop (degree 4): s = 0 and
+/// s = ±iω. A line that the plant does not have (no gain moves the root there) is absent; λ = +1
+/// and s = 0 are absent for the two-mass plant, whose force moves no static equilibrium.
+/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1, or
+/// `characteristic_polynomial(plant)`, in s
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
-template <class Scalar>
-std::vector<BoundaryPoint<Scalar>> stability_boundary(const AffinePolynomial<Scalar, 5>& polynomial,
-                                                      const ProportionalRange& range) {
+template <class Scalar, int Degree>
+std::vector<BoundaryPoint<Scalar>> stability_boundary(
+    const AffinePolynomial<Scalar, Degree>& polynomial, const ProportionalRange& range) {
   validate(range);
+  const BoundaryCurves<Scalar, Degree> curves(polynomial);
   std::vector<BoundaryPoint<Scalar>> points;
-  // Mean |μ| of the plant's four roots; the fifth, of the stored force, is near −1.
-  const Scalar plant_root = std::pow(std::abs(polynomial.base[0]), Scalar(0.25));
-  detail::append_line(points, BoundaryCurve::plus_one, Scalar(0), polynomial, Scalar(0), range);
-  detail::append_line(points, BoundaryCurve::minus_one, pi<Scalar>, polynomial, Scalar(-2), range);
-  detail::append_pairs(
-      points, BoundaryCurve::complex_pair, range, {Scalar(1e-4) * plant_root, Scalar(1e6)},
-      [&polynomial](const Scalar& angle) { return complex_pair_gains(polynomial, angle); },
-      [](const Scalar& parameter) { return Scalar(2) * std::atan(parameter); });
-  return points;
-}
-
-/// The whole boundary of the continuous loop over a range of P: the line s = 0 (absent where no
-/// gain moves a root there) and the curve s = ±iω (ascending ω, four decades on either side of the
-/// plant's mean root).
-/// @param polynomial  `characteristic_polynomial(plant)`, in s
-/// @throws InvalidParameter unless range.lower < range.upper, both finite
-template <class Scalar>
-std::vector<BoundaryPoint<Scalar>> stability_boundary(const AffinePolynomial<Scalar, 4>& polynomial,
-                                                      const ProportionalRange& range) {
-  validate(range);
-  std::vector<BoundaryPoint<Scalar>> points;
-  const Scalar plant_root =
-      std::pow(std::abs(polynomial.base[0] / polynomial.base[4]), Scalar(0.25));
-  detail::append_line(points, BoundaryCurve::zero, Scalar(0), polynomial, Scalar(0), range);
-  detail::append_pairs(
-      points, BoundaryCurve::imaginary_pair, range,
-      {Scalar(1e-4) * plant_root, Scalar(1e4) * plant_root},
-      [&polynomial](const Scalar& omega) { return imaginary_pair_gains(polynomial, omega); },
-      [](const Scalar& omega) { return omega; });
+  for (const auto& line : curves.lines()) detail::append_line(points, line, range);
+  const detail::CurveTracer<Scalar, Degree> tracer(curves, range);
+  tracer.trace(detail::traced_squares(curves), points);
   return points;
 }
 

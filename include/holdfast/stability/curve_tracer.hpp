@@ -2,96 +2,134 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
+#include <limits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/interval.hpp"
+#include "holdfast/stability/arc_crossing.hpp"
+#include "holdfast/stability/boundary_curves.hpp"
 #include "holdfast/stability/boundary_point.hpp"
 
 namespace holdfast::detail {
 
-/// Follows one curve of root pairs from angle to angle and keeps what lies in the P range.
+/// Points along the curve of root pairs within a range of P, as far apart as a picture allows.
 ///
-/// Starts from geometrically spaced tan(θ/2)-like parameters and halves each step until the curve's
-/// middle lies on its chord to 1/500 of its length or the step no longer matters.
-template <class Scalar, class GainsAt>
+/// The curve is cut where it enters or leaves the range, at its poles and where P or D is
+/// stationary, so that both gains are monotone between cuts and no branch is missed. Each piece is
+/// halved in ln Y until its quarter points lie on the chord to 1/1000 (of the range in P, of the
+/// gain itself in D, since a picture's range of D is not known here) and the chord spans no more
+/// than 1/50 of the range. At a pole the curve leaves the range at one end and comes back at the
+/// other.
+template <class Scalar, int Degree>
 class CurveTracer {
  public:
-  CurveTracer(BoundaryCurve curve, ProportionalRange range, GainsAt gains_at)
-      : curve_(curve), range_(range), gains_at_(std::move(gains_at)) {}
+  /// @param curves  must outlive this object
+  CurveTracer(const BoundaryCurves<Scalar, Degree>& curves, const ProportionalRange& range)
+      : curves_(curves), range_(range) {}
 
-  void trace(const Scalar& from, const Scalar& to,
-             std::vector<BoundaryPoint<Scalar>>& points) const {
-    const auto start = gains_at_(from), end = gains_at_(to);
-    if (start && inside(*start)) points.push_back({curve_, from, *start});
-    refine(from, start, to, end, deepest_, points);
+  /// Appends the points of min < Y < max, in ascending order.
+  void trace(const Interval<Scalar>& squares, std::vector<BoundaryPoint<Scalar>>& points) const {
+    const std::vector<Knot> knots = cuts(squares);
+    Scalar last(-1);
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+      const Knot &start = knots[k], &end = knots[k + 1];
+      if (!in_range(at(std::sqrt(start.square) * std::sqrt(end.square)))) continue;
+      if (start.square > last) append(start, points);
+      refine(start, end, deepest_, points);
+      append(end, points);
+      last = end.square;
+    }
   }
 
  private:
-  using Gains = std::optional<PdGains<Scalar>>;
-  static constexpr int deepest_ = 14;
+  static constexpr int deepest_ = 24;
 
-  bool inside(const PdGains<Scalar>& gains) const {
-    return gains.proportional >= Scalar(range_.lower) && gains.proportional <= Scalar(range_.upper);
+  struct Knot {
+    Scalar square;
+    PdGains<Scalar> gains;  // not finite at a pole
+  };
+
+  Knot at(const Scalar& square) const { return {square, curves_.pairs().gains(square)}; }
+
+  bool in_range(const Knot& knot) const {
+    return knot.gains.proportional >= Scalar(range_.lower) &&
+           knot.gains.proportional <= Scalar(range_.upper);
   }
 
-  void refine(const Scalar& from, const Gains& start, const Scalar& to, const Gains& end, int depth,
+  std::vector<Knot> cuts(const Interval<Scalar>& squares) const {
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    const RootPairCurve<Scalar>& curve = curves_.pairs();
+    std::vector<Knot> knots = {at(squares.lower), at(squares.upper)};
+    for (const Scalar& pole : curve.poles()) knots.push_back({pole, {infinity, infinity}});
+    for (const Scalar& square : curve.proportional_extremes()) knots.push_back(at(square));
+    for (const Scalar& square : curve.differential_extremes()) knots.push_back(at(square));
+    for (const MonotoneArc<Scalar>& arc : curve.arcs()) {
+      for (const Scalar end : {Scalar(range_.lower), Scalar(range_.upper)}) {
+        if (!arc.passes(end)) continue;
+        const ArcCrossing<Scalar> crossing(curve, arc);
+        knots.push_back({crossing.square(end), {end, crossing.differential(end)}});
+      }
+    }
+    const auto outside = [&squares](const Knot& knot) {
+      return !(knot.square >= squares.lower && knot.square <= squares.upper);
+    };
+    knots.erase(std::remove_if(knots.begin(), knots.end(), outside), knots.end());
+    std::sort(knots.begin(), knots.end(),
+              [](const Knot& a, const Knot& b) { return a.square < b.square; });
+    return knots;
+  }
+
+  void refine(const Knot& start, const Knot& end, int depth,
               std::vector<BoundaryPoint<Scalar>>& points) const {
-    const Scalar middle = (from + to) / Scalar(2);
-    const Gains between = gains_at_(middle);
-    if (depth == 0 || !worth_splitting(start, between, end)) return;
-    refine(from, start, middle, between, depth - 1, points);
-    if (inside(*between)) points.push_back({curve_, middle, *between});
-    refine(middle, between, to, end, depth - 1, points);
+    const Knot middle = at(std::sqrt(start.square) * std::sqrt(end.square));
+    if (depth == 0 || !worth_splitting(start, middle, end)) return;
+    refine(start, middle, depth - 1, points);
+    append(middle, points);
+    refine(middle, end, depth - 1, points);
   }
 
-  bool worth_splitting(const Gains& start, const Gains& between, const Gains& end) const {
-    if (!start || !between || !end) return false;
-    // A narrow range may lie between two points: what counts is whether the curve passes through
-    // it.
-    const auto [lowest, highest] =
-        std::minmax({start->proportional, between->proportional, end->proportional});
-    if (highest < Scalar(range_.lower) || lowest > Scalar(range_.upper)) return false;
-    if (!inside(*start) || !inside(*between) || !inside(*end)) return true;
-    return deviation(*start, *between, *end) > Scalar(0.002) || width(*start, *end) > Scalar(0.01);
+  bool worth_splitting(const Knot& start, const Knot& middle, const Knot& end) const {
+    // Beside a pole at which P is finite D grows without end.
+    if (!(end.square - start.square > Scalar(1e-6) * end.square)) return false;
+    const Scalar step = std::abs(end.gains.proportional - start.gains.proportional);
+    if (!(step <= Scalar(0.02) * width())) return true;
+    const Knot first = at(std::sqrt(start.square) * std::sqrt(middle.square));
+    const Knot third = at(std::sqrt(middle.square) * std::sqrt(end.square));
+    for (const Knot* knot : {&first, &middle, &third}) {
+      if (!(distance(knot->gains, start.gains, end.gains) <= Scalar(0.001))) return true;
+    }
+    return false;
   }
 
-  Scalar width(const PdGains<Scalar>& a, const PdGains<Scalar>& b) const {
-    return std::abs(a.proportional - b.proportional) / Scalar(range_.upper - range_.lower);
+  Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
+
+  /// Distance of the point from the chord, P in units of the range and D of its own size.
+  Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
+                  const PdGains<Scalar>& end) const {
+    const Scalar size = std::abs(start.differential) + std::abs(end.differential);
+    const auto p = [&](const PdGains<Scalar>& gains) {
+      return (gains.proportional - start.proportional) / width();
+    };
+    const auto d = [&](const PdGains<Scalar>& gains) {
+      return size > Scalar(0) ? (gains.differential - start.differential) / size : Scalar(0);
+    };
+    const Scalar length = std::hypot(p(end), d(end));
+    if (!(length > Scalar(0))) return std::hypot(p(point), d(point));
+    return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// Distance of the middle from the chord's middle, in units of the P range and of the D in
-  /// question.
-  Scalar deviation(const PdGains<Scalar>& a, const PdGains<Scalar>& m,
-                   const PdGains<Scalar>& b) const {
-    const Scalar d_scale = std::abs(a.differential) + std::abs(b.differential) + Scalar(1e-12);
-    const Scalar p_off = m.proportional - (a.proportional + b.proportional) / Scalar(2);
-    const Scalar d_off = m.differential - (a.differential + b.differential) / Scalar(2);
-    return std::hypot(p_off / Scalar(range_.upper - range_.lower), d_off / d_scale);
+  /// Round-off must not push a point out of the range.
+  void append(const Knot& knot, std::vector<BoundaryPoint<Scalar>>& points) const {
+    if (!std::isfinite(knot.gains.proportional) || !std::isfinite(knot.gains.differential)) return;
+    const Scalar p =
+        std::clamp(knot.gains.proportional, Scalar(range_.lower), Scalar(range_.upper));
+    points.push_back(
+        {curves_.pair_kind(), curves_.angle(knot.square), {p, knot.gains.differential}});
   }
 
-  BoundaryCurve curve_;
+  const BoundaryCurves<Scalar, Degree>& curves_;
   ProportionalRange range_;
-  GainsAt gains_at_;
 };
-
-/// Traces a root-pair curve over angles of which a parameter takes geometric steps, 40 a decade.
-template <class Scalar, class GainsAt, class AngleOf>
-void append_pairs(std::vector<BoundaryPoint<Scalar>>& points, BoundaryCurve curve,
-                  const ProportionalRange& range, const Interval<Scalar>& parameter,
-                  GainsAt gains_at, AngleOf angle_of) {
-  const CurveTracer<Scalar, GainsAt> tracer(curve, range, std::move(gains_at));
-  const Scalar decades = std::log10(parameter.upper / parameter.lower);
-  const int steps = static_cast<int>(std::ceil(Scalar(40) * decades));
-  Scalar from = angle_of(parameter.lower);
-  for (int k = 1; k <= steps; ++k) {
-    const Scalar exponent = decades * Scalar(k) / Scalar(steps);
-    const Scalar to = angle_of(parameter.lower * std::pow(Scalar(10), exponent));
-    tracer.trace(from, to, points);
-    from = to;
-  }
-}
 
 }  // namespace holdfast::detail

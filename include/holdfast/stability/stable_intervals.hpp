@@ -8,38 +8,10 @@
 #include "holdfast/core/polynomial.hpp"
 #include "holdfast/stability/affine_polynomial.hpp"
 #include "holdfast/stability/mobius_zhukovsky.hpp"
+#include "holdfast/stability/parity.hpp"
 #include "holdfast/stability/routh_hurwitz.hpp"
 
 namespace holdfast {
-
-namespace detail {
-
-/// Coefficients of the even (parity 0) or odd (parity 1) part of a(iy) as a polynomial in Y = y².
-template <class Scalar, int Size>
-Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
-  Vector<Scalar, 3> part = Vector<Scalar, 3>::Zero();
-  Scalar sign(1);
-  for (int k = parity; k < Size; k += 2, sign = -sign) part[k / 2] = sign * a[k];
-  return part;
-}
-
-/// Mean modulus of the roots, (|a₀| / |a_n|)^{1/n}: the unit in which w is of order one. 1 where it
-/// has none.
-template <class Scalar, int Size>
-Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
-  const Scalar modulus = std::pow(std::abs(a[0] / a[Size - 1]), Scalar(1) / Scalar(Size - 1));
-  return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
-}
-
-/// Coefficients of a(unit · w).
-template <class Scalar, int Size>
-Vector<Scalar, Size> rescaled(Vector<Scalar, Size> a, const Scalar& unit) {
-  Scalar power(1);
-  for (int k = 0; k < Size; ++k, power *= unit) a[k] *= power;
-  return a;
-}
-
-}  // namespace detail
 
 /// The values x at which a(w) + x d(w) has a root on the imaginary axis or at infinity, ascending.
 ///
@@ -131,6 +103,24 @@ std::vector<Interval<Scalar>> stable_differential_gains(
     const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& proportional_gain) {
   const auto q = polynomial.transformed(in_half_plane<Scalar, 6>);
   return stable_intervals<Scalar, 6>(q.base + proportional_gain * q.proportional, q.differential);
+}
+
+/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), continuous loop.
+/// @param polynomial  `characteristic_polynomial(plant)`, in s
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_proportional_gains(
+    const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& differential_gain) {
+  return stable_intervals<Scalar, 5>(polynomial.base + differential_gain * polynomial.differential,
+                                     polynomial.proportional);
+}
+
+/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), sampled loop.
+/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_proportional_gains(
+    const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& differential_gain) {
+  const auto q = polynomial.transformed(in_half_plane<Scalar, 6>);
+  return stable_intervals<Scalar, 6>(q.base + differential_gain * q.differential, q.proportional);
 }
 
 }  // namespace holdfast

@@ -1,5 +1,9 @@
 #include <holdfast/holdfast.hpp>
 
+#ifdef WITH_simd
+#include <holdfast/simd/pack.hpp>
+#include <holdfast/simd/parallel_rows.hpp>
+#endif
 #ifdef WITH_sundials
 #include <holdfast/sundials/load_removal.hpp>
 #endif
@@ -12,6 +16,12 @@
 /// Calls what each adapter links: a missing library shows at once.
 bool adapters_work() {
   bool fine = true;
+#ifdef WITH_simd
+  int rows = 0;
+  holdfast::simd::parallel_rows(
+      2, 1, 1, rows, [&rows](int&, std::int64_t, std::int64_t count) { rows += int(count); });
+  fine = fine && rows == 2 && holdfast::Lanes<holdfast::simd::Pack<double>>::count >= 2;
+#endif
 #ifdef WITH_sundials
   fine = fine && holdfast::cvode::name_of_flag(0) == "CV_SUCCESS";
 #endif

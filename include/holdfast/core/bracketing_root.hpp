@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace holdfast {
+
+/// Two arguments between which a function changes sign, and its values there.
+template <class Scalar>
+struct SignChange {
+  Scalar lower, upper;    ///< lower < upper, or equal where the function is exactly zero
+  Scalar value_at_lower;  ///< of the sign opposite to value_at_upper, or zero
+  Scalar value_at_upper;
+  int evaluations = 0;  ///< calls of the function so far
+};
+
+namespace detail {
+
+template <class Scalar>
+struct Ordinate {
+  Scalar x, value;
+};
+
+/// Where between `near` (0) and `far` (1) to look next: by inverse quadratic interpolation through
+/// the last three points if that is monotone there, else in the middle.
+template <class Scalar>
+Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& far,
+                          const Ordinate<Scalar>& old) {
+  const Scalar xi = (near.x - far.x) / (old.x - far.x);
+  const Scalar phi = (near.value - far.value) / (old.value - far.value);
+  const bool monotone = phi * phi < xi && (Scalar(1) - phi) * (Scalar(1) - phi) < Scalar(1) - xi;
+  if (!monotone) return Scalar(0.5);
+  return near.value / (far.value - near.value) * (old.value / (far.value - old.value)) +
+         (old.x - near.x) / (far.x - near.x) * (near.value / (old.value - near.value)) *
+             (far.value / (old.value - far.value));
+}
+
+}  // namespace detail
+
+/// Narrows a change of sign to at most `tolerance`, or to two neighbouring numbers, by
+/// Chandrupatla's method: inverse quadratic interpolation where three points say that it can be
+/// trusted, bisection elsewhere.
+///
+/// On a smooth function with a simple zero it converges superlinearly (order about 1.8); on a jump
+/// it bisects. Where the function is exactly zero it ends with that argument at both ends.
+/// @param function   Scalar → Scalar; a value that is not positive, NaN too, counts as negative
+/// @param bracket    lower < upper, values of opposite sign; returned as it is where they are not
+/// @param tolerance  ≥ 0, in the unit of the argument
+/// Source: T. R. Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of
+/// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).
+template <class Scalar, class Function>
+SignChange<Scalar> bracketing_root(const Function& function, const SignChange<Scalar>& bracket,
+                                   const Scalar& tolerance) {
+  detail::Ordinate<Scalar> near{bracket.lower, bracket.value_at_lower};
+  detail::Ordinate<Scalar> far{bracket.upper, bracket.value_at_upper};
+  if ((near.value > Scalar(0)) == (far.value > Scalar(0))) return bracket;
+  int evaluations = bracket.evaluations;
+  Scalar share(0.5);
+  while (true) {
+    const Scalar spacing =
+        std::numeric_limits<Scalar>::epsilon() * std::max(std::abs(near.x), std::abs(far.x));
+    const Scalar width = std::abs(far.x - near.x);
+    if (width <= std::max(tolerance, spacing)) break;
+    // Not closer to an end than what remains is worth: else the other end would never move.
+    const Scalar margin = std::max(tolerance / Scalar(2), spacing / Scalar(2)) / width;
+    const Scalar kept = std::min(std::max(share, margin), Scalar(1) - margin);
+    const Scalar x = near.x + kept * (far.x - near.x);
+    if (x == near.x || x == far.x) break;
+    const detail::Ordinate<Scalar> found{x, function(x)};
+    ++evaluations;
+    if (found.value == Scalar(0)) return {x, x, found.value, found.value, evaluations};
+    const bool same_side = (found.value > Scalar(0)) == (near.value > Scalar(0));
+    const detail::Ordinate<Scalar> old = same_side ? near : far;
+    if (!same_side) far = near;
+    near = found;
+    share = detail::chandrupatla_share(near, far, old);
+  }
+  if (far.x < near.x) std::swap(near, far);
+  return {near.x, far.x, near.value, far.value, evaluations};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/interval.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// What two unions of open intervals have in common; each union ascending and disjoint, as is the
+/// result.
+template <class Scalar>
+std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& first,
+                                           const std::vector<Interval<Scalar>>& second) {
+  std::vector<Interval<Scalar>> result;
+  for (const Interval<Scalar>& a : first) {
+    for (const Interval<Scalar>& b : second) {
+      const Interval<Scalar> common{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+      if (common.lower < common.upper) result.push_back(common);
+    }
+  }
+  return result;
+}
+
+/// Where c₀ + c₁ x + c₂ x² < 0: nothing, one interval, two, or the whole line; ascending.
+///
+/// The roots are formed as q/c₂ and c₀/q with q = −(c₁ ± √(c₁² − 4 c₀ c₂))/2 of the sign that does
+/// not cancel, so that c₂ may be small or zero. An even root does not divide an interval.
+/// @param quadratic  c₀, c₁, c₂, finite
+template <class Scalar>
+std::vector<Interval<Scalar>> where_negative(const Vector<Scalar, 3>& quadratic) {
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  const Scalar c0 = quadratic[0], c1 = quadratic[1], c2 = quadratic[2];
+  const Scalar discriminant = c1 * c1 - Scalar(4) * c0 * c2;
+  if (!(discriminant > Scalar(0))) {
+    const bool negative = c2 < Scalar(0) || (c2 == Scalar(0) && c0 < Scalar(0));
+    return negative ? std::vector<Interval<Scalar>>{{-infinity, infinity}}
+                    : std::vector<Interval<Scalar>>{};
+  }
+  const Scalar root = std::sqrt(discriminant);
+  const Scalar q = (c1 < Scalar(0) ? root - c1 : -root - c1) / Scalar(2);
+  if (c2 == Scalar(0)) {
+    const Scalar zero = c0 / q;
+    return {c1 > Scalar(0) ? Interval<Scalar>{-infinity, zero} : Interval<Scalar>{zero, infinity}};
+  }
+  const auto [lower, upper] = std::minmax({q / c2, c0 / q});
+  if (c2 > Scalar(0)) return {{lower, upper}};
+  std::vector<Interval<Scalar>> outside;
+  if (lower > -infinity) outside.push_back({-infinity, lower});
+  if (upper < infinity) outside.push_back({upper, infinity});
+  return outside;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace holdfast {
+
+/// The lanes of a number type: a scalar has one, a SIMD pack several. A pack type specialises this
+/// beside `MaskOf`, so that a kernel can read and write as many neighbours as there are lanes and
+/// hand a lane that needs more care to scalar code.
+template <class Scalar>
+struct Lanes {
+  using Value = Scalar;  ///< what one lane holds
+  static constexpr std::size_t count = 1;
+
+  static Scalar load(const Value* values) { return *values; }
+  static void store(const Scalar& pack, Value* values) { *values = pack; }
+
+  /// One byte a lane: 1 where the mask is set, else 0.
+  static void store_flags(bool mask, std::uint8_t* flags) { *flags = mask ? 1 : 0; }
+};
+
+}  // namespace holdfast

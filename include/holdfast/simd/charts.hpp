@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/simd/pack.hpp"
+#include "holdfast/simd/parallel_rows.hpp"
+#include "holdfast/stability/loop_chart_rows.hpp"
+
+namespace holdfast::simd {
+
+namespace detail {
+
+/// Rows that a thread does at a time.
+inline constexpr std::int64_t rows_of_tile = 32;
+
+template <int Degree>
+std::vector<double> radius_chart(const LoopChart& chart, int threads) {
+  using Rows = RadiusChartRows<Pack<double>, Degree>;
+  const std::int64_t columns = chart.fast.values.count;
+  std::vector<double> radius(static_cast<std::size_t>(chart.slow.values.count * columns));
+  parallel_rows(chart.slow.values.count, rows_of_tile, threads, Rows(chart),
+                [&](Rows& rows, std::int64_t first, std::int64_t count) {
+                  for (std::int64_t row = 0; row < count; row += Rows::most_rows) {
+                    rows.fill(first + row, std::min(Rows::most_rows, count - row),
+                              radius.data() + (first + row) * columns);
+                  }
+                });
+  return radius;
+}
+
+}  // namespace detail
+
+/// Stable (1) or not (0) for every cell of a chart, slow axis first.
+///
+///     const LoopChart chart{{kollar2022_plant(), {0.01, 0.01}, {}},
+///                           {LoopParameter::proportional_gain, {-1000, 200, 1000}},
+///                           {LoopParameter::differential_gain, {-40, 20, 1000}}};
+///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
+///
+/// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
+/// @throws InvalidParameter where the chart is not admissible
+inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
+  using Rows = StabilityChartRows<Pack<double>>;
+  const std::int64_t columns = chart.fast.values.count;
+  std::vector<std::uint8_t> stable(static_cast<std::size_t>(chart.slow.values.count * columns));
+  parallel_rows(chart.slow.values.count, detail::rows_of_tile, threads, Rows(chart),
+                [&](Rows& rows, std::int64_t first, std::int64_t count) {
+                  for (std::int64_t row = first; row < first + count; ++row) {
+                    rows.fill(row, stable.data() + row * columns);
+                  }
+                });
+  return stable;
+}
+
+/// The spectral radius ρ = max |λ| for every cell of a chart, slow axis first; error below 1e−10.
+/// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
+/// @throws InvalidParameter where the chart is not admissible
+inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
+  return has_processing_delay(chart) ? detail::radius_chart<6>(chart, threads)
+                                     : detail::radius_chart<5>(chart, threads);
+}
+
+}  // namespace holdfast::simd

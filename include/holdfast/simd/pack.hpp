@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <xsimd/xsimd.hpp>
+
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+
+/// The library's kernels on SIMD packs: `xsimd::batch` is made a number type like any other, so
+/// that a kernel written for `double` works on as many cells at once as the processor has lanes.
+/// The instruction set is that for which the program is compiled: SSE2, AVX2, AVX-512, NEON, ….
+
+namespace holdfast {
+
+/// Comparing packs gives one truth value a lane.
+template <class Number, class Architecture>
+struct MaskOf<xsimd::batch<Number, Architecture>> {
+  using type = xsimd::batch_bool<Number, Architecture>;
+};
+
+namespace simd {
+
+/// As many numbers as one register of the target holds.
+template <class Number>
+using Pack = xsimd::batch<Number>;
+
+namespace detail {
+
+/// One bit a lane of a mask of doubles, the first lane lowest.
+template <class Architecture>
+std::uint64_t lane_bits(const xsimd::batch_bool<double, Architecture>& mask) {
+  constexpr std::size_t count = xsimd::batch_bool<double, Architecture>::size;
+#if XSIMD_WITH_AVX512F
+  if constexpr (count == 8) return static_cast<std::uint64_t>(static_cast<__mmask8>(mask.data));
+#endif
+#if XSIMD_WITH_AVX
+  if constexpr (count == 4) return static_cast<std::uint64_t>(_mm256_movemask_pd(mask));
+#endif
+#if XSIMD_WITH_SSE2
+  if constexpr (count == 2) return static_cast<std::uint64_t>(_mm_movemask_pd(mask));
+#else
+  bool lanes[count];
+  mask.store_unaligned(lanes);
+  std::uint64_t bits = 0;
+  for (std::size_t lane = 0; lane < count; ++lane) bits |= std::uint64_t{lanes[lane]} << lane;
+  return bits;
+#endif
+}
+
+/// Bit k of the lowest eight becomes byte k, 0 or 1.
+inline std::uint64_t spread_to_bytes(std::uint64_t bits) {
+  const std::uint64_t one_a_byte = (bits * 0x0101010101010101U) & 0x8040201008040201U;
+  return ((one_a_byte + 0x7f7f7f7f7f7f7f7fU) >> 7U) & 0x0101010101010101U;
+}
+
+}  // namespace detail
+}  // namespace simd
+
+template <class Number, class Architecture>
+struct Lanes<xsimd::batch<Number, Architecture>> {
+  using Pack = xsimd::batch<Number, Architecture>;
+  using Value = Number;
+  static constexpr std::size_t count = Pack::size;
+  static_assert(count <= 8, "a mask is spread to one 64-bit word");
+
+  static Pack load(const Value* values) { return Pack::load_unaligned(values); }
+  static void store(const Pack& pack, Value* values) { pack.store_unaligned(values); }
+
+  static void store_flags(const typename Pack::batch_bool_type& mask, std::uint8_t* flags) {
+    const std::uint64_t bytes = simd::detail::spread_to_bytes(simd::detail::lane_bits(mask));
+    std::memcpy(flags, &bytes, count);
+  }
+};
+
+}  // namespace holdfast
+
+namespace Eigen {
+
+/// Packs as entries of small vectors and matrices.
+template <class Number, class Architecture>
+struct NumTraits<xsimd::batch<Number, Architecture>>
+    : GenericNumTraits<xsimd::batch<Number, Architecture>> {
+  using Real = xsimd::batch<Number, Architecture>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Number;
+};
+
+}  // namespace Eigen

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace holdfast::simd {
+
+/// Does the rows of a chart in tiles on several threads.
+///
+/// Tiles begin at multiples of `tile` whatever the number of threads, and each is computed by a
+/// copy of `kernel`, so that results do not depend on that number. Exceptions of a tile come out
+/// here.
+/// @param rows     number of rows, ≥ 0
+/// @param tile     rows of a tile, ≥ 1
+/// @param threads  ≥ 1, or 0 for as many as the machine has cores
+/// @param kernel   copied for each tile
+/// @param compute  (Kernel&, first row, number of rows)
+template <class Kernel, class Compute>
+void parallel_rows(std::int64_t rows, std::int64_t tile, int threads, const Kernel& kernel,
+                   const Compute& compute) {
+  const std::int64_t tiles = (rows + tile - 1) / tile;
+  const auto do_tile = [&](std::int64_t index) {
+    Kernel own = kernel;
+    compute(own, index * tile, std::min(tile, rows - index * tile));
+  };
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, tiles),
+                      [&](const tbb::blocked_range<std::int64_t>& range) {
+                        for (std::int64_t index = range.begin(); index < range.end(); ++index)
+                          do_tile(index);
+                      });
+  });
+}
+
+}  // namespace holdfast::simd

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/polynomial.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/stability/affine_polynomial.hpp"
+#include "holdfast/stability/loop_rates.hpp"
+
+namespace holdfast {
+
+/// A root λ of the loop's characteristic polynomial p and how it moves with the parameters x that
+/// the polynomial's coefficients carry and with the gains:
+///
+///     ∂λ/∂x = −(∂p/∂x) / (∂p/∂λ)
+///
+/// At a multiple root the rates are infinite or not a number.
+template <int Directions>
+struct MovingRoot {
+  using Complex = std::complex<double>;
+
+  Complex from_one;                   ///< μ = λ − 1
+  Vector<Complex, Directions> rates;  ///< ∂λ/∂x, per unit of each parameter
+  Complex rate_by_proportional_gain;  ///< ∂λ/∂P (m/N)
+  Complex rate_by_differential_gain;  ///< ∂λ/∂D (m/(N s))
+
+  Complex value() const { return 1.0 + from_one; }
+
+  /// |λ| − 1 without cancellation.
+  double excess() const {
+    return (2.0 * from_one.real() + std::norm(from_one)) / (1.0 + std::abs(value()));
+  }
+
+  /// ln |λ|, −∞ for λ = 0.
+  double logarithm() const { return 0.5 * std::log1p(2.0 * from_one.real() + std::norm(from_one)); }
+
+  /// ∂ ln|λ| belonging to ∂λ.
+  double logarithmic_rate(const Complex& rate) const { return (rate / value()).real(); }
+};
+
+/// The value and the derivatives of a polynomial in powers of μ that carries them.
+template <int Directions, int Degree>
+Polynomial<double, Degree> values_of(const Polynomial<Rated<Directions>, Degree>& rated) {
+  Polynomial<double, Degree> values;
+  for (int k = 0; k <= Degree; ++k) values[k] = rated[k].value();
+  return values;
+}
+
+/// The derivative along direction number `direction`.
+template <int Directions, int Degree>
+Polynomial<double, Degree> rate_of(const Polynomial<Rated<Directions>, Degree>& rated,
+                                   int direction) {
+  Polynomial<double, Degree> rates;
+  for (int k = 0; k <= Degree; ++k) rates[k] = rated[k].derivatives()[direction];
+  return rates;
+}
+
+/// All roots with their rates.
+/// @param polynomial  `characteristic_polynomial` of a `rated_loop`, in powers of μ = λ − 1
+template <int Directions>
+std::vector<MovingRoot<Directions>> moving_roots(
+    const AffinePolynomial<Rated<Directions>, 5>& polynomial, const PdGains<double>& gains) {
+  const Polynomial<Rated<Directions>, 5> p = polynomial.at(PdGains<Rated<Directions>>{
+      Rated<Directions>(gains.proportional), Rated<Directions>(gains.differential)});
+  const Polynomial<double, 5> values = values_of<Directions, 5>(p);
+  const Polynomial<double, 4> slope = derivative<double, 6>(values);
+  std::vector<MovingRoot<Directions>> result;
+  for (const std::complex<double>& mu : roots(values)) {
+    const std::complex<double> inverse = -1.0 / evaluate(slope, mu);
+    MovingRoot<Directions> root;
+    root.from_one = mu;
+    for (int i = 0; i < Directions; ++i) {
+      root.rates[i] = evaluate(rate_of<Directions, 5>(p, i), mu) * inverse;
+    }
+    root.rate_by_proportional_gain =
+        evaluate(values_of<Directions, 5>(polynomial.proportional), mu) * inverse;
+    root.rate_by_differential_gain =
+        evaluate(values_of<Directions, 5>(polynomial.differential), mu) * inverse;
+    result.push_back(root);
+  }
+  return result;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/first_exit.hpp"
+#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/stability/characteristic_polynomial.hpp"
+#include "holdfast/stability/loop_rates.hpp"
+#include "holdfast/stability/root_motion.hpp"
+
+namespace holdfast {
+
+/// A line through the samplings of one plant, along which a single number varies: the period τ, the
+/// delay keeping its share of it, or the delay δ at a fixed period.
+class SamplingPath {
+ public:
+  /// τ varies, δ = delay_fraction · τ.
+  /// @param delay_fraction  0 … 1
+  static SamplingPath of_period(const TwoDof<double>& plant, double delay_fraction) {
+    return {plant, 0.0, delay_fraction};
+  }
+
+  /// δ varies from 0 to τ.
+  /// @param period  τ (s), > 0
+  static SamplingPath of_delay(const TwoDof<double>& plant, double period) {
+    return {plant, period, 0.0};
+  }
+
+  Sampling<double> at(double position) const {
+    if (fixed_period_ > 0.0) return {fixed_period_, position};
+    return {position, delay_fraction_ * position};
+  }
+
+  SampledLoop<double> loop_at(double position) const { return sampled_loop(plant_, at(position)); }
+
+  /// How the loop's matrices move along the path, per second of it.
+  LoopRate rate(const SampledLoop<double>& loop) const {
+    const LoopRate by_delay = rate_by_delay(plant_, loop);
+    if (fixed_period_ > 0.0) return by_delay;
+    return rate_by_period(plant_, loop).plus(by_delay, delay_fraction_);
+  }
+
+  /// The loop's roots λ and how they move along the path. Stable ⇔ all inside the unit circle.
+  ///
+  /// Roots e^{sτ} that have not decayed within a sample are expected on a spiral: with σ = ln λ/τ,
+  /// of which a root of the plant itself does not move at all, σ is continued as a straight line,
+  ///
+  ///     ln λ(τ + Δ) = (σ + σ′Δ)(τ + Δ),   σ′ = (λ′/λ − σ)/τ
+  ///
+  /// and of the branches of the logarithm the one is meant whose σ is nearest to λ′/λ.
+  MovingPoints roots_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const {
+    const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}));
+    MovingPoints result;
+    for (const MovingRoot<1>& root : moving_roots<1>(polynomial, gains)) {
+      const std::complex<double> value = root.value();
+      const bool spiral = varies_period() && std::abs(value) > 0.3;
+      MovingPoint point{value, finite(root.rates[0]), 0.0, spiral, root.excess()};
+      if (spiral) {
+        const double period = loop.sampling.period;
+        point.rate /= value;
+        const double turns =
+            std::round((point.rate.imag() * period - std::arg(value)) / (2.0 * pi<double>));
+        const std::complex<double> sigma =
+            std::complex<double>(root.logarithm(), std::arg(value) + 2.0 * pi<double> * turns) /
+            period;
+        point.bend = (point.rate - sigma) / period;
+      }
+      result.push_back(point);
+    }
+    return result;
+  }
+
+  const TwoDof<double>& plant() const { return plant_; }
+  bool varies_period() const { return !(fixed_period_ > 0.0); }
+  double delay_fraction() const { return delay_fraction_; }
+
+ private:
+  /// At a multiple root the rates are not numbers; the other end of a step must then tell.
+  static std::complex<double> finite(const std::complex<double>& rate) {
+    return std::isfinite(rate.real()) && std::isfinite(rate.imag()) ? rate : 0.0;
+  }
+
+  SamplingPath(const TwoDof<double>& plant, double fixed_period, double delay_fraction)
+      : plant_(plant), fixed_period_(fixed_period), delay_fraction_(delay_fraction) {}
+
+  TwoDof<double> plant_;
+  double fixed_period_;  // 0 where the period varies
+  double delay_fraction_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cli/program.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+const std::string small_grid = " --p -600:0:3 --d -20:0:5";
+
+TEST(Netcdf, ChartsOfGainsAreWrittenAsNetcdfAndCarryTheirMetadata) {
+  for (const std::string job : {"stability --radius", "stability --continuous", "response"}) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "x.nc").string();
+    const Outcome outcome = run_holdfast(job + small_grid + " --output '" + file + "'");
+    EXPECT_EQ(outcome.error_lines(), outcome.exit_code == 0 ? 0U : 1U) << outcome.errors;
+#ifdef HOLDFAST_HAS_NETCDF
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"x.nc"});
+    EXPECT_EQ(read_text(file).substr(0, 8), "\x89HDF\r\n\x1a\n") << job;
+    EXPECT_NE(read_text(file).find("sampling_period"), std::string::npos);
+#else
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.errors.find("libnetcdf-dev"), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(folder.names().empty());
+#endif
+  }
+}
+
+TEST(Netcdf, OtherJobsSayWhichWriteIt) {
+  const TemporaryFolder folder;
+  for (const std::string job : {"simulate --duration 0.1", "boundary", "modes", "spectrum"}) {
+    const Outcome outcome = run_holdfast(job + " --output '" + (folder / "x.nc").string() + "'");
+    EXPECT_EQ(outcome.exit_code, 2) << job;
+    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("only stability and response write netCDF"), std::string::npos)
+        << outcome.errors;
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Netcdf, APlaceThatCannotBeWrittenIsWrongInput) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "no/such/x.nc").string();
+  const Outcome outcome = run_holdfast("stability" + small_grid + " --output '" + file + "'");
+#ifdef HOLDFAST_HAS_NETCDF
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("x.nc"), std::string::npos) << outcome.errors;
+#endif
+  EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+}
+
+TEST(Netcdf, WithoutSpaceTheProgramSaysSoEndsInOrderAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "x.nc").string(), errors = (folder / "errors").string();
+  const std::string command = "trap '' XFSZ; ulimit -f 64; '" + std::string(HOLDFAST_PROGRAM) +
+                              "' response --p -600:0:200 --d -20:0:500 --output '" + file +
+                              "' 2>'" + errors + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
+#ifdef HOLDFAST_HAS_NETCDF
+  EXPECT_EQ(read_text(errors), "holdfast: cannot write " + file + ": File too large\n");
+#endif
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"errors"});
+}
+
+}  // namespace
+}  // namespace holdfast::tests
