@@ -1,110 +1,52 @@
-#include "holdfast/stability/boundary.hpp"
 #include "axis.hpp"
 #include "errors.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "gain_plane_tables.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
-#include "table.hpp"
-#include "text.hpp"
 
 namespace holdfast::program {
 namespace {
 
 struct Options {
   std::string p = "-1000:200";
-  bool continuous = false;
-  bool stable_interval = false;
+  std::string d = "-40:20";
+  bool p_given = false, d_given = false, continuous = false;
+  bool stable_interval = false, regions = false, features = false;
 };
 
-const char* name_of(BoundaryCurve curve) {
-  switch (curve) {
-    case BoundaryCurve::plus_one:
-      return "plus_one";
-    case BoundaryCurve::minus_one:
-      return "minus_one";
-    case BoundaryCurve::complex_pair:
-      return "complex_pair";
-    case BoundaryCurve::zero:
-      return "zero";
-    case BoundaryCurve::imaginary_pair:
-      return "imaginary_pair";
-  }
-  return "";
-}
-
-void run_curves(const JobContext& context, const Options& options) {
+ProportionalRange proportional_range(const Options& options) {
   const Range range = parse_range("--p", options.p);
-  const ProportionalRange gains{range.min, range.max};
-  const auto points =
-      options.continuous
-          ? stability_boundary(characteristic_polynomial(plant_of(context.case_data)), gains)
-          : stability_boundary(characteristic_polynomial(loop_of(context.case_data)), gains);
-  Table table(context, {{"curve", "", "which characteristic root is on the boundary", "string"},
-                        {"angle_rad", options.continuous ? "rad/s" : "rad",
-                         options.continuous ? "angular frequency of the root pair"
-                                            : "angle of the root on the unit circle"},
-                        {"proportional_gain", "N/m", "P"},
-                        {"differential_gain", "N.s/m", "D"}});
-  for (const auto& point : points) {
-    table.row(name_of(point.curve), point.angle, point.gains.proportional,
-              point.gains.differential);
+  return {range.min, range.max};
+}
+
+GainWindow window(const Options& options) {
+  const Range d = parse_range("--d", options.d);
+  return {proportional_range(options), {d.min, d.max}};
+}
+
+/// The gains of the options; the case's own where neither is given.
+FixedGains fixed_gains(const JobContext& context, const Options& options) {
+  const PdGains<double> own = gains_of(context.case_data);
+  if (!options.p_given && !options.d_given) return {{own.proportional}, {own.differential}};
+  FixedGains fixed;
+  if (options.p_given) fixed.proportional = parse_list("--p", options.p);
+  if (options.d_given) fixed.differential = parse_list("--d", options.d);
+  return fixed;
+}
+
+void run(const JobContext& context, const Options& options) {
+  const bool continuous = options.continuous;
+  if (options.stable_interval) {
+    write_stable_intervals(context, fixed_gains(context, options), continuous);
+  } else if (options.regions) {
+    write_gain_regions(context, window(options), continuous);
+  } else if (options.features) {
+    write_boundary_features(context, window(options), continuous);
+  } else if (options.d_given) {
+    throw WrongInput("--d goes with --stable-interval, --regions or --features");
+  } else {
+    write_boundary(context, proportional_range(options), continuous);
   }
-  table.commit();
-}
-
-using Precise = long double;
-using Intervals = std::vector<Interval<Precise>>;
-
-TwoDof<Precise> in_extended_precision(const TwoDof<double>& plant) {
-  return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
-          plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
-}
-
-/// The intervals of both gains.
-struct GainIntervals {
-  Intervals differential;
-  Intervals proportional;
-};
-
-/// In extended precision, which leaves the ends exact to the last digit but where two of them are
-/// about to meet.
-template <class Polynomial>
-GainIntervals intervals_of(const Polynomial& polynomial, const PdGains<double>& gains) {
-  return {stable_differential_gains(polynomial, Precise(gains.proportional)),
-          stable_proportional_gains(polynomial, Precise(gains.differential))};
-}
-
-GainIntervals intervals_of(const Case& the_case, bool continuous) {
-  const TwoDof<Precise> plant = in_extended_precision(plant_of(the_case));
-  const PdGains<double> gains = gains_of(the_case);
-  if (continuous) return intervals_of(characteristic_polynomial(plant), gains);
-  const Sampling<double> sampling = sampling_of(the_case);
-  const auto loop =
-      sampled_loop(plant, Sampling<Precise>{sampling.period, sampling.processing_delay});
-  return intervals_of(characteristic_polynomial(loop), gains);
-}
-
-void run_intervals(const JobContext& context, const Options& options) {
-  const PdGains<double> gains = gains_of(context.case_data);
-  const GainIntervals stable = intervals_of(context.case_data, options.continuous);
-  if (stable.differential.empty() && stable.proportional.empty()) {
-    throw NoAnswer("no D stabilises the loop at P = " + format_number(gains.proportional) +
-                   " N/m, and no P at D = " + format_number(gains.differential) + " N s/m");
-  }
-  Table table(context, {{"gain", "", "the gain that the interval is of", "string"},
-                        {"other_gain", "", "the other gain, held: P in N/m, D in N s/m"},
-                        {"lower", "", "lower end: D in N s/m, P in N/m; -inf: none"},
-                        {"upper", "", "upper end: D in N s/m, P in N/m; inf: none"}});
-  const auto write = [&table](const char* gain, double other, const Intervals& intervals) {
-    for (const Interval<Precise>& interval : intervals) {
-      table.row(gain, other, static_cast<double>(interval.lower),
-                static_cast<double>(interval.upper));
-    }
-  };
-  write("differential_gain", gains.proportional, stable.differential);
-  write("proportional_gain", gains.differential, stable.proportional);
-  table.commit();
 }
 
 }  // namespace
@@ -113,14 +55,24 @@ void add_boundary(CLI::App& program) {
   const Job job(program, "boundary", question::gains,
                 "Exact curves on which a characteristic root leaves the stable region");
   const auto options = std::make_shared<Options>();
-  job.add_text("--p", options->p, "Range of proportional gains P, MIN:MAX, N/m");
+  job.add_text("--p", options->p,
+               "Proportional gains P, MIN:MAX, N/m; with --stable-interval P or P,P,…");
+  job.add_text("--d", options->d, "Window in D, MIN:MAX, N s/m; with --stable-interval D or D,D,…");
   job->add_flag("--continuous", options->continuous,
-                "Without sampling: the continuous loop; the angle column then holds rad/s");
-  job->add_flag("--stable-interval", options->stable_interval,
-                "The stable intervals of D at the case's P and of P at the case's D instead");
+                "Without sampling: the continuous loop; angle columns then hold rad/s");
+  CLI::Option* intervals = job->add_flag(
+      "--stable-interval", options->stable_interval,
+      "Instead, stable D at P and stable P at D; without --p and --d at the case's gains");
+  CLI::Option* regions =
+      job->add_flag("--regions", options->regions, "Instead, the regions of the window --p, --d");
+  job->add_flag("--features", options->features,
+                "Instead, tangents, cusps, crossings and ends of the curves in the window");
+  job->get_option("--features")->excludes(intervals)->excludes(regions);
+  regions->excludes(intervals);
   job->final_callback([job, options] {
-    options->stable_interval ? run_intervals(job.context(), *options)
-                             : run_curves(job.context(), *options);
+    options->p_given = job->count("--p") > 0;
+    options->d_given = job->count("--d") > 0;
+    run(job.context(), *options);
   });
 }
 

@@ -65,6 +65,8 @@ void add_boundary(CLI::App& program);
 void add_max_delay(CLI::App& program);
 void add_response(CLI::App& program);
 void add_design(CLI::App& program);
+void add_margins(CLI::App& program);
+void add_sensitivity(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_spectrum(CLI::App& program);
 void add_deviation(CLI::App& program);

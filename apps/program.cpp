@@ -29,6 +29,8 @@ void add_jobs(CLI::App& program) {
   add_boundary(program);
   add_response(program);
   add_design(program);
+  add_margins(program);
+  add_sensitivity(program);
   add_max_delay(program);
   add_simulate(program);
   add_spectrum(program);

@@ -26,6 +26,13 @@ function(holdfast_add_warnings)
   endif()
 endfunction()
 
+# Compiles a target for one of the levels of x86-64 beyond the compiler's own: v3 (AVX2), v4 (AVX-512).
+function(holdfast_compile_for target architecture)
+  target_compile_options(${target} PRIVATE -march=${architecture}
+    # GCC 12 warns of its own AVX-512 intrinsics (GCC bug 105593).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>)
+endfunction()
+
 # Makes the target holdfast::<adapter> where the option HOLDFAST_WITH_<ADAPTER> is on and its package
 # is there; says what is left out otherwise.
 macro(holdfast_add_adapter adapter part what debian_package)

@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "holdfast/motion/observers.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "holdfast/stability/characteristic_polynomial.hpp"
+#include "holdfast/stability/max_delay.hpp"
+#include "holdfast/stability/response.hpp"
+#include "holdfast/stability/stable_intervals.hpp"
 #include "report/comparison_tools.hpp"
 
 namespace holdfast::program {

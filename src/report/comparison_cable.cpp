@@ -10,7 +10,9 @@
 #include "errors.hpp"
 #include "holdfast/cable/chain_modes.hpp"
 #include "holdfast/cable/modes.hpp"
+#include "holdfast/cable/statics.hpp"
 #include "holdfast/plant/free_decay.hpp"
+#include "holdfast/plant/reduction.hpp"
 #include "report/comparison_tools.hpp"
 
 namespace holdfast::program {

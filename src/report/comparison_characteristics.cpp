@@ -2,6 +2,13 @@
 #include <string>
 #include <vector>
 
+#include "holdfast/attractor/coverage.hpp"
+#include "holdfast/attractor/deviation.hpp"
+#include "holdfast/attractor/lyapunov.hpp"
+#include "holdfast/attractor/spectrum.hpp"
+#include "holdfast/motion/observers.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "holdfast/stability/spectral_radius.hpp"
 #include "report/comparison_tools.hpp"
 
 namespace holdfast::program {

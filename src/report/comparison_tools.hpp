@@ -4,7 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/holdfast.hpp"
+#include "holdfast/backlash/hysteresis.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/motion/excitation.hpp"
+#include "holdfast/motion/stepper.hpp"
+#include "holdfast/plant/two_dof.hpp"
 #include "report/comparison.hpp"
 
 namespace holdfast::program {

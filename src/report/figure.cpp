@@ -73,7 +73,7 @@ Figure delay_charts_figure(const std::string& name, const std::string& title,
                 "\nset palette defined (0 'white', 1 '#cfe3ef')\nset cbrange [0:1]\n"
                 "unset colorbox\nunset key\nset xtics 400\n"
                 "root(name) = (strcol(1) eq name ? $4 : NaN)\n"
-                "set multiplot layout 1,3 margins 0.09,0.98,0.18,0.88 spacing 0.03,0\n" +
+                "set multiplot layout 1,3 margins 0.12,0.98,0.25,0.87 spacing 0.03,0\n" +
                 axes("{/:Italic P} (N/m)", "{/:Italic D} (N s/m)");
   const std::vector<std::pair<double, std::string>> delays = {
       {0.0, "δ = 0"}, {0.5, "δ = τ/2"}, {1.0, "δ = τ"}};
@@ -111,10 +111,10 @@ Figure design_figure(const std::string& name, const std::string& title, const st
     attenuations += file + "1:5" + style;
   }
   figure.plot =
-      "set multiplot layout 2,1 margins 0.11,0.98,0.12,0.92 spacing 0,0.04\n"
-      "set xrange [0:60]\nset yrange [-60:10]\nset format x ''\nset ylabel \"best "
-      "{/:Italic D} (N s/m)\"\n" +
-      gains + "\nunset key\nset yrange [-5:40]\nset format x '%g'\n" +
+      "set multiplot layout 2,1 margins 0.13,0.98,0.14,0.92 spacing 0,0.05\n"
+      "set xrange [0:60]\nset yrange [-60:10]\nset format x ''\n" +
+      axes("", "best {/:Italic D} (N s/m)") + gains +
+      "\nunset key\nset yrange [-5:30]\nset format x '%g'\n" +
       axes("excitation frequency {/:Italic f} (Hz)", "attenuation (dB)") + attenuations +
       ", \\\n  0 with lines lc rgb '#888888' dt 3\nunset multiplot\n";
   return figure;

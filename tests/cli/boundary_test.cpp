@@ -6,26 +6,30 @@
 
 #include "cli/program.hpp"
 #include "csv.hpp"
+#include "text.hpp"
 
 namespace holdfast::tests {
 namespace {
 
-program::CsvTable boundary_table(const std::string& arguments) {
+using program::CsvTable;
+
+CsvTable boundary_table(const std::string& arguments) {
   const Outcome outcome = run_holdfast(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  EXPECT_EQ(outcome.errors, "") << arguments;
   return program::parse_csv(outcome.output, arguments);
 }
 
 /// Whether the loop with these gains is stable, by the chart of one cell.
 bool is_stable_cell(double p, double d, const std::string& more) {
   const auto text = [](double value) {
-    return std::to_string(value) + ":" + std::to_string(value) + ":1";
+    return program::format_number(value) + ":" + program::format_number(value) + ":1";
   };
   const auto table = boundary_table("stability --p=" + text(p) + " --d=" + text(d) + more);
   return table.number(0, "stable") == 1.0;
 }
 
-void expect_end_between_stable_and_not(const program::CsvTable& table, std::size_t row,
+void expect_end_between_stable_and_not(const CsvTable& table, std::size_t row,
                                        const std::string& end, const std::string& more) {
   const double value = table.number(row, end), other = table.number(row, "other_gain");
   if (!std::isfinite(value)) return;
@@ -36,6 +40,18 @@ void expect_end_between_stable_and_not(const program::CsvTable& table, std::size
                                  : is_stable_cell(value + step, other, more);
     EXPECT_EQ(stable, step == inward) << more << ' ' << value << ' ' << step;
   }
+}
+
+TEST(Boundary, ReachesTheEndsOfItsRange) {
+  const CsvTable table =
+      boundary_table("boundary --p -600:-500 --set control.sampling_period=0.01");
+  int ends = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "curve") != "complex_pair") continue;
+    const double p = table.number(row, "proportional_gain");
+    ends += p == -600.0 || p == -500.0 ? 1 : 0;
+  }
+  EXPECT_EQ(ends, 4) << "two branches";
 }
 
 TEST(Boundary, StableIntervalsEndWhereTheChartSaysSo) {
@@ -51,6 +67,50 @@ TEST(Boundary, StableIntervalsEndWhereTheChartSaysSo) {
   }
 }
 
+TEST(Boundary, StableIntervalsAreOfTheGainsThatAreGiven) {
+  const CsvTable table = boundary_table("boundary --stable-interval --p -557,-100 --continuous");
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_NEAR(table.number(0, "lower"), -33.7, 0.05) << "Kollár 2022, Fig. 3";
+  EXPECT_EQ(table.number(0, "other_gain"), -557.0);
+  EXPECT_EQ(table.number(1, "other_gain"), -100.0);
+  const CsvTable of_p = boundary_table("boundary --stable-interval --d -13 --continuous");
+  ASSERT_EQ(of_p.rows(), 1U);
+  EXPECT_EQ(of_p.text(0, "gain"), "proportional_gain");
+  const CsvTable slow =
+      boundary_table("boundary --stable-interval --p -557 --set control.sampling_period=0.01");
+  ASSERT_EQ(slow.rows(), 1U);
+  EXPECT_NEAR(slow.number(0, "lower"), -15.5, 0.05) << "Kollár 2022, Fig. 4a";
+}
+
+TEST(Boundary, StableIntervalsLieOnTheBoundary) {
+  const std::string more = " --set control.sampling_period=0.01";
+  const CsvTable table = boundary_table("boundary --stable-interval --p -600,-500" + more);
+  const CsvTable curve = boundary_table("boundary --p -600:-500" + more);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (const std::string end : {"lower", "upper"}) {
+      double nearest = 1.0;
+      for (std::size_t point = 0; point < curve.rows(); ++point) {
+        if (curve.number(point, "proportional_gain") != table.number(row, "other_gain")) continue;
+        nearest = std::min(
+            nearest, std::abs(curve.number(point, "differential_gain") - table.number(row, end)));
+      }
+      EXPECT_LE(nearest, 1e-10 * std::abs(table.number(row, end)));
+    }
+  }
+}
+
+TEST(Boundary, AGainWithoutAStableIntervalIsWarnedOf) {
+  const Outcome outcome = run_holdfast("boundary --stable-interval --p -557,500 --continuous");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(program::parse_csv(outcome.output, "intervals").rows(), 1U);
+  EXPECT_EQ(outcome.error_lines(), 1U);
+  EXPECT_NE(outcome.errors.find("no D stabilises the loop at P = 500 N/m"), std::string::npos)
+      << outcome.errors;
+  EXPECT_EQ(
+      run_holdfast("boundary --stable-interval --p -557,500 --continuous --quiet").error_lines(),
+      0U);
+}
+
 TEST(Boundary, SaysWhereNoGainStabilises) {
   const Outcome outcome = run_holdfast(
       "boundary --stable-interval --set control.sampling_period=0.05 --set "
@@ -58,6 +118,106 @@ TEST(Boundary, SaysWhereNoGainStabilises) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.error_lines(), 1U);
   EXPECT_NE(outcome.errors.find("no D stabilises"), std::string::npos) << outcome.errors;
+  // Kollár 2022, Fig. 4b: at 50 ms no D stabilises the loop at P = −557.
+  const TemporaryFolder folder;
+  const Outcome to_file = run_holdfast(
+      "boundary --stable-interval --p -557 --set control.sampling_period=0.05 --output '" +
+      (folder / "intervals.csv").string() + "'");
+  EXPECT_EQ(to_file.exit_code, 1);
+  EXPECT_EQ(to_file.output, "");
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Boundary, RegionsFillTheWindowStableFirst) {
+  const std::string more = " --set control.sampling_period=0.01";
+  const CsvTable table = boundary_table("boundary --regions --p -1000:200 --d -40:20" + more);
+  ASSERT_GT(table.rows(), 2U);
+  double sum = 0.0, before = 0.0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double unstable = table.number(row, "unstable_roots");
+    EXPECT_GE(unstable, before);
+    before = unstable;
+    sum += table.number(row, "area");
+    const double p = table.number(row, "proportional_gain");
+    const double d = table.number(row, "differential_gain");
+    EXPECT_EQ(is_stable_cell(p, d, more), unstable == 0.0) << "row " << row;
+    EXPECT_TRUE(table.number(row, "proportional_min") < p &&
+                p < table.number(row, "proportional_max"));
+    EXPECT_TRUE(table.number(row, "differential_min") < d &&
+                d < table.number(row, "differential_max"));
+  }
+  EXPECT_EQ(table.number(0, "unstable_roots"), 0.0);
+  EXPECT_NEAR(sum, 1200.0 * 60.0, 1e-6);
+}
+
+TEST(Boundary, RegionsOfTheContinuousLoopAreKnownToo) {
+  const CsvTable table = boundary_table("boundary --regions --continuous");
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.number(0, "unstable_roots"), 0.0);
+  EXPECT_EQ(table.number(1, "unstable_roots"), 2.0);
+}
+
+TEST(Boundary, FeaturesOfTheContinuousLoopAreOneTangent) {
+  const Outcome outcome =
+      run_holdfast("boundary --features --continuous --p -1e5:1e5 --d -1e4:1e4");
+  EXPECT_EQ(lines_of(outcome.output).at(0),
+            "feature,first_curve,first_angle_rad,second_curve,second_angle_rad,proportional_gain,"
+            "differential_gain");
+  const CsvTable table = program::parse_csv(outcome.output, "features");
+  ASSERT_EQ(table.rows(), 1U) << outcome.errors;
+  EXPECT_EQ(table.text(0, "feature"), "vertical_tangent");
+  EXPECT_EQ(table.text(0, "first_curve"), "imaginary_pair");
+  EXPECT_EQ(table.text(0, "second_curve"), "imaginary_pair");
+  EXPECT_EQ(table.number(0, "first_angle_rad"), table.number(0, "second_angle_rad"));
+}
+
+TEST(Boundary, TheStableRegionEndsAtAVerticalTangent) {
+  // τ = δ = 10 ms: the stable region is closed to both sides.
+  const std::string more =
+      " --set control.sampling_period=0.01 --set control.processing_delay=0.01";
+  const CsvTable features = boundary_table("boundary --features" + more);
+  const CsvTable regions = boundary_table("boundary --regions" + more);
+  ASSERT_EQ(regions.number(0, "unstable_roots"), 0.0);
+  int seen = 0;
+  for (std::size_t row = 0; row < features.rows(); ++row) {
+    const double p = features.number(row, "proportional_gain");
+    EXPECT_TRUE(p >= -1000.0 && p <= 200.0);
+    if (features.text(row, "feature") != "vertical_tangent") continue;
+    seen += std::abs(p - regions.number(0, "proportional_min")) < 1e-9 ? 1 : 0;
+    seen += std::abs(p - regions.number(0, "proportional_max")) < 1e-9 ? 1 : 0;
+  }
+  EXPECT_EQ(seen, 2);
+}
+
+TEST(Boundary, FeaturesWhereLinesAndPairsMeetNameBothCurves) {
+  const CsvTable table = boundary_table(
+      "boundary --features --p -1e5:1e5 --d -1e4:1e4 --set control.sampling_period=0.01");
+  int ends = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "feature") != "end") continue;
+    ++ends;
+    EXPECT_EQ(table.text(row, "first_curve"), "complex_pair");
+    EXPECT_EQ(table.text(row, "second_curve"), "minus_one");
+    EXPECT_NEAR(table.number(row, "second_angle_rad"), 3.141592653589793, 1e-15);
+  }
+  EXPECT_EQ(ends, 1) << "the two-mass plant has no line λ = +1";
+}
+
+TEST(Boundary, AWindowWithoutFeaturesIsAnEmptyTable) {
+  EXPECT_EQ(boundary_table("boundary --features --continuous --p 1000:1001 --d 0:1").rows(), 0U);
+}
+
+TEST(Boundary, RefusesOptionsThatDoNotGoTogether) {
+  for (const std::string arguments :
+       {"--regions --stable-interval", "--features --stable-interval", "--features --regions",
+        "--d -40:20", "--regions --p 3:3", "--regions --d 5", "--regions --d 2:1",
+        "--features --d 1:1", "--features --p -557", "--stable-interval --p -1000:200",
+        "--stable-interval --d inf"}) {
+    const Outcome outcome = run_holdfast("boundary " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;
+    EXPECT_EQ(outcome.output, "") << arguments;
+  }
 }
 
 }  // namespace

@@ -41,7 +41,16 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "proportional_gain,differential_gain,stable,amplitude_m,ratio_to_uncontrolled");
   EXPECT_EQ(header_of("design"),
             "frequency_Hz,proportional_gain,least_amplitude_gain,ratio_to_uncontrolled,"
-            "attenuation_dB,least_radius_gain,least_radius");
+            "attenuation_dB,least_radius_gain,least_radius,least_amplitude_at");
+  EXPECT_EQ(header_of("design --band 9:11"),
+            "frequency_min_Hz,frequency_max_Hz,proportional_gain,differential_gain,worst_ratio,"
+            "worst_frequency_Hz,attenuation_dB,lower_bound");
+  EXPECT_EQ(header_of("design --both-gains"),
+            "proportional_gain,differential_gain,spectral_radius,lower_bound");
+  EXPECT_EQ(header_of("margins"),
+            "quantity,unit,value,side,outcome,position,distance,curve,frequency_Hz");
+  EXPECT_EQ(header_of("sensitivity"),
+            "answer,value,unit,parameter,parameter_unit,derivative,relative");
   EXPECT_EQ(header_of("stability --axis control.sampling_period=0.001:0.01:2 --axis "
                       "plant.absorber_mass=0.1:0.2:3"),
             "control.sampling_period,plant.absorber_mass,stable");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -16,6 +17,12 @@ struct PdGains {
     return {proportional, differential, Scalar(0), Scalar(0)};
   }
 };
+
+/// @throws InvalidParameter unless both gains are finite
+inline void validate(const PdGains<double>& gains) {
+  require_finite("proportional gain P", gains.proportional, "N/m");
+  require_finite("differential gain D", gains.differential, "N s/m");
+}
 
 /// P = k₂ − m₂ ω², the proportional gain that tunes the absorber to the excitation.
 /// Source: Kollár 2022, Eq. (6).

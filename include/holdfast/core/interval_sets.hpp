@@ -10,6 +10,13 @@
 
 namespace holdfast {
 
+/// True where one of the open intervals contains the value.
+template <class Scalar>
+bool contains_any(const std::vector<Interval<Scalar>>& intervals, const Scalar& value) {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [&](const Interval<Scalar>& interval) { return interval.contains(value); });
+}
+
 /// What two unions of open intervals have in common; each union ascending and disjoint, as is the
 /// result.
 template <class Scalar>
@@ -32,25 +39,26 @@ std::vector<Interval<Scalar>> intersection(const std::vector<Interval<Scalar>>& 
 /// @param quadratic  c₀, c₁, c₂, finite
 template <class Scalar>
 std::vector<Interval<Scalar>> where_negative(const Vector<Scalar, 3>& quadratic) {
-  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  constexpr Scalar unbounded = std::numeric_limits<Scalar>::infinity();
   const Scalar c0 = quadratic[0], c1 = quadratic[1], c2 = quadratic[2];
   const Scalar discriminant = c1 * c1 - Scalar(4) * c0 * c2;
   if (!(discriminant > Scalar(0))) {
     const bool negative = c2 < Scalar(0) || (c2 == Scalar(0) && c0 < Scalar(0));
-    return negative ? std::vector<Interval<Scalar>>{{-infinity, infinity}}
+    return negative ? std::vector<Interval<Scalar>>{{-unbounded, unbounded}}
                     : std::vector<Interval<Scalar>>{};
   }
   const Scalar root = std::sqrt(discriminant);
   const Scalar q = (c1 < Scalar(0) ? root - c1 : -root - c1) / Scalar(2);
   if (c2 == Scalar(0)) {
     const Scalar zero = c0 / q;
-    return {c1 > Scalar(0) ? Interval<Scalar>{-infinity, zero} : Interval<Scalar>{zero, infinity}};
+    return {c1 > Scalar(0) ? Interval<Scalar>{-unbounded, zero}
+                           : Interval<Scalar>{zero, unbounded}};
   }
   const auto [lower, upper] = std::minmax({q / c2, c0 / q});
   if (c2 > Scalar(0)) return {{lower, upper}};
   std::vector<Interval<Scalar>> outside;
-  if (lower > -infinity) outside.push_back({-infinity, lower});
-  if (upper < infinity) outside.push_back({upper, infinity});
+  if (lower > -unbounded) outside.push_back({-unbounded, lower});
+  if (upper < unbounded) outside.push_back({upper, unbounded});
   return outside;
 }
 

@@ -97,16 +97,18 @@ class BoundaryCurves {
     return largest;
   }
 
-  /// The line on which the polynomial vanishes at x. A gain whose part there is below 1e−9 of its
-  /// coefficients (s in units of the fastest root) does not move the root: what is left is
-  /// round-off.
+  /// The line on which the polynomial vanishes at x. A gain whose part there is only round-off of
+  /// its coefficients does not move the root: below 1e−13 of the largest at s = 0, s in units of
+  /// the fastest root, to whose powers the recurrence of the coefficients rounds; below 1e−9 at
+  /// λ = ±1, since the matrix exponential is less exact.
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);
+    const Scalar round_off(sampled ? 1e-9 : 1e-13);
     const auto slope = [&](const Polynomial<Scalar, Degree>& part) {
       const Scalar value = evaluate(part, x);
       const Scalar size = detail::rescaled(part, unit).cwiseAbs().maxCoeff();
-      return std::abs(value) > Scalar(1e-9) * size ? value : Scalar(0);
+      return std::abs(value) > round_off * size ? value : Scalar(0);
     };
     const BoundaryLine<Scalar> line{curve, angle, evaluate(polynomial.base, x),
                                     slope(polynomial.proportional), slope(polynomial.differential)};

@@ -83,10 +83,8 @@ class DominantFactor {
   Scalar radius(const Polynomial<Scalar, Degree>& polynomial) {
     Factor factor = extrapolated();
     Quotient quotient{};
-    Mask<Scalar> settled = Scalar(0) > Scalar(1);
-    for (int iteration = 0; iteration < most_iterations_ && !all(settled); ++iteration) {
-      settled = improve(polynomial, factor, quotient);
-    }
+    Mask<Scalar> settled = converge(polynomial, factor, quotient, most_iterations_);
+    if (!all(settled)) start_nearby(polynomial, factor, quotient, settled);
     Scalar result = factor.radius(Scalar(centre_));
     const Mask<Scalar> dominant = bounds(quotient, result);
     const Mask<Scalar> sound = settled & dominant;
@@ -103,6 +101,31 @@ class DominantFactor {
   static constexpr int most_iterations_ = 5;
   static constexpr double settled_step_ = 1e-8;  // its square, the error left, is round-off
   static constexpr double slack_ = 2e-13;
+
+  /// Newton steps until all lanes have settled.
+  static Mask<Scalar> converge(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
+                               Quotient& quotient, int most_iterations) {
+    Mask<Scalar> settled = Scalar(0) > Scalar(1);
+    for (int iteration = 0; iteration < most_iterations && !all(settled); ++iteration) {
+      settled = improve(polynomial, factor, quotient);
+    }
+    return settled;
+  }
+
+  /// Lanes that did not settle, from the factor before: where cells are far apart the extrapolation
+  /// may lead further away than no extrapolation.
+  void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
+                    Quotient& quotient, Mask<Scalar>& settled) const {
+    Factor other = history_[0];
+    Quotient other_quotient{};
+    const Mask<Scalar> also = converge(polynomial, other, other_quotient, 3 * most_iterations_);
+    const Mask<Scalar> better = also & !settled;
+    factor.linear = select(better, other.linear, factor.linear);
+    factor.constant = select(better, other.constant, factor.constant);
+    for (int k = 0; k < Degree - 1; ++k)
+      quotient[k] = select(better, other_quotient[k], quotient[k]);
+    settled = settled | also;
+  }
 
   /// The cubic through the last four factors, one step on.
   Factor extrapolated() const {
@@ -176,6 +199,7 @@ class DominantFactor {
     Lanes<Scalar>::store_flags(sound, is_sound.data());
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
       if (is_sound[lane] != 0) continue;
+
       Polynomial<Value, Degree> one;
       for (int k = 0; k <= Degree; ++k) one[k] = get(polynomial[k], lane);
       const QuadraticFactor<Value> factor = dominant_factor<Value, Degree + 1>(one, centre_);

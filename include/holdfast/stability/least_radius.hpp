@@ -15,9 +15,11 @@ namespace holdfast {
 
 /// What kind of answer the D of least spectral radius is.
 enum class LeastRadiusOutcome {
-  point,    ///< one D has the least radius
-  plateau,  ///< a root that D does not move sets the radius over the whole `interval`
-  idle,     ///< no D changes the radius; `interval` is the whole line and D is 0
+  point,       ///< one D has the least radius
+  plateau,     ///< a root that D does not move sets the radius over the whole `interval`
+  idle,        ///< no D changes the radius; `interval` is the whole line and D is 0
+  unresolved,  ///< P is so large that round-off hides the least radius: D is the start, `radius` is
+               ///< that of the start and `lower_bound` is 0
 };
 
 /// The differential gain at which the sampled loop forgets fastest, at a fixed P.
@@ -49,7 +51,10 @@ class LeastRadiusSearch {
 
   /// @param start  any D; the closer the quicker
   LeastRadius from(double start) {
-    begin(loop_.radius_offset({proportional_gain_, start}));
+    if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
+      return {LeastRadiusOutcome::unresolved, start, loop_.centre + upper_,
+              (1.0 - loop_.centre) - upper_,  0.0,   {start, start}};
+    }
     for (int round = 0; round < most_rounds_ && upper_ - lower_ > closing_step(); ++round) {
       const double trial = next_level();
       Intervals found = within(trial);
@@ -66,7 +71,7 @@ class LeastRadiusSearch {
   }
 
  private:
-  static constexpr int most_rounds_ = 300;
+  static constexpr int most_rounds_ = 300, most_raises_ = 40;
 
   Intervals within(double offset) const {
     return loop_.differential_gains_within(proportional_gain_, offset);
@@ -79,15 +84,18 @@ class LeastRadiusSearch {
   }
   double closing_step() const { return 4.0 * tolerance(); }
 
-  void begin(double level) {
+  /// False where no level has gains, as when coefficients overflow.
+  bool begin(double level) {
     lower_ = -loop_.centre;
     upper_ = level;
     // The start may be the minimum itself: its own open level set is then empty.
-    for (double raise = tolerance(); (intervals_ = within(upper_)).empty(); raise *= 4.0) {
+    double raise = tolerance();
+    for (int k = 0; k < most_raises_ && (intervals_ = within(upper_)).empty(); ++k, raise *= 4.0) {
       lower_ = upper_;
       upper_ += raise;
     }
     probe_ = closing_step();
+    return !intervals_.empty();
   }
 
   /// The best ρ in sight if it improves, else a step below the level, doubled while it finds gains.

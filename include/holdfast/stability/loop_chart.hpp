@@ -46,8 +46,7 @@ inline void validate(const LoopChart& chart) {
       const LoopPoint corner = chart.cell(row, column);
       validate(corner.plant);
       validate(corner.sampling);
-      require_finite("proportional gain P", corner.gains.proportional, "N/m");
-      require_finite("differential gain D", corner.gains.differential, "N s/m");
+      validate(corner.gains);
     }
   }
 }

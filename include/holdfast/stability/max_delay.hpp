@@ -132,7 +132,7 @@ class DelaySearch {
   /// The loop's roots and, to attenuate, the complex amplitude over that of no control.
   WatchedPoints watched(const PdGains<double>& gains, double period) const {
     const auto loop = path_.loop_at(period);
-    WatchedPoints points{path_.roots_at(loop, gains)};
+    WatchedPoints points = path_.watched_at(loop, gains);
     if (question_.criterion == DelayCriterion::stable) return points;
     const double omega = question_.angular_frequency();
     const auto input = harmonic_input(plant_, loop, question_.hold, omega);

@@ -22,20 +22,29 @@ template <int Directions>
 struct MovingRoot {
   using Complex = std::complex<double>;
 
-  Complex from_one;                   ///< μ = λ − 1
+  Complex offset;                     ///< μ = λ − centre
+  double centre = 1.0;                ///< 1, or 0 where the roots crowd there (`LoopPolynomial`)
   Vector<Complex, Directions> rates;  ///< ∂λ/∂x, per unit of each parameter
   Complex rate_by_proportional_gain;  ///< ∂λ/∂P (m/N)
   Complex rate_by_differential_gain;  ///< ∂λ/∂D (m/(N s))
 
-  Complex value() const { return 1.0 + from_one; }
+  Complex value() const { return centre + offset; }
 
-  /// |λ| − 1 without cancellation.
-  double excess() const {
-    return (2.0 * from_one.real() + std::norm(from_one)) / (1.0 + std::abs(value()));
+  /// |λ| − centre without cancellation.
+  double radius_offset() const {
+    if (centre == 0.0) return std::abs(offset);
+    return (2.0 * offset.real() + std::norm(offset)) / (1.0 + std::abs(value()));
   }
 
+  /// |λ| − 1.
+  double excess() const { return radius_offset() - (1.0 - centre); }
+
   /// ln |λ|, −∞ for λ = 0.
-  double logarithm() const { return 0.5 * std::log1p(2.0 * from_one.real() + std::norm(from_one)); }
+  double logarithm() const {
+    const double square = 2.0 * offset.real() + std::norm(offset);  // |λ|² − 1 about 1
+    const bool near_one = centre == 1.0 && square > -0.5;
+    return near_one ? 0.5 * std::log1p(square) : std::log(std::abs(value()));
+  }
 
   /// ∂ ln|λ| belonging to ∂λ.
   double logarithmic_rate(const Complex& rate) const { return (rate / value()).real(); }
@@ -59,10 +68,11 @@ Polynomial<double, Degree> rate_of(const Polynomial<Rated<Directions>, Degree>& 
 }
 
 /// All roots with their rates.
-/// @param polynomial  `characteristic_polynomial` of a `rated_loop`, in powers of μ = λ − 1
+/// @param polynomial  of a `rated_loop`, in powers of μ = λ − centre
 template <int Directions>
 std::vector<MovingRoot<Directions>> moving_roots(
-    const AffinePolynomial<Rated<Directions>, 5>& polynomial, const PdGains<double>& gains) {
+    const AffinePolynomial<Rated<Directions>, 5>& polynomial, const PdGains<double>& gains,
+    double centre = 1.0) {
   const Polynomial<Rated<Directions>, 5> p = polynomial.at(PdGains<Rated<Directions>>{
       Rated<Directions>(gains.proportional), Rated<Directions>(gains.differential)});
   const Polynomial<double, 5> values = values_of<Directions, 5>(p);
@@ -71,7 +81,8 @@ std::vector<MovingRoot<Directions>> moving_roots(
   for (const std::complex<double>& mu : roots(values)) {
     const std::complex<double> inverse = -1.0 / evaluate(slope, mu);
     MovingRoot<Directions> root;
-    root.from_one = mu;
+    root.offset = mu;
+    root.centre = centre;
     for (int i = 0; i < Directions; ++i) {
       root.rates[i] = evaluate(rate_of<Directions, 5>(p, i), mu) * inverse;
     }

@@ -74,6 +74,19 @@ class SamplingPath {
     return result;
   }
 
+  /// The roots, and beside them what vanishes where a real root passes −1: Π (1 + λ_i) = −p(−1).
+  ///
+  /// A pair that meets on the real axis near −1, sends one root through −1 and takes it back leaves
+  /// no trace in the roots' speeds before and after; that product is smooth all the way. It is
+  /// watched as the point 1 − Π, which lies inside as long as the product is positive.
+  WatchedPoints watched_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const {
+    const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}))
+                                .at({Rated<1>(gains.proportional), Rated<1>(gains.differential)});
+    const double product = -evaluate(values_of<1, 5>(polynomial), -2.0);
+    const double slope = -evaluate(rate_of<1, 5>(polynomial, 0), -2.0);
+    return {roots_at(loop, gains), {MovingPoint{1.0 - product, -slope, 0.0, false, -product}}};
+  }
+
   const TwoDof<double>& plant() const { return plant_; }
   bool varies_period() const { return !(fixed_period_ > 0.0); }
   double delay_fraction() const { return delay_fraction_; }

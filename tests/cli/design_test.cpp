@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "cli/program.hpp"
+#include "csv.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+using program::CsvTable;
+using program::parse_csv;
+
+CsvTable design_table(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  EXPECT_EQ(outcome.errors, "") << arguments;
+  return parse_csv(outcome.output, arguments);
+}
+
+/// ρ at one pair of gains, by the chart of one cell.
+double radius_of_cell(double p, double d, const std::string& settings) {
+  const std::string at_p = std::to_string(p), at_d = std::to_string(d);
+  return design_table("stability --radius --p " + at_p + ":" + at_p + ":1 --d " + at_d + ":" +
+                      at_d + ":1 " + settings)
+      .number(0, "spectral_radius");
+}
+
+std::size_t row_where(const CsvTable& table, const std::string& column, const std::string& value,
+                      const std::string& other_column, const std::string& other_value) {
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, column) == value && table.text(row, other_column) == other_value)
+      return row;
+  }
+  ADD_FAILURE() << "no row of " << value << ", " << other_value;
+  return 0;
+}
+
+TEST(DesignJob, KeepsTheRadiusThatIsAskedFor) {
+  const std::string settings = "--set control.sampling_period=0.01";
+  const CsvTable table = design_table("design --largest-radius 0.995 " + settings);
+  ASSERT_EQ(table.rows(), 1U);
+  EXPECT_EQ(table.text(0, "least_amplitude_at"), "edge");
+  const double d = table.number(0, "least_amplitude_gain");
+  EXPECT_NEAR(radius_of_cell(-557.0, d, settings), 0.995, 1e-5);
+  EXPECT_GT(table.number(0, "attenuation_dB"), 0.0);
+}
+
+TEST(DesignJob, OneGainServesABand) {
+  const std::string settings = "--set control.sampling_period=0.01 --largest-radius 0.995";
+  const CsvTable band = design_table("design --band 9:11 " + settings);
+  ASSERT_EQ(band.rows(), 1U);
+  EXPECT_GE(band.number(0, "worst_frequency_Hz"), 9.0);
+  EXPECT_LE(band.number(0, "worst_frequency_Hz"), 11.0);
+  EXPECT_NEAR(band.number(0, "lower_bound"), band.number(0, "worst_ratio"),
+              1e-7 * band.number(0, "worst_ratio"));
+  const CsvTable single = design_table("design " + settings);
+  EXPECT_GE(band.number(0, "worst_ratio"), single.number(0, "ratio_to_uncontrolled"));
+}
+
+TEST(DesignJob, BothGainsAreBetterThanDAlone) {
+  const std::string settings = " --set control.sampling_period=0.01";
+  const CsvTable pair = design_table("design --both-gains" + settings);
+  const CsvTable alone = design_table("design" + settings);
+  const double radius = pair.number(0, "spectral_radius");
+  EXPECT_LT(radius, alone.number(0, "least_radius"));
+  EXPECT_NEAR(radius_of_cell(pair.number(0, "proportional_gain"),
+                             pair.number(0, "differential_gain"), settings),
+              radius, 1e-3)
+      << "the cell's gains are rounded to six decimals";
+}
+
+TEST(DesignJob, NoAdmissibleGainIsNoAnswer) {
+  const Outcome outcome = run_holdfast("design --band 5:9 --set control.sampling_period=0.05");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.error_lines(), 1U);
+  EXPECT_NE(outcome.errors.find("no D keeps the spectral radius below 1"), std::string::npos)
+      << outcome.errors;
+}
+
+TEST(DesignJob, ARowWithoutABestGainSaysWhy) {
+  for (const auto& [settings, outcome_name, words] :
+       {std::tuple{"--set control.sampling_period=0.049", "none", "no D keeps the spectral radius"},
+        {"--set excitation.frequency=600", "aliased", "half the sampling rate"}}) {
+    const Outcome outcome = run_holdfast(std::string("design ") + settings);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    const CsvTable table = parse_csv(outcome.output, settings);
+    EXPECT_EQ(table.text(0, "least_amplitude_at"), outcome_name);
+    EXPECT_TRUE(std::isnan(table.number(0, "least_amplitude_gain")));
+    EXPECT_TRUE(std::isfinite(table.number(0, "least_radius")));
+  }
+}
+
+TEST(DesignJob, EndsForEnormousGains) {
+  for (const std::string gain : {"-1e12", "-1e60", "-1e155", "1e300"}) {
+    const Outcome outcome = run_holdfast("design --set control.proportional_gain=" + gain);
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1) << gain;
+  }
+}
+
+TEST(DesignJob, RefusesWhatDoesNotGoTogether) {
+  for (const std::string arguments :
+       {"--band 9:11 --frequency 9:11:2", "--both-gains --band 9:11", "--band 0:5", "--band 11:9",
+        "--band 9", "--largest-radius 0", "--largest-radius nan", "--largest-radius 1.1",
+        "--band 10:5000"}) {
+    const Outcome outcome = run_holdfast("design " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;
+    EXPECT_EQ(outcome.output, "") << arguments;
+  }
+}
+
+TEST(MarginsJob, EndsAreThoseOfTheStableInterval) {
+  const std::string settings = " --set control.sampling_period=0.01";
+  const CsvTable margins = design_table("margins" + settings);
+  ASSERT_EQ(margins.rows(), 8U);
+  const CsvTable intervals = design_table("boundary --stable-interval" + settings);
+  const std::size_t below = row_where(margins, "quantity", "differential_gain", "side", "below");
+  EXPECT_NEAR(margins.number(below, "position"), intervals.number(0, "lower"), 1e-9);
+  EXPECT_EQ(margins.number(below, "value"), -13.0);
+  EXPECT_NEAR(margins.number(below, "distance"), -13.0 - margins.number(below, "position"), 1e-12);
+  const std::size_t slower = row_where(margins, "quantity", "sampling_period", "side", "above");
+  EXPECT_EQ(margins.text(slower, "outcome"), "boundary");
+  EXPECT_EQ(margins.text(slower, "unit"), "s");
+  const double period = margins.number(slower, "position");
+  const auto at = [](double tau) { return "--set control.sampling_period=" + std::to_string(tau); };
+  EXPECT_LT(radius_of_cell(-557.0, -13.0, at(period - 1e-5)), 1.0);
+  EXPECT_GT(radius_of_cell(-557.0, -13.0, at(period + 1e-5)), 1.0);
+}
+
+TEST(MarginsJob, AnUnstableLoopIsNoAnswer) {
+  const Outcome outcome = run_holdfast("margins --set control.sampling_period=0.05");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.error_lines(), 1U);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_NE(outcome.errors.find("the loop is not stable"), std::string::npos) << outcome.errors;
+}
+
+TEST(SensitivityJob, IsTheSlopeOfTheDesign) {
+  const CsvTable slopes = design_table("sensitivity");
+  const std::size_t row =
+      row_where(slopes, "answer", "least_radius", "parameter", "plant.absorber_mass");
+  EXPECT_EQ(slopes.text(row, "parameter_unit"), "kg");
+  const auto radius = [](const std::string& mass) {
+    return design_table("design --set plant.absorber_mass=" + mass).number(0, "least_radius");
+  };
+  const double slope = (radius("0.1601") - radius("0.1599")) / 0.0002;
+  EXPECT_NEAR(slopes.number(row, "derivative"), slope, 1e-3 * std::abs(slope));
+  EXPECT_NEAR(slopes.number(row, "relative"), slope * 0.16 / slopes.number(row, "value"),
+              1e-3 * std::abs(slopes.number(row, "relative")));
+}
+
+/// The answer keeps δ/τ of the case, so that it moves with both.
+TEST(SensitivityJob, OfTheLargestPeriodIsThatOfTheCasesDelay) {
+  const std::string at =
+      "sensitivity --set control.sampling_period=0.01 --set "
+      "control.processing_delay=";
+  const CsvTable slopes = design_table(at + "0.004");
+  const std::size_t row =
+      row_where(slopes, "answer", "max_stable_period", "parameter", "control.processing_delay");
+  const auto period = [&](const std::string& delay) {
+    const CsvTable table = design_table(at + delay);
+    return table.number(
+        row_where(table, "answer", "max_stable_period", "parameter", "control.processing_delay"),
+        "value");
+  };
+  const double slope = (period("0.00401") - period("0.00399")) / 0.00002;
+  EXPECT_NEAR(slopes.number(row, "derivative"), slope, 1e-3 * std::abs(slope));
+}
+
+TEST(SensitivityJob, ATunedGainIsCarriedAlong) {
+  const std::string tuned = "sensitivity --set control.proportional_gain=tuned";
+  const CsvTable carried = design_table(tuned), asked = design_table(tuned + " --tuned");
+  ASSERT_EQ(carried.rows(), asked.rows());
+  const std::size_t row =
+      row_where(carried, "answer", "least_radius", "parameter", "plant.absorber_stiffness");
+  EXPECT_EQ(carried.text(row, "derivative"), asked.text(row, "derivative"));
+  const std::size_t gain =
+      row_where(carried, "answer", "least_radius", "parameter", "control.proportional_gain");
+  EXPECT_EQ(carried.number(gain, "derivative"), 0.0);
+}
+
+}  // namespace
+}  // namespace holdfast::tests
