@@ -111,8 +111,8 @@ Figure design_figure(const std::string& name, const std::string& title, const st
     attenuations += file + "1:5" + style;
   }
   figure.plot =
-      "set multiplot layout 2,1 margins 0.13,0.98,0.14,0.92 spacing 0,0.05\n"
-      "set xrange [0:60]\nset yrange [-60:10]\nset format x ''\n" +
+      "set multiplot layout 2,1 margins 0.13,0.98,0.17,0.92 spacing 0,0.05\n"
+      "set xrange [0:60]\nset yrange [-160:10]\nset format x ''\n" +
       axes("", "best {/:Italic D} (N s/m)") + gains +
       "\nunset key\nset yrange [-5:30]\nset format x '%g'\n" +
       axes("excitation frequency {/:Italic f} (Hz)", "attenuation (dB)") + attenuations +

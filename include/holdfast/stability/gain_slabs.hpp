@@ -67,8 +67,12 @@ class GainSlabs {
     }
     cut();
   }
+  // Slabs point to the branches of their own object.
   GainSlabs(const GainSlabs&) = delete;
+  GainSlabs(GainSlabs&&) = delete;
   GainSlabs& operator=(const GainSlabs&) = delete;
+  GainSlabs& operator=(GainSlabs&&) = delete;
+  ~GainSlabs() = default;
 
   /// Ascending in P, without gaps.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
