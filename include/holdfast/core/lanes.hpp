@@ -18,6 +18,12 @@ struct Lanes {
 
   /// One byte a lane: 1 where the mask is set, else 0.
   static void store_flags(bool mask, std::uint8_t* flags) { *flags = mask ? 1 : 0; }
+
+  /// Those of two neighbouring masks.
+  static void store_flags(bool first, bool second, std::uint8_t* flags) {
+    store_flags(first, flags);
+    store_flags(second, flags + count);
+  }
 };
 
 }  // namespace holdfast

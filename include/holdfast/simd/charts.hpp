@@ -17,18 +17,20 @@ namespace detail {
 inline constexpr std::int64_t rows_of_tile = 32;
 
 template <int Degree>
-std::vector<double> radius_chart(const LoopChart& chart, int threads) {
+void radius_chart(const LoopChart& chart, double* radius, int threads) {
   using Rows = RadiusChartRows<Pack<double>, Degree>;
   const std::int64_t columns = chart.fast.values.count;
-  std::vector<double> radius(static_cast<std::size_t>(chart.slow.values.count * columns));
   parallel_rows(chart.slow.values.count, rows_of_tile, threads, Rows(chart),
                 [&](Rows& rows, std::int64_t first, std::int64_t count) {
                   for (std::int64_t row = 0; row < count; row += Rows::most_rows) {
                     rows.fill(first + row, std::min(Rows::most_rows, count - row),
-                              radius.data() + (first + row) * columns);
+                              radius + (first + row) * columns);
                   }
                 });
-  return radius;
+}
+
+inline std::size_t cells_of(const LoopChart& chart) {
+  return static_cast<std::size_t>(chart.slow.values.count * chart.fast.values.count);
 }
 
 }  // namespace detail
@@ -40,27 +42,45 @@ std::vector<double> radius_chart(const LoopChart& chart, int threads) {
 ///                           {LoopParameter::differential_gain, {-40, 20, 1000}}};
 ///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
 ///
+/// @param stable   as many entries as the chart has cells; memory that nobody has touched yet is
+/// best, since each thread then brings in its own part
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible
-inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
+inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
   using Rows = StabilityChartRows<Pack<double>>;
   const std::int64_t columns = chart.fast.values.count;
-  std::vector<std::uint8_t> stable(static_cast<std::size_t>(chart.slow.values.count * columns));
   parallel_rows(chart.slow.values.count, detail::rows_of_tile, threads, Rows(chart),
                 [&](Rows& rows, std::int64_t first, std::int64_t count) {
                   for (std::int64_t row = first; row < first + count; ++row) {
-                    rows.fill(row, stable.data() + row * columns);
+                    rows.fill(row, stable + row * columns);
                   }
                 });
+}
+
+/// The same as a vector.
+inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int threads = 0) {
+  std::vector<std::uint8_t> stable(detail::cells_of(chart));
+  stability_chart(chart, stable.data(), threads);
   return stable;
 }
 
 /// The spectral radius ρ = max |λ| for every cell of a chart, slow axis first; error below 1e−10.
+/// @param radius   as many entries as the chart has cells
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible
+inline void radius_chart(const LoopChart& chart, double* radius, int threads = 0) {
+  if (has_processing_delay(chart)) {
+    detail::radius_chart<6>(chart, radius, threads);
+  } else {
+    detail::radius_chart<5>(chart, radius, threads);
+  }
+}
+
+/// The same as a vector.
 inline std::vector<double> radius_chart(const LoopChart& chart, int threads = 0) {
-  return has_processing_delay(chart) ? detail::radius_chart<6>(chart, threads)
-                                     : detail::radius_chart<5>(chart, threads);
+  std::vector<double> radius(detail::cells_of(chart));
+  radius_chart(chart, radius.data(), threads);
+  return radius;
 }
 
 }  // namespace holdfast::simd

@@ -73,6 +73,19 @@ struct Lanes<xsimd::batch<Number, Architecture>> {
     const std::uint64_t bytes = simd::detail::spread_to_bytes(simd::detail::lane_bits(mask));
     std::memcpy(flags, &bytes, count);
   }
+
+  static void store_flags(const typename Pack::batch_bool_type& first,
+                          const typename Pack::batch_bool_type& second, std::uint8_t* flags) {
+    if constexpr (2 * count <= 8) {
+      const std::uint64_t bits = simd::detail::lane_bits(first) | simd::detail::lane_bits(second)
+                                                                      << count;
+      const std::uint64_t bytes = simd::detail::spread_to_bytes(bits);
+      std::memcpy(flags, &bytes, 2 * count);
+    } else {
+      store_flags(first, flags);
+      store_flags(second, flags + count);
+    }
+  }
 };
 
 }  // namespace holdfast

@@ -21,14 +21,21 @@ namespace holdfast {
 /// @tparam Scalar        a SIMD pack, or double
 /// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of the cells from that
 /// column on, for Number = Scalar and double; in a variable whose stable half-plane is Re < 0
+/// A copy: writing bytes through `stable` might otherwise change what it refers to, for all that
+/// the compiler knows, and every coefficient would be read again for every pack.
 /// @param stable         `columns` entries: 1 stable, 0 not
 template <class Scalar, class PolynomialAt>
-void hurwitz_row(std::int64_t columns, const PolynomialAt& polynomial_at, std::uint8_t* stable) {
+void hurwitz_row(std::int64_t columns, PolynomialAt polynomial_at, std::uint8_t* stable) {
   constexpr auto lanes = static_cast<std::int64_t>(Lanes<Scalar>::count);
+  const auto stable_at = [&polynomial_at](std::int64_t column) {
+    return lienard_chipart_stable(polynomial_at(column, Scalar(0.0)));
+  };
   std::int64_t column = 0;
+  for (; column + 2 * lanes <= columns; column += 2 * lanes) {
+    Lanes<Scalar>::store_flags(stable_at(column), stable_at(column + lanes), stable + column);
+  }
   for (; column + lanes <= columns; column += lanes) {
-    Lanes<Scalar>::store_flags(lienard_chipart_stable(polynomial_at(column, Scalar(0.0))),
-                               stable + column);
+    Lanes<Scalar>::store_flags(stable_at(column), stable + column);
   }
   for (; column < columns; ++column) {
     stable[column] = lienard_chipart_stable(polynomial_at(column, 0.0)) ? 1 : 0;
@@ -67,9 +74,9 @@ void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size
   const Vector<Scalar, Size> c_pack = c.template cast<Scalar>(), s_pack = s.template cast<Scalar>();
   hurwitz_row<Scalar>(
       columns,
-      [&](std::int64_t column, const auto& number) {
+      [c, s, c_pack, s_pack, x_values = values.data()](std::int64_t column, const auto& number) {
         using Number = std::decay_t<decltype(number)>;
-        const Number x = Lanes<Number>::load(values.data() + column);
+        const Number x = Lanes<Number>::load(x_values + column);
         if constexpr (std::is_same_v<Number, Scalar>) {
           return affine<Size>(c_pack, x, s_pack);
         } else {
