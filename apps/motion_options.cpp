@@ -19,6 +19,13 @@ void add_switching(const Job& job, std::string& switching) {
       ->capture_default_str();
 }
 
+void add_largest_period(const Job& job, std::int64_t& largest_period) {
+  job->add_option("--max-period", largest_period, "Longest period that is looked for, samples")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}))
+      ->type_name("")
+      ->capture_default_str();
+}
+
 void require_completed(TrajectoryOutcome outcome, double time) {
   if (outcome == TrajectoryOutcome::completed) return;
   throw NoAnswer("the motion diverges: it leaves the range of numbers at t = " +

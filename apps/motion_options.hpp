@@ -17,6 +17,9 @@ void add_duration(const Job& job, double& duration);
 /// `--switching sampled`: the drive enters and leaves its backlash at samples, the paper's rule.
 void add_switching(const Job& job, std::string& switching);
 
+/// `--max-period`, samples, 1 to 10⁸.
+void add_largest_period(const Job& job, std::int64_t& largest_period);
+
 /// Observer of a trajectory that ends it when the user or the system asks the program to stop.
 class StopWhenInterrupted {
  public:

@@ -15,6 +15,8 @@ constexpr const char* examples =
     "  holdfast stability --set control.sampling_period=0.01  stable gains with a 10 ms computer\n"
     "  holdfast max-delay --frequency 5:50:10                 how slow may the computer be?\n"
     "  holdfast simulate --duration 1 --output motion.csv     the motion from rest\n"
+    "  holdfast verdict --set backlash.width=0.002            is it periodic, and how sure is "
+    "that?\n"
     "  holdfast reduce --case line.toml                       the plant of a conductor\n"
     "  holdfast JOB --help                                    every option with unit and default\n";
 
@@ -36,6 +38,11 @@ void add_jobs(CLI::App& program) {
   add_spectrum(program);
   add_deviation(program);
   add_coverage(program);
+  add_verdict(program);
+  add_orbit(program);
+  add_basins(program);
+  add_diagram(program);
+  add_section(program);
   add_lyapunov(program);
   add_report(program);
 }

@@ -4,6 +4,7 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
+#include "motion_columns.hpp"
 #include "motion_options.hpp"
 #include "table.hpp"
 
@@ -33,14 +34,7 @@ void run(const JobContext& context, const Options& options) {
       options.no_control ? uncontrolled_motion_of(context.case_data) : motion_of(context.case_data);
   const std::int64_t samples =
       samples_within(options.duration, context.case_data.control.sampling_period);
-  Table table(context,
-              {{"time_s", "s", "t = j tau"},
-               {"z1_m", "m", "displacement of the conductor, positive downward"},
-               {"v1_m_per_s", "m/s", "velocity of the conductor"},
-               {"z2_m", "m", "displacement of the absorber, positive downward"},
-               {"v2_m_per_s", "m/s", "velocity of the absorber"},
-               {"control_force_N", "N", "force decided at this sample; 0 in the backlash"},
-               {"in_backlash", "", "1: the drive is in its backlash, 0: it transmits", "integer"}});
+  Table table(context, motion_columns());
   run_to_completion(motion, samples, kick, [&table, &options](const MotionSample<double>& sample) {
     if (!not_before(sample.time, options.from)) return;
     table.row(sample.time, sample.state[0], sample.state[1], sample.state[2], sample.state[3],

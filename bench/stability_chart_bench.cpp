@@ -17,32 +17,14 @@
 
 #include "holdfast/simd/charts.hpp"
 #include "holdfast/stability/characteristic_polynomial.hpp"
+#include "medians.hpp"
 
 namespace {
 
 using namespace holdfast;
+using bench::medians;
 using Pack = simd::Pack<double>;
 constexpr std::size_t lanes = Lanes<Pack>::count;
-constexpr int repetitions = 7;
-
-/// Seconds of each side, medians over alternating repetitions.
-std::vector<double> medians(const std::vector<std::function<void()>>& sides) {
-  std::vector<std::vector<double>> times(sides.size());
-  for (int repetition = 0; repetition < repetitions; ++repetition) {
-    for (std::size_t side = 0; side < sides.size(); ++side) {
-      const auto start = std::chrono::steady_clock::now();
-      sides[side]();
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-      times[side].push_back(time.count());
-    }
-  }
-  std::vector<double> result;
-  for (auto& of_side : times) {
-    std::nth_element(of_side.begin(), of_side.begin() + repetitions / 2, of_side.end());
-    result.push_back(of_side[repetitions / 2]);
-  }
-  return result;
-}
 
 LoopChart chart_of(double delay_fraction, std::int64_t rows, std::int64_t columns) {
   const double period = 0.001;
@@ -257,7 +239,8 @@ int main() {
 #elif defined(__x86_64__) && defined(__AVX2__)
   if (!__builtin_cpu_supports("avx2")) return std::puts("this processor has no AVX2"), 0;
 #endif
-  std::printf("%zu lanes; medians of %d alternating repetitions\n", lanes, repetitions);
+  std::printf("%zu lanes; medians of %d alternating repetitions\n", lanes,
+              bench::usual_repetitions);
   sizes();
   for (const double delay_fraction : {0.0, 1.0}) stable_or_not(delay_fraction);
   std::printf("\nspectral radius, one core (ns per cell), error against extended precision\n");

@@ -1,20 +1,8 @@
 #include "loop_of_case.hpp"
 
+#include "case_keys.hpp"
+
 namespace holdfast::program {
-namespace {
-
-SampledMotion<double> motion_with(const Case& the_case, const PdGains<double>& gains,
-                                  double backlash_width) {
-  const SampledLoop<double> loop = loop_of(the_case);
-  const HarmonicExcitation<double> excitation = excitation_of(the_case);
-  const HarmonicInput<double> input = harmonic_input(
-      plant_of(the_case), loop, force_hold_of(the_case), excitation.angular_frequency());
-  return {
-      loop, gains, input, excitation, Backlash<double>(backlash_width), initial_state_of(the_case)};
-}
-
-}  // namespace
-
 TwoDof<double> plant_of(const Case& the_case) {
   const auto& plant = the_case.plant;
   return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
@@ -51,12 +39,27 @@ Vector<double, 4> initial_state_of(const Case& the_case) {
   return {initial.z1, initial.v1, initial.z2, initial.v2};
 }
 
+ForcedLoop<double> forced_loop_of(const Case& the_case) {
+  return {plant_of(the_case),      sampling_of(the_case),   gains_of(the_case),
+          excitation_of(the_case), the_case.backlash.width, force_hold_of(the_case)};
+}
+
+ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value) {
+  Case changed = the_case;
+  set_case_value(changed, key, value);
+  check_case(changed);
+  return forced_loop_of(changed);
+}
+
 SampledMotion<double> motion_of(const Case& the_case) {
-  return motion_with(the_case, gains_of(the_case), the_case.backlash.width);
+  return harmonically_forced_motion(forced_loop_of(the_case), initial_state_of(the_case));
 }
 
 SampledMotion<double> uncontrolled_motion_of(const Case& the_case) {
-  return motion_with(the_case, {0.0, 0.0}, 0.0);
+  ForcedLoop<double> loop = forced_loop_of(the_case);
+  loop.gains = {0.0, 0.0};
+  loop.backlash_width = 0.0;
+  return harmonically_forced_motion(loop, initial_state_of(the_case));
 }
 
 }  // namespace holdfast::program

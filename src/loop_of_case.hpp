@@ -1,9 +1,12 @@
 #pragma once
 
+#include <string>
+
 #include "case.hpp"
 #include "holdfast/control/harmonic_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/excitation.hpp"
+#include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/stepper.hpp"
 #include "holdfast/plant/two_dof.hpp"
 #include "holdfast/stability/loop_point.hpp"
@@ -19,6 +22,13 @@ LoopPoint loop_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);
+
+/// All that a motion depends on beside its initial state.
+ForcedLoop<double> forced_loop_of(const Case& the_case);
+
+/// The same with one number of the case changed, by its key. Throws WrongInput where the key or the
+/// value is not admissible.
+ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value);
 
 /// The motion of the case from its initial state, with its control or without any.
 SampledMotion<double> motion_of(const Case& the_case);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cable_decay.hpp"
 #include "cable_of_case.hpp"
 #include "loop_of_case.hpp"
+#include "report/motion_figures.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
@@ -190,6 +192,7 @@ std::vector<Figure> paper_figures() {
   add_histories(figures);
   add_phase_diagrams(figures);
   add_characteristics(figures);
+  for (Figure& figure : motion_figures()) figures.push_back(std::move(figure));
   return figures;
 }
 

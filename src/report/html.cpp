@@ -18,6 +18,8 @@ h1 { font-size: 1.7rem; line-height: 1.2; } h2 { margin-top: 2.5rem; }
 table { border-collapse: collapse; width: 100%; font-size: 0.9rem; }
 th, td { text-align: left; vertical-align: top; padding: 0.35rem 0.6rem; border-bottom: 1px solid var(--line); }
 td.agrees { color: var(--good); font-weight: 600; white-space: nowrap; } td.differs { color: var(--bad); }
+tr.motion td { border-bottom: 0; padding-bottom: 0; } td.verdict { font-weight: 600; white-space: nowrap; }
+tr.basis td { color: var(--soft); font-size: 0.85rem; } tr.basis p { margin: 0 0 0.2rem; }
 figure { margin: 2.5rem 0; break-inside: avoid; }
 figure img { width: 100%; max-width: 46rem; height: auto; background: #fff; border-radius: 4px; }
 figcaption { color: var(--soft); font-size: 0.95rem; }
@@ -50,6 +52,44 @@ std::string comparison_table(const std::vector<Comparison>& comparisons) {
       "<div class=\"scroll\"><table>\n<thead><tr><th>quantity</th><th>paper</th><th>ours</th>"
       "<th>reading</th><th>verdict</th></tr></thead>\n<tbody>\n";
   for (const Comparison& row : comparisons) html += comparison_row(row);
+  return html + "</tbody></table></div>\n";
+}
+
+/// Two rows of the table: the numbers, and below them what they rest on.
+std::string motion_rows(const ShownMotion& motion) {
+  const MotionRow& row = motion.row;
+  std::string html = "<tr class=\"motion\">";
+  for (const std::string* cell : {&row.place, &row.motion, &row.verdict, &row.period,
+                                  &row.multiplier, &row.border, &row.capture, &row.precision}) {
+    html += (cell == &row.verdict ? "<td class=\"verdict\">" : "<td>") + escaped(*cell) + "</td>";
+  }
+  html += "</tr>\n<tr class=\"basis\"><td></td><td colspan=\"7\">";
+  if (!row.neighbour.empty())
+    html += "<p>Beside the motion from rest: <strong>" + escaped(row.neighbour) + "</strong>.</p>";
+  return html + "<p>" + escaped(row.rests_on) + "</p><code>" + escaped(motion.command) +
+         "</code></td></tr>\n";
+}
+
+constexpr const char* motions_text =
+    "<p>A motion whose contacts repeat solves one linear system. Where the solution reproduces its "
+    "own contacts, attracts its neighbours and touches no switching surface, the motion is "
+    "certified: it has exactly this period, however irregular it looks. <em>Multiplier</em>: what "
+    "is left of a small deviation after one period. <em>Change of contact</em>: how far the orbit "
+    "stays from the nearest end of a gap (mm) and the nearest reversal (mm/s) that would switch "
+    "another way. <em>Capture</em>: every motion so near to the orbit, at the same phase of the "
+    "forcing, tends to it; smallest and largest radius along the orbit. <em>Extended "
+    "precision</em>: the same orbit computed in <code>long double</code>, and by how much its "
+    "displacements differ. A <em>coincidence</em> is a sample that falls on the same phase of the "
+    "forcing.</p>\n";
+
+std::string motions_table(const std::vector<ShownMotion>& motions) {
+  if (motions.empty()) return "";
+  std::string html = std::string("<h2 id=\"motions\">What the motion is</h2>\n") + motions_text +
+                     "<div class=\"scroll\"><table>\n<thead><tr><th>figure</th><th>case</th>"
+                     "<th>verdict</th><th>period</th><th>largest multiplier</th>"
+                     "<th>nearest change of contact</th><th>radius of capture</th>"
+                     "<th>extended precision</th></tr></thead>\n<tbody>\n";
+  for (const ShownMotion& motion : motions) html += motion_rows(motion);
   return html + "</tbody></table></div>\n";
 }
 
@@ -126,6 +166,7 @@ std::string html_of(const Page& page) {
       escaped(page.title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" +
       escaped(page.title) + "</h1>\n<p>" + page.introduction + "</p>\n";
   html += comparison_table(page.comparisons);
+  html += motions_table(page.motions);
   html += "<h2>Figures</h2>\n";
   for (const DrawnFigure& drawn : page.figures) html += figure_html(drawn);
   html += "<h2>The case</h2>\n<pre>" + escaped(page.case_text) + "</pre>\n</body>\n</html>\n";

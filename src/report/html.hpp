@@ -5,6 +5,7 @@
 
 #include "report/comparison.hpp"
 #include "report/figure.hpp"
+#include "report/motions.hpp"
 
 namespace holdfast::program {
 
@@ -16,12 +17,19 @@ struct DrawnFigure {
   std::string reason;  ///< empty when there is a picture
 };
 
+/// A motion and the command line that shows all of it.
+struct ShownMotion {
+  MotionRow row;
+  std::string command;
+};
+
 /// Everything that the page shows.
 struct Page {
   std::string title;
   std::string introduction;
   std::string case_text;                ///< the full case as TOML
   std::vector<Comparison> comparisons;  ///< may be empty
+  std::vector<ShownMotion> motions;
   std::vector<DrawnFigure> figures;
 };
 

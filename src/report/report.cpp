@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "case_file.hpp"
 #include "errors.hpp"
@@ -10,6 +11,7 @@
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "report/command_line.hpp"
 #include "report/figures.hpp"
 #include "report/gnuplot.hpp"
 #include "report/html.hpp"
@@ -33,35 +35,6 @@ void make_folders(const fs::path& folder) {
   }
 }
 
-/// A command line that a shell reads as these arguments.
-std::string shell_text(const Arguments& arguments) {
-  std::string text = "holdfast";
-  for (const std::string& argument : arguments) {
-    const bool plain =
-        argument.find_first_not_of(
-            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=.,:/+@%") ==
-            std::string::npos &&
-        !argument.empty();
-    if (plain) {
-      text += " " + argument;
-    } else {
-      std::string quoted;
-      for (const char character : argument)
-        quoted += character == '\'' ? std::string("'\\''") : std::string(1, character);
-      text += " '" + quoted + "'";
-    }
-  }
-  return text;
-}
-
-/// The command line of a table: job, case, the figure's own settings, output.
-Arguments command_of(const TableRequest& table, const Arguments& case_arguments) {
-  Arguments arguments = {table.arguments.front()};
-  arguments.insert(arguments.end(), case_arguments.begin(), case_arguments.end());
-  arguments.insert(arguments.end(), table.arguments.begin() + 1, table.arguments.end());
-  return arguments;
-}
-
 class ReportWriter {
  public:
   ReportWriter(const JobContext& context, Arguments case_arguments, const CommandRunner& run)
@@ -73,8 +46,8 @@ class ReportWriter {
   DrawnFigure make(const Figure& figure) const {
     DrawnFigure drawn{figure, {}, "", ""};
     for (const TableRequest& table : figure.tables) {
-      drawn.commands.push_back(shell_text(command_of(table, case_arguments_)) + " --output data/" +
-                               table.name + ".csv");
+      drawn.commands.push_back(shell_text(command_of(table.arguments, case_arguments_)) +
+                               " --output data/" + table.name + ".csv");
     }
     try {
       for (const TableRequest& table : figure.tables) write_table(table);
@@ -93,7 +66,7 @@ class ReportWriter {
 
  private:
   void write_table(const TableRequest& table) const {
-    Arguments arguments = command_of(table, case_arguments_);
+    Arguments arguments = command_of(table.arguments, case_arguments_);
     arguments.insert(arguments.end(),
                      {"--quiet", "--output", (folder_ / "data" / (table.name + ".csv")).string()});
     run_(arguments);
@@ -104,6 +77,18 @@ class ReportWriter {
   const CommandRunner& run_;
   bool can_draw_;
 };
+
+std::vector<ShownMotion> shown_motions(const Case& the_case, bool builtin,
+                                       const Arguments& case_arguments) {
+  std::vector<MotionRow> rows =
+      builtin ? paper_motions(the_case) : std::vector<MotionRow>{motion_of_the_case(the_case)};
+  std::vector<ShownMotion> shown;
+  for (MotionRow& row : rows) {
+    std::string command = shell_text(command_of(row.arguments, case_arguments));
+    shown.push_back({std::move(row), std::move(command)});
+  }
+  return shown;
+}
 
 std::string introduction_of(bool builtin) {
   if (!builtin) return "Figures for the case at the end of this page.";
@@ -131,6 +116,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   page.introduction = introduction_of(builtin);
   page.case_text = case_to_toml(context.case_data);
   if (builtin) page.comparisons = compare_with_paper();
+  page.motions = shown_motions(context.case_data, builtin, case_arguments);
   Progress progress(figures.size(), "report", progress_wanted(context));
   for (const Figure& figure : figures) {
     throw_if_interrupted();

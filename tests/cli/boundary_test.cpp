@@ -13,19 +13,12 @@ namespace {
 
 using program::CsvTable;
 
-CsvTable boundary_table(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
-  EXPECT_EQ(outcome.errors, "") << arguments;
-  return program::parse_csv(outcome.output, arguments);
-}
-
 /// Whether the loop with these gains is stable, by the chart of one cell.
 bool is_stable_cell(double p, double d, const std::string& more) {
   const auto text = [](double value) {
     return program::format_number(value) + ":" + program::format_number(value) + ":1";
   };
-  const auto table = boundary_table("stability --p=" + text(p) + " --d=" + text(d) + more);
+  const auto table = table_of("stability --p=" + text(p) + " --d=" + text(d) + more);
   return table.number(0, "stable") == 1.0;
 }
 
@@ -43,8 +36,7 @@ void expect_end_between_stable_and_not(const CsvTable& table, std::size_t row,
 }
 
 TEST(Boundary, ReachesTheEndsOfItsRange) {
-  const CsvTable table =
-      boundary_table("boundary --p -600:-500 --set control.sampling_period=0.01");
+  const CsvTable table = table_of("boundary --p -600:-500 --set control.sampling_period=0.01");
   int ends = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (table.text(row, "curve") != "complex_pair") continue;
@@ -56,7 +48,7 @@ TEST(Boundary, ReachesTheEndsOfItsRange) {
 
 TEST(Boundary, StableIntervalsEndWhereTheChartSaysSo) {
   for (const std::string more : {"", " --continuous"}) {
-    const auto table = boundary_table("boundary --stable-interval" + more);
+    const auto table = table_of("boundary --stable-interval" + more);
     ASSERT_GE(table.rows(), 2U);
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const bool d_varies = table.text(row, "gain") == "differential_gain";
@@ -68,24 +60,24 @@ TEST(Boundary, StableIntervalsEndWhereTheChartSaysSo) {
 }
 
 TEST(Boundary, StableIntervalsAreOfTheGainsThatAreGiven) {
-  const CsvTable table = boundary_table("boundary --stable-interval --p -557,-100 --continuous");
+  const CsvTable table = table_of("boundary --stable-interval --p -557,-100 --continuous");
   ASSERT_EQ(table.rows(), 2U);
   EXPECT_NEAR(table.number(0, "lower"), -33.7, 0.05) << "Kollár 2022, Fig. 3";
   EXPECT_EQ(table.number(0, "other_gain"), -557.0);
   EXPECT_EQ(table.number(1, "other_gain"), -100.0);
-  const CsvTable of_p = boundary_table("boundary --stable-interval --d -13 --continuous");
+  const CsvTable of_p = table_of("boundary --stable-interval --d -13 --continuous");
   ASSERT_EQ(of_p.rows(), 1U);
   EXPECT_EQ(of_p.text(0, "gain"), "proportional_gain");
   const CsvTable slow =
-      boundary_table("boundary --stable-interval --p -557 --set control.sampling_period=0.01");
+      table_of("boundary --stable-interval --p -557 --set control.sampling_period=0.01");
   ASSERT_EQ(slow.rows(), 1U);
   EXPECT_NEAR(slow.number(0, "lower"), -15.5, 0.05) << "Kollár 2022, Fig. 4a";
 }
 
 TEST(Boundary, StableIntervalsLieOnTheBoundary) {
   const std::string more = " --set control.sampling_period=0.01";
-  const CsvTable table = boundary_table("boundary --stable-interval --p -600,-500" + more);
-  const CsvTable curve = boundary_table("boundary --p -600:-500" + more);
+  const CsvTable table = table_of("boundary --stable-interval --p -600,-500" + more);
+  const CsvTable curve = table_of("boundary --p -600:-500" + more);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     for (const std::string end : {"lower", "upper"}) {
       double nearest = 1.0;
@@ -130,7 +122,7 @@ TEST(Boundary, SaysWhereNoGainStabilises) {
 
 TEST(Boundary, RegionsFillTheWindowStableFirst) {
   const std::string more = " --set control.sampling_period=0.01";
-  const CsvTable table = boundary_table("boundary --regions --p -1000:200 --d -40:20" + more);
+  const CsvTable table = table_of("boundary --regions --p -1000:200 --d -40:20" + more);
   ASSERT_GT(table.rows(), 2U);
   double sum = 0.0, before = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -151,7 +143,7 @@ TEST(Boundary, RegionsFillTheWindowStableFirst) {
 }
 
 TEST(Boundary, RegionsOfTheContinuousLoopAreKnownToo) {
-  const CsvTable table = boundary_table("boundary --regions --continuous");
+  const CsvTable table = table_of("boundary --regions --continuous");
   ASSERT_EQ(table.rows(), 2U);
   EXPECT_EQ(table.number(0, "unstable_roots"), 0.0);
   EXPECT_EQ(table.number(1, "unstable_roots"), 2.0);
@@ -175,8 +167,8 @@ TEST(Boundary, TheStableRegionEndsAtAVerticalTangent) {
   // τ = δ = 10 ms: the stable region is closed to both sides.
   const std::string more =
       " --set control.sampling_period=0.01 --set control.processing_delay=0.01";
-  const CsvTable features = boundary_table("boundary --features" + more);
-  const CsvTable regions = boundary_table("boundary --regions" + more);
+  const CsvTable features = table_of("boundary --features" + more);
+  const CsvTable regions = table_of("boundary --regions" + more);
   ASSERT_EQ(regions.number(0, "unstable_roots"), 0.0);
   int seen = 0;
   for (std::size_t row = 0; row < features.rows(); ++row) {
@@ -190,8 +182,8 @@ TEST(Boundary, TheStableRegionEndsAtAVerticalTangent) {
 }
 
 TEST(Boundary, FeaturesWhereLinesAndPairsMeetNameBothCurves) {
-  const CsvTable table = boundary_table(
-      "boundary --features --p -1e5:1e5 --d -1e4:1e4 --set control.sampling_period=0.01");
+  const CsvTable table =
+      table_of("boundary --features --p -1e5:1e5 --d -1e4:1e4 --set control.sampling_period=0.01");
   int ends = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (table.text(row, "feature") != "end") continue;
@@ -204,7 +196,7 @@ TEST(Boundary, FeaturesWhereLinesAndPairsMeetNameBothCurves) {
 }
 
 TEST(Boundary, AWindowWithoutFeaturesIsAnEmptyTable) {
-  EXPECT_EQ(boundary_table("boundary --features --continuous --p 1000:1001 --d 0:1").rows(), 0U);
+  EXPECT_EQ(table_of("boundary --features --continuous --p 1000:1001 --d 0:1").rows(), 0U);
 }
 
 TEST(Boundary, RefusesOptionsThatDoNotGoTogether) {

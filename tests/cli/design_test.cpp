@@ -13,18 +13,11 @@ namespace {
 using program::CsvTable;
 using program::parse_csv;
 
-CsvTable design_table(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
-  EXPECT_EQ(outcome.errors, "") << arguments;
-  return parse_csv(outcome.output, arguments);
-}
-
 /// ρ at one pair of gains, by the chart of one cell.
 double radius_of_cell(double p, double d, const std::string& settings) {
   const std::string at_p = std::to_string(p), at_d = std::to_string(d);
-  return design_table("stability --radius --p " + at_p + ":" + at_p + ":1 --d " + at_d + ":" +
-                      at_d + ":1 " + settings)
+  return table_of("stability --radius --p " + at_p + ":" + at_p + ":1 --d " + at_d + ":" + at_d +
+                  ":1 " + settings)
       .number(0, "spectral_radius");
 }
 
@@ -40,7 +33,7 @@ std::size_t row_where(const CsvTable& table, const std::string& column, const st
 
 TEST(DesignJob, KeepsTheRadiusThatIsAskedFor) {
   const std::string settings = "--set control.sampling_period=0.01";
-  const CsvTable table = design_table("design --largest-radius 0.995 " + settings);
+  const CsvTable table = table_of("design --largest-radius 0.995 " + settings);
   ASSERT_EQ(table.rows(), 1U);
   EXPECT_EQ(table.text(0, "least_amplitude_at"), "edge");
   const double d = table.number(0, "least_amplitude_gain");
@@ -50,20 +43,20 @@ TEST(DesignJob, KeepsTheRadiusThatIsAskedFor) {
 
 TEST(DesignJob, OneGainServesABand) {
   const std::string settings = "--set control.sampling_period=0.01 --largest-radius 0.995";
-  const CsvTable band = design_table("design --band 9:11 " + settings);
+  const CsvTable band = table_of("design --band 9:11 " + settings);
   ASSERT_EQ(band.rows(), 1U);
   EXPECT_GE(band.number(0, "worst_frequency_Hz"), 9.0);
   EXPECT_LE(band.number(0, "worst_frequency_Hz"), 11.0);
   EXPECT_NEAR(band.number(0, "lower_bound"), band.number(0, "worst_ratio"),
               1e-7 * band.number(0, "worst_ratio"));
-  const CsvTable single = design_table("design " + settings);
+  const CsvTable single = table_of("design " + settings);
   EXPECT_GE(band.number(0, "worst_ratio"), single.number(0, "ratio_to_uncontrolled"));
 }
 
 TEST(DesignJob, BothGainsAreBetterThanDAlone) {
   const std::string settings = " --set control.sampling_period=0.01";
-  const CsvTable pair = design_table("design --both-gains" + settings);
-  const CsvTable alone = design_table("design" + settings);
+  const CsvTable pair = table_of("design --both-gains" + settings);
+  const CsvTable alone = table_of("design" + settings);
   const double radius = pair.number(0, "spectral_radius");
   EXPECT_LT(radius, alone.number(0, "least_radius"));
   EXPECT_NEAR(radius_of_cell(pair.number(0, "proportional_gain"),
@@ -116,9 +109,9 @@ TEST(DesignJob, RefusesWhatDoesNotGoTogether) {
 
 TEST(MarginsJob, EndsAreThoseOfTheStableInterval) {
   const std::string settings = " --set control.sampling_period=0.01";
-  const CsvTable margins = design_table("margins" + settings);
+  const CsvTable margins = table_of("margins" + settings);
   ASSERT_EQ(margins.rows(), 8U);
-  const CsvTable intervals = design_table("boundary --stable-interval" + settings);
+  const CsvTable intervals = table_of("boundary --stable-interval" + settings);
   const std::size_t below = row_where(margins, "quantity", "differential_gain", "side", "below");
   EXPECT_NEAR(margins.number(below, "position"), intervals.number(0, "lower"), 1e-9);
   EXPECT_EQ(margins.number(below, "value"), -13.0);
@@ -141,12 +134,12 @@ TEST(MarginsJob, AnUnstableLoopIsNoAnswer) {
 }
 
 TEST(SensitivityJob, IsTheSlopeOfTheDesign) {
-  const CsvTable slopes = design_table("sensitivity");
+  const CsvTable slopes = table_of("sensitivity");
   const std::size_t row =
       row_where(slopes, "answer", "least_radius", "parameter", "plant.absorber_mass");
   EXPECT_EQ(slopes.text(row, "parameter_unit"), "kg");
   const auto radius = [](const std::string& mass) {
-    return design_table("design --set plant.absorber_mass=" + mass).number(0, "least_radius");
+    return table_of("design --set plant.absorber_mass=" + mass).number(0, "least_radius");
   };
   const double slope = (radius("0.1601") - radius("0.1599")) / 0.0002;
   EXPECT_NEAR(slopes.number(row, "derivative"), slope, 1e-3 * std::abs(slope));
@@ -159,11 +152,11 @@ TEST(SensitivityJob, OfTheLargestPeriodIsThatOfTheCasesDelay) {
   const std::string at =
       "sensitivity --set control.sampling_period=0.01 --set "
       "control.processing_delay=";
-  const CsvTable slopes = design_table(at + "0.004");
+  const CsvTable slopes = table_of(at + "0.004");
   const std::size_t row =
       row_where(slopes, "answer", "max_stable_period", "parameter", "control.processing_delay");
   const auto period = [&](const std::string& delay) {
-    const CsvTable table = design_table(at + delay);
+    const CsvTable table = table_of(at + delay);
     return table.number(
         row_where(table, "answer", "max_stable_period", "parameter", "control.processing_delay"),
         "value");
@@ -174,7 +167,7 @@ TEST(SensitivityJob, OfTheLargestPeriodIsThatOfTheCasesDelay) {
 
 TEST(SensitivityJob, ATunedGainIsCarriedAlong) {
   const std::string tuned = "sensitivity --set control.proportional_gain=tuned";
-  const CsvTable carried = design_table(tuned), asked = design_table(tuned + " --tuned");
+  const CsvTable carried = table_of(tuned), asked = table_of(tuned + " --tuned");
   ASSERT_EQ(carried.rows(), asked.rows());
   const std::size_t row =
       row_where(carried, "answer", "least_radius", "parameter", "plant.absorber_stiffness");

@@ -137,7 +137,8 @@ TEST(Help, ListsJobsAndUnits) {
   EXPECT_EQ(help.exit_code, 0);
   for (const std::string job :
        {"stability", "boundary", "max-delay", "response", "design", "margins", "sensitivity",
-        "simulate", "spectrum", "deviation", "coverage", "lyapunov", "report"}) {
+        "simulate", "spectrum", "deviation", "coverage", "lyapunov", "verdict", "orbit", "basins",
+        "diagram", "section", "report"}) {
     EXPECT_NE(help.output.find(job), std::string::npos) << job;
     const Outcome of_job = run_holdfast(job + " --help");
     EXPECT_EQ(of_job.exit_code, 0);

@@ -13,13 +13,6 @@ namespace {
 using program::CsvTable;
 using program::parse_csv;
 
-CsvTable table_of(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(outcome.errors, "");
-  return parse_csv(outcome.output, arguments);
-}
-
 std::string header_of(const std::string& arguments) {
   const Outcome outcome = run_holdfast(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
@@ -59,6 +52,21 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
   EXPECT_EQ(header_of("spectrum --duration 2"), "frequency_Hz,amplitude_m");
   EXPECT_EQ(header_of("deviation --duration 0.1"), "time_s,z1_deviation_m,state_deviation");
   EXPECT_EQ(header_of("coverage --durations 1,2"), "duration_s,cells,visited,fraction");
+  EXPECT_EQ(header_of("orbit"),
+            "period_samples,period_s,forcing_periods,largest_multiplier,closure_error,"
+            "border_distance_m,engaged_fraction");
+  EXPECT_EQ(header_of("orbit --trace"),
+            "time_s,z1_m,v1_m_per_s,z2_m,v2_m_per_s,control_force_N,in_backlash");
+  EXPECT_EQ(header_of("orbit --certificate"), "quantity,value,unit");
+  EXPECT_EQ(header_of("orbit --follow backlash.width=0:0.001"),
+            "side,outcome,position,distance,surface,sample,largest_multiplier,"
+            "multiplier_angle_rad");
+  EXPECT_EQ(header_of("basins --axis initial.z1=0:0.001:2 --axis initial.v2=0:0.1:2"),
+            "initial.z1,initial.v2,attractor,period_s");
+  EXPECT_EQ(header_of("section --duration 1 --from 0.5"),
+            "time_s,z1_m,v1_m_per_s,z2_m,rising,in_backlash");
+  EXPECT_EQ(header_of("diagram --axis backlash.width=0:0.001:2 --transient 1 --strobes 2"),
+            "backlash.width,upward,z1_m,v1_m_per_s,z2_m,v2_m_per_s");
   EXPECT_EQ(header_of("lyapunov --duration 1"), "exponent,per_sample,per_second,standard_error");
   EXPECT_EQ(header_of("lyapunov --duration 0.1 --history"),
             "time_s,lambda1,lambda2,lambda3,lambda4,lambda5");
@@ -150,6 +158,17 @@ TEST(Simulate, KickDisplacesTheConductorAtItsInstant) {
                  kicked = table_of("simulate --duration 1 --kick 0.9:0.003");
   EXPECT_EQ(plain.text(899, "z1_m"), kicked.text(899, "z1_m"));
   EXPECT_NEAR(kicked.number(900, "z1_m") - plain.number(900, "z1_m"), 0.003, 1e-15);
+}
+
+TEST(Lyapunov, StopsAtTheErrorAskedForAndLeavesOutTheStart) {
+  const std::string job = "lyapunov --set backlash.width=0.002 --duration 1000 --discard 20";
+  const CsvTable quick = table_of(job + " --standard-error 1e-4");
+  const CsvTable whole = table_of(job), largest = table_of(job + " --largest");
+  EXPECT_LE(quick.number(0, "standard_error"), 1e-4);
+  EXPECT_NEAR(quick.number(0, "per_sample"), whole.number(0, "per_sample"), 5e-4);
+  ASSERT_EQ(largest.rows(), 1U);
+  EXPECT_NEAR(largest.number(0, "per_sample"), whole.number(0, "per_sample"), 1e-4);
+  EXPECT_EQ(run_holdfast(job + " --history").exit_code, 2);
 }
 
 TEST(Lyapunov, AnnihilatedDirectionIsMinusInfinity) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "csv.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace holdfast::tests {
@@ -43,6 +45,14 @@ inline Outcome run_holdfast(const std::string& arguments, const std::string& red
                               destination + " 2>'" + errors + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};
+}
+
+/// The table that a command line writes, which has to do so without a word on standard error.
+inline program::CsvTable table_of(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  EXPECT_EQ(outcome.errors, "") << arguments;
+  return program::parse_csv(outcome.output, arguments);
 }
 
 /// The lines of a text, without their ends.

@@ -22,11 +22,12 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 void expect_every_figure_as_table_and_picture(const fs::path& report) {
   const std::string page = read_text(report / "report.html");
-  std::vector<std::string> figures = {"fig02a", "fig03",  "fig04a",  "fig04b", "fig04c", "fig04d",
-                                      "fig05",  "fig05b", "fig06a",  "fig06b", "fig07a", "fig07b",
-                                      "fig08a", "fig08b", "fig09a",  "fig09b", "fig09c", "fig10a",
-                                      "fig10b", "fig11a", "fig11b",  "fig12a", "fig12b", "fig12c",
-                                      "fig13a", "fig13b", "table2a", "table2b"};
+  std::vector<std::string> figures = {
+      "fig02a", "fig03",   "fig04a",           "fig04b",       "fig04c", "fig04d",  "fig05",
+      "fig05b", "fig06a",  "fig06b",           "fig07a",       "fig07b", "fig08a",  "fig08b",
+      "fig09a", "fig09b",  "fig09c",           "fig10a",       "fig10b", "fig11a",  "fig11b",
+      "fig12a", "fig12b",  "fig12c",           "fig13a",       "fig13b", "table2a", "table2b",
+      "orbits", "section", "diagram-backlash", "diagram-gain", "basins"};
   if (program::has_sundials()) figures.insert(figures.end(), {"fig02b", "fig02c", "fig02d"});
   for (const std::string& figure : figures) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
@@ -62,6 +63,48 @@ void expect_verdicts_with_reasons_where_they_differ(const fs::path& report) {
   EXPECT_EQ(differing, count_of(page, "<td class=\"differs\">differs: "));
 }
 
+/// The part of the page between a text and the next one after it; empty where the first is not.
+std::string part_between(const std::string& page, const std::string& from, const std::string& to) {
+  const std::size_t begin = page.find(from);
+  if (begin == std::string::npos) return "";
+  return page.substr(begin, page.find(to, begin + from.size()) - begin);
+}
+
+/// The two rows of a motion, from the cell that names it to the end of its command.
+std::string motion_named(const std::string& page, const std::string& cell) {
+  const std::string section = part_between(page, "<h2 id=\"motions\">", "<h2>Figures</h2>");
+  return part_between(section, "<td>" + cell + "</td>", "</code>");
+}
+
+void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+}
+
+// The forcing has 10 Hz. A sample falls on its own phase again after 100 samples of 11 ms, 11
+// forcing periods; the periods are those that the exact solution of the contacts has.
+void expect_what_the_motions_are(const fs::path& report) {
+  const std::string page = read_text(report / "report.html");
+  EXPECT_EQ(count_of(page, "<tr class=\"motion\">"), 11U);
+  EXPECT_EQ(count_of(page, "<td class=\"verdict\">periodic("), 11U);
+  EXPECT_EQ(count_of(page, "same contacts; "), 11U);
+  expect_holds(motion_named(page, "Figs. 6, 7a, 8, 9a"),
+               {"periodic(100)", "0.1 s; 100 samples; 1 forcing period<",
+                "holdfast orbit --certificate --set control.sampling_period=0.001 --set "
+                "backlash.width=0.0005"});
+  expect_holds(motion_named(page, "Fig. 7b"), {"periodic(30)", "3 forcing periods"});
+  expect_holds(motion_named(page, "Figs. 9b, 10a, 11a, 13a, Table 2"),
+               {"periodic(500)", "0.5 s; 500 samples; 5 forcing periods"});
+  expect_holds(motion_named(page, "Figs. 9c, 10b, 11b, 12, 13b, Table 2"),
+               {"periodic(2100)", "23.1 s; 2100 samples; 231 forcing periods", "Certified orbit"});
+  expect_holds(motion_named(page, "Fig. 11b, the neighbour"),
+               {"periodic(2100)", "meet: the same orbit", "--set initial.z1=1e-5"});
+  // Five forcing periods: five copies of the motion, each one of them later.
+  expect_holds(motion_named(page, "as Fig. 11a, farther apart"),
+               {"periodic(500)", "stay apart: copies", "of 5<"});
+  EXPECT_EQ(count_of(page, "<strong>different orbits</strong>"), 1U);  // with 3 ms
+}
+
 // One report for all that is to be seen in it: it takes seconds.
 TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const TemporaryFolder folder;
@@ -72,6 +115,7 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   expect_no_partial_file_and_metadata_beside_every_table(report);
   expect_nothing_loaded_from_elsewhere(report);
   expect_verdicts_with_reasons_where_they_differ(report);
+  expect_what_the_motions_are(report);
 }
 
 TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
@@ -82,6 +126,10 @@ TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
   const std::string page = read_text(folder / "mine/report.html");
   EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
   EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
+  EXPECT_EQ(count_of(page, "<tr class=\"motion\">"), 1U);
+  expect_holds(motion_named(page, "this case"),
+               {"τ = 5 ms, r₀ = 0.5 mm", "Certified orbit", "forcing period",
+                "holdfast orbit --set control.sampling_period=0.005 --certificate"});
 }
 
 TEST(Report, OfADivergingCaseSaysSoInThePage) {
@@ -90,8 +138,10 @@ TEST(Report, OfADivergingCaseSaysSoInThePage) {
       "report --set control.sampling_period=0.011 --set control.processing_delay=0.011 --output '" +
       (folder / "mine").string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(read_text(folder / "mine/report.html").find("No picture: the motion diverges"),
-            std::string::npos);
+  const std::string page = read_text(folder / "mine/report.html");
+  EXPECT_NE(page.find("No picture: the motion diverges"), std::string::npos);
+  expect_holds(motion_named(page, "this case"), {"<td class=\"verdict\">diverges</td>",
+                                                 "left all bounds", "holdfast verdict --set"});
 }
 
 }  // namespace

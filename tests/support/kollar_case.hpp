@@ -8,6 +8,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/harmonic_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/stepper.hpp"
 #include "holdfast/motion/trajectory.hpp"
@@ -32,6 +33,10 @@ struct KollarCase {
 
   SampledLoop<double> loop() const {
     return sampled_loop(kollar2022_plant(), Sampling<double>{sampling_period, processing_delay});
+  }
+
+  ForcedLoop<double> forced_loop() const {
+    return {kollar2022_plant(), {sampling_period, processing_delay}, gains, excitation, width};
   }
 
   template <class Law = Backlash<double>>

@@ -5,6 +5,14 @@
 
 namespace holdfast {
 
+/// What the drive remembers of the past samples.
+template <class Scalar>
+struct BacklashMemory {
+  Mask<Scalar> inside;       ///< in its gap since the last sample
+  Scalar lower, upper;       ///< ends of the gap, Δz in m; meaningful while inside
+  Scalar previous_velocity;  ///< Δż of the last sample (m/s); zero before the first one
+};
+
 /// Backlash of the drive, as a hysteresis that steps on sampled Δz = z₂ − z₁ and Δż = ż₂ − ż₁
 /// alone.
 ///
@@ -28,44 +36,46 @@ class Backlash {
  public:
   /// @param width  r₀ (m), ≥ 0
   explicit Backlash(const Scalar& width)
-      : width_(width),
-        lower_(0),
-        upper_(0),
-        previous_velocity_(0),
-        inside_(Scalar(0) > Scalar(0)) {}
+      : Backlash(width, {Scalar(0) > Scalar(0), Scalar(0), Scalar(0), Scalar(0)}) {}
+
+  /// Goes on from what another one of the same width remembered.
+  Backlash(const Scalar& width, const BacklashMemory<Scalar>& memory)
+      : width_(width), memory_(memory) {}
 
   /// Takes in one sample. @return true where the force is transmitted during the coming period
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
-    const Mask<Scalar> stays =
-        inside_ & (relative_displacement >= lower_) & (relative_displacement <= upper_);
-    const Mask<Scalar> from_positive = (previous_velocity_ > zero) & (relative_velocity <= zero);
-    const Mask<Scalar> from_negative = (previous_velocity_ < zero) & (relative_velocity >= zero);
-    const Mask<Scalar> enters = (!inside_) & (width_ > zero) & (from_positive | from_negative);
+    const Mask<Scalar> stays = memory_.inside & (relative_displacement >= memory_.lower) &
+                               (relative_displacement <= memory_.upper);
+    const Scalar& before = memory_.previous_velocity;
+    const Mask<Scalar> from_positive = (before > zero) & (relative_velocity <= zero);
+    const Mask<Scalar> from_negative = (before < zero) & (relative_velocity >= zero);
+    const Mask<Scalar> enters =
+        (!memory_.inside) & (width_ > zero) & (from_positive | from_negative);
 
     const Scalar reach_down = select(from_positive, width_, zero);
-    lower_ = select(enters, Scalar(relative_displacement - reach_down), lower_);
-    upper_ = select(enters, Scalar(relative_displacement + (width_ - reach_down)), upper_);
-    inside_ = stays | enters;
-    previous_velocity_ = relative_velocity;
-    return !inside_;
+    const Scalar reach_up = width_ - reach_down;
+    memory_.lower = select(enters, Scalar(relative_displacement - reach_down), memory_.lower);
+    memory_.upper = select(enters, Scalar(relative_displacement + reach_up), memory_.upper);
+    memory_.inside = stays | enters;
+    memory_.previous_velocity = relative_velocity;
+    return !memory_.inside;
   }
 
   /// True where the drive is in its gap since the last step.
-  Mask<Scalar> inside() const { return inside_; }
+  Mask<Scalar> inside() const { return memory_.inside; }
   /// Lower end of the current gap, Δz in m; meaningful while inside.
-  const Scalar& lower() const { return lower_; }
+  const Scalar& lower() const { return memory_.lower; }
   /// Upper end of the current gap, Δz in m; meaningful while inside.
-  const Scalar& upper() const { return upper_; }
+  const Scalar& upper() const { return memory_.upper; }
   /// r₀ (m).
   const Scalar& width() const { return width_; }
+  /// All that the coming samples depend on.
+  const BacklashMemory<Scalar>& memory() const { return memory_; }
 
  private:
   Scalar width_;
-  Scalar lower_;
-  Scalar upper_;
-  Scalar previous_velocity_;  // zero before the first sample, so that j = 0 cannot enter
-  Mask<Scalar> inside_;
+  BacklashMemory<Scalar> memory_;
 };
 
 /// @throws InvalidParameter unless 0 ≤ width < ∞

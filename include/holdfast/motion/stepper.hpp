@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "holdfast/backlash/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
@@ -9,6 +10,7 @@
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/excitation.hpp"
+#include "holdfast/motion/forcing.hpp"
 
 namespace holdfast {
 
@@ -16,10 +18,19 @@ namespace holdfast {
 template <class Scalar>
 struct MotionSample {
   std::int64_t index;       ///< j
-  double time;              ///< t_j = j τ (s)
+  Scalar time;              ///< t_j = j τ (s)
   Vector<Scalar, 4> state;  ///< z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
   Scalar control_force;     ///< u_j (N), applied from t_j + δ to t_{j+1} + δ; 0 in the backlash
   Mask<Scalar> engaged;     ///< true where the drive transmits, false in the backlash
+};
+
+/// All that the coming samples of a motion depend on beside the forcing.
+/// @tparam LawMemory  what the backlash remembers
+template <class Scalar, class LawMemory>
+struct MotionMemory {
+  Vector<Scalar, 4> state;  ///< z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+  Scalar previous_force;    ///< u_{j−1} (N), which acts until t_j + δ
+  LawMemory backlash;       ///< before sample j
 };
 
 /// The motion of the sampled loop with backlash, one sample at a time.
@@ -29,20 +40,26 @@ struct MotionSample {
 ///
 ///     z_{j+1} = A_d z_j + Γ₁ u_{j−1} + Γ₀ u_j + F_m (g_c cos ω t_j + g_s sin ω t_j)
 ///
-/// Work per sample: 32 multiply-adds, the hysteresis, one cosine and sine. Nothing is allocated.
-/// Source: Kollár 2022, Eqs. (11)–(14).
-/// @tparam Law  the backlash: `step(Δz, Δż)` returns a mask that is true where the force is
-/// transmitted
-template <class Scalar, class Law = Backlash<Scalar>>
+/// Work per sample: 24 multiply-adds, the hysteresis, and the forcing (eight more for a harmonic
+/// one). Nothing is allocated. Source: Kollár 2022, Eqs. (11)–(14).
+/// @tparam Law      the backlash: `step(Δz, Δż)` returns a mask that is true where the force is
+///                  transmitted
+/// @tparam Forcing  the excitation: `next()` returns what it adds to the state over the present
+///                  sampling period
+template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>>
 class SampledMotion {
  public:
   SampledMotion(const SampledLoop<Scalar>& loop, const PdGains<Scalar>& gains,
                 const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
                 const Law& law, const Vector<Scalar, 4>& initial_state)
+      : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
+                      initial_state) {}
+
+  SampledMotion(const SampledLoop<Scalar>& loop, const PdGains<Scalar>& gains,
+                const Forcing& forcing, const Law& law, const Vector<Scalar, 4>& initial_state)
       : loop_(loop),
         gains_(gains),
-        input_(input),
-        excitation_(excitation),
+        forcing_(forcing),
         law_(law),
         state_(initial_state),
         previous_force_(0) {}
@@ -58,11 +75,9 @@ class SampledMotion {
 
   /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
-    const auto force = sample_excitation(excitation_, loop_.sampling.period, index_);
     const Vector<Scalar, 4> next = loop_.transition * state_ +
                                    loop_.previous_force * previous_force_ +
-                                   loop_.present_force * present_force_ +
-                                   input_.cosine * force.cosine + input_.sine * force.sine;
+                                   loop_.present_force * present_force_ + forcing_.next();
     state_ = next;
     previous_force_ = present_force_;
     ++index_;
@@ -73,22 +88,32 @@ class SampledMotion {
 
   std::int64_t index() const { return index_; }
   /// t_j (s).
-  double time() const {
-    return static_cast<double>(index_) * static_cast<double>(loop_.sampling.period);
-  }
+  Scalar time() const { return Scalar(static_cast<double>(index_)) * loop_.sampling.period; }
   const Vector<Scalar, 4>& state() const { return state_; }
   const SampledLoop<Scalar>& loop() const { return loop_; }
   const Law& law() const { return law_; }
+  const Forcing& forcing() const { return forcing_; }
+  /// What the motion remembers at t_j; ask before `sense()`.
+  auto memory() const {
+    return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>>{state_, previous_force_,
+                                                                       law_.memory()};
+  }
+  /// Goes on from what a motion of the same loop remembered, at the forcing's present phase.
+  template <class LawMemory>
+  void restore(const MotionMemory<Scalar, LawMemory>& memory) {
+    state_ = memory.state;
+    previous_force_ = memory.previous_force;
+    law_ = Law(law_.width(), memory.backlash);
+  }
 
  private:
   SampledLoop<Scalar> loop_;
   PdGains<Scalar> gains_;
-  HarmonicInput<Scalar> input_;
-  HarmonicExcitation<Scalar> excitation_;
+  Forcing forcing_;
   Law law_;
   Vector<Scalar, 4> state_;
   Scalar previous_force_;
-  Scalar present_force_{0};
+  Scalar present_force_ = Scalar(0);
   std::int64_t index_ = 0;
 };
 

@@ -1,0 +1,69 @@
+#include <memory>
+
+#include "axis.hpp"
+#include "exit.hpp"
+#include "holdfast/attractor/orbit_diagram.hpp"
+#include "interrupt.hpp"
+#include "job.hpp"
+#include "loop_of_case.hpp"
+#include "motion_options.hpp"
+#include "table.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct Options {
+  std::string axis = "backlash.width=0:0.003:121";
+  DiagramQuestion question;
+  std::string switching = "sampled";
+};
+
+void run(const JobContext& context, const Options& options) {
+  const auto [key, axis] = parse_key_axis("--axis", options.axis);
+  std::vector<double> values;
+  for (std::int64_t k = 0; k < axis.count; ++k) values.push_back(axis.at(k));
+  Table table(context, {{key, "", "the key's value"},
+                        {"upward", "", "1: on the way up, 0: on the way back", "integer"},
+                        {"z1_m", "m", "displacement of the conductor at a whole forcing period"},
+                        {"v1_m_per_s", "m/s", "velocity of the conductor there"},
+                        {"z2_m", "m", "displacement of the absorber there"},
+                        {"v2_m_per_s", "m/s", "velocity of the absorber there"}});
+  const auto path = [&, name = key](double value) {
+    throw_if_interrupted();
+    return forced_loop_with(context.case_data, name, value);
+  };
+  DiagramQuestion question = options.question;
+  question.watch = throw_if_interrupted;
+  const std::size_t diverged = run_orbit_diagram(
+      path, values, initial_state_of(context.case_data), question, [&](const StrobePoint& point) {
+        table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
+                  point.state[2], point.state[3]);
+      });
+  table.commit();
+  if (diverged > 0) {
+    report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +
+                       " motions diverge and show nothing",
+                   context.quiet);
+  }
+}
+
+}  // namespace
+
+void add_diagram(CLI::App& program) {
+  const Job job(program, "diagram", question::attractor,
+                "Orbit diagram: one state a forcing period against a key, up and back");
+  const auto options = std::make_shared<Options>();
+  job.add_text("--axis", options->axis, "KEY=MIN:MAX:COUNT, the key that goes up and back");
+  job->add_option("--transient", options->question.transient, "Left out at each value, s")
+      ->check(number_from(0.0, 1e9))
+      ->type_name("")
+      ->capture_default_str();
+  job->add_option("--strobes", options->question.strobes, "Forcing periods shown at each value")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("")
+      ->capture_default_str();
+  add_switching(job, options->switching);
+  job->final_callback([job, options] { run(job.context(), *options); });
+}
+
+}  // namespace holdfast::program

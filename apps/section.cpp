@@ -1,0 +1,62 @@
+#include <memory>
+
+#include "errors.hpp"
+#include "holdfast/attractor/poincare_section.hpp"
+#include "holdfast/motion/instant.hpp"
+#include "interrupt.hpp"
+#include "job.hpp"
+#include "loop_of_case.hpp"
+#include "motion_options.hpp"
+#include "table.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct Options {
+  double duration = 60.0;
+  double from = 30.0;
+  std::string switching = "sampled";
+};
+
+void run(const JobContext& context, const Options& options) {
+  if (options.from > options.duration)
+    throw WrongInput("--from lies after --duration: no point is left");
+  Table table(context,
+              {{"time_s", "s", "instant at which z2 - z1 turns, between the samples"},
+               {"z1_m", "m", "displacement of the conductor, positive downward"},
+               {"v1_m_per_s", "m/s", "velocity of the conductor, and of the absorber"},
+               {"z2_m", "m", "displacement of the absorber, positive downward"},
+               {"rising", "", "1: v2 - v1 goes from negative to positive, 0: back", "integer"},
+               {"in_backlash", "", "1: the drive is in its backlash, 0: it transmits", "integer"}});
+  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+  auto motion = motion_of(context.case_data);
+  const std::int64_t before = samples_within(options.from, loop.sampling.period) - 1;
+  const std::int64_t samples = samples_within(options.duration, loop.sampling.period) - 1;
+  run_to_completion(motion, before, {});
+  const auto outcome = run_section(loop, motion, samples - before, [&](const SectionPoint& point) {
+    throw_if_interrupted();
+    if (!not_before(point.time, options.from)) return;
+    table.row(point.time, point.state[0], point.state[1], point.state[2], point.rising ? 1 : 0,
+              point.engaged ? 0 : 1);
+  });
+  require_completed(outcome, motion.time());
+  table.commit();
+}
+
+}  // namespace
+
+void add_section(CLI::App& program) {
+  const Job job(program, "section", question::attractor,
+                "Poincaré section of the motion: the instants at which z2 - z1 turns");
+  const auto options = std::make_shared<Options>();
+  add_duration(job, options->duration);
+  job->add_option("--from", options->from, "First instant to be written, s")
+      ->check(number_from(0.0, 1e12))
+      ->type_name("")
+      ->capture_default_str();
+  add_switching(job, options->switching);
+  job->final_callback([job, options] { run(job.context(), *options); });
+}
+
+}  // namespace holdfast::program

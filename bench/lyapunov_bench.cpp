@@ -1,0 +1,179 @@
+// Lyapunov exponents of the sampled loop with backlash: words of contacts, one trajectory and many
+// at a time. Peer: Eigen's 5 × 5 product and Gram–Schmidt at every sample on a motion stepped
+// beside it. All sides alternate in one run; the medians and their ratios are printed.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "holdfast/simd/lyapunov.hpp"
+#include "medians.hpp"
+
+namespace {
+
+using namespace holdfast;
+
+constexpr std::int64_t samples = 200000;
+constexpr std::int64_t samples_of_many = 20000;
+constexpr std::size_t trajectories = 64;
+
+volatile double sink = 0.0;
+
+ForcedLoop<double> loop_of(double period, double delay_fraction) {
+  return {
+      kollar2022_plant(), {period, delay_fraction * period}, {-557.0, -13.0}, {0.5, 10.0}, 0.002};
+}
+
+/// What a user would write.
+class EveryStep {
+ public:
+  EveryStep(const SampledLoop<double>& loop, const PdGains<double>& gains)
+      : engaged_(loop.engaged_map(gains)), backlash_(loop.backlash_map()) {}
+
+  void push(bool engaged) {
+    Matrix<double, 5> next = (engaged ? engaged_ : backlash_) * basis_;
+    for (int i = 0; i < 5; ++i) {
+      for (int j = 0; j < i; ++j) next.col(i) -= next.col(j).dot(next.col(i)) * next.col(j);
+      const double length = next.col(i).norm();
+      sums_[i] += std::log(length);
+      next.col(i) /= length;
+    }
+    basis_ = next;
+    ++steps_;
+  }
+  Vector<double, 5> exponents() const { return sums_ / steps_; }
+
+ private:
+  Matrix<double, 5> engaged_, backlash_;
+  Matrix<double, 5> basis_ = Matrix<double, 5>::Identity();
+  Vector<double, 5> sums_ = Vector<double, 5>::Zero();
+  double steps_ = 0;
+};
+
+std::vector<Vector<double, 4>> states_of(std::size_t count) {
+  std::vector<Vector<double, 4>> states;
+  for (std::size_t k = 0; k < count; ++k)
+    states.push_back({0.001 * std::sin(1.0 + static_cast<double>(k)), 0.0,
+                      0.001 * std::cos(2.0 * static_cast<double>(k)), 0.0});
+  return states;
+}
+
+struct Sides {
+  explicit Sides(const ForcedLoop<double>& of)
+      : loop(of),
+        sampled(sampled_loop(of.plant, of.sampling)),
+        words(std::make_shared<const ContactWords>(sampled, of.gains)),
+        ratio(*forcing_ratio(of)) {
+    auto motion = start();
+    for (std::int64_t taken = 0; taken < samples; ++taken) {
+      contacts.push_back(motion.sense().engaged ? 1 : 0);
+      motion.advance();
+    }
+  }
+
+  PeriodicallyForcedMotion<double> start() const {
+    return periodically_forced_motion(loop, ratio, Vector<double, 4>(Vector<double, 4>::Zero()));
+  }
+
+  Vector<double, 5> every_step() const {
+    SampledMotion<double> motion(sampled, loop.gains, held_harmonic(sampled), loop.excitation,
+                                 Backlash<double>(loop.backlash_width), Vector<double, 4>::Zero());
+    EveryStep peer(sampled, loop.gains);
+    for (std::int64_t taken = 0; taken < samples; ++taken) {
+      peer.push(motion.sense().engaged);
+      motion.advance();
+    }
+    return peer.exponents();
+  }
+
+  Vector<double, 5> every_step_on_contacts() const {
+    EveryStep peer(sampled, loop.gains);
+    for (const std::uint8_t contact : contacts) peer.push(contact != 0);
+    return peer.exponents();
+  }
+
+  Vector<double, 5> by_words(LyapunovScope scope) const {
+    auto motion = start();
+    LyapunovRun run{samples};
+    run.scope = scope;
+    return run_lyapunov(motion, words, run).exponents;
+  }
+
+  Vector<double, 5> by_words_on_contacts() const {
+    ContactSpectrum<double> spectrum(words);
+    LaneWords<double> word = no_contacts<double>();
+    for (const std::uint8_t contact : contacts) {
+      word[0] = followed_by(word[0], contact != 0);
+      if (!is_whole(word[0])) continue;
+      spectrum.push(word);
+      word = no_contacts<double>();
+    }
+    return spectrum.spectrum(word).exponents();
+  }
+
+  double motion_alone() const {
+    auto motion = start();
+    double sum = 0;
+    for (std::int64_t taken = 0; taken < samples; ++taken) {
+      sum += motion.sense().control_force;
+      motion.advance();
+    }
+    return sum;
+  }
+
+  ForcedLoop<double> loop;
+  SampledLoop<double> sampled;
+  std::shared_ptr<const ContactWords> words;
+  Rational ratio;
+  std::vector<std::uint8_t> contacts;
+};
+
+void measure(double period, double delay_fraction) {
+  const Sides sides(loop_of(period, delay_fraction));
+  const auto states = states_of(trajectories);
+  const auto time = bench::medians(
+      {[&] { sink = sides.every_step()[0]; }, [&] { sink = sides.every_step_on_contacts()[0]; },
+       [&] { sink = sides.motion_alone(); }, [&] { sink = sides.by_words(LyapunovScope::all)[0]; },
+       [&] { sink = sides.by_words_on_contacts()[0]; },
+       [&] { sink = sides.by_words(LyapunovScope::largest)[0]; },
+       [&] {
+         sink = simd::lyapunov_spectra(sides.loop, states, {samples_of_many}, 1)[0].exponents[0];
+       }});
+  const auto per_sample = [](double seconds) { return seconds / samples * 1e9; };
+  const double many = time[6] / (samples_of_many * trajectories) * 1e9;
+  const double error = (sides.every_step_on_contacts() - sides.by_words_on_contacts())
+                           .head<4>()
+                           .cwiseAbs()
+                           .maxCoeff();
+  std::printf("\ntau %g ms, delay %g tau (ns per trajectory and sample, one core)\n", period * 1e3,
+              delay_fraction);
+  std::printf("  motion alone                     %8.1f\n", per_sample(time[2]));
+  std::printf("  QR at every sample               %8.1f, tangents alone %8.1f\n",
+              per_sample(time[0]), per_sample(time[1]));
+  std::printf("  words                            %8.1f, tangents alone %8.1f\n",
+              per_sample(time[3]), per_sample(time[4]));
+  std::printf("    ratio                          %8.1f, tangents alone %8.1f\n", time[0] / time[3],
+              time[1] / time[4]);
+  std::printf("  words, largest exponent alone    %8.1f, ratio %8.1f\n", per_sample(time[5]),
+              time[0] / time[5]);
+  std::printf("  words, %2zu trajectories on packs  %8.1f, ratio %8.1f\n", trajectories, many,
+              per_sample(time[0]) / many);
+  std::printf("  largest difference of the finite exponents %.1e\n", error);
+}
+
+}  // namespace
+
+int main() {
+#if defined(__x86_64__) && defined(__AVX512F__)
+  if (!__builtin_cpu_supports("avx512f")) return std::puts("this processor has no AVX-512"), 0;
+#elif defined(__x86_64__) && defined(__AVX2__)
+  if (!__builtin_cpu_supports("avx2")) return std::puts("this processor has no AVX2"), 0;
+#endif
+  std::printf("%zu lanes; medians of %d alternating repetitions\n",
+              Lanes<simd::Pack<double>>::count, bench::usual_repetitions);
+  for (const double period : {0.001, 0.011}) {
+    for (const double delay_fraction : {0.0, 0.5}) measure(period, delay_fraction);
+  }
+}

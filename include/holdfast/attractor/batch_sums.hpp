@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Means of several long correlated series with their standard errors, in constant memory, from
+/// sums over steps.
+///
+/// The steps are cut into batches of equal numbers of steps; when all `Batches` are full,
+/// neighbours are merged and the batch length doubles. A sum may cover several steps, but none
+/// reaches over the end of a batch: a caller who adds sums asks `steps_left()` first. The errors
+/// are those of the mean of the batch means and honest once a batch is longer than the correlation.
+/// Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series,
+/// 1990.
+/// @tparam Number  of a sum; a pack holds that many families of series of equal lengths
+/// @tparam Series  number of series
+template <class Number, int Series, std::size_t Batches = 64>
+class BatchSums {
+  static_assert(Batches % 2 == 0 && Batches >= 4, "batches are merged in pairs");
+
+ public:
+  using Sums = Vector<Number, Series>;
+
+  /// @param first_length  steps of a batch before the first merging, ≥ 1
+  explicit BatchSums(std::int64_t first_length = 1) : length_(first_length) { sums_.fill(open_); }
+
+  /// Takes in the sums over the next `steps` steps, 0 ≤ steps ≤ steps_left().
+  void add(const Sums& sums, std::int64_t steps) {
+    open_ += sums;
+    open_steps_ += steps;
+    if (open_steps_ == length_) close();
+  }
+
+  std::int64_t steps() const {
+    return static_cast<std::int64_t>(complete_) * length_ + open_steps_;
+  }
+  /// Steps to the end of the open batch, ≥ 1.
+  std::int64_t steps_left() const { return length_ - open_steps_; }
+  std::size_t complete_batches() const { return complete_; }
+
+  /// Sums over all steps.
+  Sums totals() const {
+    Sums total = open_;
+    for (std::size_t k = 0; k < complete_; ++k) total += sums_[k];
+    return total;
+  }
+
+  /// The series of one lane of a pack.
+  BatchSums<double, Series, Batches> lane(std::size_t lane) const {
+    BatchSums<double, Series, Batches> result(length_);
+    for (std::size_t k = 0; k < complete_; ++k) result.sums_[k] = lane_of(sums_[k], lane);
+    result.complete_ = complete_;
+    result.open_ = lane_of(open_, lane);
+    result.open_steps_ = open_steps_;
+    return result;
+  }
+
+  /// Standard errors of the means per step from the complete batches, `merged` neighbours (≥ 1)
+  /// taken together; NaN while there are fewer than four.
+  Sums standard_errors(std::size_t merged = 1) const {
+    using std::sqrt;
+    const std::size_t batches = complete_ / merged;
+    if (batches < 4) return Sums::Constant(Number(std::numeric_limits<double>::quiet_NaN()));
+    Sums centre = Sums::Constant(Number(0)), spread = centre;
+    for (std::size_t k = 0; k < batches * merged; ++k) centre += sums_[k];
+    const Number share(1.0 / static_cast<double>(batches));
+    for (std::size_t k = 0; k < batches; ++k) {
+      Sums deviation = -share * centre;
+      for (std::size_t m = 0; m < merged; ++m) deviation += sums_[k * merged + m];
+      spread += deviation.cwiseProduct(deviation);
+    }
+    const Number unit(1.0 / static_cast<double>(length_ * static_cast<std::int64_t>(merged)));
+    const Number freedom(1.0 / static_cast<double>(batches * (batches - 1)));
+    for (auto& entry : spread) entry = unit * sqrt(entry * freedom);
+    return spread;
+  }
+
+ private:
+  template <class, int, std::size_t>
+  friend class BatchSums;
+
+  static Vector<double, Series> lane_of(const Sums& sums, std::size_t lane) {
+    Vector<double, Series> result;
+    typename Lanes<Number>::Value values[Lanes<Number>::count];
+    for (int i = 0; i < Series; ++i) {
+      Lanes<Number>::store(sums[i], values);
+      result[i] = static_cast<double>(values[lane]);
+    }
+    return result;
+  }
+
+  void close() {
+    sums_[complete_++] = open_;
+    open_ = Sums::Constant(Number(0));
+    open_steps_ = 0;
+    if (complete_ < Batches) return;
+    for (std::size_t k = 0; k < Batches / 2; ++k) sums_[k] = sums_[2 * k] + sums_[2 * k + 1];
+    complete_ = Batches / 2;
+    length_ *= 2;
+  }
+
+  std::array<Sums, Batches> sums_;
+  Sums open_ = Sums::Constant(Number(0));
+  std::size_t complete_ = 0;
+  std::int64_t open_steps_ = 0;
+  std::int64_t length_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "holdfast/core/select.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Tangent vectors beside each other, 5 × `Columns`; its rows are contiguous.
+template <class Number, int Columns>
+using TangentBasis =
+    Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+
+/// For each tangent vector whether it still has a length; false where a map has annihilated it.
+template <class Number>
+using Alive = std::array<Mask<Number>, 5>;
+
+/// What B = Q R says of R.
+template <class Number, int Columns>
+struct Stretches {
+  Vector<Number, Columns> squares;  ///< R_ii²; 0 where a column vanishes, 1 where one is not alive
+  Number inverse;  ///< ‖R⁻¹‖_F² over the columns that are and do not vanish
+};
+
+namespace detail {
+
+/// ‖(D N)⁻¹‖_F² of N unit upper triangular and D diagonal.
+/// @param inverse_squares  1 / D_i²
+template <class Number, int Columns>
+Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
+                           const Number (&inverse_squares)[Columns]) {
+  Number sum(0);
+  for (int j = 0; j < Columns; ++j) {
+    Number column[Columns], size(1);  // column j of N⁻¹ from its diagonal upwards
+    for (int i = j - 1; i >= 0; --i) {
+      column[i] = -unit_upper[i][j];
+      for (int k = i + 1; k < j; ++k) column[i] -= unit_upper[i][k] * column[k];
+      size += column[i] * column[i];
+    }
+    sum += size * inverse_squares[j];
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+/// Orthonormalises the columns of B in place, B = Q R, by the modified Gram–Schmidt process.
+///
+/// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: no root is in the
+/// way of the products. R errs by round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q fails to be
+/// orthogonal by as much. Source: Å. Björck, BIT 7 (1967).
+/// @param alive  columns that are not are replaced by zeros; from the first one on that vanishes
+///               they are no more
+template <class Number, int Columns>
+Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis,
+                                          Alive<Number>& alive) {
+  using std::sqrt;
+  const Number zero(0), one(1);
+  Stretches<Number, Columns> result;
+  Number inverse_squares[Columns], unit_upper[Columns][Columns];
+  for (int i = 0; i < Columns; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Number square = basis.col(i).squaredNorm();
+    result.squares[i] = select(alive[k], square, one);
+    const Mask<Number> before = i > 0 ? alive[k - 1] : alive[k], was = alive[k];
+    alive[k] = before & was & (square > zero);
+    inverse_squares[i] = select(alive[k], Number(one / square), zero);
+    for (int j = i + 1; j < Columns; ++j) {
+      unit_upper[i][j] = basis.col(i).dot(basis.col(j)) * inverse_squares[i];
+      basis.col(j) -= unit_upper[i][j] * basis.col(i);
+    }
+  }
+  for (int i = 0; i < Columns; ++i) basis.col(i) *= sqrt(inverse_squares[i]);
+  result.inverse = detail::inverse_square_norm<Number, Columns>(unit_upper, inverse_squares);
+  return result;
+}
+
+}  // namespace holdfast

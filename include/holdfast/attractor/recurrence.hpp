@@ -1,0 +1,155 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Distances between the states of a series, each coordinate measured in its own extent:
+///
+///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
+///
+/// so that 0 ≤ d ≤ 1 whatever the units. A coordinate that is constant to within round-off, 10⁻¹³
+/// of its own size, is left out; one that is nothing but round-off about zero
+/// has no size to tell, and needs one given.
+template <int Size>
+class RelativeDistance {
+ public:
+  /// @param sizes  size of each coordinate where it is more than the series shows, as when the
+  ///               motion has decayed from there
+  /// @throws InvalidParameter for an empty series or a state that is not finite
+  explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
+                            const Vector<double, Size>& sizes = Vector<double, Size>::Zero()) {
+    require_positive("number of states", static_cast<double>(states.size()), "");
+    Vector<double, Size> low = states.front(), high = states.front();
+    for (const auto& state : states) {
+      for (int i = 0; i < Size; ++i) require_finite("coordinate of a state", state[i], "");
+      low = low.cwiseMin(state);
+      high = high.cwiseMax(state);
+    }
+    for (int i = 0; i < Size; ++i) {
+      const double floor = 1e-13 * std::max({std::abs(low[i]), std::abs(high[i]), sizes[i]});
+      weights_[i] = high[i] - low[i] > floor ? 1.0 / (high[i] - low[i]) : 0.0;
+    }
+  }
+
+  double operator()(const Vector<double, Size>& one, const Vector<double, Size>& other) const {
+    return (one - other).cwiseAbs().cwiseProduct(weights_).maxCoeff();
+  }
+
+ private:
+  Vector<double, Size> weights_;
+};
+
+/// The closest return of a series to one of its own states.
+struct ClosestReturn {
+  double
+      distance;  ///< least d(x_j, x_{j−lag}), relative to the extent; 1 where no lag was admitted
+  std::size_t lag;  ///< samples between the two; 0 where no lag was admitted
+};
+
+/// Least distance over all pairs of states at least `least_lag` apart.
+///
+/// Work: N²/2 distances, N ≤ 5000.
+/// @param least_lag  ≥ 1; neighbours in time of a finely sampled motion are close for no reason
+/// @throws InvalidParameter for no or more than 5000 states, a state not finite, or lag 0
+template <int Size>
+ClosestReturn closest_return(const std::vector<Vector<double, Size>>& states,
+                             std::size_t least_lag = 1) {
+  require_within("number of states", static_cast<double>(states.size()), "", 1.0, 5000.0);
+  require_positive("least lag", static_cast<double>(least_lag), "");
+  const RelativeDistance<Size> distance(states);
+  ClosestReturn closest{1.0, 0};
+  for (std::size_t lag = least_lag; lag < states.size(); ++lag) {
+    for (std::size_t j = lag; j < states.size(); ++j) {
+      const double apart = distance(states[j], states[j - lag]);
+      if (closest.lag == 0 || apart < closest.distance) closest = {apart, lag};
+    }
+  }
+  return closest;
+}
+
+/// What a search for repetition found and how far it looked.
+struct RepeatSearch {
+  std::size_t lag;          ///< the smallest lag that repeats, 0 where none does
+  std::size_t largest_lag;  ///< the largest lag that was tried
+};
+
+/// Smallest lag n at which the whole second half of a series repeats itself,
+///
+///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2
+///
+/// with room for `repeats` of them: n ≤ N / (2 repeats). A repetition to a tolerance is evidence
+/// and no proof: a motion of slow drift or of a longer period may pass a coarse tolerance.
+///
+/// Work: one distance a lag where it fails at once, as with motions that do not repeat; at worst
+/// N²/(4 repeats), N ≤ 10⁶.
+/// @param tolerance  relative to the extent of the second half, 0 ≤ tolerance < 1
+/// @param repeats    ≥ 1
+/// @param sizes      see RelativeDistance: what has decayed below round-off of it is at rest
+/// @throws InvalidParameter for no or more than 10⁶ states, a state not finite, or arguments out of
+///         their ranges
+template <int Size>
+RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, double tolerance,
+                           std::size_t repeats = 3,
+                           const Vector<double, Size>& sizes = Vector<double, Size>::Zero()) {
+  require_within("number of states", static_cast<double>(states.size()), "", 1.0, 1e6);
+  require_within("tolerance of a repeat", tolerance, "", 0.0, 1.0);
+  require_within("number of repeats", static_cast<double>(repeats), "", 1.0, 1e6);
+  const std::size_t half = states.size() / 2;
+  const RelativeDistance<Size> distance(
+      {states.begin() + static_cast<std::ptrdiff_t>(half), states.end()}, sizes);
+  const std::size_t largest = half / repeats;
+  for (std::size_t lag = 1; lag <= largest; ++lag) {
+    std::size_t j = half;
+    while (j < states.size() && distance(states[j], states[j - lag]) <= tolerance) ++j;
+    if (j == states.size()) return {lag, largest};
+  }
+  return {0, largest};
+}
+
+/// Recurrence plot of a series in two numbers, the pairs of a state with itself left out.
+struct RecurrenceShares {
+  double rate;         ///< share of the pairs that are within the radius
+  double determinism;  ///< share of those pairs that lie on diagonal lines of two or more: of the
+                       ///< returns that are followed by another; 0 where nothing returns
+};
+
+/// Recurrence rate and determinism at a radius.
+///
+/// Determinism is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for chance.
+/// Work: N²/2 distances and no storage, N ≤ 5000. Source: N. Marwan et al., Physics Reports 438
+/// (2007), 237–329.
+/// @param radius  share of the extent, > 0
+/// @throws InvalidParameter for fewer than two or more than 5000 states, a state not finite, or
+///         another radius
+template <int Size>
+RecurrenceShares recurrence_shares(const std::vector<Vector<double, Size>>& states, double radius) {
+  require_within("number of states", static_cast<double>(states.size()), "", 2.0, 5000.0);
+  require_positive("recurrence radius", radius, "");
+  const RelativeDistance<Size> distance(states);
+  std::int64_t recurrent = 0, in_lines = 0;
+  for (std::size_t lag = 1; lag < states.size(); ++lag) {
+    std::int64_t run = 0;
+    for (std::size_t j = lag; j <= states.size(); ++j) {
+      if (j < states.size() && distance(states[j], states[j - lag]) <= radius) {
+        ++run;
+        continue;
+      }
+      recurrent += run;
+      if (run >= 2) in_lines += run;
+      run = 0;
+    }
+  }
+  const double count = static_cast<double>(states.size());
+  return {static_cast<double>(recurrent) / (0.5 * count * (count - 1.0)),
+          recurrent > 0 ? static_cast<double>(in_lines) / static_cast<double>(recurrent) : 0.0};
+}
+
+}  // namespace holdfast

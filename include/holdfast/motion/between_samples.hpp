@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+
+#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/excitation.hpp"
+#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/stepper.hpp"
+
+namespace holdfast {
+
+/// The state of a motion between two samples, exactly: the sampled loop of the shorter period s,
+///
+///     z(t_j + s) = e^{As} z_j + Γ₁(s) u_{j−1} + Γ₀(s) u_j + F_m (g_c(s) cos ω t_j + g_s(s) sin ω
+///     t_j)
+///
+/// with the delay min(δ, s), since the contact and the force change at samples only.
+class BetweenSamples {
+ public:
+  explicit BetweenSamples(const ForcedLoop<double>& loop) : loop_(loop) {}
+
+  /// @param sample          z_j, u_j and j
+  /// @param previous_force  u_{j−1} (N)
+  /// @param after           s (s), 0 ≤ s ≤ τ
+  /// Work: three matrix exponentials, some microseconds.
+  Vector<double, 4> state(const MotionSample<double>& sample, double previous_force,
+                          double after) const {
+    const Sampling<double> part{after, std::min(loop_.sampling.processing_delay, after)};
+    const SampledLoop<double> step = sampled_loop(loop_.plant, part);
+    const HarmonicInput<double> input =
+        harmonic_input(loop_.plant, step, loop_.hold, loop_.excitation.angular_frequency());
+    const auto force = sample_excitation(loop_.excitation, loop_.sampling.period, sample.index);
+    return step.transition * sample.state + step.previous_force * previous_force +
+           step.present_force * sample.control_force + input.cosine * force.cosine +
+           input.sine * force.sine;
+  }
+
+  const ForcedLoop<double>& loop() const { return loop_; }
+
+ private:
+  ForcedLoop<double> loop_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/attractor/basins.hpp"
+#include "holdfast/simd/pack.hpp"
+#include "holdfast/simd/parallel_rows.hpp"
+
+namespace holdfast::simd {
+
+/// find_basins() on SIMD packs and threads.
+///
+///     const BasinMap map = simd::find_basins(loop, states);
+///     for (const BasinAttractor& attractor : map.attractors) use(attractor.orbit.period());
+///
+/// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
+inline BasinMap find_basins(const ForcedLoop<double>& loop,
+                            const std::vector<Vector<double, 4>>& initial_states,
+                            const OrbitLimits& limits = {}, int threads = 0) {
+  const auto for_tiles = [threads](std::size_t count, std::size_t tile, const auto& job) {
+    parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile), threads, 0,
+                  [&job](int&, std::int64_t first, std::int64_t number) {
+                    job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
+                  });
+  };
+  return holdfast::find_basins<Pack<double>>(loop, initial_states, limits, for_tiles);
+}
+
+}  // namespace holdfast::simd

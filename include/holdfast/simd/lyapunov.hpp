@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "holdfast/attractor/contact_words.hpp"
+#include "holdfast/attractor/lyapunov_run.hpp"
+#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/forcing.hpp"
+#include "holdfast/simd/lyapunov_group.hpp"
+#include "holdfast/simd/motion_family.hpp"
+#include "holdfast/simd/pack.hpp"
+#include "holdfast/simd/parallel_rows.hpp"
+
+namespace holdfast::simd {
+
+namespace detail {
+
+template <template <class> class Forcing>
+std::vector<LyapunovResult> lyapunov_spectra(const MotionFamily<Forcing>& family,
+                                             const std::shared_ptr<const ContactWords>& words,
+                                             const std::vector<Vector<double, 4>>& initial_states,
+                                             const LyapunovRun& run, int threads) {
+  using Group = LyapunovGroup<MotionFamily<Forcing>>;
+  std::vector<LyapunovResult> results(initial_states.size());
+  parallel_rows(static_cast<std::int64_t>(initial_states.size()),
+                static_cast<std::int64_t>(lanes_of_group), threads, Group(family, words, run),
+                [&](Group& group, std::int64_t first, std::int64_t count) {
+                  group.compute(initial_states.data() + first, static_cast<std::size_t>(count),
+                                results.data() + first);
+                });
+  return results;
+}
+
+}  // namespace detail
+
+/// The Lyapunov exponents of one loop along the motions from many initial states, several a
+/// register and on several threads.
+///
+///     const auto results = simd::lyapunov_spectra(loop, states, {100000, 1000});
+///
+/// Each is that of `run_lyapunov` along its motion but for rounding. Where f τ = p/q, the forcing
+/// is exactly periodic.
+/// @param tangent_sampling  sampling of the loop whose S and S* are the tangents
+/// @param threads           ≥ 1, or 0 for all cores; the results do not depend on it
+/// @throws InvalidParameter where `loop` or `run` is not admissible
+inline std::vector<LyapunovResult> lyapunov_spectra(
+    const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
+    const LyapunovRun& run, const Sampling<double>& tangent_sampling, int threads = 0) {
+  validate(loop);
+  validate(run);
+  validate(tangent_sampling);
+  using Number = Pack<double>;
+  const SampledLoop<double> sampled = sampled_loop(loop.plant, loop.sampling);
+  const auto words =
+      std::make_shared<const ContactWords>(sampled_loop(loop.plant, tangent_sampling), loop.gains);
+  const HarmonicInput<double> input =
+      harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
+  if (const auto ratio = forcing_ratio(loop)) {
+    const PeriodicForcing<double> forcing(input, loop.excitation.amplitude, *ratio);
+    const detail::MotionFamily<PeriodicForcing> family{
+        sampled, loop, forcing, PeriodicForcing<Number>(forcing.additions())};
+    return detail::lyapunov_spectra(family, words, initial_states, run, threads);
+  }
+  const HarmonicForcing<double> forcing(input, loop.excitation, loop.sampling.period);
+  const detail::MotionFamily<detail::SharedForcing> family{sampled, loop,
+                                                           detail::SharedForcing<double>(forcing),
+                                                           detail::SharedForcing<Number>(forcing)};
+  return detail::lyapunov_spectra(family, words, initial_states, run, threads);
+}
+
+/// The same with the tangents of the motion itself.
+inline std::vector<LyapunovResult> lyapunov_spectra(
+    const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
+    const LyapunovRun& run, int threads = 0) {
+  return lyapunov_spectra(loop, initial_states, run, loop.sampling, threads);
+}
+
+}  // namespace holdfast::simd

@@ -1,0 +1,165 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "holdfast/attractor/contact_spectrum.hpp"
+#include "holdfast/attractor/contact_words.hpp"
+#include "holdfast/attractor/lyapunov_run.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/simd/lane_maps.hpp"
+#include "holdfast/simd/pack.hpp"
+
+namespace holdfast::simd::detail {
+
+/// Packs of trajectories that step in turn, so that one's latency hides behind the others.
+inline constexpr std::size_t packs_of_group = 2;
+inline constexpr std::size_t lanes_of_group = packs_of_group * Lanes<Pack<double>>::count;
+
+/// Some packs of trajectories and their spectra.
+template <class Family>
+class LyapunovGroup {
+  using Number = Pack<double>;
+  using Motion = typename Family::template Motion<Number>;
+  static constexpr std::size_t lanes = Lanes<Number>::count;
+
+ public:
+  LyapunovGroup(const Family& family, const std::shared_ptr<const ContactWords>& words,
+                const LyapunovRun& run)
+      : family_(family), words_(words), run_(run) {}
+
+  /// @param initial_states  `count` of them, 1 ≤ count ≤ lanes_of_group
+  void compute(const Vector<double, 4>* initial_states, std::size_t count,
+               LyapunovResult* results) {
+    start(initial_states, count);
+    const Words discarded = advance(run_.discard, [] { return true; });
+    for (std::size_t pack = 0; pack < packs_of_group; ++pack)
+      spectra_[pack].restart(discarded[pack]);
+    std::size_t judged = 0;
+    const Words open = advance(run_.most_samples, [&] {
+      const std::size_t batches = spectra_[0].complete_batches();
+      if (batches != judged && batches >= batches_to_judge && run_.standard_error > 0) judge();
+      judged = batches;
+      return running_ > 0;
+    });
+    for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
+      const auto spectra = spectra_[pack].spectra(open[pack]);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        settle(pack * lanes + lane, LyapunovOutcome::sample_limit, spectra[lane]);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      results[k] = diverged_[k] ? alone(initial_states[k]) : results_[k];
+  }
+
+ private:
+  using Words = std::array<LaneWords<Number>, packs_of_group>;
+
+  /// Lanes beyond the last trajectory repeat it.
+  void start(const Vector<double, 4>* initial_states, std::size_t count) {
+    motions_.clear();
+    spectra_.clear();
+    for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
+      Vector<Number, 4> states;
+      for (int i = 0; i < 4; ++i) {
+        double values[lanes];
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+          values[lane] = initial_states[std::min(pack * lanes + lane, count - 1)][i];
+        states[i] = Lanes<Number>::load(values);
+      }
+      motions_.push_back(family_.motion(states));
+      spectra_.emplace_back(words_, run_.scope);
+    }
+    settled_.fill(false);
+    diverged_.fill(false);
+    running_ = lanes_of_group;
+  }
+
+  /// Goes through `samples` samples, or fewer when `go_on` says so after a word or all lanes are
+  /// settled. @return the last words, incomplete
+  template <class GoOn>
+  Words advance(std::int64_t samples, const GoOn& go_on) {
+    while (samples >= ContactWords::length && running_ > 0) {
+      const Words words = contacts(ContactWords::length);
+      for (std::size_t pack = 0; pack < packs_of_group; ++pack) spectra_[pack].push(words[pack]);
+      samples -= ContactWords::length;
+      if (!go_on()) return contacts(0);
+    }
+    return contacts(running_ > 0 ? static_cast<int>(samples) : 0);
+  }
+
+  /// The contacts of the next samples of all lanes.
+  Words contacts(int samples) {
+    std::array<Number, packs_of_group> codes;  // whole numbers below 2⁸
+    codes.fill(Number(1.0));
+    for (int taken = 0; taken < samples; ++taken) {
+      for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
+        const auto engaged = motions_[pack].sense().engaged;
+        codes[pack] = codes[pack] + codes[pack] + select(engaged, Number(1.0), Number(0.0));
+        motions_[pack].advance();
+      }
+    }
+    Words words;
+    for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
+      double values[lanes];
+      Lanes<Number>::store(codes[pack], values);
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        words[pack][lane] = static_cast<ContactWord>(values[lane]);
+      find_diverged(pack);
+    }
+    return words;
+  }
+
+  void find_diverged(std::size_t pack) {
+    const Number sum = motions_[pack].state().sum();
+    if (all(sum - sum == Number(0.0))) return;
+    double values[lanes];
+    Lanes<Number>::store(sum, values);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t k = pack * lanes + lane;
+      if (settled_[k] || std::isfinite(values[lane])) continue;
+      settled_[k] = diverged_[k] = true;
+      --running_;
+    }
+  }
+
+  void judge() {
+    for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
+      const auto spectra = spectra_[pack].spectra();
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (accurate_enough(spectra[lane].cautious_standard_errors(), run_))
+          settle(pack * lanes + lane, LyapunovOutcome::accurate, spectra[lane]);
+      }
+    }
+  }
+
+  void settle(std::size_t k, LyapunovOutcome outcome, const LyapunovSpectrum<double, 5>& spectrum) {
+    if (settled_[k]) return;
+    settled_[k] = true;
+    --running_;
+    results_[k] = lyapunov_result(outcome, spectrum, run_);
+  }
+
+  /// A trajectory that leaves the range of the number type, on scalars.
+  LyapunovResult alone(const Vector<double, 4>& initial_state) const {
+    auto motion = family_.motion(initial_state);
+    return run_lyapunov(motion, words_, run_);
+  }
+
+  Family family_;
+  std::shared_ptr<const ContactWords> words_;
+  LyapunovRun run_;
+  std::vector<Motion> motions_;
+  std::vector<ContactSpectrum<Number>> spectra_;
+  std::array<LyapunovResult, lanes_of_group> results_{};
+  std::array<bool, lanes_of_group> settled_{};
+  std::array<bool, lanes_of_group> diverged_{};
+  std::size_t running_ = 0;
+};
+
+}  // namespace holdfast::simd::detail

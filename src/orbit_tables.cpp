@@ -1,0 +1,258 @@
+#include "orbit_tables.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "axis.hpp"
+#include "case_keys.hpp"
+#include "errors.hpp"
+#include "holdfast/attractor/orbit_continuation.hpp"
+#include "interrupt.hpp"
+#include "loop_of_case.hpp"
+#include "motion_columns.hpp"
+#include "orbit_certificate.hpp"
+#include "table.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+std::string reason_for(const OrbitResult& found, const ForcedLoop<double>& loop,
+                       std::int64_t largest_period) {
+  const std::string longest = std::to_string(largest_period);
+  switch (found.outcome) {
+    case OrbitOutcome::incommensurate:
+      return "sampling and excitation never coincide: f tau = " +
+             format_number(loop.excitation.frequency * loop.sampling.period) +
+             " is no fraction p/q with q up to 1000000, so no motion repeats; the job verdict says "
+             "what it is";
+    case OrbitOutcome::diverges:
+      return "the motion diverges, so it comes to no orbit";
+    case OrbitOutcome::on_surface:
+      return "the motion repeats after " + std::to_string(found.orbit->period_samples()) +
+             " sample(s) but touches a switching surface, so that rounding decides its contacts: "
+             "there is no certificate";
+    case OrbitOutcome::approaching:
+      return "the motion comes near a certified orbit of " +
+             std::to_string(found.orbit->period_samples()) + " sample(s), but in " +
+             std::to_string(found.samples) +
+             " samples not within its radius of capture; a larger --max-period looks longer";
+    case OrbitOutcome::not_reproduced:
+      return "the contacts repeat, but their exact solution switches otherwise: no orbit in " +
+             std::to_string(found.samples) + " samples; the job verdict says more";
+    default:
+      if (found.samples == 0) {
+        return "sampling and excitation coincide only every " +
+               std::to_string(forcing_ratio(loop)->denominator) +
+               " samples; give --max-period at least as many";
+      }
+      return "no periodic orbit of up to " + longest + " samples in " +
+             std::to_string(found.samples) +
+             " samples of the motion; a larger --max-period looks further, the job verdict weighs "
+             "the evidence";
+  }
+}
+
+const char* word_for(SwitchingSurface surface) {
+  switch (surface) {
+    case SwitchingSurface::reversal:
+      return "reversal";
+    case SwitchingSurface::gap_lower:
+      return "gap_lower";
+    case SwitchingSurface::gap_upper:
+      return "gap_upper";
+  }
+  return "";
+}
+
+/// Rows of a table quantity, value, unit.
+class QuantityRows {
+ public:
+  explicit QuantityRows(Table& table) : table_(table) {}
+
+  void row(const std::string& quantity, double value, const char* unit = "") {
+    table_.row(quantity, value, unit);
+  }
+
+ private:
+  Table& table_;
+};
+
+void write_multipliers(QuantityRows& rows, const PeriodicOrbit& orbit) {
+  const auto samples = static_cast<double>(orbit.period_samples());
+  int number = 1;
+  for (const Multiplier& multiplier : orbit.multipliers) {
+    const std::string name = "multiplier_" + std::to_string(number++);
+    rows.row(name + "_modulus", std::abs(multiplier.value()));
+    rows.row(name + "_angle", multiplier.angle, "rad");
+    rows.row(name + "_exponent", multiplier.log_modulus / samples, "per sample");
+  }
+}
+
+void write_border(QuantityRows& rows, const std::string& name, const Border& border,
+                  const char* unit, double sampling_period) {
+  rows.row(name, border.distance, unit);
+  const bool there = border.sample >= 0;
+  rows.row(name + "_at",
+           there ? static_cast<double>(border.sample) * sampling_period : std::nan(""), "s");
+}
+
+void write_recheck(QuantityRows& rows, const OrbitRecheck& recheck) {
+  rows.row("extended_precision_same_contacts", recheck.same_contacts ? 1.0 : 0.0);
+  rows.row("extended_precision_displacement_difference", recheck.displacement_difference, "m");
+  rows.row("extended_precision_velocity_difference", recheck.velocity_difference, "m/s");
+  rows.row("extended_precision_closure_error", recheck.closure_error, "m");
+}
+
+struct KeyRange {
+  std::string key;
+  Range range;
+};
+
+KeyRange parse_key_range(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw WrongInput("--follow " + text + ": expected KEY=MIN:MAX");
+  return {text.substr(0, equals), parse_range("--follow", text.substr(equals + 1))};
+}
+
+bool moves_the_orbit(const std::string& key) {
+  return key.rfind("control.", 0) == 0 || key.rfind("plant.", 0) == 0 || key == "backlash.width" ||
+         key == "excitation.amplitude";
+}
+
+/// The case's value of the key, which the orbit can be followed along within the range.
+double followed_value(const Case& the_case, const std::string& key, const std::string& axis,
+                      const Range& range) {
+  const double value = case_value(the_case, key);
+  if (key == "control.sampling_period" || key == "excitation.frequency")
+    throw WrongInput("--follow " + key +
+                     ": another value changes how sampling and excitation coincide, so the orbit "
+                     "cannot be followed along it");
+  if (!moves_the_orbit(key))
+    throw WrongInput("--follow " + key +
+                     ": expected a key of [control] or [plant], backlash.width or "
+                     "excitation.amplitude");
+  const CaseKey& known = *find_case_key(key);
+  for (const double end : {range.min, range.max}) {
+    if (!known.range.contains(end))
+      throw WrongInput("--follow " + axis + ": " + key + " must be " + known.admissible());
+  }
+  if (!(range.min <= value && value <= range.max))
+    throw WrongInput("--follow " + axis + ": the case's " + key + " = " + format_number(value) +
+                     " lies outside");
+  if (key == "backlash.width" && value == 0.0)
+    throw WrongInput(
+        "--follow backlash.width: the case has no backlash, where the rule is another one; set a "
+        "width greater than 0 m");
+  return value;
+}
+
+const char* word_for(const OrbitEnd& end) {
+  switch (end.outcome) {
+    case OrbitEndOutcome::border_collision:
+      return "border_collision";
+    case OrbitEndOutcome::unit_circle:
+      return "unit_circle";
+    case OrbitEndOutcome::range_end:
+      return "range_end";
+  }
+  return "";
+}
+
+}  // namespace
+
+PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_period) {
+  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+  OrbitResult found = find_periodic_orbit(loop, initial_state_of(context.case_data),
+                                          {largest_period, 0, throw_if_interrupted});
+  if (found.outcome != OrbitOutcome::certified)
+    throw NoAnswer(reason_for(found, loop, largest_period));
+  return std::move(*found.orbit);
+}
+
+void write_orbit(const JobContext& context, std::int64_t largest_period) {
+  Table table(
+      context,
+      {{"period_samples", "", "samples of one period", "integer"},
+       {"period_s", "s", "period"},
+       {"forcing_periods", "", "periods of the excitation in one of the orbit", "integer"},
+       {"largest_multiplier", "", "largest modulus of a multiplier of one period"},
+       {"closure_error", "m", "state after one period less the first one, norm in SI numbers"},
+       {"border_distance_m", "m",
+        "smallest distance of z2 - z1 from a change of contact at an end of the gap"},
+       {"engaged_fraction", "", "share of the samples at which the drive transmits"}});
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
+            orbit.largest_multiplier(), orbit.closure_error, orbit.borders.displacement.distance,
+            orbit.engaged_fraction());
+  table.commit();
+}
+
+void write_certificate(const JobContext& context, std::int64_t largest_period) {
+  Table table(context, {{"quantity", "", "what is certified", "string"},
+                        {"value", "", "in the unit of the row"},
+                        {"unit", "", "of the value", "string"}});
+  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  QuantityRows rows(table);
+  rows.row("coincidence_samples", static_cast<double>(orbit.ratio.denominator));
+  rows.row("coincidence_forcing_periods", static_cast<double>(orbit.ratio.numerator));
+  rows.row("period_samples", static_cast<double>(orbit.period_samples()));
+  rows.row("period", orbit.period(), "s");
+  rows.row("forcing_periods", static_cast<double>(orbit.forcing_periods()));
+  rows.row("amplitude", orbit.amplitude(), "m");
+  rows.row("engaged_fraction", orbit.engaged_fraction());
+  rows.row("closure_error", orbit.closure_error, "m");
+  write_border(rows, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
+  write_border(rows, "reversal_distance", orbit.borders.velocity, "m/s", orbit.sampling_period);
+  const OrbitCertificate certificate = certificate_of(loop, orbit);
+  rows.row("capture_radius_smallest", certificate.smallest_radius, "m");
+  rows.row("capture_radius_largest", certificate.largest_radius, "m");
+  write_multipliers(rows, orbit);
+  write_recheck(rows, certificate.recheck);
+  table.commit();
+}
+
+void write_orbit_trace(const JobContext& context, std::int64_t largest_period) {
+  Table table(context, motion_columns());
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const std::size_t samples = orbit.states.size();
+  for (std::size_t k = 0; k <= samples; ++k) {
+    const auto& state = orbit.states[k % samples];
+    const double force = orbit.states[(k + 1) % samples][4];
+    table.row(static_cast<double>(k) * orbit.sampling_period, state[0], state[1], state[2],
+              state[3], force, orbit.contacts[k % samples] != 0 ? 0 : 1);
+  }
+  table.commit();
+}
+
+void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
+                      const std::string& axis) {
+  const auto [key, range] = parse_key_range(axis);
+  const double value = followed_value(context.case_data, key, axis, range);
+  Table table(context, {{"side", "", "below or above the case's value", "string"},
+                        {"outcome", "",
+                         "border_collision: a sample reaches a switching surface; unit_circle: a "
+                         "multiplier does; range_end: neither",
+                         "string"},
+                        {"position", "", "of the key, in its unit"},
+                        {"distance", "", "from the case's value"},
+                        {"surface", "", "reversal, gap_lower or gap_upper", "string"},
+                        {"sample", "", "of the orbit; -1 without a collision", "integer"},
+                        {"largest_multiplier", "", "modulus there"},
+                        {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const auto path = [&, name = key](double position) {
+    return forced_loop_with(context.case_data, name, position);
+  };
+  for (const bool above : {false, true}) {
+    const OrbitEnd end = follow_orbit(path, orbit, value, above ? range.max : range.min);
+    const bool collides = end.outcome == OrbitEndOutcome::border_collision;
+    table.row(above ? "above" : "below", word_for(end), end.parameter,
+              std::abs(end.parameter - value), collides ? word_for(end.border.surface) : "",
+              end.border.sample, std::abs(end.multiplier.value()), end.multiplier.angle);
+  }
+  table.commit();
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,65 @@
+#include "verdict_table.hpp"
+
+#include <limits>
+#include <optional>
+
+#include "holdfast/attractor/motion_verdict.hpp"
+#include "interrupt.hpp"
+#include "loop_of_case.hpp"
+#include "table.hpp"
+
+namespace holdfast::program {
+namespace {
+
+std::vector<Column> verdict_columns() {
+  return {
+      {"verdict", "",
+       "periodic(N), quasi-periodic, irregular, exponent <= 0, chaotic, diverges or undecided",
+       "string"},
+      {"period_samples", "", "N; 0 unless periodic", "integer"},
+      {"period_s", "s", "period; nan unless periodic"},
+      {"certified", "", "1: the orbit is solved exactly and verified", "integer"},
+      {"largest_exponent", "", "Lyapunov exponent per sample, natural logarithm"},
+      {"exponent_half_width", "", "of its 95 % interval; 0 where the orbit is exact"},
+      {"zero_one_K", "", "median K of the 0-1 test: 0 regular, 1 chaotic"},
+      {"closest_return", "", "smallest distance of two states over the extent of the motion"},
+      {"recurrence_determinism", "", "share of the recurrent points that lie on diagonals"},
+      {"contact_entropy", "", "bit per sample that the sequence of contacts carries"},
+      {"subharmonic_order", "",
+       "smallest m for which the multiples of f/m hold 99.9 % of the power; 0: none", "integer"},
+      {"continuous_share", "", "share of the power between the lines of the spectrum"},
+      {"rests_on", "", "what the verdict rests on", "string"}};
+}
+
+/// A number where it is known, else nan.
+template <class Part, class Read>
+double known(const std::optional<Part>& part, const Read& read) {
+  return part ? read(*part) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+void write_verdict(const JobContext& context, std::int64_t largest_period) {
+  Table table(context, verdict_columns());
+  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+  const MotionVerdict found = classify_motion(loop, initial_state_of(context.case_data),
+                                              {largest_period, 0, throw_if_interrupted});
+  const Verdict& verdict = found.verdict;
+  const MotionEvidence& evidence = found.evidence;
+  const double period = verdict.period > 0
+                            ? static_cast<double>(verdict.period) * loop.sampling.period
+                            : std::numeric_limits<double>::quiet_NaN();
+  table.row(
+      motion_kind_text(verdict), verdict.period, period, evidence.certified_period ? 1 : 0,
+      known(evidence.largest_exponent, [](const auto& exponent) { return exponent.value; }),
+      known(evidence.largest_exponent, [](const auto& exponent) { return exponent.half_width; }),
+      known(evidence.zero_one, [](double k) { return k; }),
+      known(evidence.closest_return, [](const auto& closest) { return closest.distance; }),
+      known(evidence.recurrence, [](const auto& shares) { return shares.determinism; }),
+      known(evidence.switching, [](const auto& complexity) { return complexity.entropy; }),
+      evidence.lines ? evidence.lines->division : 0,
+      known(evidence.lines, [](const auto& lines) { return lines.continuous; }), verdict.rests_on);
+  table.commit();
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "cli/program.hpp"
+#include "csv.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+using program::CsvTable;
+
+const std::string slow = " --set control.sampling_period=0.011 --set backlash.width=0.002";
+const std::string neighbour = " --set control.sampling_period=0.003 --set backlash.width=0.002";
+
+double quantity(const CsvTable& table, const std::string& name) {
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "quantity") == name) return table.number(row, "value");
+  }
+  ADD_FAILURE() << name;
+  return std::nan("");
+}
+
+TEST(OrbitJob, FindsTheLongPeriodOfTheIrregularMotion) {
+  const CsvTable table = table_of("orbit" + slow);
+  ASSERT_EQ(table.rows(), 1U);
+  EXPECT_EQ(table.number(0, "period_samples"), 2100.0);
+  EXPECT_NEAR(table.number(0, "period_s"), 23.1, 1e-9);
+  EXPECT_EQ(table.number(0, "forcing_periods"), 231.0);
+  EXPECT_LE(table.number(0, "closure_error"), 1e-12);
+}
+
+TEST(OrbitJob, TheTraceClosesAndIsWhatSimulateComesTo) {
+  const CsvTable trace = table_of("orbit --trace" + slow);
+  ASSERT_EQ(trace.rows(), 2101U);
+  for (const std::string column : {"z1_m", "v1_m_per_s", "z2_m", "v2_m_per_s", "control_force_N"})
+    EXPECT_NEAR(trace.number(0, column), trace.number(2100, column), 1e-12) << column;
+  // 976.8 s are 888 coincidences of sampling and forcing, so that the phases agree.
+  const CsvTable motion = table_of("simulate --duration 1000 --from 976.8" + slow);
+  double nearest = 1.0;
+  for (std::size_t row = 0; row < 2100; row += 100)
+    nearest = std::min(nearest, std::abs(motion.number(row, "z1_m") - trace.number(0, "z1_m")) +
+                                    std::abs(motion.number(row, "z2_m") - trace.number(0, "z2_m")));
+  EXPECT_LE(nearest, 1e-9);
+}
+
+TEST(OrbitJob, CertifiesInExtendedPrecision) {
+  const CsvTable table = table_of("orbit --certificate" + slow);
+  EXPECT_EQ(quantity(table, "extended_precision_same_contacts"), 1.0);
+  EXPECT_LE(quantity(table, "extended_precision_displacement_difference"), 1e-12);
+  EXPECT_GT(quantity(table, "gap_distance"), 0.0);
+  EXPECT_GT(quantity(table, "reversal_distance"), 0.0);
+  EXPECT_GT(quantity(table, "capture_radius_smallest"), 0.0);
+  EXPECT_EQ(quantity(table, "multiplier_5_modulus"), 0.0);
+}
+
+TEST(OrbitJob, FollowsTheOrbitToBothItsEnds) {
+  const CsvTable table = table_of("orbit --follow backlash.width=0:0.01" + slow);
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.text(0, "side"), "below");
+  EXPECT_LT(table.number(0, "position"), 0.002);
+  EXPECT_GT(table.number(1, "position"), 0.002);
+  for (const std::size_t row : {0U, 1U}) EXPECT_EQ(table.text(row, "outcome"), "border_collision");
+}
+
+void expect_reason(const std::string& arguments, int exit_code, const std::string& word) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, exit_code) << arguments << '\n' << outcome.errors;
+  EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(word), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.output.find('\n'), outcome.output.rfind('\n')) << outcome.output;
+}
+
+TEST(OrbitJob, SaysWhyThereIsNone) {
+  expect_reason("orbit --set excitation.frequency=9.8765432101", 1, "never coincide");
+  expect_reason("orbit --max-period 50", 1, "coincide only every 100 samples");
+  expect_reason("orbit --max-period 1000" + slow, 1, "no periodic orbit");
+  expect_reason("orbit --set control.processing_delay=0.011" + slow, 1, "diverges");
+  expect_reason("orbit --set excitation.amplitude=0", 1, "touches a switching surface");
+}
+
+TEST(OrbitJob, RefusesWhatItCannotFollow) {
+  expect_reason("orbit --follow backlash.width", 2, "KEY=MIN:MAX");
+  expect_reason("orbit --follow backlash.width=0.001:0.002", 2, "lies outside");
+  expect_reason("orbit --follow control.sampling_period=0.0005:0.002", 2, "coincide");
+  expect_reason("orbit --follow initial.z1=0:1", 2, "[control]");
+  expect_reason("orbit --follow backlash.width=-1:1", 2, "must be");
+  expect_reason("orbit --follow backlash.width=0:1 --set backlash.width=0", 2, "no backlash");
+  expect_reason("orbit --follow backlash.widht=0:0.002", 2, "backlash.width");
+}
+
+TEST(BasinsJob, TellsTheTwoMotionsApartThatStartTenMicrometresApart) {
+  const CsvTable table =
+      table_of("basins --axis initial.z1=0:0.00001:2 --axis initial.v1=0:0:1" + neighbour);
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_NEAR(table.number(0, "period_s"), 5.7, 1e-9);
+  EXPECT_NEAR(table.number(1, "period_s"), 0.3, 1e-9);
+  EXPECT_EQ(table.number(0, "attractor"), 1.0);
+  EXPECT_EQ(table.number(1, "attractor"), 2.0);
+}
+
+TEST(BasinsJob, ResultsDoNotDependOnThreadsAndFractionsAddUp) {
+  const std::string grid =
+      " --axis initial.z1=-0.005:0.005:12 --axis initial.z2=-0.005:0.005:12" + neighbour;
+  const Outcome one = run_holdfast("basins --threads 1" + grid);
+  EXPECT_EQ(one.exit_code, 0) << one.errors;
+  EXPECT_EQ(one.output, run_holdfast("basins --threads 2" + grid).output);
+  const CsvTable fractions = table_of("basins --fractions" + grid);
+  double sum = 0.0;
+  for (std::size_t row = 0; row < fractions.rows(); ++row) {
+    sum += fractions.number(row, "fraction");
+    EXPECT_GE(fractions.number(row, "standard_error"), 0.0);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_GE(fractions.rows(), 2U);
+}
+
+TEST(BasinsJob, NumbersADivergingMotionZero) {
+  const CsvTable table = table_of(
+      "basins --axis initial.z1=0:0.001:2 --axis initial.z2=0:0.001:2 --set "
+      "control.processing_delay=0.011" +
+      slow);
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    EXPECT_EQ(table.number(row, "attractor"), 0.0);
+}
+
+TEST(BasinsJob, RefusesOtherAxes) {
+  expect_reason("basins", 2, "two axes");
+  expect_reason("basins --axis backlash.width=0:1:2 --axis initial.z1=0:1:2", 2, "initial.z1");
+  expect_reason("basins --axis initial.z1=0:1:2 --axis initial.z1=0:1:2", 2, "both axes");
+  expect_reason("basins --axis initial.z1=0:1:100000 --axis initial.z2=0:1:100000", 2, "more than");
+}
+
+TEST(VerdictJob, SaysWhatTheMotionIsAndOnWhatThatRests) {
+  const CsvTable slow_motion = table_of("verdict" + slow);
+  EXPECT_EQ(slow_motion.text(0, "verdict"), "periodic(2100)");
+  EXPECT_EQ(slow_motion.number(0, "certified"), 1.0);
+  EXPECT_NE(slow_motion.text(0, "rests_on").find("Certified"), std::string::npos);
+  EXPECT_EQ(table_of("verdict --set control.processing_delay=0.011" + slow).text(0, "verdict"),
+            "diverges");
+}
+
+TEST(DiagramJob, ShowsFiveLevelsOfTheSubharmonicMotion) {
+  const CsvTable table =
+      table_of("diagram --axis backlash.width=0.002:0.002:1 --transient 40 --strobes 20");
+  std::set<long> levels;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    levels.insert(std::lround(table.number(row, "z1_m") * 1e9));
+  EXPECT_EQ(table.rows(), 40U);
+  EXPECT_EQ(levels.size(), 5U);
+}
+
+TEST(SectionJob, ItsPointsLieBetweenTheSamplesOfSimulate) {
+  const CsvTable table = table_of("section --duration 2 --from 1" + slow);
+  ASSERT_GT(table.rows(), 10U);
+  for (std::size_t row = 0; row < table.rows(); ++row) EXPECT_GE(table.number(row, "time_s"), 1.0);
+}
+
+}  // namespace
+}  // namespace holdfast::tests

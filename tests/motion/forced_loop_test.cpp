@@ -1,0 +1,148 @@
+#include "holdfast/motion/forced_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/kollar_case.hpp"
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+ForcedLoop<double> loop_with_gap(double period, double fraction) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.processing_delay = fraction * period;
+  which.width = 0.002;
+  return which.forced_loop();
+}
+
+const Vector<double, 4> some_state(0.003, -0.05, 0.001, 0.2);
+
+TEST(ForcedLoop, ThePeriodicMotionIsTheHarmonicOne) {
+  for (const double period : {0.001, 0.01}) {
+    for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
+      ForcedLoop<double> loop = loop_with_gap(period, 0.25);
+      loop.hold = hold;
+      const Rational ratio = forcing_ratio(loop).value();
+      auto periodic = periodically_forced_motion(loop, ratio, some_state);
+      auto harmonic = harmonically_forced_motion(loop, some_state);
+      int inside = 0;
+      for (int j = 0; j < 2000; ++j) {
+        ASSERT_LE((periodic.state() - harmonic.state()).norm(), 1e-11) << j;
+        const auto sample = periodic.sense();
+        ASSERT_EQ(sample.engaged, harmonic.sense().engaged) << j;
+        inside += sample.engaged ? 0 : 1;
+        periodic.advance();
+        harmonic.advance();
+      }
+      EXPECT_GT(inside, 20);
+      EXPECT_LT(inside, 1980);
+    }
+  }
+}
+
+TEST(ForcedLoop, TheHarmonicMotionIsTheOneOfItsParts) {
+  test::KollarCase which;
+  which.initial_state = some_state;
+  auto parts = which.motion();
+  auto whole = harmonically_forced_motion(which.forced_loop(), some_state);
+  for (int j = 0; j < 3000; ++j) {
+    ASSERT_EQ(parts.sense().control_force, whole.sense().control_force);
+    parts.advance();
+    whole.advance();
+    ASSERT_EQ(parts.state(), whole.state());
+  }
+}
+
+TEST(MotionMemory, AMotionGoesOnFromItToTheLastBit) {
+  const ForcedLoop<double> loop = loop_with_gap(0.01, 0.4);
+  const Rational ratio = forcing_ratio(loop).value();
+  ASSERT_EQ(ratio.denominator, 10);
+  auto motion = periodically_forced_motion(loop, ratio, some_state);
+  int stored_inside = 0;
+  for (int coincidence = 0; coincidence < 50; ++coincidence) {
+    const auto memory = motion.memory();
+    stored_inside += memory.backlash.inside ? 1 : 0;
+    auto other = periodically_forced_motion(loop, ratio, Vector<double, 4>::Ones().eval());
+    other.restore(memory);
+    auto here = motion;
+    for (int j = 0; j < 200; ++j) {
+      const auto expected = here.sense(), found = other.sense();
+      ASSERT_EQ(expected.engaged, found.engaged);
+      ASSERT_EQ(expected.control_force, found.control_force);
+      here.advance();
+      other.advance();
+      ASSERT_EQ(here.state(), other.state());
+      ASSERT_EQ(here.law().lower(), other.law().lower());
+    }
+    for (int j = 0; j < 10; ++j) motion.sense(), motion.advance();
+  }
+  EXPECT_GT(stored_inside, 0) << "and not only outside";
+  EXPECT_LT(stored_inside, 50);
+}
+
+TEST(BacklashMemory, ADriveGoesOnFromItToTheLastBit) {
+  test::Random random(851);
+  Backlash<double> drive(0.7);
+  for (int j = 0; j < 300; ++j) {
+    Backlash<double> other(0.7, drive.memory());
+    for (int k = 0; k < 20; ++k) {
+      const double displacement = random.uniform(-1, 1), velocity = random.uniform(-1, 1);
+      ASSERT_EQ(drive.step(displacement, velocity), other.step(displacement, velocity));
+      ASSERT_EQ(drive.lower(), other.lower());
+      ASSERT_EQ(drive.upper(), other.upper());
+    }
+  }
+}
+
+TEST(ForcingRatio, IsWhatTheDecimalsMean) {
+  ForcedLoop<double> loop = loop_with_gap(0.011, 0.0);
+  const Rational ratio = forcing_ratio(loop).value();
+  EXPECT_EQ(ratio.numerator, 11);
+  EXPECT_EQ(ratio.denominator, 100);
+  EXPECT_TRUE(forcing_ratio(loop, 100));
+  EXPECT_FALSE(forcing_ratio(loop, 99));
+  loop.excitation.frequency = 10.0 * std::sqrt(0.5);
+  EXPECT_FALSE(forcing_ratio(loop));
+  loop.excitation.frequency = 1e300;
+  EXPECT_FALSE(forcing_ratio(loop));
+  loop.excitation.amplitude = 0.0;
+  EXPECT_EQ(forcing_ratio(loop).value().numerator, 0);
+  EXPECT_EQ(forcing_ratio(loop).value().denominator, 1);
+}
+
+TEST(ForcedLoop, ConvertedThereAndBackIsTheSame) {
+  ForcedLoop<double> loop = loop_with_gap(0.003, 0.3);
+  loop.hold = ForceHold::exact;
+  const auto back = converted<double>(converted<long double>(loop));
+  EXPECT_EQ(back.plant.state_matrix(), loop.plant.state_matrix());
+  EXPECT_EQ(back.plant.control_input(), loop.plant.control_input());
+  EXPECT_EQ(back.sampling.period, loop.sampling.period);
+  EXPECT_EQ(back.sampling.processing_delay, loop.sampling.processing_delay);
+  EXPECT_EQ(back.gains.feedback_row(), loop.gains.feedback_row());
+  EXPECT_EQ(back.excitation.amplitude, loop.excitation.amplitude);
+  EXPECT_EQ(back.excitation.frequency, loop.excitation.frequency);
+  EXPECT_EQ(back.backlash_width, loop.backlash_width);
+  EXPECT_EQ(back.hold, loop.hold);
+}
+
+TEST(ForcedLoop, EveryPartIsValidated) {
+  const ForcedLoop<double> loop = loop_with_gap(0.003, 0.3);
+  EXPECT_NO_THROW(validate(loop));
+  const auto refused = [&loop](auto&& spoil) {
+    ForcedLoop<double> spoiled = loop;
+    spoil(spoiled);
+    EXPECT_THROW(validate(spoiled), InvalidParameter);
+  };
+  refused([](auto& bad) { bad.plant.absorber_mass = 0.0; });
+  refused([](auto& bad) { bad.sampling.processing_delay = 0.0031; });
+  refused([](auto& bad) { bad.gains.differential = std::numeric_limits<double>::infinity(); });
+  refused([](auto& bad) { bad.excitation.frequency = 0.0; });
+  refused([](auto& bad) { bad.backlash_width = -1e-9; });
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,116 @@
+#include "holdfast/simd/basins.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "support/kollar_case.hpp"
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+using MotionPack = simd::Pack<double>;
+
+ForcedLoop<double> packed_loop(double period, double width) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.width = width;
+  return which.forced_loop();
+}
+
+std::vector<Vector<double, 4>> packed_states(std::size_t count) {
+  test::Random random(881);
+  std::vector<Vector<double, 4>> states;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector<double, 4> unit = random.matrix<Vector<double, 4>>();
+    states.push_back(unit.cwiseProduct(Vector<double, 4>(0.005, 0.2, 0.005, 0.2)));
+  }
+  return states;
+}
+
+void expect_same_map(const BasinMap& one, const BasinMap& other) {
+  ASSERT_EQ(one.fates.size(), other.fates.size());
+  ASSERT_EQ(one.attractors.size(), other.attractors.size());
+  for (std::size_t k = 0; k < one.fates.size(); ++k) {
+    EXPECT_EQ(one.fates[k].outcome, other.fates[k].outcome) << k;
+    EXPECT_EQ(one.fates[k].attractor, other.fates[k].attractor) << k;
+  }
+  for (std::size_t k = 0; k < one.attractors.size(); ++k) {
+    EXPECT_EQ(one.attractors[k].states, other.attractors[k].states);
+    EXPECT_EQ(one.attractors[k].mirror_image, other.attractors[k].mirror_image);
+    EXPECT_TRUE(is_phase_shifted_copy(one.attractors[k].orbit, other.attractors[k].orbit));
+  }
+}
+
+TEST(PackedBasins, AreThoseOfOneLaneOnAnyNumberOfThreads) {
+  const auto one_after_the_other = [](std::size_t count, std::size_t tile, const auto& job) {
+    for (std::size_t first = 0; first < count; first += tile)
+      job(first, std::min(tile, count - first));
+  };
+  const auto states = packed_states(200);
+  const OrbitLimits limits{20000, 0};
+  for (const auto& loop :
+       {packed_loop(0.003, 0.002), packed_loop(0.01, 0.002), packed_loop(0.01, 0.0)}) {
+    const BasinMap scalar = find_basins<double>(loop, states, limits, one_after_the_other);
+    const BasinMap alone = simd::find_basins(loop, states, limits, 1);
+    const BasinMap together = simd::find_basins(loop, states, limits, 2);
+    expect_same_map(alone, together);
+    expect_same_map(scalar, alone);
+  }
+}
+
+TEST(PackedBasins, OfAGrowingLoopAreEmpty) {
+  ForcedLoop<double> loop = packed_loop(0.011, 0.002);
+  loop.sampling.processing_delay = loop.sampling.period;
+  const BasinMap map = simd::find_basins(loop, packed_states(50), {1000, 0}, 2);
+  EXPECT_TRUE(map.attractors.empty());
+  for (const MotionFate& fate : map.fates) EXPECT_EQ(fate.outcome, OrbitOutcome::diverges);
+}
+
+TEST(PackedForcing, IsTheSameInEveryLane) {
+  const ForcedLoop<double> loop = packed_loop(0.011, 0.0);
+  const auto sampled = sampled_loop(loop.plant, loop.sampling);
+  PeriodicForcing<double> forcing(held_harmonic(sampled), 0.5, {11, 100});
+  PeriodicForcing<MotionPack> packed(held_harmonic(sampled), 0.5, {11, 100});
+  for (int j = 0; j < 250; ++j) {
+    const Vector<double, 4> expected = forcing.next();
+    const Vector<MotionPack, 4> found = packed.next();
+    for (int k = 0; k < 4; ++k) {
+      double lanes[Lanes<MotionPack>::count];
+      Lanes<MotionPack>::store(found[k], lanes);
+      for (const double lane : lanes) ASSERT_EQ(lane, expected[k]);
+    }
+  }
+}
+
+TEST(MemoryLanes, EveryLaneHoldsItsOwnMemory) {
+  constexpr std::size_t count = Lanes<MotionPack>::count;
+  test::Random random(882);
+  for (std::size_t inside = 0; inside < (std::size_t{1} << count); ++inside) {
+    detail::MemoryLanes<MotionPack> lanes, copied;
+    std::vector<ForcedMotionMemory<double>> memories;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      memories.push_back(
+          {random.matrix<Vector<double, 4>>(),
+           random.unit(),
+           {((inside >> lane) & 1U) != 0, random.unit(), random.unit(), random.unit()}});
+      lanes.put(lane, memories.back());
+    }
+    copied.read(lanes.pack());
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const auto back = copied.get(lane);
+      EXPECT_EQ(back.state, memories[lane].state);
+      EXPECT_EQ(back.previous_force, memories[lane].previous_force);
+      EXPECT_EQ(back.backlash.inside, memories[lane].backlash.inside);
+      EXPECT_EQ(back.backlash.lower, memories[lane].backlash.lower);
+      EXPECT_EQ(back.backlash.upper, memories[lane].backlash.upper);
+      EXPECT_EQ(back.backlash.previous_velocity, memories[lane].backlash.previous_velocity);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace holdfast
