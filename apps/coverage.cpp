@@ -8,6 +8,7 @@
 #include "job.hpp"
 #include "loop_of_case.hpp"
 #include "motion_options.hpp"
+#include "motion_run.hpp"
 #include "table.hpp"
 
 namespace holdfast::program {

@@ -1,12 +1,16 @@
 #include "motion_options.hpp"
 
-#include "errors.hpp"
-#include "text.hpp"
-
 namespace holdfast::program {
 
 void add_duration(const Job& job, double& duration) {
   job->add_option("--duration", duration, "Length of the motion, s")
+      ->check(number_from(0.0, 1e12))
+      ->type_name("")
+      ->capture_default_str();
+}
+
+void add_from(const Job& job, double& from) {
+  job->add_option("--from", from, "First instant to be written, s")
       ->check(number_from(0.0, 1e12))
       ->type_name("")
       ->capture_default_str();
@@ -24,12 +28,6 @@ void add_largest_period(const Job& job, std::int64_t& largest_period) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}))
       ->type_name("")
       ->capture_default_str();
-}
-
-void require_completed(TrajectoryOutcome outcome, double time) {
-  if (outcome == TrajectoryOutcome::completed) return;
-  throw NoAnswer("the motion diverges: it leaves the range of numbers at t = " +
-                 format_number(time) + " s; a shorter --duration shows how it grows");
 }
 
 }  // namespace holdfast::program

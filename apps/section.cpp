@@ -7,8 +7,8 @@
 #include "job.hpp"
 #include "loop_of_case.hpp"
 #include "motion_options.hpp"
+#include "motion_run.hpp"
 #include "table.hpp"
-#include "text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -51,10 +51,7 @@ void add_section(CLI::App& program) {
                 "Poincaré section of the motion: the instants at which z2 - z1 turns");
   const auto options = std::make_shared<Options>();
   add_duration(job, options->duration);
-  job->add_option("--from", options->from, "First instant to be written, s")
-      ->check(number_from(0.0, 1e12))
-      ->type_name("")
-      ->capture_default_str();
+  add_from(job, options->from);
   add_switching(job, options->switching);
   job->final_callback([job, options] { run(job.context(), *options); });
 }

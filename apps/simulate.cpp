@@ -6,6 +6,7 @@
 #include "loop_of_case.hpp"
 #include "motion_columns.hpp"
 #include "motion_options.hpp"
+#include "motion_run.hpp"
 #include "table.hpp"
 
 namespace holdfast::program {
@@ -50,10 +51,7 @@ void add_simulate(CLI::App& program) {
                 "Time history of the loop from its initial state");
   const auto options = std::make_shared<Options>();
   add_duration(job, options->duration);
-  job->add_option("--from", options->from, "First instant to be written, s")
-      ->check(number_from(0.0, 1e12))
-      ->type_name("")
-      ->capture_default_str();
+  add_from(job, options->from);
   job->add_option("--kick", options->kick,
                   "Displace the conductor once: TIME:DISPLACEMENT, s and m");
   job->add_flag("--no-control", options->no_control, "Without control force");

@@ -38,9 +38,7 @@ const char* word_for(BoundaryFeatureKind kind) {
 using Precise = long double;
 
 TwoDof<Precise> precise_plant(const Case& the_case) {
-  const TwoDof<double> plant = plant_of(the_case);
-  return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
-          plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
+  return converted<Precise>(plant_of(the_case));
 }
 
 AffinePolynomial<Precise, 4> precise_continuous_polynomial(const Case& the_case) {

@@ -6,11 +6,9 @@
 #include "exit.hpp"
 #include "holdfast/attractor/lyapunov.hpp"
 #include "holdfast/attractor/lyapunov_run.hpp"
-#include "holdfast/motion/trajectory.hpp"
-#include "interrupt.hpp"
 #include "loop_of_case.hpp"
+#include "motion_run.hpp"
 #include "table.hpp"
-#include "text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -27,29 +25,6 @@ std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& questio
   const std::int64_t steps = samples_within(question.duration, period) - 1;
   if (steps < 1) throw WrongInput("--duration is shorter than one sampling period");
   return steps;
-}
-
-/// A motion that ends when the user or the system asks the program to stop.
-class InterruptibleMotion {
- public:
-  explicit InterruptibleMotion(SampledMotion<double> motion) : motion_(std::move(motion)) {}
-
-  MotionSample<double> sense() {
-    constexpr std::int64_t samples_between_looks = 1 << 14;
-    if (motion_.index() % samples_between_looks == 0) throw_if_interrupted();
-    return motion_.sense();
-  }
-  void advance() { motion_.advance(); }
-  const Vector<double, 4>& state() const { return motion_.state(); }
-  double time() const { return motion_.time(); }
-
- private:
-  SampledMotion<double> motion_;
-};
-
-[[noreturn]] void refuse_diverging(double time) {
-  throw NoAnswer("the motion diverges: it leaves the range of numbers at t = " +
-                 format_number(time) + " s; a shorter --duration shows how it grows");
 }
 
 }  // namespace
@@ -92,13 +67,11 @@ void write_exponent_history(const JobContext& context, const LyapunovQuestion& q
                             gains_of(context.case_data));
   auto motion = motion_of(context.case_data);
   const auto write_row = [&](const MotionSample<double>& sample) {
-    throw_if_interrupted();
     table.writer().cell(sample.time + period);
     for (const double exponent : observer.spectrum().exponents()) table.writer().cell(exponent);
     table.writer().end_row();
   };
-  if (run_trajectory(motion, steps, {}, observer, write_row) == TrajectoryOutcome::diverged)
-    refuse_diverging(motion.time());
+  run_to_completion(motion, steps, {}, observer, write_row);
   table.commit();
 }
 

@@ -3,7 +3,6 @@
 /// The whole library but for its optional adapters.
 
 #include "holdfast/attractor/basins.hpp"
-#include "holdfast/attractor/batch_sums.hpp"
 #include "holdfast/attractor/capture.hpp"
 #include "holdfast/attractor/contact_maps.hpp"
 #include "holdfast/attractor/contact_spectrum.hpp"
@@ -53,7 +52,7 @@
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/axis.hpp"
 #include "holdfast/core/balancing.hpp"
-#include "holdfast/core/batch_means.hpp"
+#include "holdfast/core/batch_sums.hpp"
 #include "holdfast/core/bracketing_root.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/exponential.hpp"
@@ -65,6 +64,7 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/resolvent.hpp"
 #include "holdfast/core/select.hpp"
+#include "holdfast/core/student_quantile.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/core/version.hpp"
 #include "holdfast/motion/between_samples.hpp"

@@ -10,7 +10,6 @@
 #include <memory>
 #include <vector>
 
-#include "holdfast/core/batch_means.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -269,37 +268,6 @@ TEST(ContactSpectrum, TheLargestAloneIsTheFirstOfAll) {
     sequence.push(largest, 0, sequence.contacts.size());
     EXPECT_NEAR(largest.spectrum(open).exponents()[0], all.spectrum(open).exponents()[0], 1e-10);
   }
-}
-
-TEST(BatchSums, AreBatchMeansOfEverySeriesWhateverTheStepsOfASum) {
-  test::Random random(509);
-  BatchSums<double, 2> sums, pairs(2);
-  std::array<BatchMeans<double>, 2> single, of_pairs;
-  Vector<double, 2> pair = Vector<double, 2>::Zero();
-  for (int n = 1; n <= 1001; ++n) {
-    const auto value = random.matrix<Vector<double, 2>>();
-    sums.add(value, 1);
-    pair += value;
-    for (int i = 0; i < 2; ++i) single[static_cast<std::size_t>(i)].push(value[i]);
-    if (n % 2 != 0) continue;
-    pairs.add(pair, 2);
-    for (int i = 0; i < 2; ++i) of_pairs[static_cast<std::size_t>(i)].push(pair[i] / 2);
-    pair.setZero();
-  }
-  EXPECT_EQ(sums.steps(), 1001);
-  EXPECT_EQ(pairs.steps(), 1000);
-  for (int i = 0; i < 2; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    EXPECT_NEAR(sums.totals()[i] / 1001, single[k].mean(), 1e-14);
-    EXPECT_NEAR(sums.standard_errors()[i], single[k].standard_error(), 1e-13);
-    EXPECT_NEAR(pairs.standard_errors()[i], of_pairs[k].standard_error(), 1e-13);
-  }
-  // 1001 values in 62 batches of 16; 31 pairs of them are what batches of 32 would be.
-  EXPECT_EQ(sums.complete_batches(), 62U);
-  BatchSums<double, 2> long_batches(32);
-  test::Random again(509);
-  for (int n = 0; n < 992; ++n) long_batches.add(again.matrix<Vector<double, 2>>(), 1);
-  EXPECT_LE((sums.standard_errors(2) - long_batches.standard_errors()).norm(), 1e-14);
 }
 
 }  // namespace

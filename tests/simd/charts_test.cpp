@@ -113,7 +113,7 @@ TEST(SimdChart, PacksAgreeWithExtendedPrecisionOnAMillionRandomCells) {
     const auto stable = tested(chart, true);
     const auto q =
         characteristic_polynomial(
-            sampled_loop(test::converted<long double>(plant),
+            sampled_loop(converted<long double>(plant),
                          Sampling<long double>{sampling.period, sampling.processing_delay}))
             .transformed(in_half_plane<long double, 6>);
     for (std::int64_t k = 0; k < 1000; ++k, ++cells) {

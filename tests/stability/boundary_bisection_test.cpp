@@ -89,7 +89,7 @@ TEST(BoundaryBisection, PointsAreWhereAnEigenvalueIsFoundToCrossTheUnitCircle) {
         const Sampling<double> sampling{period, fraction * period};
         const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
         const auto loop =
-            sampled_loop(test::converted<BisectionScalar>(plant),
+            sampled_loop(converted<BisectionScalar>(plant),
                          Sampling<BisectionScalar>{sampling.period, sampling.processing_delay});
         const double p = 20 * (plant.conductor_stiffness + plant.absorber_stiffness);
         const auto points = stability_boundary(polynomial, {-p, p / 5});

@@ -307,7 +307,7 @@ TEST(BoundaryFeatures, TangentsAreAllTurnsAlongTheCurve) {
     const auto sampling = test::random_sampling(plant, random);
     const Sampling<long double> precise{sampling.period, sampling.processing_delay};
     seen += expect_all_turns_are_found<5>(
-        characteristic_polynomial(sampled_loop(test::converted<long double>(plant), precise)),
+        characteristic_polynomial(sampled_loop(converted<long double>(plant), precise)),
         characteristic_polynomial(sampled_loop(plant, sampling)));
   }
   EXPECT_GT(seen, 200);
@@ -323,7 +323,7 @@ TEST(BoundaryFeatures, OfTheLoopWithoutDelayAreThoseWithoutItsRootAtZero) {
     if (draw % 4 == 0) plant.conductor_damping = plant.absorber_damping = 0.0;
     const Sampling<Extended> sampling{test::random_sampling(plant, random).period, 0};
     const BoundaryCurves<Extended, 5> curves(
-        characteristic_polynomial(sampled_loop(test::converted<Extended>(plant), sampling)));
+        characteristic_polynomial(sampled_loop(converted<Extended>(plant), sampling)));
     // λ = 0 is w = −1.
     const auto& q = curves.polynomial();
     const auto without = [](const Polynomial<Extended, 5>& part) {

@@ -131,7 +131,7 @@ TEST(Boundary, GainsForAPairAreExactForRandomLoops) {
   for (int draw = 0; draw < 300; ++draw) {
     const auto rough = test::random_plant(random);
     const auto sampling = test::random_sampling(rough, random);
-    const auto loop = sampled_loop(test::converted<Precise>(rough),
+    const auto loop = sampled_loop(converted<Precise>(rough),
                                    Sampling<Precise>{sampling.period, sampling.processing_delay});
     const Precise angle = random.uniform(0.05, 3.0);
     const auto gains = complex_pair_gains(characteristic_polynomial(loop), angle);

@@ -51,7 +51,7 @@ TEST(CharacteristicPolynomial, IsTheDeterminantOfTheSampledLoop) {
     const auto sampling = test::random_sampling(plant, random);
     const auto gains = test::random_gains(plant, sampling.period, random);
     const auto loop =
-        sampled_loop(test::converted<long double>(plant),
+        sampled_loop(converted<long double>(plant),
                      Sampling<long double>{sampling.period, sampling.processing_delay});
     const PdGains<long double> precise{gains.proportional, gains.differential};
     const auto p = characteristic_polynomial(loop).at(precise);
@@ -69,7 +69,7 @@ TEST(CharacteristicPolynomial, IsTheDeterminantOfTheSampledLoop) {
 TEST(CharacteristicPolynomial, IsTheDeterminantOfTheContinuousLoop) {
   test::Random random(193);
   for (int draw = 0; draw < 500; ++draw) {
-    const auto plant = test::converted<long double>(test::random_plant(random));
+    const auto plant = converted<long double>(test::random_plant(random));
     const PdGains<long double> gains{random.uniform(-1000, 1000), random.uniform(-100, 100)};
     const auto p = characteristic_polynomial(plant).at(gains);
     const std::complex<long double> s(random.uniform(-50, 50), random.uniform(-100, 100));

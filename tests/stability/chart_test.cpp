@@ -86,7 +86,7 @@ TEST(Chart, AgreesWithExtendedPrecisionOnAMillionRandomCells) {
     const GainGrid grid = random_grid(plant, sampling.period, random);
     const auto chart = stability_chart(half_plane_polynomial(plant, sampling), grid);
     const auto precise = characteristic_polynomial(
-        sampled_loop(test::converted<long double>(plant),
+        sampled_loop(converted<long double>(plant),
                      Sampling<long double>{sampling.period, sampling.processing_delay}));
     const auto q = precise.transformed(in_half_plane<long double, 6>);
     for (std::int64_t k = 0; k < grid.cells(); ++k) {

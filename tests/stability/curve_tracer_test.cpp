@@ -39,7 +39,7 @@ struct TracedLoop {
   }
 
   SampledLoop<LongDouble> precise() const {
-    return sampled_loop(test::converted<LongDouble>(plant),
+    return sampled_loop(converted<LongDouble>(plant),
                         Sampling<LongDouble>{sampling.period, sampling.processing_delay});
   }
 };

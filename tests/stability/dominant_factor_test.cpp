@@ -82,7 +82,7 @@ TEST(DominantFactor, AgreesWithExtendedPrecisionAlongRandomRows) {
     const auto to = test::random_gains(plant, sampling.period, random);
     const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
     const auto precise = characteristic_polynomial(
-        sampled_loop(test::converted<long double>(plant),
+        sampled_loop(converted<long double>(plant),
                      Sampling<long double>{sampling.period, sampling.processing_delay}));
     DominantFactor<double, 6> follower;
     for (int step = 0; step <= 50; ++step) {

@@ -83,7 +83,7 @@ TEST(DoublePairs, ArePairsOfEigenvalues) {
     const auto rough = test::random_plant(random);
     const auto sampling = test::random_sampling(rough, random);
     const auto loop =
-        sampled_loop(test::converted<long double>(rough),
+        sampled_loop(converted<long double>(rough),
                      Sampling<long double>{sampling.period, sampling.processing_delay});
     const BoundaryCurves<long double, 5> curves(characteristic_polynomial(loop));
     for (const auto& pair : double_pairs(curves.pairs())) {

@@ -114,7 +114,7 @@ TEST(RowCrossings, StandWhereTheDominantRootCrossesInExtendedPrecision) {
                        .transformed(in_half_plane<double, 6>);
     const double p = test::random_gains(plant, sampling.period, random).proportional;
     const auto precise = characteristic_polynomial(
-        sampled_loop(test::converted<long double>(plant),
+        sampled_loop(converted<long double>(plant),
                      Sampling<long double>{sampling.period, sampling.processing_delay}));
     const auto excess = [&](long double d) {
       long double largest = -1;

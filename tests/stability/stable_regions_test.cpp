@@ -35,7 +35,7 @@ struct WindowedLoop {
   template <class Scalar>
   AffinePolynomial<Scalar, 5> polynomial() const {
     return characteristic_polynomial(
-        sampled_loop(test::converted<Scalar>(plant),
+        sampled_loop(converted<Scalar>(plant),
                      Sampling<Scalar>{Scalar(sampling.period), Scalar(sampling.processing_delay)}));
   }
 };
@@ -134,7 +134,7 @@ TEST(StableRegions, DoNotDependOnWhichGainIsAcross) {
 
 int eigenvalues_beyond_the_circle(const WindowedLoop& loop, const PdGains<double>& gains) {
   const auto precise =
-      sampled_loop(test::converted<long double>(loop.plant),
+      sampled_loop(converted<long double>(loop.plant),
                    Sampling<long double>{loop.sampling.period, loop.sampling.processing_delay});
   const auto eigenvalues = detail::balanced_eigenvalues<long double, 5>(
       precise.engaged_map({gains.proportional, gains.differential}));

@@ -50,12 +50,6 @@ inline PdGains<double> random_gains(const TwoDof<double>& plant, double period, 
           (random.unit() < 0.8 ? -1.0 : 1.0) * random.log_uniform(1e-3, 2.0) * mass / period};
 }
 
-template <class To>
-TwoDof<To> converted(const TwoDof<double>& plant) {
-  return {To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),
-          To(plant.absorber_mass),  To(plant.absorber_stiffness),  To(plant.absorber_damping)};
-}
-
 /// How far the loop's dominant root lies outside the unit circle, in extended precision.
 struct Growth {
   double excess;    ///< max |λ| − 1

@@ -8,10 +8,10 @@
 #include <memory>
 #include <utility>
 
-#include "holdfast/attractor/batch_sums.hpp"
 #include "holdfast/attractor/contact_words.hpp"
 #include "holdfast/attractor/gram_schmidt.hpp"
 #include "holdfast/attractor/lyapunov_spectrum.hpp"
+#include "holdfast/core/batch_sums.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "holdfast/attractor/batch_sums.hpp"
+#include "holdfast/core/batch_sums.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {

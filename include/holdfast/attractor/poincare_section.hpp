@@ -8,6 +8,7 @@
 #include "holdfast/motion/between_samples.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/two_dof.hpp"
 
 namespace holdfast {
 
@@ -22,8 +23,6 @@ struct SectionPoint {
 
 namespace detail {
 
-inline double relative_velocity_of(const Vector<double, 4>& state) { return state[3] - state[1]; }
-
 /// The crossings within one sampling period, one at most before the new force arrives and one
 /// after.
 template <class Observer>
@@ -36,15 +35,15 @@ void cross_section(const BetweenSamples& between, const MotionSample<double>& sa
   const double ends[] = {0.0, sampling.processing_delay, sampling.period};
   const bool in_parts =
       sampling.processing_delay > 0.0 && sampling.processing_delay < sampling.period;
-  double lower = 0.0, value_at_lower = relative_velocity_of(sample.state);
+  double lower = 0.0, value_at_lower = relative_velocity(sample.state);
   for (int part = in_parts ? 1 : 2; part <= 2; ++part) {
     const double upper = ends[part];
-    const double value = relative_velocity_of(part == 2 ? next : state_after(upper));
+    const double value = relative_velocity(part == 2 ? next : state_after(upper));
     const bool rising = value_at_lower < 0.0 && value >= 0.0;
     const bool falling = value_at_lower > 0.0 && value <= 0.0;
     if (rising || falling) {
       const auto root = bracketing_root(
-          [&](double after) { return relative_velocity_of(state_after(after)); },
+          [&](double after) { return relative_velocity(state_after(after)); },
           SignChange<double>{lower, upper, value_at_lower, value}, 1e-12 * sampling.period);
       const double after = root.upper;
       observer(SectionPoint{sample.time + after, state_after(after), rising, sample.engaged});

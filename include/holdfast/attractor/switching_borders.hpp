@@ -10,6 +10,7 @@
 #include "holdfast/attractor/contact_maps.hpp"
 #include "holdfast/backlash/hysteresis.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/plant/two_dof.hpp"
 
 namespace holdfast {
 
@@ -53,16 +54,6 @@ struct SwitchingPattern {
 };
 
 namespace detail {
-
-template <class Scalar>
-Scalar relative_displacement(const Vector<Scalar, 5>& state) {
-  return state[2] - state[0];
-}
-
-template <class Scalar>
-Scalar relative_velocity(const Vector<Scalar, 5>& state) {
-  return state[3] - state[1];
-}
 
 template <class Scalar>
 ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
@@ -146,7 +137,7 @@ inline Borders borders_of(const SwitchingPattern& pattern,
   for (std::size_t k = 0; k < 2 * samples; ++k) {
     const std::size_t j = k % samples;
     const ContactDecision& decision = pattern.decisions[j];
-    const double displacement = detail::relative_displacement(states[j]);
+    const double displacement = relative_displacement(states[j]);
     if (!decision.was_inside && !decision.engaged) {
       const bool from_positive = pattern.decisions[(j + samples - 1) % samples].velocity_sign > 0;
       lower = from_positive ? displacement - width : displacement;
@@ -154,7 +145,7 @@ inline Borders borders_of(const SwitchingPattern& pattern,
     }
     if (k < samples) continue;
     if (decision.velocity_sign != 0)
-      keep_nearer(nearest.velocity, decision.velocity_sign * detail::relative_velocity(states[j]),
+      keep_nearer(nearest.velocity, decision.velocity_sign * relative_velocity(states[j]),
                   SwitchingSurface::reversal, j);
     if (!decision.was_inside) continue;
     const double inward = decision.engaged ? -1.0 : 1.0;

@@ -9,8 +9,8 @@
 
 #include "holdfast/attractor/recurrence.hpp"
 #include "holdfast/attractor/switching_complexity.hpp"
-#include "holdfast/core/batch_means.hpp"
 #include "holdfast/core/errors.hpp"
+#include "holdfast/core/student_quantile.hpp"
 
 namespace holdfast {
 

@@ -40,9 +40,7 @@ inline void validate(const ForcedLoop<double>& loop) {
 /// The same numbers in another number type, for instance `long double`.
 template <class To, class From>
 ForcedLoop<To> converted(const ForcedLoop<From>& loop) {
-  const TwoDof<From>& plant = loop.plant;
-  return {{To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),
-           To(plant.absorber_mass), To(plant.absorber_stiffness), To(plant.absorber_damping)},
+  return {converted<To>(loop.plant),
           {To(loop.sampling.period), To(loop.sampling.processing_delay)},
           {To(loop.gains.proportional), To(loop.gains.differential)},
           {To(loop.excitation.amplitude), To(loop.excitation.frequency)},
@@ -52,9 +50,8 @@ ForcedLoop<To> converted(const ForcedLoop<From>& loop) {
 
 /// f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods of the
 /// excitation. Without excitation 0/1.
-/// @param largest_samples  ≥ 1; beyond 10⁶ it counts as 10⁶, since every number is a fraction with
-/// a
-///                         larger q to the precision of its digits
+/// @param largest_samples  ≥ 1; beyond 10⁶ it counts as 10⁶, since to the precision of its digits
+/// every number is a fraction with a larger q
 /// @return nothing where f τ is no fraction with q ≤ largest_samples: then the two count as
 ///         incommensurate
 inline std::optional<Rational> forcing_ratio(const ForcedLoop<double>& loop,

@@ -11,6 +11,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/excitation.hpp"
 #include "holdfast/motion/forcing.hpp"
+#include "holdfast/plant/two_dof.hpp"
 
 namespace holdfast {
 
@@ -67,7 +68,8 @@ class SampledMotion {
   /// Takes sample j: decides whether the force is transmitted, and how large it is. Call once per
   /// sample.
   MotionSample<Scalar> sense() {
-    const Mask<Scalar> engaged = law_.step(state_[2] - state_[0], state_[3] - state_[1]);
+    const Mask<Scalar> engaged =
+        law_.step(relative_displacement(state_), relative_velocity(state_));
     const Scalar command = gains_.proportional * state_[0] + gains_.differential * state_[1];
     present_force_ = select(engaged, command, Scalar(0));
     return {index_, time(), state_, present_force_, engaged};

@@ -58,6 +58,25 @@ inline void validate(const TwoDof<double>& plant) {
   require_non_negative("absorber damping c2", plant.absorber_damping, "N s/m");
 }
 
+/// Δz = z₂ − z₁ (m) of a state that begins with [z₁, ż₁, z₂, ż₂].
+template <class Scalar, int Size>
+Scalar relative_displacement(const Vector<Scalar, Size>& state) {
+  return state[2] - state[0];
+}
+
+/// Δż = ż₂ − ż₁ (m/s) of a state that begins with [z₁, ż₁, z₂, ż₂].
+template <class Scalar, int Size>
+Scalar relative_velocity(const Vector<Scalar, Size>& state) {
+  return state[3] - state[1];
+}
+
+/// The same numbers in another number type, for instance `long double`.
+template <class To, class From>
+TwoDof<To> converted(const TwoDof<From>& plant) {
+  return {To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),
+          To(plant.absorber_mass),  To(plant.absorber_stiffness),  To(plant.absorber_damping)};
+}
+
 /// The plant of Kollár 2022, Table 1: a small-scale span with the absorber at one tenth of its
 /// length.
 inline TwoDof<double> kollar2022_plant() { return {0.0767, 50.3, 0.079, 0.16, 74.4, 4.0}; }

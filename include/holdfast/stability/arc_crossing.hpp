@@ -29,7 +29,7 @@ class ArcCrossing {
     MonotoneArc<Scalar> bracket = bounded();
     Scalar square = bracket.inside(), last_step = square;
     for (int iteration = 0; iteration < 400; ++iteration) {
-      const Residual at = residual(square, proportional_gain);
+      const auto at = curve_->residual(square, proportional_gain);
       const bool below = (at.value < Scalar(0)) != (at.denominator < Scalar(0));
       (below == rising_ ? bracket.start : bracket.end).square = square;
       const Scalar step = at.value / at.slope, next = square - step, inside = bracket.inside();
@@ -57,23 +57,6 @@ class ArcCrossing {
   }
 
  private:
-  /// n − P Δ, its derivative, and Δ.
-  struct Residual {
-    Scalar value, slope, denominator;
-  };
-
-  Residual residual(const Scalar& square, const Scalar& proportional_gain) const {
-    const auto& n = curve_->proportional_numerator();
-    const auto& d = curve_->denominator();
-    Scalar value = n[4] - proportional_gain * d[4], slope(0), denominator = d[4];
-    for (int k = 3; k >= 0; --k) {
-      slope = slope * square + value;
-      value = value * square + (n[k] - proportional_gain * d[k]);
-      denominator = denominator * square + d[k];
-    }
-    return {value, slope, denominator};
-  }
-
   /// Y = 0 and ∞ put off to where all powers of Y are still numbers, and P is that of the end.
   MonotoneArc<Scalar> bounded() const {
     const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));

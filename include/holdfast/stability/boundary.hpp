@@ -51,14 +51,6 @@ std::optional<PdGains<Scalar>> complex_pair_gains(const AffinePolynomial<Scalar,
   return gains_with_root(polynomial, unit_circle_minus_one(angle));
 }
 
-/// Gains of the continuous loop with a root pair ±iω, ω > 0.
-/// @param polynomial  `characteristic_polynomial(plant)`, in s
-template <class Scalar>
-std::optional<PdGains<Scalar>> imaginary_pair_gains(const AffinePolynomial<Scalar, 4>& polynomial,
-                                                    const Scalar& angular_frequency) {
-  return gains_with_root(polynomial, std::complex<Scalar>(0, angular_frequency));
-}
-
 namespace detail {
 
 /// The two ends of a line within a P range; D = ∓∞ where it is vertical.

@@ -93,6 +93,23 @@ class RootPairCurve {
   const Polynomial<Scalar, 4>& differential_numerator() const { return differential_numerator_; }
   const Polynomial<Scalar, 4>& denominator() const { return denominator_; }
 
+  /// n − P Δ with n the numerator of P: zero where the curve takes P; its slope by Y, and Δ.
+  struct Residual {
+    Scalar value, slope, denominator;
+  };
+
+  /// At Y and the proportional gain P (N/m).
+  Residual residual(const Scalar& square, const Scalar& proportional_gain) const {
+    const Polynomial<Scalar, 4>&n = proportional_numerator_, &d = denominator_;
+    Scalar value = n[4] - proportional_gain * d[4], slope(0), denominator = d[4];
+    for (int k = 3; k >= 0; --k) {
+      slope = slope * square + value;
+      value = value * square + (n[k] - proportional_gain * d[k]);
+      denominator = denominator * square + d[k];
+    }
+    return {value, slope, denominator};
+  }
+
   /// Even and odd parts of the three parts of the polynomial, w in `unit()`.
   const ParityParts<Scalar>& base() const { return base_; }
   const ParityParts<Scalar>& proportional() const { return proportional_; }

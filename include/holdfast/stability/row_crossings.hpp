@@ -94,34 +94,17 @@ class RowCrossings {
     Scalar proportional_gain = Scalar(0);
   };
 
-  /// n − P Δ and its derivative.
-  struct Residual {
-    Scalar value, slope, denominator;
-  };
-
-  Residual residual(const Scalar& square, const Scalar& proportional_gain) const {
-    const auto& n = curve_.proportional_numerator();
-    const auto& d = curve_.denominator();
-    Scalar value = n[4] - proportional_gain * d[4], slope(0), denominator = d[4];
-    for (int k = 3; k >= 0; --k) {
-      slope = slope * square + value;
-      value = value * square + (n[k] - proportional_gain * d[k]);
-      denominator = denominator * square + d[k];
-    }
-    return {value, slope, denominator};
-  }
-
   /// Newton's method, halving the arc where it would leave it.
   void follow(Branch& branch, const Scalar& proportional_gain) const {
     MonotoneArc<Scalar> bracket = branch.arc;
     const bool negative_at_start = bracket.start.residual(proportional_gain) < Scalar(0);
     Scalar square =
         branch.square + branch.square_per_gain * (proportional_gain - branch.proportional_gain);
-    Residual at_square{};
+    typename RootPairCurve<Scalar>::Residual at_square{};
     for (int iteration = 0; iteration < 200; ++iteration) {
       if (!(square > bracket.start.square && square < bracket.end.square))
         square = bracket.inside();
-      at_square = residual(square, proportional_gain);
+      at_square = curve_.residual(square, proportional_gain);
       ((at_square.value < Scalar(0)) == negative_at_start ? bracket.start : bracket.end).square =
           square;
       const Scalar step = at_square.value / at_square.slope;

@@ -87,9 +87,7 @@ class SamplingPath {
     return {roots_at(loop, gains), {MovingPoint{1.0 - product, -slope, 0.0, false, -product}}};
   }
 
-  const TwoDof<double>& plant() const { return plant_; }
   bool varies_period() const { return !(fixed_period_ > 0.0); }
-  double delay_fraction() const { return delay_fraction_; }
 
  private:
   /// At a multiple root the rates are not numbers; the other end of a step must then tell.
