@@ -75,6 +75,7 @@
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/stepper.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/motion/turning_table.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "holdfast/plant/two_dof.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/excitation.hpp"
+#include "holdfast/motion/turning_table.hpp"
 
 namespace holdfast {
 
@@ -20,39 +20,24 @@ namespace holdfast {
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 ///
-/// The cosine and sine are computed once in `block` periods; between them they are turned by fixed
-/// angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}, so that a period costs eight multiply-adds and the
-/// rounding does not grow with j.
+/// Work: 12 multiply-adds a period, and a cosine and sine in every `TurningTable::block` of them.
 template <class Scalar>
 class HarmonicForcing {
  public:
   HarmonicForcing(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
                   const Scalar& sampling_period)
-      : excitation_(excitation), sampling_period_(sampling_period) {
-    const HarmonicExcitation<Scalar> unit{Scalar(1), excitation.frequency};
-    for (std::size_t k = 0; k < block; ++k) {
-      const auto turn = sample_excitation(unit, sampling_period, static_cast<std::int64_t>(k));
-      in_phase_[k] = input.cosine * turn.cosine + input.sine * turn.sine;
-      quadrature_[k] = input.sine * turn.cosine - input.cosine * turn.sine;
-    }
-  }
+      : table_(input, excitation, sampling_period) {}
 
   /// The addition (4 × 1) of the present sampling period; goes on to the next one.
   Vector<Scalar, 4> next() {
-    const std::size_t k = static_cast<std::size_t>(index_) % block;
-    if (k == 0) base_ = sample_excitation(excitation_, sampling_period_, index_);
+    const std::size_t k = static_cast<std::size_t>(index_) % TurningTable<Scalar>::block;
+    if (k == 0) table_.turn_to(index_);
     ++index_;
-    return in_phase_[k] * base_.cosine + quadrature_[k] * base_.sine;
+    return table_.addition(k);
   }
 
  private:
-  static constexpr std::size_t block = 16;
-
-  HarmonicExcitation<Scalar> excitation_;
-  Scalar sampling_period_;
-  std::array<Vector<Scalar, 4>, block> in_phase_;
-  std::array<Vector<Scalar, 4>, block> quadrature_;
-  ExcitationSample<Scalar> base_{Scalar(0), Scalar(0)};
+  TurningTable<Scalar> table_;
   std::int64_t index_ = 0;
 };
 

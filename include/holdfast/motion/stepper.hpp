@@ -77,9 +77,13 @@ class SampledMotion {
 
   /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
-    const Vector<Scalar, 4> next = loop_.transition * state_ +
-                                   loop_.previous_force * previous_force_ +
-                                   loop_.present_force * present_force_ + forcing_.next();
+    const Matrix<Scalar, 4>& transition = loop_.transition;
+    // A_d z column by column: written out, the order of the sums is the same for every number type.
+    const Vector<Scalar, 4> next =
+        ((transition.col(0) * state_[0] + transition.col(1) * state_[1]) +
+         (transition.col(2) * state_[2] + transition.col(3) * state_[3])) +
+        loop_.previous_force * previous_force_ + loop_.present_force * present_force_ +
+        forcing_.next();
     state_ = next;
     previous_force_ = present_force_;
     ++index_;
