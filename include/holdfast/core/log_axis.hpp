@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace holdfast {
+
+/// Values of equal ratio from `min` to `max`, both included exactly.
+struct LogAxis {
+  double min = 1.0;        ///< > 0
+  double max = 1.0;        ///< ≥ min
+  std::int64_t count = 1;  ///< ≥ 1; with count = 1 the only value is `min`
+
+  /// min (max/min)^{index/(count − 1)}, 0 ≤ index < count.
+  double at(std::int64_t index) const {
+    const std::int64_t last = count - 1;
+    if (index <= 0 || last <= 0) return min;
+    if (index >= last) return max;
+    const double share = static_cast<double>(index) / static_cast<double>(last);
+    // The quotient of the ends may leave the range of doubles; their logarithms do not.
+    const double logarithm = std::log(min) * (1.0 - share) + std::log(max) * share;
+    return std::clamp(std::exp(logarithm), min, max);
+  }
+};
+
+}  // namespace holdfast

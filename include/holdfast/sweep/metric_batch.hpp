@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/sweep/metric_group.hpp"
+#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/motion_metrics.hpp"
+#include "holdfast/sweep/sweep_motion.hpp"
+
+namespace holdfast {
+
+/// Looks at no sample.
+struct IgnoreSwitching {
+  template <class LaneMask>
+  void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
+                  const LaneMask& /*engaged*/) const {}
+};
+
+/// The metrics of many motions, which may differ in every parameter, as many at a time as `Scalar`
+/// has lanes.
+///
+///     std::vector<MotionMetrics> metrics(motions.size());
+///     motion_metrics<double>(motions.data(), motions.size(), 20.0, metrics.data());
+///
+/// A motion's metrics do not depend on the others, to the last bit; on packs and scalars they are
+/// the same but for rounding. Memory: some 50 bytes a motion beside the results. Work: see
+/// `detail::MetricTrack`; before that a motion costs a few matrix exponentials, unless the one
+/// before it among those of equal numbers of samples has the same plant and sampling.
+/// @param motions   `count` of them
+/// @param duration  s, ≥ 0
+/// @param results   as many, in the order of the motions
+/// @param observer  called at every sample j with the numbers of the motions in the lanes, j, and
+///                  the mask of the lanes that transmit; also beyond a motion's last sample, and
+///                  for a motion that repeats in spare lanes or is done again
+/// @throws InvalidParameter where a motion or the duration is not admissible
+template <class Scalar, class SwitchingObserver = IgnoreSwitching>
+void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
+                    MotionMetrics* results, SwitchingObserver&& observer = SwitchingObserver()) {
+  std::vector<detail::SampleSpan> spans(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    validate(motions[k]);
+    spans[k] = detail::sample_span(k, duration, motions[k].loop.sampling.period);
+  }
+  // Neighbours of about equal numbers of samples; equal ones keep their order, and so what they
+  // share.
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const auto& a, const auto& b) { return a.samples < b.samples; });
+  using Group = detail::MetricGroup<Scalar>;
+  Group group;
+  for (std::size_t first = 0; first < count; first += Group::lanes) {
+    group.compute(motions, spans.data() + first, std::min(Group::lanes, count - first), results,
+                  observer);
+  }
+}
+
+}  // namespace holdfast

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/plant/two_dof.hpp"
+
+namespace holdfast::detail {
+
+inline bool same_numbers(const TwoDof<double>& a, const TwoDof<double>& b) {
+  return a.conductor_mass == b.conductor_mass && a.conductor_stiffness == b.conductor_stiffness &&
+         a.conductor_damping == b.conductor_damping && a.absorber_mass == b.absorber_mass &&
+         a.absorber_stiffness == b.absorber_stiffness && a.absorber_damping == b.absorber_damping;
+}
+
+/// The matrices of one loop after another. Their exponentials cost some microseconds; cells of a
+/// sweep in a row often share them.
+class SweepMatrices {
+ public:
+  struct Matrices {
+    SampledLoop<double> sampled;
+    HarmonicInput<double> input;
+  };
+
+  const Matrices& of(const ForcedLoop<double>& loop) {
+    const bool same_loop = known_ && same_numbers(known_->plant, loop.plant) &&
+                           known_->sampling.period == loop.sampling.period &&
+                           known_->sampling.processing_delay == loop.sampling.processing_delay;
+    const bool same_input = same_loop && known_->hold == loop.hold &&
+                            (loop.hold == ForceHold::sampled ||
+                             known_->excitation.frequency == loop.excitation.frequency);
+    if (!same_loop) matrices_.sampled = sampled_loop(loop.plant, loop.sampling);
+    if (!same_input) {
+      matrices_.input = harmonic_input(loop.plant, matrices_.sampled, loop.hold,
+                                       loop.excitation.angular_frequency());
+    }
+    known_ = loop;
+    return matrices_;
+  }
+
+ private:
+  std::optional<ForcedLoop<double>> known_;
+  Matrices matrices_{};
+};
+
+/// One number of every lane. @param number  (lane) → double
+template <class Scalar, class Number>
+Scalar from_lanes(const Number& number) {
+  double values[Lanes<Scalar>::count];
+  for (std::size_t lane = 0; lane < Lanes<Scalar>::count; ++lane) values[lane] = number(lane);
+  return Lanes<Scalar>::load(values);
+}
+
+/// One matrix of every lane. @param matrix  (lane) → Matrix<double, Rows, Columns>
+template <class Scalar, int Rows, int Columns, class Matrices>
+Matrix<Scalar, Rows, Columns> matrix_from_lanes(const Matrices& matrix) {
+  Matrix<Scalar, Rows, Columns> result;
+  for (int i = 0; i < Rows; ++i) {
+    for (int j = 0; j < Columns; ++j) {
+      result(i, j) = from_lanes<Scalar>([&](std::size_t lane) { return matrix(lane)(i, j); });
+    }
+  }
+  return result;
+}
+
+/// The sampled loop of every lane.
+template <class Scalar>
+SampledLoop<Scalar> loop_from_lanes(
+    const std::array<SweepMatrices::Matrices, Lanes<Scalar>::count>& lanes) {
+  const auto number = [&](auto member) {
+    return from_lanes<Scalar>([&](std::size_t k) { return lanes[k].sampled.sampling.*member; });
+  };
+  const auto vector = [&](auto member) {
+    return matrix_from_lanes<Scalar, 4, 1>([&](std::size_t k) -> const auto& {
+      return lanes[k].sampled.*member;
+    });
+  };
+  const auto square = [&](auto member) {
+    return matrix_from_lanes<Scalar, 4, 4>([&](std::size_t k) -> const auto& {
+      return lanes[k].sampled.*member;
+    });
+  };
+  using Loop = SampledLoop<double>;
+  return {{number(&Sampling<double>::period), number(&Sampling<double>::processing_delay)},
+          square(&Loop::transition),
+          square(&Loop::increment),
+          vector(&Loop::previous_force),
+          vector(&Loop::present_force),
+          vector(&Loop::held_excitation)};
+}
+
+/// The input of the excitation of every lane.
+template <class Scalar>
+HarmonicInput<Scalar> input_from_lanes(
+    const std::array<SweepMatrices::Matrices, Lanes<Scalar>::count>& lanes) {
+  const auto vector = [&](auto member) {
+    return matrix_from_lanes<Scalar, 4, 1>([&](std::size_t k) -> const auto& {
+      return lanes[k].input.*member;
+    });
+  };
+  return {vector(&HarmonicInput<double>::cosine), vector(&HarmonicInput<double>::sine)};
+}
+
+}  // namespace holdfast::detail
