@@ -12,8 +12,9 @@ namespace {
 
 // Options that are kept elsewhere in the context, or do not shape the result.
 bool is_common(const std::string& name) {
-  const std::vector<std::string> common = {"--help",  "--case",     "--set",    "--output",
-                                           "--quiet", "--progress", "--threads"};
+  const std::vector<std::string> common = {"--help",    "--case",  "--set",
+                                           "--output",  "--quiet", "--progress",
+                                           "--threads", "--tile",  "--resume"};
   return std::find(common.begin(), common.end(), name) != common.end();
 }
 
@@ -81,9 +82,9 @@ CLI::Option* Job::add_text(const std::string& name, std::string& value,
 JobContext Job::context(PlantNeed need) const {
   JobContext context;
   context.job = options_->get_name();
-  std::optional<std::filesystem::path> file;
-  if (common_->case_file) file = *common_->case_file;
-  context.case_data = load_case(file, common_->overrides);
+  if (common_->case_file) context.case_source.file = *common_->case_file;
+  context.case_source.overrides = common_->overrides;
+  context.case_data = load_case(context.case_source.file, context.case_source.overrides);
   report_warning(wind_warning(context.case_data), common_->quiet);
   if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
   context.options = given_options(*options_);

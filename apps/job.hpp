@@ -77,6 +77,7 @@ void add_basins(CLI::App& program);
 void add_diagram(CLI::App& program);
 void add_section(CLI::App& program);
 void add_verdict(CLI::App& program);
+void add_sweep(CLI::App& program);
 void add_reduce(CLI::App& program);
 void add_statics(CLI::App& program);
 void add_modes(CLI::App& program);
@@ -91,6 +92,7 @@ inline constexpr const char* gains = "Which gains are stable, and which are best
 inline constexpr const char* delay = "How slow may the computer be?";
 inline constexpr const char* motion = "How does it move?";
 inline constexpr const char* attractor = "What is this irregular motion?";
+inline constexpr const char* map = "For which delays, backlashes, frequencies does it still help?";
 inline constexpr const char* all = "All of it on one page";
 }  // namespace question
 

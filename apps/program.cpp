@@ -17,6 +17,7 @@ constexpr const char* examples =
     "  holdfast simulate --duration 1 --output motion.csv     the motion from rest\n"
     "  holdfast verdict --set backlash.width=0.002            is it periodic, and how sure is "
     "that?\n"
+    "  holdfast sweep --axis backlash.width=0:0.003:31        how much play may the belt have?\n"
     "  holdfast reduce --case line.toml                       the plant of a conductor\n"
     "  holdfast JOB --help                                    every option with unit and default\n";
 
@@ -44,6 +45,7 @@ void add_jobs(CLI::App& program) {
   add_diagram(program);
   add_section(program);
   add_lyapunov(program);
+  add_sweep(program);
   add_report(program);
 }
 

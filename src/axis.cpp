@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "errors.hpp"
 #include "text.hpp"
@@ -56,6 +57,21 @@ class OptionText {
     return value;
   }
 
+  /// The text's two sides: a key, which is not empty, and what it is to be.
+  std::pair<std::string, std::string_view> assignment(std::string_view text) const {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) refuse("has no \"=\"");
+    const std::string_view key = trimmed(text.substr(0, equals));
+    if (key.empty()) refuse("names no key");
+    return {std::string(key), text.substr(equals + 1)};
+  }
+
+  std::vector<double> list(std::string_view text) const {
+    std::vector<double> values;
+    for (const std::string_view part : split(text, ',')) values.push_back(number(part));
+    return values;
+  }
+
   Axis axis(std::string_view text) const {
     const auto found = parts(text, ':', 3);
     const Range ends = range(found[0], found[1]);
@@ -86,11 +102,23 @@ Axis parse_axis(std::string_view option, std::string_view text) {
 
 KeyAxis parse_key_axis(std::string_view option, std::string_view text) {
   const OptionText given(option, text, "KEY=MIN:MAX:COUNT");
-  const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) given.refuse("has no \"=\"");
-  const std::string_view key = trimmed(text.substr(0, equals));
-  if (key.empty()) given.refuse("names no key");
-  return {std::string(key), given.axis(text.substr(equals + 1))};
+  const auto [key, values] = given.assignment(text);
+  return {key, given.axis(values)};
+}
+
+KeyValues parse_key_values(std::string_view option, std::string_view text) {
+  constexpr std::string_view logarithmic = "log:";
+  const OptionText given(option, text,
+                         "KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,...");
+  const auto [key, side] = given.assignment(text);
+  const std::string_view values = trimmed(side);
+  if (values.substr(0, logarithmic.size()) == logarithmic) {
+    const Axis ends = given.axis(values.substr(logarithmic.size()));
+    if (!(ends.min > 0.0)) given.refuse("a logarithmic axis begins above 0");
+    return {key, LogAxis{ends.min, ends.max, ends.count}};
+  }
+  if (values.find(':') != std::string_view::npos) return {key, given.axis(values)};
+  return {key, given.list(values)};
 }
 
 KickOption parse_kick(std::string_view option, std::string_view text) {
@@ -112,10 +140,7 @@ WindowOption parse_window(std::string_view option, std::string_view text) {
 }
 
 std::vector<double> parse_list(std::string_view option, std::string_view text) {
-  const OptionText given(option, text, "numbers between commas");
-  std::vector<double> values;
-  for (const std::string_view part : split(text, ',')) values.push_back(given.number(part));
-  return values;
+  return OptionText(option, text, "numbers between commas").list(text);
 }
 
 }  // namespace holdfast::program

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "holdfast/core/axis.hpp"
+#include "holdfast/core/log_axis.hpp"
 
 namespace holdfast::program {
 
@@ -19,6 +21,12 @@ struct Range {
 struct KeyAxis {
   std::string key;
   Axis axis;
+};
+
+/// KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,….
+struct KeyValues {
+  std::string key;
+  std::variant<Axis, LogAxis, std::vector<double>> values;
 };
 
 /// TIME:DISPLACEMENT of a kick, s and m; time >= 0.
@@ -39,6 +47,8 @@ Range parse_range(std::string_view option, std::string_view text);
 /// 1 <= count <= 1e9. A count of 1 is min alone.
 Axis parse_axis(std::string_view option, std::string_view text);
 KeyAxis parse_key_axis(std::string_view option, std::string_view text);
+/// A list has at least one number; `log:` wants 0 < MIN.
+KeyValues parse_key_values(std::string_view option, std::string_view text);
 KickOption parse_kick(std::string_view option, std::string_view text);
 WindowOption parse_window(std::string_view option, std::string_view text);
 

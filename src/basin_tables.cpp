@@ -9,6 +9,7 @@
 #include "grid_table.hpp"
 #include "holdfast/attractor/basins.hpp"
 #include "interrupt.hpp"
+#include "key_axis.hpp"
 #include "loop_of_case.hpp"
 #include "row_blocks.hpp"
 #include "table.hpp"
@@ -39,11 +40,6 @@ KeyAxis initial_axis(const std::string& text) {
                      "initial.v2");
   }
   return axis;
-}
-
-GridAxis grid_axis(const KeyAxis& axis) {
-  const CaseKey& key = *find_case_key(axis.key);
-  return {{key.name, key.unit, key.description}, axis.axis};
 }
 
 struct StateGrid {

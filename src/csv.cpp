@@ -39,6 +39,13 @@ void append_quoted(std::string& buffer, std::string_view text) {
 
 }  // namespace
 
+std::string csv_cell(std::string_view text) {
+  std::string cell;
+  if (!needs_quotes(text)) return cell.append(text);
+  append_quoted(cell, text);
+  return cell;
+}
+
 CsvWriter::CsvWriter(OutputFile& output, const std::vector<Column>& columns)
     : output_(output), width_(columns.size()) {
   buffer_.reserve(buffer_size + 4096);

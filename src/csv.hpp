@@ -19,6 +19,9 @@ struct Column {
   std::string datatype = "double";  // of CSV on the Web: double, integer, boolean, string
 };
 
+/// The text as a cell of CSV: in quotes where RFC 4180 wants them.
+std::string csv_cell(std::string_view text);
+
 /// Writes a table as CSV (RFC 4180: CRLF line ends, quotes where needed), the header row first.
 /// Numbers have the shortest digits that read back the same; `inf`, `-inf`, `nan`; booleans 0, 1.
 ///

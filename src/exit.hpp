@@ -15,7 +15,8 @@ inline constexpr int interrupted = 130;
 
 /// Runs the program's work and gives its exit code. An exception becomes one line on standard
 /// error that begins with `holdfast: `, and a code: WrongInput, holdfast::InvalidParameter 2;
-/// Interrupted 130; NoAnswer, OutputError, lack of memory and anything else 1.
+/// Interrupted 130; NoAnswer, OutputError, lack of memory and anything else 1. Of the processes
+/// that an MPI launcher started together, the first tells what is wrong with the input.
 int run_guarded(const std::function<int()>& work);
 
 /// Writes `holdfast: ` and the message on one line of standard error.

@@ -8,13 +8,14 @@
 
 #include "csv.hpp"
 #include "holdfast/core/axis.hpp"
+#include "holdfast/core/log_axis.hpp"
 
 namespace holdfast::program {
 
-/// One of the two axes of a chart.
+/// An axis of a chart or a sweep.
 struct GridAxis {
   Column column;
-  std::variant<Axis, std::vector<double>> values;
+  std::variant<Axis, LogAxis, std::vector<double>> values;
 
   std::size_t count() const;
   /// Value number `index`, 0 ≤ index < count().

@@ -21,12 +21,16 @@ std::unique_ptr<GridWriter> writer_for(const JobContext& context, GridLayout lay
 
 std::size_t GridAxis::count() const {
   if (const auto* list = std::get_if<std::vector<double>>(&values)) return list->size();
+  if (const auto* ratios = std::get_if<LogAxis>(&values))
+    return static_cast<std::size_t>(ratios->count);
   return static_cast<std::size_t>(std::get<Axis>(values).count);
 }
 
 double GridAxis::at(std::size_t index) const {
   if (const auto* list = std::get_if<std::vector<double>>(&values)) return (*list)[index];
-  return std::get<Axis>(values).at(static_cast<std::int64_t>(index));
+  const auto number = static_cast<std::int64_t>(index);
+  if (const auto* ratios = std::get_if<LogAxis>(&values)) return ratios->at(number);
+  return std::get<Axis>(values).at(number);
 }
 
 GridTable::GridTable(const JobContext& context, const GridAxis& slow, const GridAxis& fast,

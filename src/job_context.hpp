@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case.hpp"
+#include "case_source.hpp"
 
 namespace holdfast::program {
 
@@ -14,6 +15,7 @@ namespace holdfast::program {
 struct JobContext {
   std::string job;  // "stability"
   Case case_data;
+  CaseSource case_source;  // of case_data, for a job that needs variants of it
   /// Options that the user gave and that shape the result, name and text: {"--p", "-600:0:41"}.
   std::vector<std::pair<std::string, std::string>> options;
   std::optional<std::filesystem::path> output;  // none or "-": standard output

@@ -6,6 +6,7 @@
 #include "axis.hpp"
 #include "case_keys.hpp"
 #include "errors.hpp"
+#include "key_axis.hpp"
 #include "loop_of_case.hpp"
 #include "text.hpp"
 
@@ -52,17 +53,6 @@ KeyAxis admissible_axis(const std::string& text) {
     }
   }
   return axis;
-}
-
-/// Units as the tables write them: N.s/m.
-std::string table_unit(std::string unit) {
-  std::replace(unit.begin(), unit.end(), ' ', '.');
-  return unit;
-}
-
-GridAxis grid_axis(const KeyAxis& axis) {
-  const CaseKey& key = *find_case_key(axis.key);
-  return {{key.name, table_unit(key.unit), key.description}, axis.axis};
 }
 
 }  // namespace

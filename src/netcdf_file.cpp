@@ -8,9 +8,9 @@
 #ifdef HOLDFAST_HAS_NETCDF
 #include <netcdf.h>
 
-#include <array>
 #include <cerrno>
 #include <limits>
+#include <numeric>
 #include <system_error>
 
 #include "errors.hpp"
@@ -51,6 +51,12 @@ std::string words_for(int status, int error) {
   return NETCDF(nc_strerror)(status);
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 }  // namespace
 
 NetcdfFile::NetcdfFile(const OutputFile& output) : shown_(output.target().string()) {
@@ -83,25 +89,38 @@ NetcdfFile::Number NetcdfFile::add_variable(const std::string& name, int type,
   return number;
 }
 
+NetcdfFile::Number NetcdfFile::add_coordinate(const std::string& name, Number dimension) {
+  const Number number = add_variable(name, NC_DOUBLE, {dimension});
+  // A coordinate misses no value (CF 2.5.1).
+  check(NETCDF(nc_def_var_fill)(id_, number, NC_NOFILL, nullptr));
+  return number;
+}
+
 NetcdfFile::Number NetcdfFile::add_reals(const std::string& name,
                                          const std::vector<Number>& dimensions) {
   const Number number = add_variable(name, NC_DOUBLE, dimensions);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  // A coordinate misses no value (CF 2.5.1).
-  const bool coordinate = dimensions.size() == 1;
-  check(NETCDF(nc_def_var_fill)(id_, number, coordinate ? NC_NOFILL : NC_FILL, &none));
+  check(NETCDF(nc_def_var_fill)(id_, number, NC_FILL, &none));
+  return number;
+}
+
+NetcdfFile::Number NetcdfFile::add_integers(const std::string& name,
+                                            const std::vector<Number>& dimensions) {
+  const Number number = add_variable(name, NC_INT64, dimensions);
+  check(NETCDF(nc_def_var_fill)(id_, number, NC_NOFILL, nullptr));
   return number;
 }
 
 NetcdfFile::Number NetcdfFile::add_flags(const std::string& name,
                                          const std::vector<Number>& dimensions,
-                                         const std::string& meanings) {
+                                         const std::vector<std::string>& words) {
   const Number number = add_variable(name, NC_BYTE, dimensions);
   check(NETCDF(nc_def_var_fill)(id_, number, NC_NOFILL, nullptr));
-  const std::array<signed char, 2> values = {0, 1};
+  std::vector<signed char> values(words.size());
+  std::iota(values.begin(), values.end(), static_cast<signed char>(0));
   check(
       NETCDF(nc_put_att_schar)(id_, number, "flag_values", NC_BYTE, values.size(), values.data()));
-  set_attribute(number, "flag_meanings", meanings);
+  set_attribute(number, "flag_meanings", joined(words));
   return number;
 }
 
@@ -109,6 +128,13 @@ void NetcdfFile::set_chunks(Number variable, const Shape& shape) {
   constexpr int shuffle = 1, deflate = 1, level = 1;
   check(NETCDF(nc_def_var_chunking)(id_, variable, NC_CHUNKED, shape.data()));
   check(NETCDF(nc_def_var_deflate)(id_, variable, shuffle, deflate, level));
+}
+
+void NetcdfFile::set_cache(Number variable, std::size_t bytes) {
+  constexpr std::size_t slots = 101;
+  // With any preference for whole chunks HDF5 never lets go of those that stick out of the grid.
+  constexpr float preference_for_whole_chunks = 0.0F;
+  check(NETCDF(nc_set_var_chunk_cache)(id_, variable, bytes, slots, preference_for_whole_chunks));
 }
 
 void NetcdfFile::set_attribute(const std::string& name, const std::string& text) {

@@ -28,20 +28,30 @@ class NetcdfFile {
   NetcdfFile& operator=(NetcdfFile&&) = delete;
 
   Number add_dimension(const std::string& name, std::size_t count);
-  /// A variable of doubles; where none is written there is no number, unless it is a coordinate.
+  /// The variable of doubles that tells where along a dimension of that name the cells lie.
+  Number add_coordinate(const std::string& name, Number dimension);
+  /// A variable of doubles; where none is written there is no number.
   Number add_reals(const std::string& name, const std::vector<Number>& dimensions);
-  /// A variable of bytes that are 0 or 1; the attributes say what each means, one word each.
+  /// A variable of integers of 64 bits.
+  Number add_integers(const std::string& name, const std::vector<Number>& dimensions);
+  /// A variable of bytes 0, 1, 2, …; the attributes say what each means.
+  /// @param words  without blanks, at most most_flags
   Number add_flags(const std::string& name, const std::vector<Number>& dimensions,
-                   const std::string& meanings);
+                   const std::vector<std::string>& words);
+  static constexpr std::size_t most_flags = 128;
   /// Compressed chunks of that shape; bytes are shuffled before.
   void set_chunks(Number variable, const Shape& shape);
+  /// How many bytes of a variable's chunks the library keeps in memory, in place of its usual
+  /// megabytes. A chunk that is larger is written at once.
+  void set_cache(Number variable, std::size_t bytes);
 
   /// Of the file as a whole.
   void set_attribute(const std::string& name, const std::string& text);
   void set_attribute(Number variable, const std::string& name, const std::string& text);
 
   void begin_values();
-  /// @param values  doubles, or signed bytes for flags; the last dimension fastest
+  /// @param values  doubles, integers of 64 bits, or signed bytes for flags; the last dimension
+  ///                fastest
   void write(Number variable, const Shape& start, const Shape& count, const void* values);
 
   /// All is with the system.

@@ -7,28 +7,22 @@
 #include <atomic>
 #include <cerrno>
 #include <string>
-#include <system_error>
 
 #include "errors.hpp"
+#include "system_words.hpp"
 
 namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string system_words(int error) { return std::generic_category().message(error); }
-
 [[noreturn]] void refuse(const fs::path& shown, const std::string& why) {
   throw WrongInput("cannot write " + shown.string() + ": " + why);
 }
 
-/// A full disk is the machine's trouble; whatever else stops a file from being opened, the path is.
 [[noreturn]] void refuse_to_open(const fs::path& shown, int error) {
   if (error == EINTR) throw_if_interrupted();  // a pipe waits for its reader here
-  const bool machine = error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE ||
-                       error == ENFILE || error == ENOMEM;
-  if (machine) throw OutputError("cannot write " + shown.string() + ": " + system_words(error));
-  refuse(shown, system_words(error));
+  refuse_to_write(shown, error);
 }
 
 /// Where a file of that name would lie once every symbolic link is followed, dangling ones too.

@@ -8,13 +8,14 @@
 namespace holdfast::program {
 namespace {
 
-/// A name that promises netCDF would lie about what stands in the file. Charts over two axes
-/// (GridTable) keep the promise and do not come here.
+/// A name that promises netCDF would lie about what stands in the file. Charts and sweeps keep the
+/// promise elsewhere.
 const std::optional<std::filesystem::path>& csv_target(
     const std::optional<std::filesystem::path>& path) {
   if (is_netcdf_name(path)) {
     throw WrongInput("--output " + path->string() +
-                     ": only stability and response write netCDF; give a name that ends in .csv");
+                     ": only stability, response, basins and sweep write netCDF; give a name that "
+                     "ends in .csv");
   }
   return path;
 }

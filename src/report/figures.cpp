@@ -8,6 +8,7 @@
 #include "cable_of_case.hpp"
 #include "loop_of_case.hpp"
 #include "report/motion_figures.hpp"
+#include "report/sweep_figures.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
@@ -193,11 +194,13 @@ std::vector<Figure> paper_figures() {
   add_phase_diagrams(figures);
   add_characteristics(figures);
   for (Figure& figure : motion_figures()) figures.push_back(std::move(figure));
+  for (Figure& figure : paper_success_figures()) figures.push_back(std::move(figure));
   return figures;
 }
 
 std::vector<Figure> case_figures(const Case& the_case) {
   Figures figures = loop_figures(the_case);
+  for (Figure& figure : success_figures(the_case)) figures.push_back(std::move(figure));
   if (!plant_is_reduced(the_case)) return figures;
   const CableDecayQuestion decay = usual_decay(the_case);
   const std::string force = format_number(decay.force);

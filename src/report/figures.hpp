@@ -7,7 +7,7 @@
 
 namespace holdfast::program {
 
-/// Figs. 3–13 of Kollár 2022, with the settings that their captions give.
+/// Figs. 2–13 of Kollár 2022, with the settings that their captions give, and some beyond them.
 std::vector<Figure> paper_figures();
 
 /// The same kinds of figure for a case of one's own, with the case's settings.

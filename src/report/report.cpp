@@ -66,9 +66,12 @@ class ReportWriter {
 
  private:
   void write_table(const TableRequest& table) const {
+    const std::string file = (folder_ / "data" / (table.name + ".csv")).string();
+    // A sweep that was interrupted has left its tiles; this report may be one of another case.
+    std::error_code ignored;
+    fs::remove_all(file + ".tiles", ignored);
     Arguments arguments = command_of(table.arguments, case_arguments_);
-    arguments.insert(arguments.end(),
-                     {"--quiet", "--output", (folder_ / "data" / (table.name + ".csv")).string()});
+    arguments.insert(arguments.end(), {"--quiet", "--output", file});
     run_(arguments);
   }
 

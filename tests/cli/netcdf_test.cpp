@@ -34,7 +34,8 @@ TEST(Netcdf, OtherJobsSayWhichWriteIt) {
     const Outcome outcome = run_holdfast(job + " --output '" + (folder / "x.nc").string() + "'");
     EXPECT_EQ(outcome.exit_code, 2) << job;
     EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("only stability and response write netCDF"), std::string::npos)
+    EXPECT_NE(outcome.errors.find("only stability, response, basins and sweep write netCDF"),
+              std::string::npos)
         << outcome.errors;
   }
   EXPECT_TRUE(folder.names().empty());

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cable_decay.hpp"
@@ -28,6 +30,7 @@ void expect_every_figure_as_table_and_picture(const fs::path& report) {
       "fig09a", "fig09b",  "fig09c",           "fig10a",       "fig10b", "fig11a",  "fig11b",
       "fig12a", "fig12b",  "fig12c",           "fig13a",       "fig13b", "table2a", "table2b",
       "orbits", "section", "diagram-backlash", "diagram-gain", "basins"};
+  figures.insert(figures.end(), {"success-delay-backlash", "success-frequency-delay"});
   if (program::has_sundials()) figures.insert(figures.end(), {"fig02b", "fig02c", "fig02d"});
   for (const std::string& figure : figures) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
@@ -105,6 +108,34 @@ void expect_what_the_motions_are(const fs::path& report) {
   EXPECT_EQ(count_of(page, "<strong>different orbits</strong>"), 1U);  // with 3 ms
 }
 
+/// Whether each settled motion that is sampled faster than the limit attenuates, and none that is
+/// sampled a little more slowly. The limit is one of frequency responses, the map one of motions.
+/// @return the number of cells compared: below the limit, above it
+std::pair<int, int> expect_same_limit(const program::CsvTable& map,
+                                      const program::CsvTable& limits) {
+  int below = 0, above = 0;
+  for (std::size_t row = 0, limit = 0; row < map.rows(); ++row) {
+    const double frequency = map.number(row, "excitation.frequency");
+    while (limits.number(limit, "frequency_Hz") < frequency - 1e-9) ++limit;
+    const bool same_frequency = limits.number(limit, "frequency_Hz") < frequency + 1e-9;
+    if (!same_frequency || map.text(row, "outcome") != "computed") continue;
+    const double ratio =
+        map.number(row, "control.sampling_period") / limits.number(limit, "max_sampling_period_s");
+    if (ratio > 1.2) continue;  // far above, another range of periods may attenuate
+    EXPECT_EQ(map.text(row, "attenuates"), ratio < 1.0 ? "1" : "0") << "row " << row;
+    ++(ratio < 1.0 ? below : above);
+  }
+  return {below, above};
+}
+
+void expect_the_motions_without_backlash_keep_the_limit(const fs::path& report) {
+  const auto [below, above] =
+      expect_same_limit(program::read_csv(report / "data/success-frequency-delay-1.csv"),
+                        program::read_csv(report / "data/success-frequency-delay-limit.csv"));
+  EXPECT_GE(below, 500);
+  EXPECT_GE(above, 5);
+}
+
 // One report for all that is to be seen in it: it takes seconds.
 TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const TemporaryFolder folder;
@@ -116,6 +147,7 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   expect_nothing_loaded_from_elsewhere(report);
   expect_verdicts_with_reasons_where_they_differ(report);
   expect_what_the_motions_are(report);
+  expect_the_motions_without_backlash_keep_the_limit(report);
 }
 
 TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
@@ -130,6 +162,22 @@ TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
   expect_holds(motion_named(page, "this case"),
                {"τ = 5 ms, r₀ = 0.5 mm", "Certified orbit", "forcing period",
                 "holdfast orbit --set control.sampling_period=0.005 --certificate"});
+}
+
+TEST(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
+  const TemporaryFolder folder;
+  const fs::path left = folder / "mine/data/success-delay-backlash-1.csv.tiles";
+  fs::create_directories(left);
+  std::ofstream(left / "plan") << "of another report";
+  const Outcome outcome = run_holdfast("report --set control.processing_delay=0.001 --output '" +
+                                       (folder / "mine").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_FALSE(fs::exists(left));
+  const std::string page = read_text(folder / "mine/report.html");
+  for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"}) {
+    EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
+    EXPECT_TRUE(fs::exists(folder / "mine/pictures" / (figure + ".svg"))) << figure;
+  }
 }
 
 TEST(Report, OfADivergingCaseSaysSoInThePage) {

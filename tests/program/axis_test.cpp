@@ -72,6 +72,26 @@ TEST(KeyAxis, SeparatesTheKey) {
   }
 }
 
+TEST(KeyValues, AreARangeARatioOrAList) {
+  const KeyValues range = parse_key_values("--axis", "backlash.width=0:0.003:4");
+  EXPECT_EQ(range.key, "backlash.width");
+  EXPECT_EQ(std::get<Axis>(range.values).at(1), 0.001);
+  const KeyValues ratio = parse_key_values("--axis", "control.sampling_period = log:1e-4:1e-2:3");
+  EXPECT_EQ(ratio.key, "control.sampling_period");
+  EXPECT_NEAR(std::get<LogAxis>(ratio.values).at(1), 1e-3, 1e-17);
+  const KeyValues list = parse_key_values("--axis", "initial.z1=0.001, -2,5e-3");
+  EXPECT_EQ(std::get<std::vector<double>>(list.values), (std::vector<double>{0.001, -2.0, 5e-3}));
+  const KeyValues one = parse_key_values("--axis", "initial.z1=7");
+  EXPECT_EQ(std::get<std::vector<double>>(one.values), std::vector<double>{7.0});
+}
+
+TEST(KeyValues, RefusesOtherTexts) {
+  for (const std::string text : {"a", "=1", "a=", "a=1,", "a=1:2", "a=log:0:1:3", "a=log:-1:1:3",
+                                 "a=log:1:2", "a=2:1:3", "a=1,nan", "a=log:1,2", "a=1:2:0"}) {
+    EXPECT_THROW(parse_key_values("--axis", text), WrongInput) << text;
+  }
+}
+
 TEST(Kick, ReadsTimeAndDisplacement) {
   const KickOption kick = parse_kick("--kick", "0.95:-0.003");
   EXPECT_EQ(kick.time, 0.95);

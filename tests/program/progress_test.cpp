@@ -18,10 +18,27 @@ std::string standard_error_of(const Work& work) {
 }
 
 TEST(Progress, ShowsDoneRateAndRemainingTime) {
-  EXPECT_EQ(progress_text("chart", 40, 100, 8.0), "chart: 40/100, 5.0/s, 12 s left");
-  EXPECT_EQ(progress_text("chart", 100, 100, 8.0), "chart: 100/100, 12.5/s, 8.0 s");
-  EXPECT_EQ(progress_text("chart", 1, 1000, 7.2), "chart: 1/1000, 0.1/s, 2.0 h left");
-  EXPECT_EQ(progress_text("chart", 0, 100, 0.0), "chart: 0/100");
+  EXPECT_EQ(progress_text("chart", {40, 100}, 8.0), "chart: 40/100, 5.0/s, 12 s left");
+  EXPECT_EQ(progress_text("chart", {100, 100}, 8.0), "chart: 100/100, 12.5/s, 8.0 s");
+  EXPECT_EQ(progress_text("chart", {1, 1000}, 7.2), "chart: 1/1000, 0.1/s, 2.0 h left");
+  EXPECT_EQ(progress_text("chart", {0, 100}, 0.0), "chart: 0/100");
+}
+
+TEST(Progress, NamesStepsAndSamplesAndLeavesOutWhatWasDoneBefore) {
+  EXPECT_EQ(progress_text("sweep, cells", {140, 200, 100, 8e8}, 8.0),
+            "sweep: 140/200 cells, 5.0 cells/s, 1e+08 samples/s, 12 s left");
+  EXPECT_EQ(progress_text("sweep, cells", {100, 200, 100, 0.0}, 8.0), "sweep: 100/200 cells");
+}
+
+TEST(Progress, AddsWhatWasDoneBeforeAndElsewhere) {
+  const std::string shown = standard_error_of([] {
+    Progress progress(100, "sweep, cells", true);
+    progress.skip(50);
+    progress.set_elsewhere(20);
+    progress.advance(30, 3000);
+  });
+  EXPECT_NE(shown.find("sweep: 100/100 cells"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("samples/s"), std::string::npos) << shown;
 }
 
 TEST(Progress, IsSilentUnlessEnabled) {

@@ -1,0 +1,54 @@
+#include <memory>
+
+#include "job.hpp"
+#include "motion_options.hpp"
+#include "sweep_run.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct Options {
+  SweepQuestion question;
+  bool dry_run = false;
+  std::string switching = "sampled";
+};
+
+}  // namespace
+
+void add_sweep(CLI::App& program) {
+  const Job job(program, "sweep", question::map,
+                "Metrics of the motion over any number of axes, on all cores and machines");
+  const auto options = std::make_shared<Options>();
+  SweepQuestion& asked = options->question;
+  job->add_option("--axis", asked.axes,
+                  "KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,...: an axis over a "
+                  "key of the case; repeatable, the first slowest")
+      ->expected(1)
+      ->take_all();
+  job->add_option("--metric", asked.metrics,
+                  "What is told of every cell; repeatable: " + metric_names())
+      ->expected(1)
+      ->take_all();
+  add_duration(job, asked.duration);
+  add_largest_period(job, asked.largest_period);
+  job->add_flag("--best-gain", asked.best_gain,
+                "The differential gain of every cell is that of least steady amplitude with which "
+                "the motion settles in half the duration, as the job design finds it");
+  job->add_option("--tile", asked.tile_cells,
+                  "Cells that are computed and kept together; 0: chosen. Results do not depend on "
+                  "it")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 24))
+      ->type_name("N")
+      ->capture_default_str();
+  CLI::Option* resume =
+      job->add_flag("--resume", asked.resume, "Go on with the tiles that an earlier run left");
+  job->add_flag("--dry-run", options->dry_run, "Tell how large it would be; compute nothing")
+      ->excludes(resume);
+  add_switching(job, options->switching);
+  job->final_callback([job, options] {
+    options->dry_run ? write_sweep_size(job.context(), options->question)
+                     : write_sweep(job.context(), options->question);
+  });
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace holdfast::program {
+
+/// The processes that work on one computation: this one alone, or those that `mpirun` or `srun`
+/// started.
+///
+/// The destructor of several processes waits until all have come to theirs. Where an exception or
+/// a signal ends this one and the others do not follow within two seconds, they are ended as well,
+/// once this process has said why and exits.
+class ProcessGroup {
+ public:
+  virtual ~ProcessGroup() = default;
+  ProcessGroup(const ProcessGroup&) = delete;
+  ProcessGroup& operator=(const ProcessGroup&) = delete;
+  ProcessGroup(ProcessGroup&&) = delete;
+  ProcessGroup& operator=(ProcessGroup&&) = delete;
+
+  /// Number of this process, 0 … size() − 1.
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  /// How many of the processes, this one counted, run on this machine and share its memory.
+  virtual int size_on_machine() const = 0;
+
+  /// The next number 0, 1, 2, … of a counter that all processes share: each number is given once.
+  /// Needs nothing of the other processes; any thread may ask.
+  /// Throws NoAnswer where MPI fails, or can be used by the joining thread alone and another asks.
+  virtual std::int64_t take_ticket() = 0;
+
+  /// How many numbers the counter has given; any thread may ask. Throws what take_ticket() throws.
+  virtual std::int64_t tickets_taken() = 0;
+
+  /// Every process brings a text and gets those of all, in the order of their ranks. Waits for all
+  /// of them, without burdening a core; one thread of each.
+  /// Throws Interrupted, what take_ticket() throws, and NoAnswer in every process where the texts
+  /// together have 2³¹ bytes or more.
+  virtual std::vector<std::string> exchange(const std::string& text) = 0;
+
+ protected:
+  ProcessGroup() = default;
+};
+
+/// This process alone.
+std::unique_ptr<ProcessGroup> single_process();
+
+/// The processes that were started together by an MPI launcher, when there is one and the program
+/// is built with MPI; else this process alone. Once per program.
+///
+/// Throws NoAnswer where a launcher started several processes and they cannot work together, since
+/// each would do the whole work: the program is built without MPI, or with another MPI than the
+/// launcher's.
+std::unique_ptr<ProcessGroup> join_process_group();
+
+}  // namespace holdfast::program

@@ -1,0 +1,177 @@
+#include "sweep_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "axis.hpp"
+#include "case_file.hpp"
+#include "errors.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "key_axis.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr double most_cells = 9007199254740992.0;  // 2⁵³
+constexpr const char* sampling_key = "control.sampling_period";
+
+GridAxis sweep_axis(const std::string& text) {
+  const KeyValues axis = parse_key_values("--axis", text);
+  const CaseKey* key = find_case_key(axis.key);
+  if (key == nullptr) {
+    throw WrongInput("--axis " + text + ": unknown key " + axis.key + "; did you mean " +
+                     nearest_case_key(axis.key).name + "?");
+  }
+  if (key->number == nullptr) {
+    throw WrongInput("--axis " + text + ": " + axis.key +
+                     " is a word; run a sweep for each with --set");
+  }
+  return grid_axis(*key, axis);
+}
+
+std::vector<GridAxis> sweep_axes(const std::vector<std::string>& texts) {
+  if (texts.empty())
+    throw WrongInput("--axis: a sweep needs at least one, for example --axis " +
+                     std::string(sampling_key) + "=0.001:0.03:30");
+  std::vector<GridAxis> axes;
+  std::set<std::string> keys;
+  double cells = 1.0;
+  for (const std::string& text : texts) {
+    axes.push_back(sweep_axis(text));
+    const std::string& key = axes.back().column.name;
+    if (!keys.insert(key).second) throw WrongInput("--axis: " + key + " is given twice");
+    cells *= static_cast<double>(axes.back().count());
+  }
+  if (cells > most_cells)
+    throw WrongInput("--axis: " + format_rounded(cells) + " cells are more than 2^53");
+  return axes;
+}
+
+std::vector<SweepMetric> sweep_metrics(const std::vector<std::string>& names) {
+  if (names.empty()) return usual_metrics();
+  std::vector<SweepMetric> metrics;
+  for (const std::string& name : names) {
+    metrics.push_back(metric_named(name));
+    if (std::count(metrics.begin(), metrics.end(), metrics.back()) > 1)
+      throw WrongInput("--metric " + name + ": given twice");
+  }
+  return metrics;
+}
+
+/// Wind stands in place of the excitation, and a case has it or not.
+void require_settable(const Case& the_case, const GridAxis& axis) {
+  const CaseKey& key = *find_case_key(axis.column.name);
+  if (key.table() == "wind" && !the_case.wind)
+    throw WrongInput("--axis: " + key.name + ": the case has no [wind]");
+  if (key.table() == "excitation" && the_case.wind)
+    throw WrongInput("--axis: " + key.name +
+                     ": the case has [wind], which stands in place of [excitation]");
+}
+
+bool shapes_plant(const GridAxis& axis) {
+  const std::string table = find_case_key(axis.column.name)->table();
+  return table == "conductor" || table == "absorber" || table == "reduction";
+}
+
+/// Samples of one motion; none where τ is not admissible.
+double samples_of(double duration, double sampling_period) {
+  const bool countable = sampling_period > 0.0 && duration / sampling_period < 9e15;
+  return countable ? static_cast<double>(samples_within(duration, sampling_period)) : 0.0;
+}
+
+}  // namespace
+
+SweepPlan::SweepPlan(const JobContext& context, const SweepQuestion& question)
+    : context_(context),
+      question_(question),
+      metrics_(sweep_metrics(question.metrics)),
+      layout_{sweep_axes(question.axes), {}} {
+  for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
+  for (const GridAxis& axis : layout_.axes) {
+    require_settable(context_.case_data, axis);
+    reduces_plant_ = reduces_plant_ || shapes_plant(axis);
+  }
+  tile_cells_ = question_.tile_cells > 0 ? question_.tile_cells : chosen_tile_cells();
+}
+
+std::int64_t SweepPlan::cells_of(std::int64_t tile) const {
+  return std::min(tile_cells_, cells() - first_cell(tile));
+}
+
+bool SweepPlan::wants(SweepMetric metric) const {
+  return std::count(metrics_.begin(), metrics_.end(), metric) > 0;
+}
+
+double SweepPlan::axis_value(std::size_t axis, std::int64_t cell) const {
+  for (std::size_t faster = layout_.axes.size() - 1; faster > axis; --faster)
+    cell /= static_cast<std::int64_t>(layout_.axes[faster].count());
+  const auto count = static_cast<std::int64_t>(layout_.axes[axis].count());
+  return layout_.axes[axis].at(static_cast<std::size_t>(cell % count));
+}
+
+Case SweepPlan::case_of(std::int64_t cell) const {
+  if (reduces_plant_) {
+    std::vector<std::string> values;
+    for (std::size_t k = 0; k < layout_.axes.size(); ++k)
+      values.push_back(layout_.axes[k].column.name + "=" + format_number(axis_value(k, cell)));
+    return context_.case_source.load(values);
+  }
+  Case the_case = context_.case_data;
+  for (std::size_t k = 0; k < layout_.axes.size(); ++k)
+    set_case_value(the_case, layout_.axes[k].column.name, axis_value(k, cell));
+  check_case(the_case);
+  return the_case;
+}
+
+double SweepPlan::samples() const {
+  for (const GridAxis& axis : layout_.axes) {
+    if (axis.column.name != sampling_key) continue;
+    double of_axis = 0.0;
+    for (std::size_t i = 0; i < axis.count(); ++i)
+      of_axis += samples_of(question_.duration, axis.at(i));
+    return of_axis * (static_cast<double>(cells()) / static_cast<double>(axis.count()));
+  }
+  return static_cast<double>(cells()) *
+         samples_of(question_.duration, context_.case_data.control.sampling_period);
+}
+
+/// Tiles that take some tenths of a second, so that little is lost with one and much is done by
+/// each, and enough of them for many cores, but none with fewer cells than fill the lanes of a
+/// processor. They depend on the plan alone, as they must be found again.
+std::int64_t SweepPlan::chosen_tile_cells() const {
+  constexpr double samples_of_tile = 1e8, most_cells_of_tile = 4096.0, most_tiles_wanted = 64.0;
+  const bool orbits = wants(SweepMetric::period_samples) || wants(SweepMetric::verdict);
+  const bool exponents = wants(SweepMetric::largest_exponent);
+  const auto all = static_cast<double>(cells());
+  double cost = std::max(samples() / all, 1.0);
+  if (exponents) cost *= 5.0;
+  if (orbits) cost += 20.0 * static_cast<double>(question_.largest_period);
+  const double fewest = orbits || exponents ? 8.0 : 64.0;
+  const double share = std::max(all / most_tiles_wanted, fewest);
+  const double fitting = std::clamp(samples_of_tile / cost, 1.0, most_cells_of_tile);
+  return static_cast<std::int64_t>(std::min({fitting, share, all}));
+}
+
+TilePlan SweepPlan::tile_plan() const {
+  TilePlan plan{{{"version", HOLDFAST_VERSION}}, tiles()};
+  auto& entries = plan.entries;
+  entries.emplace_back("--tile", std::to_string(tile_cells_));
+  for (std::size_t k = 0; k < question_.axes.size(); ++k)
+    entries.emplace_back("--axis " + std::to_string(k + 1), question_.axes[k]);
+  for (std::size_t k = 0; k < metrics_.size(); ++k)
+    entries.emplace_back("--metric " + std::to_string(k + 1),
+                         metric_column(metrics_[k]).column.name);
+  entries.emplace_back("--duration", format_number(question_.duration));
+  entries.emplace_back("--max-period", std::to_string(question_.largest_period));
+  entries.emplace_back("--best-gain", question_.best_gain ? "yes" : "no");
+  const nlohmann::ordered_json json = case_to_json(context_.case_data);
+  for (const auto& [table, keys] : json.items()) {
+    for (const auto& [key, value] : keys.items())
+      entries.emplace_back(table + "." + key, value.dump());
+  }
+  return plan;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace holdfast::program {
+
+/// Writes a file that appears whole or not at all, in place of one that has the name already. Gives
+/// 0, or the system's error number, and then nothing is left of it.
+///
+/// The bytes go to a temporary file beside it, `.NAME-PROCESS-COUNT.tmp`, which is then renamed; a
+/// process that is killed leaves that one. Any number of threads and processes may write one file.
+int write_whole_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// The NAME that a temporary file of write_whole_file() was to get; nothing for another file's
+/// name.
+std::optional<std::string> name_behind_temporary(std::string_view name);
+
+/// The bytes of a regular file; or nothing, and `error` is the system's error number (EISDIR for a
+/// folder, EINVAL for a device or a pipe, which are not waited for).
+std::optional<std::string> read_whole_file(const std::filesystem::path& file, int& error);
+
+}  // namespace holdfast::program

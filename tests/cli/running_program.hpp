@@ -1,0 +1,97 @@
+#pragma once
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+namespace holdfast::tests {
+
+/// How a program ended, and what it took.
+struct Ending {
+  int exit_code;         ///< −1 where a signal ended it
+  int ended_by_signal;   ///< 0 where none did
+  long peak_memory_kib;  ///< largest resident memory
+  std::string output;
+  std::string errors;
+};
+
+/// The words of a command line that quotes nothing.
+inline std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// `holdfast WORDS` beside the test, without a shell between, so that a signal reaches the program
+/// itself. It is killed when the object goes.
+class RunningProgram {
+ public:
+  explicit RunningProgram(const std::vector<std::string>& words) {
+    std::vector<std::string> command = {HOLDFAST_PROGRAM};
+    command.insert(command.end(), words.begin(), words.end());
+    std::vector<char*> arguments;
+    for (std::string& word : command) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    redirect(files, STDIN_FILENO, "/dev/null");
+    redirect(files, STDOUT_FILENO, output_);
+    redirect(files, STDERR_FILENO, errors_);
+    const int failure =
+        posix_spawn(&process_, arguments[0], &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (failure != 0) throw std::runtime_error("cannot start " + command[0]);
+  }
+  ~RunningProgram() {
+    if (ended_) return;
+    send(SIGKILL);
+    wait();
+  }
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+  RunningProgram(RunningProgram&&) = delete;
+  RunningProgram& operator=(RunningProgram&&) = delete;
+
+  /// Whether it still runs; one that has ended stays to be waited for.
+  bool runs() const {
+    siginfo_t change = {};
+    waitid(P_PID, static_cast<id_t>(process_), &change, WEXITED | WNOHANG | WNOWAIT);
+    return change.si_pid == 0;
+  }
+
+  void send(int signal_number) const { kill(process_, signal_number); }
+
+  Ending wait() {
+    int status = 0;
+    struct rusage used = {};
+    wait4(process_, &status, 0, &used);
+    ended_ = true;
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            WIFSIGNALED(status) ? WTERMSIG(status) : 0, used.ru_maxrss, read_text(output_),
+            read_text(errors_)};
+  }
+
+ private:
+  static void redirect(posix_spawn_file_actions_t& files, int descriptor, const std::string& path) {
+    posix_spawn_file_actions_addopen(&files, descriptor, path.c_str(), O_RDWR | O_CREAT, 0600);
+  }
+
+  TemporaryFolder folder_;
+  std::string output_ = (folder_ / "out").string();
+  std::string errors_ = (folder_ / "err").string();
+  pid_t process_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace holdfast::tests
