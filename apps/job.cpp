@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "case_file.hpp"
 #include "damping_fit.hpp"
 #include "exit.hpp"
+#include "input.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
@@ -82,9 +82,13 @@ CLI::Option* Job::add_text(const std::string& name, std::string& value,
 JobContext Job::context(PlantNeed need) const {
   JobContext context;
   context.job = options_->get_name();
-  if (common_->case_file) context.case_source.file = *common_->case_file;
-  context.case_source.overrides = common_->overrides;
-  context.case_data = load_case(context.case_source.file, context.case_source.overrides);
+  CaseSource& source = context.case_source;
+  source.overrides = common_->overrides;
+  if (common_->case_file) {
+    source.name = *common_->case_file;
+    source.text = read_input(source.name);
+  }
+  context.case_data = source.load();
   report_warning(wind_warning(context.case_data), common_->quiet);
   if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
   context.options = given_options(*options_);

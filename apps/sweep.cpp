@@ -3,6 +3,7 @@
 #include "job.hpp"
 #include "motion_options.hpp"
 #include "sweep_run.hpp"
+#include "sweep_size.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -46,8 +47,10 @@ void add_sweep(CLI::App& program) {
       ->excludes(resume);
   add_switching(job, options->switching);
   job->final_callback([job, options] {
-    options->dry_run ? write_sweep_size(job.context(), options->question)
-                     : write_sweep(job.context(), options->question);
+    // The plan reduces the plant, if it is to be, of the case or of each cell.
+    const JobContext context = job.context(PlantNeed::none);
+    options->dry_run ? write_sweep_size(context, options->question)
+                     : write_sweep(context, options->question);
   });
 }
 

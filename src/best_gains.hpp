@@ -14,8 +14,8 @@ class BestGains {
   /// @param duration  T (s), > 0
   explicit BestGains(double duration) : duration_(duration) {}
 
-  /// D (N s/m). Throws NoAnswer where no D does that, or the samples do not show the vibration.
-  double differential_gain(const ForcedLoop<double>& loop);
+  /// Its D is NaN where the outcome says that there is none.
+  const LeastAmplitude& of(const ForcedLoop<double>& loop);
 
  private:
   double duration_;

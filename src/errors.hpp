@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -21,6 +22,18 @@ class NoAnswer : public std::runtime_error {
 class OutputError : public std::runtime_error {
  public:
   explicit OutputError(const std::string& message);
+};
+
+/// Another process of the same computation has told why it ends; this one ends with the same code
+/// and in silence.
+class ToldElsewhere : public std::exception {
+ public:
+  explicit ToldElsewhere(int exit_code) : exit_code_(exit_code) {}
+  int exit_code() const { return exit_code_; }
+  const char* what() const noexcept override { return "told by another process"; }
+
+ private:
+  int exit_code_;
 };
 
 }  // namespace holdfast::program

@@ -52,6 +52,8 @@ int run_guarded(const std::function<int()>& work) {
   install_signal_handlers();
   try {
     return work();
+  } catch (const ToldElsewhere& told) {
+    return told.exit_code();
   } catch (const Interrupted& stopped) {
     return failed(exit_code::interrupted, stopped.what());
   } catch (const WrongInput& error) {

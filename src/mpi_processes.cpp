@@ -38,15 +38,6 @@ int size_of(MPI_Comm processes) {
   return size;
 }
 
-int size_on_machine_of(MPI_Comm processes) {
-  MPI_Comm machine = MPI_COMM_NULL;
-  check(MPI_Comm_split_type(processes, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine),
-        "tell the machines apart");
-  const int size = size_of(machine);
-  MPI_Comm_free(&machine);
-  return size;
-}
-
 class MpiProcesses final : public ProcessGroup {
  public:
   MpiProcesses() = default;
@@ -58,8 +49,8 @@ class MpiProcesses final : public ProcessGroup {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  int size_on_machine() const override { return size_on_machine_; }
-  std::int64_t take_ticket() override { return tickets_.take(); }
+  std::int64_t take_ticket() override { return tickets_.add(1); }
+  void skip_tickets(std::int64_t count) override { tickets_.add(count); }
   std::int64_t tickets_taken() override { return tickets_.value(); }
 
   std::vector<std::string> exchange(const std::string& text) override;
@@ -75,7 +66,6 @@ class MpiProcesses final : public ProcessGroup {
   MPI_Comm leaving_ = copy_of(MPI_COMM_WORLD);  // apart, lest a farewell meet an exchange
   const int rank_ = rank_in(processes_);
   const int size_ = size_of(processes_);
-  const int size_on_machine_ = size_on_machine_of(processes_);
   mpi::Counter tickets_{session_, processes_};
   std::unique_ptr<mpi::Exchange> exchange_;
 };

@@ -25,15 +25,17 @@ class ProcessGroup {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  /// How many of the processes, this one counted, run on this machine and share its memory.
-  virtual int size_on_machine() const = 0;
-
   /// The next number 0, 1, 2, … of a counter that all processes share: each number is given once.
   /// Needs nothing of the other processes; any thread may ask.
   /// Throws NoAnswer where MPI fails, or can be used by the joining thread alone and another asks.
   virtual std::int64_t take_ticket() = 0;
 
-  /// How many numbers the counter has given; any thread may ask. Throws what take_ticket() throws.
+  /// Passes over the next `count` ≥ 0 numbers: what is left of the work is given up, or done. Any
+  /// thread may. Throws what take_ticket() throws.
+  virtual void skip_tickets(std::int64_t count) = 0;
+
+  /// How many numbers the counter has given or passed over; any thread may ask. Throws what
+  /// take_ticket() throws.
   virtual std::int64_t tickets_taken() = 0;
 
   /// Every process brings a text and gets those of all, in the order of their ranks. Waits for all

@@ -21,8 +21,19 @@
 namespace holdfast::program {
 namespace {
 
-/// Motions that are computed at once, between two looks whether the program shall end.
+/// Motions that are computed at once.
 constexpr std::size_t motions_of_batch = 256;
+
+/// Lets a batch be interrupted.
+struct LookForInterrupt : IgnoreSwitching {
+  void pause() const { throw_if_interrupted(); }
+};
+
+CellOutcome outcome_of(LeastAmplitudeOutcome outcome) {
+  if (outcome == LeastAmplitudeOutcome::none) return CellOutcome::no_gain;
+  if (outcome == LeastAmplitudeOutcome::aliased) return CellOutcome::aliased;
+  return CellOutcome::computed;
+}
 
 /// The admissible cells of a tile as motions, and what is found of each.
 class TileCells {
@@ -51,7 +62,7 @@ class TileCells {
     for (const CellResult& result : results_) {
       tile.samples += result.motion.samples;
       tile.diverging += result.outcome == CellOutcome::diverges ? 1 : 0;
-      tile.invalid += result.outcome == CellOutcome::invalid ? 1 : 0;
+      tile.without_motion += has_motion(result.outcome) ? 0 : 1;
     }
     for (const SweepMetric metric : plan_.metrics())
       for (const CellResult& result : results_) tile.values.push_back(metric_value(metric, result));
@@ -65,30 +76,42 @@ class TileCells {
       SweepMotion motion{forced_loop_of(the_case), initial_state_of(the_case)};
       validate(motion.loop);
       samples_within(plan_.question().duration, motion.loop.sampling.period);
-      if (plan_.question().best_gain)
-        motion.loop.gains.differential = gains.differential_gain(motion.loop);
+      if (plan_.question().best_gain && !take_best_gain(place, motion, gains)) return;
+      results_[place].differential_gain = motion.loop.gains.differential;
       motions_.push_back(motion);
       cells_.push_back(place);
     } catch (const WrongInput& fault) {
-      note(fault);
+      note(fault.what());
     } catch (const InvalidParameter& fault) {
-      note(fault);
+      note(fault.what());
     } catch (const NoAnswer& fault) {
-      note(fault);
+      note(fault.what());
     }
   }
 
-  void note(const std::exception& fault) {
-    if (first_fault_.empty()) first_fault_ = fault.what();
+  /// False where there is no best gain, with the outcome that says why.
+  bool take_best_gain(std::size_t place, SweepMotion& motion, BestGains& gains) {
+    const LeastAmplitude& best = gains.of(motion.loop);
+    motion.loop.gains.differential = best.differential_gain;
+    const CellOutcome outcome = outcome_of(best.outcome);
+    if (has_motion(outcome)) return true;
+    results_[place].outcome = outcome;
+    note(outcome == CellOutcome::aliased
+             ? "the excitation frequency is not below half the sampling rate"
+             : "no differential gain lets the motion settle within half the duration");
+    return false;
+  }
+
+  void note(const char* fault) {
+    if (first_fault_.empty()) first_fault_ = fault;
   }
 
   std::vector<MotionMetrics> metrics_of(const std::vector<SweepMotion>& motions) const {
     std::vector<MotionMetrics> metrics(motions.size());
     for (std::size_t first = 0; first < motions.size(); first += motions_of_batch) {
-      throw_if_interrupted();
-      motion_metrics<ChartNumber>(motions.data() + first,
-                                  std::min(motions_of_batch, motions.size() - first),
-                                  plan_.question().duration, metrics.data() + first);
+      motion_metrics<ChartNumber>(
+          motions.data() + first, std::min(motions_of_batch, motions.size() - first),
+          plan_.question().duration, metrics.data() + first, LookForInterrupt());
     }
     return metrics;
   }
@@ -110,7 +133,7 @@ class TileCells {
     std::vector<std::size_t> number_of(motions_.size());
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       const SweepMotion motion = without_control(motions_[k]);
-      const auto [entry, added] = known.try_emplace(numbers_of(motion), distinct.size());
+      const auto [entry, added] = known.try_emplace(all_numbers_of(motion), distinct.size());
       if (added) distinct.push_back(motion);
       number_of[k] = entry->second;
     }
@@ -126,15 +149,15 @@ class TileCells {
     return motion;
   }
 
-  static std::array<double, 14> numbers_of(const SweepMotion& motion) {
-    const TwoDof<double>& plant = motion.loop.plant;
+  static std::array<double, 14> all_numbers_of(const SweepMotion& motion) {
+    const auto plant = numbers_of(motion.loop.plant);
     const Vector<double, 4>& state = motion.initial_state;
-    return {plant.conductor_mass,
-            plant.conductor_stiffness,
-            plant.conductor_damping,
-            plant.absorber_mass,
-            plant.absorber_stiffness,
-            plant.absorber_damping,
+    return {plant[0],
+            plant[1],
+            plant[2],
+            plant[3],
+            plant[4],
+            plant[5],
             motion.loop.sampling.period,
             motion.loop.excitation.amplitude,
             motion.loop.excitation.frequency,

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::string> outcome_words() { return {"computed", "diverges", "invalid"}; }
+std::vector<std::string> outcome_words() {
+  return {"computed", "diverges", "invalid", "no_gain", "aliased"};
+}
 
 /// The code of a verdict on what is not admissible: behind those of MotionKind.
 constexpr double invalid_code = static_cast<double>(MotionKind::undecided) + 1.0;
@@ -70,10 +72,12 @@ std::vector<NamedColumn> attractor_columns() {
        {{"period_samples", "", "of the certified orbit; 0 where none was found", "integer"}, {}}},
       {Metric::verdict,
        {{"verdict", "", "what the motion is, as the job verdict finds", "string"}, kind_words()}},
+      {Metric::differential_gain,
+       {{"differential_gain", "N.s/m", "D in force: the best one where that was asked for"}, {}}},
       {Metric::outcome,
        {{"outcome", "",
          "computed; diverges: the motion leaves the range of numbers; invalid: the case is not "
-         "admissible",
+         "admissible; no_gain, aliased: there is no best gain",
          "string"},
         outcome_words()}}};
 }
@@ -90,7 +94,7 @@ const std::vector<NamedColumn>& columns() {
 }
 
 double verdict_code(const CellResult& result) {
-  if (result.outcome == CellOutcome::invalid) return invalid_code;
+  if (!has_motion(result.outcome)) return invalid_code;
   if (result.outcome == CellOutcome::diverges) return static_cast<double>(MotionKind::diverges);
   return static_cast<double>(result.kind);
 }
@@ -99,7 +103,7 @@ double ratio_of(const CellResult& result) {
   return result.motion.steady_peak / result.uncontrolled_peak;
 }
 
-/// Of a cell that is admissible.
+/// Of a cell that has a motion.
 double known_value(SweepMetric metric, const CellResult& result) {
   const MotionMetrics& motion = result.motion;
   switch (metric) {
@@ -129,6 +133,8 @@ double known_value(SweepMetric metric, const CellResult& result) {
       return static_cast<double>(result.period);
     case SweepMetric::verdict:
       return verdict_code(result);
+    case SweepMetric::differential_gain:
+      return result.differential_gain;
     case SweepMetric::outcome:
       break;
   }
@@ -164,7 +170,7 @@ const SweepColumn& metric_column(SweepMetric metric) {
 }
 
 double metric_value(SweepMetric metric, const CellResult& result) {
-  if (result.outcome != CellOutcome::invalid) return known_value(metric, result);
+  if (has_motion(result.outcome)) return known_value(metric, result);
   const Column& column = metric_column(metric).column;
   if (column.datatype == "double") return not_a_number;
   if (column.datatype == "integer") return 0.0;

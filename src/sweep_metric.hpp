@@ -27,6 +27,7 @@ enum class SweepMetric {
   largest_exponent,
   period_samples,
   verdict,
+  differential_gain,
   outcome,
 };
 
@@ -35,7 +36,14 @@ enum class CellOutcome {
   computed,
   diverges,  ///< the motion left the range of numbers within the duration
   invalid,   ///< the case is not admissible; nothing was computed
+  no_gain,   ///< no best D: none lets the motion settle; nothing was computed
+  aliased,   ///< no best D: the samples do not show the vibration; nothing was computed
 };
+
+/// Whether there is a motion that the metrics tell of.
+inline bool has_motion(CellOutcome outcome) {
+  return outcome == CellOutcome::computed || outcome == CellOutcome::diverges;
+}
 
 /// What is known of a cell; what was not asked for stays as it is here.
 struct CellResult {
@@ -45,6 +53,7 @@ struct CellResult {
   double largest_exponent = std::numeric_limits<double>::quiet_NaN();   // per sample
   std::int64_t period = 0;  // samples of the certified orbit; 0: none
   MotionKind kind = MotionKind::undecided;
+  double differential_gain = std::numeric_limits<double>::quiet_NaN();  // N s/m, in force
 };
 
 /// The metric of that name. Throws WrongInput, which names the nearest one.
@@ -57,7 +66,7 @@ const std::vector<SweepMetric>& usual_metrics();
 const SweepColumn& metric_column(SweepMetric metric);
 
 /// The value of a cell, as SweepColumn wants it: where the motion diverges, peaks, forces and
-/// stroke are inf; where the cell is not admissible, reals are nan.
+/// stroke are inf; where there is no motion, reals are nan and whole numbers 0.
 double metric_value(SweepMetric metric, const CellResult& result);
 
 /// Every name, separated by commas, for a help text.

@@ -5,8 +5,11 @@
 #include <set>
 
 #include "axis.hpp"
+#include "cable_of_case.hpp"
 #include "case_file.hpp"
+#include "damping_fit.hpp"
 #include "errors.hpp"
+#include "exit.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "key_axis.hpp"
 #include "text.hpp"
@@ -70,9 +73,22 @@ void require_settable(const Case& the_case, const GridAxis& axis) {
                      ": the case has [wind], which stands in place of [excitation]");
 }
 
-bool shapes_plant(const GridAxis& axis) {
+/// Whether the plant, where it is not given, depends on the key. One key of [plant] makes it given.
+bool shapes_plant(const Case& the_case, const GridAxis& axis) {
   const std::string table = find_case_key(axis.column.name)->table();
-  return table == "conductor" || table == "absorber" || table == "reduction";
+  return table == "conductor" || table == "absorber" || table == "reduction" ||
+         (table == "plant" && plant_is_reduced(the_case));
+}
+
+/// The best gain takes the place of D, and a motion needs time to settle.
+void require_room_for_best_gain(const SweepQuestion& question, const std::vector<GridAxis>& axes) {
+  if (!question.best_gain) return;
+  if (!(question.duration > 0.0)) throw WrongInput("--best-gain needs a --duration above 0");
+  for (const GridAxis& axis : axes) {
+    if (axis.column.name == "control.differential_gain")
+      throw WrongInput(
+          "--best-gain takes the place of control.differential_gain, which is an axis");
+  }
 }
 
 /// Samples of one motion; none where τ is not admissible.
@@ -89,11 +105,22 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepQuestion& question)
       metrics_(sweep_metrics(question.metrics)),
       layout_{sweep_axes(question.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
-  for (const GridAxis& axis : layout_.axes) {
-    require_settable(context_.case_data, axis);
-    reduces_plant_ = reduces_plant_ || shapes_plant(axis);
+  require_room_for_best_gain(question_, layout_.axes);
+  for (std::size_t k = 0; k < layout_.axes.size(); ++k) {
+    require_settable(context_.case_data, layout_.axes[k]);
+    if (shapes_plant(context_.case_data, layout_.axes[k])) shaping_axes_.push_back(k);
   }
+  settle_case();
+  samples_ = counted_samples();
   tile_cells_ = question_.tile_cells > 0 ? question_.tile_cells : chosen_tile_cells();
+}
+
+void SweepPlan::settle_case() {
+  if (shaping_axes_.empty()) {
+    report_warning(settle_plant(context_.case_data), context_.quiet);
+  } else {
+    reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
+  }
 }
 
 std::int64_t SweepPlan::cells_of(std::int64_t tile) const {
@@ -112,26 +139,27 @@ double SweepPlan::axis_value(std::size_t axis, std::int64_t cell) const {
 }
 
 Case SweepPlan::case_of(std::int64_t cell) const {
-  if (reduces_plant_) {
-    std::vector<std::string> values;
-    for (std::size_t k = 0; k < layout_.axes.size(); ++k)
-      values.push_back(layout_.axes[k].column.name + "=" + format_number(axis_value(k, cell)));
-    return context_.case_source.load(values);
+  std::vector<std::string> shaping;
+  for (const std::size_t k : shaping_axes_)
+    shaping.push_back(layout_.axes[k].column.name + "=" + format_number(axis_value(k, cell)));
+  Case the_case = reduced_cases_ ? reduced_cases_->with(shaping) : context_.case_data;
+  for (std::size_t k = 0; k < layout_.axes.size(); ++k) {
+    if (std::count(shaping_axes_.begin(), shaping_axes_.end(), k) == 0)
+      set_case_value(the_case, layout_.axes[k].column.name, axis_value(k, cell));
   }
-  Case the_case = context_.case_data;
-  for (std::size_t k = 0; k < layout_.axes.size(); ++k)
-    set_case_value(the_case, layout_.axes[k].column.name, axis_value(k, cell));
   check_case(the_case);
   return the_case;
 }
 
-double SweepPlan::samples() const {
+double SweepPlan::counted_samples() const {
+  constexpr std::size_t most_counted = 1'000'000;
   for (const GridAxis& axis : layout_.axes) {
     if (axis.column.name != sampling_key) continue;
-    double of_axis = 0.0;
-    for (std::size_t i = 0; i < axis.count(); ++i)
-      of_axis += samples_of(question_.duration, axis.at(i));
-    return of_axis * (static_cast<double>(cells()) / static_cast<double>(axis.count()));
+    const std::size_t stride = axis.count() / most_counted + 1;
+    double sum = 0.0, counted = 0.0;
+    for (std::size_t i = 0; i < axis.count(); i += stride, ++counted)
+      sum += samples_of(question_.duration, axis.at(i));
+    return sum / counted * static_cast<double>(cells());
   }
   return static_cast<double>(cells()) *
          samples_of(question_.duration, context_.case_data.control.sampling_period);
@@ -148,7 +176,10 @@ std::int64_t SweepPlan::chosen_tile_cells() const {
   double cost = std::max(samples() / all, 1.0);
   if (exponents) cost *= 5.0;
   if (orbits) cost += 20.0 * static_cast<double>(question_.largest_period);
-  const double fewest = orbits || exponents ? 8.0 : 64.0;
+  // A reduction takes some tenths of a second, and every cell may need one.
+  const bool reductions = !shaping_axes_.empty();
+  if (reductions) cost += 0.1 * samples_of_tile;
+  const double fewest = orbits || exponents || reductions ? 8.0 : 64.0;
   const double share = std::max(all / most_tiles_wanted, fewest);
   const double fitting = std::clamp(samples_of_tile / cost, 1.0, most_cells_of_tile);
   return static_cast<std::int64_t>(std::min({fitting, share, all}));
@@ -166,6 +197,12 @@ TilePlan SweepPlan::tile_plan() const {
   entries.emplace_back("--duration", format_number(question_.duration));
   entries.emplace_back("--max-period", std::to_string(question_.largest_period));
   entries.emplace_back("--best-gain", question_.best_gain ? "yes" : "no");
+  if (reduced_cases_) {
+    const CaseSource& source = context_.case_source;
+    entries.emplace_back("case file", source.text.value_or("built-in"));
+    for (std::size_t k = 0; k < source.overrides.size(); ++k)
+      entries.emplace_back("--set " + std::to_string(k + 1), source.overrides[k]);
+  }
   const nlohmann::ordered_json json = case_to_json(context_.case_data);
   for (const auto& [table, keys] : json.items()) {
     for (const auto& [key, value] : keys.items())

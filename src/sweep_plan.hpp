@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "case_keys.hpp"
 #include "job_context.hpp"
+#include "reduced_cases.hpp"
 #include "sweep_metric.hpp"
 #include "sweep_output.hpp"
 #include "tile_store.hpp"
@@ -43,17 +45,23 @@ class SweepPlan {
   bool wants(SweepMetric metric) const;
   const SweepQuestion& question() const { return question_; }
 
-  /// The case of a cell. Throws WrongInput, or NoAnswer where its plant cannot be reduced.
+  /// The context that was given, its case's plant reduced where no axis shapes that.
+  const JobContext& context() const { return context_; }
+
+  /// The case of a cell. Throws WrongInput, or NoAnswer where its plant cannot be reduced. Any
+  /// thread may ask.
   Case case_of(std::int64_t cell) const;
 
   /// Samples of the motions of all cells, those without control not counted; cells that are not
-  /// admissible count as none.
-  double samples() const;
+  /// admissible count as none. To a few digits where the sampling periods are more than a million.
+  double samples() const { return samples_; }
 
   /// What the bytes of a tile depend on.
   TilePlan tile_plan() const;
 
  private:
+  void settle_case();
+  double counted_samples() const;
   std::int64_t chosen_tile_cells() const;
   double axis_value(std::size_t axis, std::int64_t cell) const;
 
@@ -61,7 +69,9 @@ class SweepPlan {
   SweepQuestion question_;
   std::vector<SweepMetric> metrics_;
   SweepLayout layout_;
-  bool reduces_plant_ = false;  // an axis changes what the plant is reduced from
+  std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from
+  std::shared_ptr<const ReducedCases> reduced_cases_;  // where there are such axes
+  double samples_ = 0.0;
   std::int64_t tile_cells_ = 1;
 };
 

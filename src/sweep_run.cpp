@@ -1,12 +1,10 @@
 #include "sweep_run.hpp"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,10 +15,9 @@
 #include "process_group.hpp"
 #include "progress.hpp"
 #include "row_blocks.hpp"
+#include "shared_step.hpp"
 #include "sweep_cells.hpp"
 #include "system_words.hpp"
-#include "table.hpp"
-#include "text.hpp"
 #include "tile_result.hpp"
 #include "work_folder.hpp"
 #include "work_folder_plan.hpp"
@@ -47,24 +44,6 @@ fs::path work_folder(const JobContext& context) {
   return name;
 }
 
-/// A step that every process does; the fault of one ends all, each with its own message or the
-/// first one's.
-void do_together(ProcessGroup& group, const std::function<void()>& step) {
-  std::exception_ptr own;
-  std::string message;
-  try {
-    step();
-  } catch (const std::exception& fault) {
-    own = std::current_exception();
-    message = fault.what();
-  }
-  const std::vector<std::string> faults = group.exchange(message);
-  if (own) std::rethrow_exception(own);
-  for (std::size_t rank = 0; rank < faults.size(); ++rank)
-    if (!faults[rank].empty())
-      throw NoAnswer("process " + std::to_string(rank) + " gave up: " + faults[rank]);
-}
-
 /// What the tiles are parts of: the plan, computed by this program.
 TilePlan tile_plan_of(const SweepPlan& plan) {
   TilePlan tiles = plan.tile_plan();
@@ -75,21 +54,21 @@ TilePlan tile_plan_of(const SweepPlan& plan) {
 /// What the faults of all tiles together are.
 struct SweepFaults {
   std::int64_t diverging = 0;
-  std::int64_t invalid = 0;
+  std::int64_t without_motion = 0;
   std::string first;
 
   void add(const TileResult& tile) {
     diverging += tile.diverging;
-    invalid += tile.invalid;
+    without_motion += tile.without_motion;
     if (first.empty()) first = tile.first_fault;
   }
 
   std::string warning(std::int64_t cells) const {
     std::string text;
     if (diverging > 0) text = std::to_string(diverging) + " diverge";
-    if (invalid > 0)
-      text += (text.empty() ? "" : ", ") + std::to_string(invalid) +
-              " are not admissible, the first because: " + first;
+    if (without_motion > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(without_motion) +
+              " have no motion, the first because: " + first;
     return text.empty() ? text : "of " + std::to_string(cells) + " cells " + text;
   }
 };
@@ -98,19 +77,16 @@ struct SweepFaults {
 class SweepRun {
  public:
   SweepRun(const JobContext& context, const SweepQuestion& question)
-      : context_(context), plan_(context, question), group_(join_process_group()) {}
+      : plan_(context, question), group_(join_process_group()) {}
 
   void run() {
-    if (group_->size() > 1 && !has_named_output(context_))
-      throw WrongInput(
-          "--output: a sweep on several processes needs a file, beside which they "
-          "share their tiles");
-    threads_ = worker_threads(context_.threads, *group_);
-    do_together(*group_, [this] { begin(); });
-    do_together(*group_, [this] { join(); });
+    threads_ = worker_threads(context().threads, *group_);
+    take_shared_step(*group_, [this] { begin(); });
+    take_shared_step(*group_, [this] { join(); });
     try {
-      do_together(*group_, [this] { compute_tiles(); });
-      do_together(*group_, [this] { assemble(); });
+      take_shared_step(*group_, [this] { compute_tiles(); });
+      end_progress();
+      take_shared_step(*group_, [this] { assemble(); });
     } catch (...) {
       leave_tiles();
       throw;
@@ -118,59 +94,77 @@ class SweepRun {
   }
 
  private:
+  const JobContext& context() const { return plan_.context(); }
   bool is_first() const { return group_->rank() == 0; }
 
   void begin() {
-    if (is_first()) {
-      output_.emplace(context_, plan_.layout());
-      store_ = TileStore::open(work_folder(context_), tile_plan_of(plan_), plan_.question().resume);
-    }
+    if (!is_first()) return;
+    const fs::path folder = work_folder(context());
+    output_.emplace(context(), plan_.layout());
+    store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.question().resume);
+    tiles_found_ = contents_of_work_folder(folder).tiles;
   }
 
   void join() {
-    if (!is_first()) store_ = TileStore::join(work_folder(context_), tile_plan_of(plan_));
+    if (!is_first()) store_ = TileStore::join(work_folder(context()), tile_plan_of(plan_));
   }
 
   void compute_tiles() {
-    Progress progress(static_cast<std::uint64_t>(plan_.cells()), "sweep, cells",
-                      is_first() && progress_wanted(context_));
+    progress_.emplace(static_cast<std::uint64_t>(plan_.cells()), "sweep, cells",
+                      is_first() && progress_wanted(context()));
+    progress_->skip(cells_in(tiles_found_));
     std::atomic<bool> stop{false};
     parallel_rows(threads_, 1, threads_, 0, [&](int&, std::int64_t, std::int64_t) {
       try {
-        work(progress, stop);
+        work(stop);
       } catch (...) {
-        stop = true;  // for the other threads
+        if (!stop.exchange(true)) give_up_tiles();
         throw;
       }
     });
   }
 
+  /// The other processes need not go on.
+  void give_up_tiles() noexcept {
+    try {
+      group_->skip_tickets(plan_.tiles());
+    } catch (...) {
+      // They go on in vain; the fault that brought us here is the one to be told.
+    }
+  }
+
   /// What one thread does: the next tile, until there is none.
-  void work(Progress& progress, const std::atomic<bool>& stop) {
+  void work(const std::atomic<bool>& stop) {
     while (!stop) {
       throw_if_interrupted();
       const std::int64_t tile = group_->take_ticket();
       if (tile >= plan_.tiles()) return;
-      const auto cells = static_cast<std::uint64_t>(plan_.cells_of(tile));
-      ++own_tickets_;
-      if (store_->has(tile)) {
-        progress.skip(cells);
-        continue;
-      }
+      if (store_->has(tile)) continue;
       const TileResult result = compute_tile(plan_, tile);
       store_->put(tile, tile_bytes(result));
-      show(progress, cells, static_cast<std::uint64_t>(result.samples));
+      ++tiles_computed_;
+      show_others();
+      progress_->advance(static_cast<std::uint64_t>(result.cells),
+                         static_cast<std::uint64_t>(result.samples));
     }
   }
 
-  void show(Progress& progress, std::uint64_t cells, std::uint64_t samples) {
-    if (is_first() && group_->size() > 1) {
-      const std::int64_t elsewhere =
-          std::min(group_->tickets_taken(), plan_.tiles()) - own_tickets_.load();
-      progress.set_elsewhere(static_cast<std::uint64_t>(std::max<std::int64_t>(elsewhere, 0)) *
-                             static_cast<std::uint64_t>(plan_.cells_of(0)));
-    }
-    progress.advance(cells, samples);
+  /// Those handed out that were neither found nor computed here: the others have or compute them.
+  void show_others() {
+    if (!is_first() || group_->size() == 1) return;
+    const std::int64_t taken = std::min(group_->tickets_taken(), plan_.tiles());
+    progress_->set_elsewhere(cells_in(taken - std::min(taken, tiles_found_) - tiles_computed_));
+  }
+
+  /// All is computed.
+  void end_progress() {
+    progress_->set_elsewhere(cells_in(plan_.tiles() - tiles_found_ - tiles_computed_));
+    progress_.reset();
+  }
+
+  std::uint64_t cells_in(std::int64_t tiles) const {
+    return static_cast<std::uint64_t>(
+        std::clamp(tiles * plan_.cells_of(0), std::int64_t{0}, plan_.cells()));
   }
 
   /// Puts the tiles together in their order, one at a time.
@@ -188,14 +182,14 @@ class SweepRun {
     }
     output_->commit();
     store_->remove();
-    report_warning(faults.warning(plan_.cells()), context_.quiet);
+    report_warning(faults.warning(plan_.cells()), context().quiet);
   }
 
   /// After a fault: says how to go on, or removes what cannot be gone on with.
   void leave_tiles() noexcept {
     if (!is_first() || !store_) return;
     try {
-      if (!has_named_output(context_)) {
+      if (!has_named_output(context())) {
         store_->remove();
       } else {
         const std::int64_t kept = contents_of_work_folder(store_->folder()).tiles;
@@ -208,13 +202,14 @@ class SweepRun {
     }
   }
 
-  JobContext context_;
   SweepPlan plan_;
   std::unique_ptr<ProcessGroup> group_;
   int threads_ = 1;                    // of this process
   std::optional<SweepOutput> output_;  // of the first process
   std::optional<TileStore> store_;
-  std::atomic<std::int64_t> own_tickets_{0};
+  std::optional<Progress> progress_;
+  std::int64_t tiles_found_ = 0;  // by the first process, of an earlier run
+  std::atomic<std::int64_t> tiles_computed_{0};
 };
 
 }  // namespace
@@ -226,24 +221,6 @@ void write_sweep(const JobContext& context, const SweepQuestion& question) {
     throw WrongInput(
         "--output: a sweep on several processes needs a file, beside which they share their tiles");
   SweepRun(context, question).run();
-}
-
-void write_sweep_size(const JobContext& context, const SweepQuestion& question) {
-  const SweepPlan plan(context, question);
-  JobContext to_screen = context;
-  to_screen.output.reset();  // the file is for the result
-  Table table(to_screen, {{"quantity", "", "what the row tells", "string"},
-                          {"value", "", "in the unit of the row"},
-                          {"unit", "", "SI; empty without dimension", "string"}});
-  const auto cells = static_cast<double>(plan.cells());
-  const auto numbers_of_cell = static_cast<double>(plan.metrics().size());
-  table.row("axes", static_cast<double>(plan.layout().axes.size()), "");
-  table.row("cells", cells, "");
-  table.row("tiles", static_cast<double>(plan.tiles()), "");
-  table.row("cells_of_tile", static_cast<double>(plan.cells_of(0)), "");
-  table.row("samples", plan.samples(), "");
-  table.row("tile_bytes", cells * numbers_of_cell * sizeof(double), "B");
-  table.commit();
 }
 
 }  // namespace holdfast::program

@@ -12,7 +12,4 @@ namespace holdfast::program {
 /// as they do, Interrupted; where tiles are left for --resume, standard error says so.
 void write_sweep(const JobContext& context, const SweepQuestion& question);
 
-/// Writes what that would be, and computes nothing: cells, tiles, samples, bytes.
-void write_sweep_size(const JobContext& context, const SweepQuestion& question);
-
 }  // namespace holdfast::program

@@ -17,7 +17,7 @@ void append_bytes(std::string& bytes, const void* from, std::size_t size) {
 }  // namespace
 
 std::string tile_bytes(const TileResult& tile) {
-  const Counts counts = {tile.cells, tile.samples, tile.diverging, tile.invalid};
+  const Counts counts = {tile.cells, tile.samples, tile.diverging, tile.without_motion};
   std::string bytes;
   bytes.reserve(sizeof(counts) + tile.values.size() * sizeof(double) + tile.first_fault.size());
   append_bytes(bytes, counts.data(), sizeof(counts));

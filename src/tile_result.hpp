@@ -10,11 +10,11 @@ namespace holdfast::program {
 /// What was computed of the cells of one tile.
 struct TileResult {
   std::int64_t cells = 0;
-  std::vector<double> values;  // column after column, one value a cell in each
-  std::int64_t samples = 0;    // of the motions of the cells
-  std::int64_t diverging = 0;  // cells whose motion diverges
-  std::int64_t invalid = 0;    // cells whose case is not admissible
-  std::string first_fault;     // why the first of those is not; empty where there is none
+  std::vector<double> values;       // column after column, one value a cell in each
+  std::int64_t samples = 0;         // of the motions of the cells
+  std::int64_t diverging = 0;       // cells whose motion diverges
+  std::int64_t without_motion = 0;  // cells not admissible, or without a best gain
+  std::string first_fault;          // why the first of those is not; empty where there is none
 
   /// The values of one column.
   const double* column(std::size_t number) const {

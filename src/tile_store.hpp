@@ -45,7 +45,7 @@ class TileStore {
   bool has(std::int64_t tile) const;
 
   /// Keeps a finished tile. Throws OutputError where it cannot be written; what was kept before
-  /// stays whole, and the message says how many tiles that are.
+  /// stays whole.
   void put(std::int64_t tile, std::string_view bytes) const;
 
   /// The bytes of a tile. Throws OutputError where has() would be false.

@@ -22,8 +22,8 @@ class Counter {
   Counter(Counter&&) = delete;
   Counter& operator=(Counter&&) = delete;
 
-  /// Gives the number and adds one to it.
-  std::int64_t take() { return apply(1, MPI_SUM); }
+  /// Gives the number and adds `term` to it.
+  std::int64_t add(std::int64_t term) { return apply(term, MPI_SUM); }
 
   std::int64_t value() { return apply(0, MPI_NO_OP); }
 

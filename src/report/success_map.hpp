@@ -40,8 +40,8 @@ struct SuccessMap {
 std::string shown_on(const MapAxis& axis, const std::string& value);
 
 /// The steady amplitude over that without control in 61 × 61 cells, P tuned to the excitation by
-/// Eq. 6 and D the best of each cell; shades for classes of the ratio, marks that tell them apart
-/// without colour.
+/// Eq. 6 and D the best of each cell; shades for classes of the ratio and for why there is none,
+/// marks that tell them apart without colour. A cell that is no admissible case stays empty.
 Figure success_figure(const std::string& name, const std::string& title, const std::string& caption,
                       const SuccessMap& map);
 

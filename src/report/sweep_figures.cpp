@@ -101,17 +101,28 @@ std::string frequency_text(const Case& the_case) {
   return format_rounded(frequency_of(the_case)) + " Hz";
 }
 
+/// What the shades and marks say.
+std::string meaning_of_shades(const Case& the_case) {
+  std::string meaning =
+      "Steady amplitude of the conductor over that without control. Blue: control helps; orange "
+      "with marks +: it makes the vibration worse; white: no difference within 0.5 %, as where "
+      "the backlash swallows the whole motion; black: the motion diverges or is more than a "
+      "hundredfold; grey with marks ×: no D lets the motion settle in time; light grey with marks "
+      "○: 2fτ ≥ 1 with f the frequency of the excitation, so slow are the samples that they do not "
+      "show the vibration.";
+  if (effective_excitation(the_case).amplitude == 0.0)
+    meaning += " Nothing excites this cable: white is also where it rests with control or without.";
+  return meaning;
+}
+
 Figure delay_backlash_figure(const Case& the_case) {
   const std::string patient = duration_of(the_case, 600.0), quick = duration_of(the_case, 200.0);
   return success_figure(
       "success-delay-backlash",
       "For which delays and backlashes control still helps, " + frequency_text(the_case),
-      "Steady amplitude of the conductor over that without control. Blue: control helps; orange "
-      "with marks +: it makes the vibration worse; white: no difference within 0.5 %, as where "
-      "the backlash swallows the whole motion; black: the motion diverges or is more than a "
-      "hundredfold; grey with marks ×: no D lets the loop settle. P is tuned to the excitation. D "
-      "leaves the least amplitude without backlash of all D with which the transient falls to e⁻¹⁰ "
-      "in " +
+      meaning_of_shades(the_case) +
+          " P is tuned to the excitation. D leaves the least amplitude without backlash of all D "
+          "with which the transient falls to e⁻¹⁰ in " +
           patient + " s (left) or " + quick +
           " s (right), which is also how long each motion is followed; steady is the second half. "
           "61 × 61 cells each.",

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,6 +137,47 @@ void expect_the_motions_without_backlash_keep_the_limit(const fs::path& report) 
   EXPECT_GE(above, 5);
 }
 
+/// What a sweep found of a cell whose sampling period and frequency are these, and what the same
+/// sweep found with backlash: half a forcing period from sample to sample shows no vibration, and a
+/// D is sought without regard to the backlash.
+void expect_reason_for_no_motion(double forcing_periods_per_sample, const std::string& outcome,
+                                 const std::string& with_backlash) {
+  EXPECT_NE(outcome, "invalid");
+  EXPECT_NE(with_backlash, "invalid");
+  EXPECT_EQ(outcome == "aliased", forcing_periods_per_sample >= 0.5);
+  EXPECT_EQ(with_backlash == "aliased", forcing_periods_per_sample >= 0.5);
+  EXPECT_EQ(outcome == "no_gain", with_backlash == "no_gain");
+}
+
+void expect_cells_without_motion_to_have_their_reasons(const fs::path& report) {
+  const auto map = program::read_csv(report / "data/success-frequency-delay-1.csv");
+  const auto backlash = program::read_csv(report / "data/success-frequency-delay-2.csv");
+  ASSERT_EQ(map.rows(), backlash.rows());
+  std::map<std::string, int> cells;
+  for (std::size_t row = 0; row < map.rows(); ++row) {
+    SCOPED_TRACE("row " + std::to_string(row));
+    const std::string& outcome = map.text(row, "outcome");
+    expect_reason_for_no_motion(
+        map.number(row, "control.sampling_period") * map.number(row, "excitation.frequency"),
+        outcome, backlash.text(row, "outcome"));
+    ++cells[outcome];
+  }
+  for (const std::string kind : {"computed", "no_gain", "aliased"}) EXPECT_GE(cells[kind], 50);
+}
+
+/// The text of the pictures of the maps, and of what the page says of each.
+void expect_maps_to_name_every_mark(const fs::path& report) {
+  for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"}) {
+    const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
+    expect_holds(picture, {"control amplifies", "settles in time", "sampled too slowly"});
+    EXPECT_EQ(count_of(picture, "no vibration"), 0U) << figure;
+  }
+  const std::string page = read_text(report / "report.html");
+  expect_holds(page, {"grey with marks ×: no D lets the motion settle in time",
+                      "light grey with marks ○: 2fτ ≥ 1"});
+  EXPECT_EQ(count_of(page, "Nothing excites"), 0U);
+}
+
 // One report for all that is to be seen in it: it takes seconds.
 TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const TemporaryFolder folder;
@@ -148,6 +190,8 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   expect_verdicts_with_reasons_where_they_differ(report);
   expect_what_the_motions_are(report);
   expect_the_motions_without_backlash_keep_the_limit(report);
+  expect_cells_without_motion_to_have_their_reasons(report);
+  expect_maps_to_name_every_mark(report);
 }
 
 TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
@@ -178,6 +222,18 @@ TEST(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
     EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
     EXPECT_TRUE(fs::exists(folder / "mine/pictures" / (figure + ".svg"))) << figure;
   }
+}
+
+TEST(Report, OfACableThatNothingExcitesSaysThatItDoesNotVibrate) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_holdfast("report --set excitation.amplitude=0 --output '" +
+                                       (folder / "mine").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  for (const std::string figure : {"success-delay-backlash", "success-frequency-delay"}) {
+    const std::string picture = read_text(folder / "mine/pictures" / (figure + ".svg"));
+    EXPECT_EQ(count_of(picture, "no vibration"), 2U) << figure;
+  }
+  expect_holds(read_text(folder / "mine/report.html"), {"Nothing excites this cable"});
 }
 
 TEST(Report, OfADivergingCaseSaysSoInThePage) {

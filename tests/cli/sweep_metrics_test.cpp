@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cli/program.hpp"
@@ -21,7 +23,7 @@ const std::string every_metric =
     " --metric first_peak --metric steady_peak --metric steady_rms --metric ratio_to_uncontrolled"
     " --metric attenuates --metric engaged_fraction --metric force_peak --metric force_rms"
     " --metric reversals_per_s --metric absorber_stroke --metric largest_exponent"
-    " --metric period_samples --metric verdict --metric outcome";
+    " --metric period_samples --metric verdict --metric differential_gain --metric outcome";
 
 /// A motion as `simulate` writes it.
 struct SimulatedMotion {
@@ -189,6 +191,36 @@ TEST(SweepMetrics, FollowTheWindAndTheConductorThatThePlantIsMadeFrom) {
     expect_motion_metrics(sweep, row, common + settings_of(sweep, row), 4.0);
 }
 
+TEST(SweepMetrics, OfAReducedPlantAreThoseOfTheCaseWithOneValueSet) {
+  const TemporaryFolder folder;
+  write_text(folder / "line.toml", "[conductor]\nspan = 6.4\n");
+  const std::string common = "--case '" + (folder / "line.toml").string() + "'";
+  const CsvTable sweep = table_of("sweep --axis plant.absorber_damping=3,4 " + common +
+                                  every_metric + " --duration 2");
+  for (std::size_t row = 0; row < 2; ++row)
+    expect_motion_metrics(sweep, row, common + settings_of(sweep, row), 2.0);
+}
+
+TEST(SweepMetrics, OfACaseThatCanBeReadOnlyOnceAreThoseOfThatCase) {
+  const TemporaryFolder folder;
+  const std::string text = "[backlash]\nwidth = 0\n";
+  const std::string file = (folder / "case.toml").string(), pipe = (folder / "pipe").string();
+  write_text(file, text);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { write_text(pipe, text); });
+  const std::string sweep = "sweep --axis conductor.sag=0.29 --duration 1 --case ";
+  const Outcome piped = run_holdfast(sweep + pipe);
+  writer.join();
+  EXPECT_EQ(piped.output, run_holdfast(sweep + file).output);
+}
+
+TEST(SweepMetrics, WithTheBestGainSayWhereTheSamplesDoNotShowTheVibration) {
+  const CsvTable sweep = table_of(
+      "sweep --best-gain --axis control.sampling_period=0.04,0.06 --metric outcome --quiet");
+  EXPECT_NE(sweep.text(0, "outcome"), "aliased");  // 10 Hz
+  EXPECT_EQ(sweep.text(1, "outcome"), "aliased");
+}
+
 TEST(SweepMetrics, WithTheBestGainAreThoseOfTheGainThatDesignGives) {
   const double duration = 20.0, sampling_period = 0.001;
   char radius[64];  // NOLINT: snprintf fills it
@@ -201,18 +233,20 @@ TEST(SweepMetrics, WithTheBestGainAreThoseOfTheGainThatDesignGives) {
     const std::string settings = " --set backlash.width=0" + settings_of(sweep, row);
     const CsvTable design = table_of("design --largest-radius " + std::string(radius) + settings);
     const std::string gain = design.text(0, "least_amplitude_gain");
+    EXPECT_NEAR(sweep.number(row, "differential_gain"), std::stod(gain),
+                1e-9 * std::abs(std::stod(gain)));
     // Both gains are found by iteration, and may end some rounding errors apart.
     expect_motion_metrics(sweep, row, settings + " --set control.differential_gain=" + gain,
                           duration, 1e-9);
   }
 }
 
-TEST(SweepMetrics, WithTheBestGainAreInvalidWhereNoGainSettlesInTheDuration) {
+TEST(SweepMetrics, WithTheBestGainSayThatNoGainSettlesInTheDuration) {
   const Outcome outcome = run_holdfast(
       "sweep --best-gain --axis excitation.frequency=10 --duration 0.01 --metric steady_peak"
       " --metric outcome");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_EQ(program::parse_csv(outcome.output, "sweep").text(0, "outcome"), "invalid");
+  EXPECT_EQ(program::parse_csv(outcome.output, "sweep").text(0, "outcome"), "no_gain");
   EXPECT_NE(outcome.errors.find("settle"), std::string::npos) << outcome.errors;
 }
 

@@ -10,7 +10,7 @@ if(NOT code STREQUAL CODE)
 endif()
 # Processes that part in agreement have no need of MPI's violence.
 string(FIND "${output}" "MPI_ABORT" abort_position)
-if(SCENARIO MATCHES "^(cooperate|rest|fail_together)$" AND NOT abort_position EQUAL -1)
+if(SCENARIO MATCHES "^(cooperate|rest|give_up|fail_together)$" AND NOT abort_position EQUAL -1)
   message(FATAL_ERROR "the processes were aborted\n${output}")
 endif()
 if(MESSAGE)

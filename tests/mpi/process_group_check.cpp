@@ -40,6 +40,7 @@ std::vector<std::int64_t> draw(ProcessGroup& group) {
 std::string drawn_by_threads(ProcessGroup& group, std::size_t thread_count) {
   std::vector<std::vector<std::int64_t>> drawn(thread_count);
   std::vector<std::thread> threads;
+  threads.reserve(thread_count);
   for (auto& own : drawn) threads.emplace_back([&group, &own] { own = draw(group); });
   for (std::thread& thread : threads) thread.join();
   std::ostringstream text;
@@ -49,20 +50,26 @@ std::string drawn_by_threads(ProcessGroup& group, std::size_t thread_count) {
   return text.str();
 }
 
-void check_every_ticket_is_given_once(ProcessGroup& group) {
+/// How often the processes together have drawn each of the tickets below ticket_count.
+std::vector<int> times_given(ProcessGroup& group, const std::string& drawn) {
   std::vector<int> given(ticket_count, 0);
-  for (const std::string& text : group.exchange(drawn_by_threads(group, 3))) {
+  for (const std::string& text : group.exchange(drawn)) {
     std::istringstream stream(text);
     for (std::size_t ticket = 0; stream >> ticket;) ++given.at(ticket);
   }
-  for (const int times : given) require(times == 1, "every ticket is given once");
+  return given;
+}
+
+void check_every_ticket_is_given_once(ProcessGroup& group) {
+  for (const int times : times_given(group, drawn_by_threads(group, 3)))
+    require(times == 1, "every ticket is given once");
   // Each thread has learnt from one ticket more that there are no others.
   require(group.tickets_taken() == ticket_count + 3 * group.size(), "tickets_taken() counts all");
 }
 
 /// Of length 0 for some ranks and of some MB for others, with bytes of every value.
 std::string text_of_rank(int rank, int round) {
-  const auto seed = static_cast<std::size_t>(rank + round);
+  const auto seed = static_cast<std::size_t>(rank) + static_cast<std::size_t>(round);
   std::string text(seed % 3 == 0 ? 0 : seed * seed * 700'001, '\0');
   for (std::size_t k = 0; k < text.size(); ++k) text[k] = static_cast<char>((k * k + seed) % 256);
   return text;
@@ -79,31 +86,49 @@ void check_exchange_orders_by_rank(ProcessGroup& group) {
   }
 }
 
-void check_ranks_and_machines(ProcessGroup& group) {
+/// Every process passes over a number of tickets of its own, together
+/// ticket_count · (1 + … + size).
+void check_all_can_skip_tickets(ProcessGroup& group) {
+  const std::int64_t size = group.size();
+  const std::int64_t before = group.tickets_taken();
+  group.exchange("");
+  group.skip_tickets(ticket_count * (group.rank() + 1));
+  group.exchange("");
+  const std::int64_t first_left = before + ticket_count * size * (size + 1) / 2;
+  const std::int64_t ticket = group.take_ticket();
+  require(ticket >= first_left && ticket < first_left + size, "skip_tickets() adds up");
+  group.exchange("");
+  require(group.tickets_taken() == first_left + size, "tickets_taken() counts what is skipped");
+}
+
+void check_ranks(ProcessGroup& group) {
   const MpiLaunch launch = mpi_launch();
   require(group.rank() == launch.rank && group.size() == launch.size,
           "the environment and MPI agree");
-  std::map<std::string, int> on_machine;
-  for (const std::string& machine : group.exchange(own_cores().machine)) ++on_machine[machine];
-  require(group.size_on_machine() == on_machine[own_cores().machine],
-          "size_on_machine() counts the processes of this machine");
 }
 
-/// Together the processes take as many threads as there are cores, or one each.
+/// Together the processes of a machine take as many threads as it has cores, or one each.
 void check_threads_share_the_cores(ProcessGroup& group) {
   require(worker_threads(7, group) == 7, "a number that was asked for is taken");
   const int threads = worker_threads(0, group);
   require(threads >= 1, "at least one thread");
-  int sum = 0;
-  for (const std::string& text : group.exchange(std::to_string(threads))) sum += std::stoi(text);
+  const std::string machine = own_cores().machine;
+  const auto machines = group.exchange(machine);
+  const auto threads_of = group.exchange(std::to_string(threads));
+  int processes = 0, sum = 0;
+  for (std::size_t rank = 0; rank < machines.size(); ++rank) {
+    if (machines[rank] != machine) continue;
+    ++processes;
+    sum += std::stoi(threads_of[rank]);
+  }
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  require(group.size_on_machine() < group.size() || sum <= std::max(cores, group.size()),
-          "no core has two threads while there are enough");
+  require(sum <= std::max(cores, processes), "no core has two threads while there are enough");
 }
 
 void cooperate(ProcessGroup& group, const std::string&) {
-  check_ranks_and_machines(group);
+  check_ranks(group);
   check_every_ticket_is_given_once(group);
+  check_all_can_skip_tickets(group);
   check_exchange_orders_by_rank(group);
   check_threads_share_the_cores(group);
 }
@@ -121,6 +146,29 @@ void draw_while_the_first_rests(ProcessGroup& group, const std::string& file) {
     std::ofstream(file) << "drawn";
   }
   group.exchange("");
+}
+
+/// The last process gives the work up after three tickets, and with it all that others have not
+/// drawn.
+void give_up(ProcessGroup& group, const std::string&) {
+  const bool gives_up = group.rank() == group.size() - 1;
+  std::string drawn;
+  for (int k = 0; gives_up && k < 3; ++k) drawn += std::to_string(group.take_ticket()) + ' ';
+  group.exchange("");
+  if (gives_up) {
+    group.skip_tickets(ticket_count);
+    require(draw(group).empty(), "who has given up gets no ticket");
+  } else {
+    drawn += drawn_by_threads(group, 3);
+  }
+  std::int64_t sum = 0;
+  for (const int times : times_given(group, drawn)) {
+    require(times <= 1, "no ticket is given twice");
+    sum += times;
+  }
+  const std::int64_t refused = 3 * (group.size() - 1) + 1;
+  require(group.tickets_taken() == ticket_count + sum + refused,
+          "every ticket is given, passed over or refused");
 }
 
 [[noreturn]] void work_until_interrupted() {
@@ -153,8 +201,11 @@ using Scenario = std::function<void(ProcessGroup&, const std::string&)>;
 
 const std::map<std::string, Scenario>& scenarios() {
   static const std::map<std::string, Scenario> all = {
-      {"cooperate", cooperate},         {"rest", draw_while_the_first_rests},
-      {"fail_alone", fail_alone},       {"fail_together", fail_together},
+      {"cooperate", cooperate},
+      {"rest", draw_while_the_first_rests},
+      {"give_up", give_up},
+      {"fail_alone", fail_alone},
+      {"fail_together", fail_together},
       {"interrupt_one", interrupt_one},
   };
   return all;

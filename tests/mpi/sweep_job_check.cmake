@@ -72,21 +72,56 @@ if(hidden)
 endif()
 require_same_files(resumed)
 
-function(require_refused what)
-  if(code EQUAL 0)
-    message(FATAL_ERROR "done although ${what}")
-  endif()
-  string(REPLACE ";" "," messages "${messages}")  # else a list
-  string(REGEX MATCHALL "holdfast: [^\n]*${what}" mentions "${messages}")
-  list(LENGTH mentions times)
-  if(NOT times EQUAL 1)
-    message(FATAL_ERROR "${what} is named ${times} times in\n${messages}")
+# Three processes show what one does.
+function(require_one_table)
+  run_command(${ARGV})
+  require_success("--dry-run of one process")
+  set(table "${output}")
+  run_command(${MPIEXEC} ${NUMPROC_FLAG} 3 ${ARGV})
+  require_success("--dry-run of 3 processes")
+  if(NOT output STREQUAL table)
+    message(FATAL_ERROR "3 processes show\n${output}\nin place of\n${table}")
   endif()
 endfunction()
 
-# One process speaks for all.
-run_command(${MPIEXEC} ${NUMPROC_FLAG} 3 ${PROGRAM} sweep --axis backlash.widht=0:1:2
+require_one_table(${PROGRAM} ${sweep} --dry-run)
+
+# One process speaks for all, in one line that names `what`.
+function(require_refused processes what)
+  run_command(${MPIEXEC} ${NUMPROC_FLAG} ${processes} ${PROGRAM} ${ARGN})
+  if(NOT code EQUAL 2)
+    message(FATAL_ERROR "exit code ${code} in place of 2 although ${what}\n${messages}")
+  endif()
+  string(REPLACE ";" "," messages "${messages}")  # else a list
+  string(REGEX MATCHALL "(^|\n)holdfast: [^\n]*" lines "${messages}")
+  list(LENGTH lines times)
+  if(NOT times EQUAL 1 OR NOT lines MATCHES "${what}")
+    message(FATAL_ERROR "${what} is to be told in one line, not in ${times} of\n${messages}")
+  endif()
+endfunction()
+
+require_refused(3 "backlash.width" sweep --quiet --axis backlash.widht=0:1:2
   --output ${WORK}/refused.csv)
-require_refused("backlash.width")
-run_command(${MPIEXEC} ${NUMPROC_FLAG} 2 ${PROGRAM} ${sweep})
-require_refused("--output")
+require_refused(2 "--output" ${sweep})
+
+# Faults that one process finds when all have come together.
+require_refused(3 "absent/sweep.csv" ${sweep} --output ${WORK}/absent/sweep.csv)
+
+# A sweep that is too long to end is killed once it has finished a tile.
+set(kept ${WORK}/kept)
+file(MAKE_DIRECTORY ${kept})
+set(long_sweep sweep --quiet --tile 1 --duration 10 --axis backlash.width=0:0.002:1000000)
+foreach(seconds IN ITEMS 0.3 1 4 16 64)
+  execute_process(COMMAND ${PROGRAM} ${long_sweep} --output ${kept}/sweep.csv TIMEOUT ${seconds}
+    RESULT_VARIABLE ignored OUTPUT_QUIET ERROR_QUIET)
+  file(GLOB tiles ${kept}/sweep.csv.tiles/tile-*)
+  if(tiles)
+    break()
+  endif()
+endforeach()
+require_refused(3 "--resume" ${long_sweep} --output ${kept}/sweep.csv)
+file(GLOB tiles_after ${kept}/sweep.csv.tiles/tile-*)
+if(NOT tiles OR NOT tiles_after STREQUAL tiles)
+  message(FATAL_ERROR "a refused sweep leaves ${tiles_after} in place of ${tiles}")
+endif()
+file(REMOVE_RECURSE ${kept})

@@ -51,8 +51,8 @@ class StandInGroup final : public ProcessGroup {
   StandInGroup(int rank, std::vector<std::string> texts) : rank_(rank), texts_(std::move(texts)) {}
   int rank() const override { return rank_; }
   int size() const override { return static_cast<int>(texts_.size()); }
-  int size_on_machine() const override { return size(); }
   std::int64_t take_ticket() override { return 0; }
+  void skip_tickets(std::int64_t) override {}
   std::int64_t tickets_taken() override { return 0; }
   std::vector<std::string> exchange(const std::string& text) override {
     for (std::string& other : texts_) {
@@ -119,7 +119,6 @@ TEST(ProcessGroup, AloneItIsTheFirstAndHearsItself) {
   const auto group = single_process();
   EXPECT_EQ(group->rank(), 0);
   EXPECT_EQ(group->size(), 1);
-  EXPECT_EQ(group->size_on_machine(), 1);
   EXPECT_EQ(group->exchange("text"), std::vector<std::string>{"text"});
 }
 
@@ -128,6 +127,7 @@ TEST(ProcessGroup, ThreadsGetEveryTicketOnce) {
   const auto group = single_process();
   std::vector<std::vector<std::int64_t>> drawn(4);
   std::vector<std::thread> threads;
+  threads.reserve(drawn.size());
   for (auto& own : drawn) {
     threads.emplace_back([&group, &own] {
       for (std::int64_t k = 0; k < tickets_of_thread; ++k) own.push_back(group->take_ticket());
@@ -140,6 +140,35 @@ TEST(ProcessGroup, ThreadsGetEveryTicketOnce) {
   }
   EXPECT_EQ(given, std::vector<int>(given.size(), 1));
   EXPECT_EQ(group->tickets_taken(), 4 * tickets_of_thread);
+}
+
+TEST(ProcessGroup, WhatIsPassedOverIsGivenToNobody) {
+  const auto group = single_process();
+  EXPECT_EQ(group->take_ticket(), 0);
+  group->skip_tickets(10);
+  EXPECT_EQ(group->tickets_taken(), 11);
+  EXPECT_EQ(group->take_ticket(), 11);
+  group->skip_tickets(0);
+  EXPECT_EQ(group->take_ticket(), 12);
+}
+
+TEST(ProcessGroup, AThreadThatGivesUpEndsTheHandOutForAll) {
+  constexpr std::int64_t tickets = 1'000'000;
+  const auto group = single_process();
+  std::vector<std::int64_t> drawn(3, 0);
+  std::vector<std::thread> threads;
+  threads.reserve(drawn.size());
+  for (auto& own : drawn) {
+    threads.emplace_back([&group, &own] {
+      while (group->take_ticket() < tickets) ++own;
+    });
+  }
+  group->skip_tickets(tickets);
+  EXPECT_GE(group->take_ticket(), tickets);
+  for (std::thread& thread : threads) thread.join();
+  const std::int64_t given = std::accumulate(drawn.begin(), drawn.end(), std::int64_t{0});
+  constexpr std::int64_t refused = 4;
+  EXPECT_EQ(group->tickets_taken(), given + tickets + refused);
 }
 
 TEST(ProcessGroup, WithoutALauncherItIsThisProcessAlone) {

@@ -127,6 +127,28 @@ TEST(SweepPlan, PlanOfTheTilesTellsAllThatTheyDependOn) {
   for (const SweepQuestion& other : others) EXPECT_NE(usual, entries({}, other));
 }
 
+TEST(SweepPlan, PlanOfTilesWithTheirOwnPlantsTellsWhatTheyAreReducedFrom) {
+  const SweepQuestion question = sweep_over({"conductor.sag=0.285,0.29"});
+  const auto entries = [&](const std::vector<std::string>& settings) {
+    return SweepPlan(sweep_context(settings), question).tile_plan().entries;
+  };
+  // The value of the built-in case, but given: the plant is no longer reduced.
+  EXPECT_NE(entries({}), entries({"plant.conductor_mass=0.0767"}));
+  JobContext of_file = sweep_context();
+  of_file.case_source.text = "[conductor]\n";
+  EXPECT_NE(entries({}), SweepPlan(of_file, question).tile_plan().entries);
+}
+
+TEST(SweepPlan, WithTheBestGainHasNoOtherAndTimeToSettle) {
+  SweepQuestion question = sweep_over({"control.differential_gain=-20,-10"});
+  question.best_gain = true;
+  EXPECT_NE(refusal_of(question).find("is an axis"), std::string::npos);
+  question = sweep_over({"backlash.width=0,1"});
+  question.best_gain = true;
+  question.duration = 0.0;
+  EXPECT_NE(refusal_of(question).find("--duration"), std::string::npos);
+}
+
 TEST(SweepPlan, OfAHundredMillionCellsIsMadeAtOnce) {
   const SweepPlan plan(sweep_context(), sweep_over({"backlash.width=0:0.003:10000",
                                                     "control.sampling_period=0.001:0.03:10000"}));

@@ -22,7 +22,7 @@ TEST(TileResult, ComesBackFromItsBytesBitByBit) {
   EXPECT_EQ(back.cells, 3);
   EXPECT_EQ(back.samples, 60'003);
   EXPECT_EQ(back.diverging, 1);
-  EXPECT_EQ(back.invalid, 2);
+  EXPECT_EQ(back.without_motion, 2);
   EXPECT_EQ(back.first_fault, "no such case");
   EXPECT_EQ(back.column(0)[0], 1.5);
   EXPECT_TRUE(std::signbit(back.column(0)[1]));

@@ -16,7 +16,7 @@ namespace {
 using MetricPack = simd::Pack<double>;
 
 /// Whether the drive transmits, at every sample of every motion.
-class SwitchingRecord {
+class SwitchingRecord : public IgnoreSwitching {
  public:
   SwitchingRecord(const std::vector<SweepMotion>& motions, double duration) {
     for (const auto& motion : motions) {

@@ -12,11 +12,12 @@
 
 namespace holdfast {
 
-/// Looks at no sample.
+/// Looks at no sample. Others are derived from it and hide what they do.
 struct IgnoreSwitching {
   template <class LaneMask>
   void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
                   const LaneMask& /*engaged*/) const {}
+  void pause() const {}
 };
 
 /// The metrics of many motions, which may differ in every parameter, as many at a time as `Scalar`
@@ -34,7 +35,8 @@ struct IgnoreSwitching {
 /// @param results   as many, in the order of the motions
 /// @param observer  called at every sample j with the numbers of the motions in the lanes, j, and
 ///                  the mask of the lanes that transmit; also beyond a motion's last sample, and
-///                  for a motion that repeats in spare lanes or is done again
+///                  for a motion that repeats in spare lanes or is done again; and its pause()
+///                  every some hundred samples, which may throw to end all
 /// @throws InvalidParameter where a motion or the duration is not admissible
 template <class Scalar, class SwitchingObserver = IgnoreSwitching>
 void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,

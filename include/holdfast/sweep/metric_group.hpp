@@ -107,6 +107,7 @@ class MetricGroup {
   template <class SwitchingObserver>
   void run(MotionMetrics* results, SwitchingObserver& observer, bool always_watch) {
     while (std::find(open_.begin(), open_.end(), true) != open_.end()) {
+      observer.pause();
       begin_steady();
       const Watch watch = to_watch(always_watch);
       if (watch.divergence) {

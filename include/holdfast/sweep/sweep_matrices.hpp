@@ -9,15 +9,9 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/sweep/sweep_motion.hpp"
 
 namespace holdfast::detail {
-
-inline bool same_numbers(const TwoDof<double>& a, const TwoDof<double>& b) {
-  return a.conductor_mass == b.conductor_mass && a.conductor_stiffness == b.conductor_stiffness &&
-         a.conductor_damping == b.conductor_damping && a.absorber_mass == b.absorber_mass &&
-         a.absorber_stiffness == b.absorber_stiffness && a.absorber_damping == b.absorber_damping;
-}
 
 /// The matrices of one loop after another. Their exponentials cost some microseconds; cells of a
 /// sweep in a row often share them.
@@ -29,7 +23,7 @@ class SweepMatrices {
   };
 
   const Matrices& of(const ForcedLoop<double>& loop) {
-    const bool same_loop = known_ && same_numbers(known_->plant, loop.plant) &&
+    const bool same_loop = known_ && numbers_of(known_->plant) == numbers_of(loop.plant) &&
                            known_->sampling.period == loop.sampling.period &&
                            known_->sampling.processing_delay == loop.sampling.processing_delay;
     const bool same_input = same_loop && known_->hold == loop.hold &&

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/plant/two_dof.hpp"
 
 namespace holdfast {
 
@@ -11,6 +14,12 @@ struct SweepMotion {
   ForcedLoop<double> loop;
   Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
+
+/// m₁, k₁, c₁, m₂, k₂, c₂ in SI units, to be compared.
+inline std::array<double, 6> numbers_of(const TwoDof<double>& plant) {
+  return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
+          plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
+}
 
 /// @throws InvalidParameter where the loop is not admissible or the state not finite
 inline void validate(const SweepMotion& motion) {
