@@ -58,7 +58,10 @@ Job::Job(CLI::App& program, const std::string& name, const std::string& question
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(group);
   options_
-      ->add_option("--output", common_->output, "Where the result goes; without it standard output")
+      ->add_option(
+          "--output", common_->output,
+          "Where the result goes; without it standard output. Charts and sweeps are netCDF-4 "
+          "where its name ends in .nc")
       ->type_name("FILE")
       ->group(group);
   options_->add_flag("--quiet", common_->quiet, "No progress")->group(group);

@@ -2,8 +2,8 @@
 
 namespace holdfast::program {
 
-void add_duration(const Job& job, double& duration) {
-  job->add_option("--duration", duration, "Length of the motion, s")
+CLI::Option* add_duration(const Job& job, double& duration) {
+  return job->add_option("--duration", duration, "Length of the motion, s")
       ->check(number_from(0.0, 1e12))
       ->type_name("")
       ->capture_default_str();

@@ -8,7 +8,7 @@
 namespace holdfast::program {
 
 /// `--duration`, s, finite and not negative.
-void add_duration(const Job& job, double& duration);
+CLI::Option* add_duration(const Job& job, double& duration);
 
 /// `--from`, s, finite and not negative: what comes before is left out.
 void add_from(const Job& job, double& from);

@@ -26,19 +26,26 @@ void add_sweep(CLI::App& program) {
                   "key of the case; repeatable, the first slowest")
       ->expected(1)
       ->take_all();
-  job->add_option("--metric", asked.metrics,
-                  "What is told of every cell; repeatable: " + metric_names())
+  job->add_option(
+         "--metric", asked.metrics,
+         "What is told of every cell; repeatable, in place of steady_peak, "
+         "ratio_to_uncontrolled, attenuates, outcome (definitions: docs/theory.md, section "
+         "16): " +
+             metric_names())
       ->expected(1)
       ->take_all();
-  add_duration(job, asked.duration);
+  add_duration(job, asked.duration)
+      ->description("Length of the motion, s; its second half counts as steady");
   add_largest_period(job, asked.largest_period);
   job->add_flag("--best-gain", asked.best_gain,
-                "The differential gain of every cell is that of least steady amplitude with which "
-                "the motion settles in half the duration, as the job design finds it");
+                "D of every cell is that of least steady amplitude of the loop without backlash, "
+                "among those whose transient falls to e^-5 in half the duration, as the job design "
+                "finds it; the metric differential_gain tells it. P is the case's: with an axis "
+                "over excitation.frequency use --set control.proportional_gain=tuned");
   job->add_option("--tile", asked.tile_cells,
                   "Cells that are computed and kept together; 0: chosen. Results do not depend on "
                   "it")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 24))
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 16))
       ->type_name("N")
       ->capture_default_str();
   CLI::Option* resume =

@@ -38,11 +38,17 @@ void handle(int signal_number, void (*handler)(int)) {
   sigaction(signal_number, &action, nullptr);
 }
 
+bool is_ignored(int signal_number) {
+  struct sigaction action {};
+  return sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 void install_signal_handlers() {
   handle(SIGINT, holdfast_on_signal);
   handle(SIGTERM, holdfast_on_signal);
+  if (!is_ignored(SIGHUP)) handle(SIGHUP, holdfast_on_signal);  // nohup ignores it
   handle(SIGPIPE, SIG_IGN);
 }
 

@@ -4,14 +4,15 @@
 
 namespace holdfast::program {
 
-/// The user (SIGINT) or the system (SIGTERM) asked the program to end: exit code 130.
+/// The user (SIGINT, SIGHUP) or the system (SIGTERM) asked the program to end: exit code 130.
 class Interrupted : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// From here on SIGINT and SIGTERM set a flag, and a closed pipe is an error that write() reports.
-/// A second signal ends the program at once; unfinished files are removed even then.
+/// From here on SIGINT, SIGTERM and SIGHUP (a closed terminal) set a flag, and a closed pipe is an
+/// error that write() reports. A second signal ends the program at once; unfinished files are
+/// removed even then.
 void install_signal_handlers();
 
 /// Whether a signal has come. A long loop asks, or calls throw_if_interrupted().

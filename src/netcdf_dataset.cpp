@@ -6,6 +6,7 @@
 #ifdef HOLDFAST_HAS_NETCDF
 #include "case_file.hpp"
 #include "errors.hpp"
+#include "interrupt.hpp"
 #include "metadata.hpp"
 #endif
 
@@ -115,6 +116,7 @@ void NetcdfDataset::write_coordinate(Number variable, const GridAxis& axis) {
   std::vector<double> part;
   for (std::size_t start = 0; start < axis.count(); start += part.size()) {
     part.resize(std::min(axis.count() - start, values_in_block));
+    throw_if_interrupted();
     for (std::size_t i = 0; i < part.size(); ++i) part[i] = axis.at(start + i);
     file_.write(variable, {start}, {part.size()}, part.data());
   }

@@ -41,8 +41,10 @@ class TileCells {
   TileCells(const SweepPlan& plan, std::int64_t tile)
       : plan_(plan), results_(static_cast<std::size_t>(plan.cells_of(tile))) {
     BestGains gains(plan.question().duration);
-    for (std::size_t i = 0; i < results_.size(); ++i)
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      throw_if_interrupted();
       add(i, plan.first_cell(tile) + static_cast<std::int64_t>(i), gains);
+    }
   }
 
   void compute() {
@@ -96,13 +98,15 @@ class TileCells {
     const CellOutcome outcome = outcome_of(best.outcome);
     if (has_motion(outcome)) return true;
     results_[place].outcome = outcome;
-    note(outcome == CellOutcome::aliased
-             ? "the excitation frequency is not below half the sampling rate"
-             : "no differential gain lets the motion settle within half the duration");
+    const double half_rate = 0.5 / motion.loop.sampling.period;
+    note(outcome == CellOutcome::no_gain
+             ? "no differential gain lets the motion settle within half the duration"
+             : "the excitation of " + format_rounded(motion.loop.excitation.frequency) +
+                   " Hz is not below half the sampling rate, " + format_rounded(half_rate) + " Hz");
     return false;
   }
 
-  void note(const char* fault) {
+  void note(const std::string& fault) {
     if (first_fault_.empty()) first_fault_ = fault;
   }
 

@@ -76,8 +76,9 @@ std::vector<NamedColumn> attractor_columns() {
        {{"differential_gain", "N.s/m", "D in force: the best one where that was asked for"}, {}}},
       {Metric::outcome,
        {{"outcome", "",
-         "computed; diverges: the motion leaves the range of numbers; invalid: the case is not "
-         "admissible; no_gain, aliased: there is no best gain",
+         "computed; diverges: the motion leaves the range of numbers within the duration (one that "
+         "grows more slowly is computed); invalid: the case is not admissible; no_gain, aliased: "
+         "there is no best gain",
          "string"},
         outcome_words()}}};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "axis.hpp"
 #include "cable_of_case.hpp"
@@ -21,15 +22,15 @@ constexpr double most_cells = 9007199254740992.0;  // 2⁵³
 constexpr const char* sampling_key = "control.sampling_period";
 
 GridAxis sweep_axis(const std::string& text) {
-  const KeyValues axis = parse_key_values("--axis", text);
-  const CaseKey* key = find_case_key(axis.key);
-  if (key == nullptr) {
-    throw WrongInput("--axis " + text + ": unknown key " + axis.key + "; did you mean " +
-                     nearest_case_key(axis.key).name + "?");
-  }
-  if (key->number == nullptr) {
-    throw WrongInput("--axis " + text + ": " + axis.key +
+  const std::string name(trimmed(std::string_view(text).substr(0, text.find('='))));
+  const CaseKey* key = find_case_key(name);
+  if (key != nullptr && key->number == nullptr)
+    throw WrongInput("--axis " + text + ": " + name +
                      " is a word; run a sweep for each with --set");
+  const KeyValues axis = parse_key_values("--axis", text);
+  if (key == nullptr) {
+    throw WrongInput("--axis " + text + ": unknown key " + name + "; did you mean " +
+                     nearest_case_key(name).name + "?");
   }
   return grid_axis(*key, axis);
 }
@@ -73,11 +74,24 @@ void require_settable(const Case& the_case, const GridAxis& axis) {
                      ": the case has [wind], which stands in place of [excitation]");
 }
 
-/// Whether the plant, where it is not given, depends on the key. One key of [plant] makes it given.
-bool shapes_plant(const Case& the_case, const GridAxis& axis) {
-  const std::string table = find_case_key(axis.column.name)->table();
-  return table == "conductor" || table == "absorber" || table == "reduction" ||
-         (table == "plant" && plant_is_reduced(the_case));
+std::string table_of(const GridAxis& axis) { return find_case_key(axis.column.name)->table(); }
+
+/// What a plant that is not given is reduced from.
+bool is_of_conductor(const GridAxis& axis) {
+  const std::string table = table_of(axis);
+  return table == "conductor" || table == "absorber" || table == "reduction";
+}
+
+/// Those that decide what the plant is. One key of [plant] makes the whole of it given.
+std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
+                                            const std::vector<GridAxis>& axes) {
+  const bool reduced =
+      plant_is_reduced(the_case) || std::any_of(axes.begin(), axes.end(), is_of_conductor);
+  std::vector<std::size_t> shaping;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    if (is_of_conductor(axes[k]) || (reduced && table_of(axes[k]) == "plant")) shaping.push_back(k);
+  }
+  return shaping;
 }
 
 /// The best gain takes the place of D, and a motion needs time to settle.
@@ -106,10 +120,8 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepQuestion& question)
       layout_{sweep_axes(question.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
   require_room_for_best_gain(question_, layout_.axes);
-  for (std::size_t k = 0; k < layout_.axes.size(); ++k) {
-    require_settable(context_.case_data, layout_.axes[k]);
-    if (shapes_plant(context_.case_data, layout_.axes[k])) shaping_axes_.push_back(k);
-  }
+  for (const GridAxis& axis : layout_.axes) require_settable(context_.case_data, axis);
+  shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
   settle_case();
   samples_ = counted_samples();
   tile_cells_ = question_.tile_cells > 0 ? question_.tile_cells : chosen_tile_cells();

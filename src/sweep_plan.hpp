@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case_keys.hpp"
+#include "holdfast/attractor/orbit_search.hpp"
 #include "job_context.hpp"
 #include "reduced_cases.hpp"
 #include "sweep_metric.hpp"
@@ -16,12 +17,13 @@ namespace holdfast::program {
 
 /// What the job `sweep` was asked.
 struct SweepQuestion {
-  std::vector<std::string> axes;          // KEY=AXIS, the first slowest
-  std::vector<std::string> metrics;       // by name; none: usual_metrics()
-  double duration = 20.0;                 // s
-  std::int64_t largest_period = 100'000;  // samples, of the search for an orbit
-  bool best_gain = false;                 // D of each cell is that of least steady amplitude
-  std::int64_t tile_cells = 0;            // cells of a tile; 0: chosen from the plan
+  std::vector<std::string> axes;     // KEY=AXIS, the first slowest
+  std::vector<std::string> metrics;  // by name; none: usual_metrics()
+  double duration = 20.0;            // s
+  std::int64_t largest_period =
+      OrbitLimits{}.largest_period;  // samples, of the search for an orbit
+  bool best_gain = false;            // D of each cell is that of least steady amplitude
+  std::int64_t tile_cells = 0;       // cells of a tile; 0: chosen from the plan
   bool resume = false;
 };
 

@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 /// Whether the result goes to a file of that name, beside which a work folder can lie.
 bool has_named_output(const JobContext& context) {
   if (!context.output || *context.output == "-") return false;
+  const std::string path = fs::absolute(*context.output).lexically_normal().string();
+  if (path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0) return false;
   std::error_code error;
   return !fs::exists(*context.output, error) || fs::is_regular_file(*context.output, error);
 }
@@ -77,7 +79,7 @@ struct SweepFaults {
 class SweepRun {
  public:
   SweepRun(const JobContext& context, const SweepQuestion& question)
-      : plan_(context, question), group_(join_process_group()) {}
+      : plan_(context, question), named_(has_named_output(context)), group_(join_process_group()) {}
 
   void run() {
     threads_ = worker_threads(context().threads, *group_);
@@ -99,8 +101,8 @@ class SweepRun {
 
   void begin() {
     if (!is_first()) return;
-    const fs::path folder = work_folder(context());
     output_.emplace(context(), plan_.layout());
+    const fs::path folder = work_folder(context());
     store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.question().resume);
     tiles_found_ = contents_of_work_folder(folder).tiles;
   }
@@ -189,7 +191,7 @@ class SweepRun {
   void leave_tiles() noexcept {
     if (!is_first() || !store_) return;
     try {
-      if (!has_named_output(context())) {
+      if (!named_) {
         store_->remove();
       } else {
         const std::int64_t kept = contents_of_work_folder(store_->folder()).tiles;
@@ -203,6 +205,7 @@ class SweepRun {
   }
 
   SweepPlan plan_;
+  bool named_;  // the output is a file, and the work folder stays beside it for --resume
   std::unique_ptr<ProcessGroup> group_;
   int threads_ = 1;                    // of this process
   std::optional<SweepOutput> output_;  // of the first process

@@ -201,6 +201,13 @@ TEST(SweepMetrics, OfAReducedPlantAreThoseOfTheCaseWithOneValueSet) {
     expect_motion_metrics(sweep, row, common + settings_of(sweep, row), 2.0);
 }
 
+TEST(SweepMetrics, OfAConductorBesideAGivenPlantAreThoseOfTheCaseWithBothSet) {
+  const std::string axes = "sweep --axis conductor.sag=0.29 --axis plant.absorber_mass=0.16,0.2";
+  const CsvTable sweep = table_of(axes + every_metric + " --duration 2");
+  for (std::size_t row = 0; row < 2; ++row)
+    expect_motion_metrics(sweep, row, settings_of(sweep, row), 2.0);
+}
+
 TEST(SweepMetrics, OfACaseThatCanBeReadOnlyOnceAreThoseOfThatCase) {
   const TemporaryFolder folder;
   const std::string text = "[backlash]\nwidth = 0\n";

@@ -72,6 +72,8 @@ TEST(SweepResume, InterruptedItSaysHowToGoOn) { expect_interrupted_and_resumed(S
 
 TEST(SweepResume, TerminatedItSaysHowToGoOn) { expect_interrupted_and_resumed(SIGTERM); }
 
+TEST(SweepResume, WhenItsTerminalClosesItSaysHowToGoOn) { expect_interrupted_and_resumed(SIGHUP); }
+
 void flip_bit(const fs::path& file, std::size_t byte, unsigned bit) {
   std::string text = read_text(file);
   text.at(byte) = static_cast<char>(static_cast<unsigned char>(text.at(byte)) ^ (1U << bit));
@@ -111,7 +113,7 @@ void expect_not_resumed(const StoppedSweep& stopped, const std::string& more,
 TEST(SweepResume, OfAnotherSweepIsRefusedWithWhatDiffers) {
   const StoppedSweep stopped(SIGKILL);
   expect_not_resumed(stopped, "", {"--resume"});
-  expect_not_resumed(stopped, "--resume --max-period 50", {"--max-period", "100000", "50"});
+  expect_not_resumed(stopped, "--resume --max-period 50", {"--max-period", "1000000", "50"});
   expect_not_resumed(stopped, "--resume --metric outcome", {"--metric", "outcome"});
   expect_not_resumed(stopped, "--resume --axis initial.z2=0,1", {"--axis", "initial.z2=0,1"});
   expect_not_resumed(stopped, "--resume --set control.differential_gain=-12",
