@@ -101,10 +101,16 @@ class SweepRun {
 
   void begin() {
     if (!is_first()) return;
-    output_.emplace(context(), plan_.layout());
+    open_output();
+    // What can be written is known now; a process that is killed shall leave nothing of it.
+    if (named_) output_.reset();
     const fs::path folder = work_folder(context());
     store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.question().resume);
     tiles_found_ = contents_of_work_folder(folder).tiles;
+  }
+
+  void open_output() {
+    if (!output_) output_.emplace(context(), plan_.layout());
   }
 
   void join() {
@@ -173,6 +179,7 @@ class SweepRun {
   void assemble() {
     if (!is_first()) return;
     SweepFaults faults;
+    open_output();
     const std::size_t columns = plan_.metrics().size();
     std::vector<const double*> values(columns);
     for (std::int64_t tile = 0; tile < plan_.tiles(); ++tile) {
@@ -207,8 +214,8 @@ class SweepRun {
   SweepPlan plan_;
   bool named_;  // the output is a file, and the work folder stays beside it for --resume
   std::unique_ptr<ProcessGroup> group_;
-  int threads_ = 1;                    // of this process
-  std::optional<SweepOutput> output_;  // of the first process
+  int threads_ = 1;  // of this process
+  std::optional<SweepOutput> output_;
   std::optional<TileStore> store_;
   std::optional<Progress> progress_;
   std::int64_t tiles_found_ = 0;  // by the first process, of an earlier run
