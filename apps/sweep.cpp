@@ -14,6 +14,20 @@ struct Options {
   std::string switching = "sampled";
 };
 
+/// How the work is cut, gone on with, or only told.
+void add_tile_options(const Job& job, Options& options) {
+  job->add_option("--tile", options.question.tile_cells,
+                  "Cells that are computed and kept together; 0: chosen. Results do not depend on "
+                  "it")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 16))
+      ->type_name("N")
+      ->capture_default_str();
+  CLI::Option* resume = job->add_flag("--resume", options.question.resume,
+                                      "Go on with the tiles that an earlier run left");
+  job->add_flag("--dry-run", options.dry_run, "Tell how large it would be; compute nothing")
+      ->excludes(resume);
+}
+
 }  // namespace
 
 void add_sweep(CLI::App& program) {
@@ -42,16 +56,7 @@ void add_sweep(CLI::App& program) {
                 "among those whose transient falls to e^-5 in half the duration, as the job design "
                 "finds it; the metric differential_gain tells it. P is the case's: with an axis "
                 "over excitation.frequency use --set control.proportional_gain=tuned");
-  job->add_option("--tile", asked.tile_cells,
-                  "Cells that are computed and kept together; 0: chosen. Results do not depend on "
-                  "it")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 16))
-      ->type_name("N")
-      ->capture_default_str();
-  CLI::Option* resume =
-      job->add_flag("--resume", asked.resume, "Go on with the tiles that an earlier run left");
-  job->add_flag("--dry-run", options->dry_run, "Tell how large it would be; compute nothing")
-      ->excludes(resume);
+  add_tile_options(job, *options);
   add_switching(job, options->switching);
   job->final_callback([job, options] {
     // The plan reduces the plant, if it is to be, of the case or of each cell.
