@@ -10,6 +10,7 @@
 
 #include "holdfast/simd/lyapunov.hpp"
 #include "medians.hpp"
+#include "processor.hpp"
 
 namespace {
 
@@ -166,11 +167,7 @@ void measure(double period, double delay_fraction) {
 }  // namespace
 
 int main() {
-#if defined(__x86_64__) && defined(__AVX512F__)
-  if (!__builtin_cpu_supports("avx512f")) return std::puts("this processor has no AVX-512"), 0;
-#elif defined(__x86_64__) && defined(__AVX2__)
-  if (!__builtin_cpu_supports("avx2")) return std::puts("this processor has no AVX2"), 0;
-#endif
+  if (!holdfast::bench::processor_suffices()) return 0;
   std::printf("%zu lanes; medians of %d alternating repetitions\n",
               Lanes<simd::Pack<double>>::count, bench::usual_repetitions);
   for (const double period : {0.001, 0.011}) {

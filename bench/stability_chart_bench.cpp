@@ -18,6 +18,7 @@
 #include "holdfast/simd/charts.hpp"
 #include "holdfast/stability/characteristic_polynomial.hpp"
 #include "medians.hpp"
+#include "processor.hpp"
 
 namespace {
 
@@ -234,11 +235,7 @@ void sizes() {
 }  // namespace
 
 int main() {
-#if defined(__x86_64__) && defined(__AVX512F__)
-  if (!__builtin_cpu_supports("avx512f")) return std::puts("this processor has no AVX-512"), 0;
-#elif defined(__x86_64__) && defined(__AVX2__)
-  if (!__builtin_cpu_supports("avx2")) return std::puts("this processor has no AVX2"), 0;
-#endif
+  if (!holdfast::bench::processor_suffices()) return 0;
   std::printf("%zu lanes; medians of %d alternating repetitions\n", lanes,
               bench::usual_repetitions);
   sizes();

@@ -17,6 +17,7 @@
 #include "holdfast/simd/motion_metrics.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
 #include "medians.hpp"
+#include "processor.hpp"
 #if __has_include(<boost/numeric/odeint.hpp>)
 #include <array>
 #include <boost/numeric/odeint.hpp>
@@ -235,10 +236,6 @@ void measure() {
 }  // namespace
 
 int main() {
-#if defined(__x86_64__) && defined(__AVX512F__)
-  if (!__builtin_cpu_supports("avx512f")) return std::puts("this processor has no AVX-512"), 0;
-#elif defined(__x86_64__) && defined(__AVX2__)
-  if (!__builtin_cpu_supports("avx2")) return std::puts("this processor has no AVX2"), 0;
-#endif
+  if (!holdfast::bench::processor_suffices()) return 0;
   measure();
 }

@@ -335,16 +335,20 @@ std::string nearest_case_table(std::string_view name) {
       ->table();
 }
 
+void require_in_force(const Case& the_case, const CaseKey& key) {
+  if (key.table() == "wind" && !the_case.wind)
+    throw WrongInput(key.name + ": the case has no [wind]");
+  if (key.table() == "excitation" && the_case.wind)
+    throw WrongInput(key.name + ": the case has [wind], which stands in place of [excitation]");
+}
+
 void set_case_value(Case& the_case, std::string_view name, double value) {
   const CaseKey& key = number_key_named(name);
   if (!key.range.contains(value)) {
     throw WrongInput(key.name + " = " + format_number(value) + ": admissible is " +
                      key.admissible());
   }
-  if (key.number(the_case) == nullptr) throw WrongInput(key.name + ": the case has no [wind]");
-  if (the_case.wind && key.table() == "excitation") {
-    throw WrongInput(key.name + ": the case has [wind], which stands in place of [excitation]");
-  }
+  require_in_force(the_case, key);
   *key.number(the_case) = value;
   if (key.tuned != nullptr) *key.tuned(the_case) = false;
 }

@@ -48,6 +48,10 @@ const CaseKey* find_case_key(std::string_view name);
 const CaseKey& nearest_case_key(std::string_view name);
 std::string nearest_case_table(std::string_view name);
 
+/// Throws WrongInput for a key of [wind] and a case without it, and for one that [wind] stands in
+/// place of.
+void require_in_force(const Case& the_case, const CaseKey& key);
+
 /// Sets one number by its key; a sweep calls it, then check_case() once all its keys are set.
 /// A proportional gain set so is no longer tuned.
 /// Throws WrongInput when the key is unknown or not a number, when the value is not finite or out

@@ -15,11 +15,6 @@
 namespace holdfast::program {
 namespace {
 
-int failed(int code, const std::string& message) {
-  report_error(message);
-  return code;
-}
-
 /// Whether the first of the processes that a launcher started together tells of a wrong input that
 /// all of them were given. The launcher ends the others when it has, and would end it too if one of
 /// them exited before: hence they wait. Where nothing ends them the input is wrong here alone.
@@ -31,9 +26,29 @@ bool told_by_first_process() {
   return interrupted();
 }
 
-int refused(const std::string& message) {
-  if (!told_by_first_process()) report_error(message);
-  return exit_code::wrong_input;
+/// What there is to say of an exception; nothing where another process has.
+std::string message_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const ToldElsewhere&) {
+    return "";
+  } catch (const Interrupted& stopped) {
+    return stopped.what();
+  } catch (const WrongInput& error) {
+    return error.what();
+  } catch (const InvalidParameter& error) {
+    return error.what();
+  } catch (const NoAnswer& error) {
+    return error.what();
+  } catch (const OutputError& error) {
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return "the computation needs more memory than there is";
+  } catch (const std::exception& error) {
+    return std::string("unexpected failure: ") + error.what();
+  } catch (...) {
+    return "unexpected failure";
+  }
 }
 
 }  // namespace
@@ -48,28 +63,34 @@ void report_warning(const std::string& message, bool quiet) {
   if (!message.empty() && !quiet) report_error("warning: " + message);
 }
 
+int exit_code_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const ToldElsewhere& told) {
+    return told.exit_code();
+  } catch (const Interrupted&) {
+    return exit_code::interrupted;
+  } catch (const WrongInput&) {
+    return exit_code::wrong_input;
+  } catch (const InvalidParameter&) {
+    return exit_code::wrong_input;
+  } catch (...) {
+    return exit_code::no_answer;
+  }
+}
+
 int run_guarded(const std::function<int()>& work) {
   install_signal_handlers();
   try {
     return work();
-  } catch (const ToldElsewhere& told) {
-    return told.exit_code();
-  } catch (const Interrupted& stopped) {
-    return failed(exit_code::interrupted, stopped.what());
-  } catch (const WrongInput& error) {
-    return refused(error.what());
-  } catch (const InvalidParameter& error) {
-    return refused(error.what());
-  } catch (const NoAnswer& error) {
-    return failed(exit_code::no_answer, error.what());
-  } catch (const OutputError& error) {
-    return failed(exit_code::no_answer, error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(exit_code::no_answer, "the computation needs more memory than there is");
-  } catch (const std::exception& error) {
-    return failed(exit_code::no_answer, std::string("unexpected failure: ") + error.what());
   } catch (...) {
-    return failed(exit_code::no_answer, "unexpected failure");
+    const std::exception_ptr fault = std::current_exception();
+    const int code = exit_code_of(fault);
+    const std::string message = message_of(fault);
+    const bool told =
+        message.empty() || (code == exit_code::wrong_input && told_by_first_process());
+    if (!told) report_error(message);
+    return code;
   }
 }
 

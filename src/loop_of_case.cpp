@@ -55,11 +55,15 @@ SampledMotion<double> motion_of(const Case& the_case) {
   return harmonically_forced_motion(forced_loop_of(the_case), initial_state_of(the_case));
 }
 
-SampledMotion<double> uncontrolled_motion_of(const Case& the_case) {
-  ForcedLoop<double> loop = forced_loop_of(the_case);
+ForcedLoop<double> uncontrolled(ForcedLoop<double> loop) {
   loop.gains = {0.0, 0.0};
   loop.backlash_width = 0.0;
-  return harmonically_forced_motion(loop, initial_state_of(the_case));
+  return loop;
+}
+
+SampledMotion<double> uncontrolled_motion_of(const Case& the_case) {
+  return harmonically_forced_motion(uncontrolled(forced_loop_of(the_case)),
+                                    initial_state_of(the_case));
 }
 
 }  // namespace holdfast::program

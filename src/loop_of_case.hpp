@@ -30,6 +30,9 @@ ForcedLoop<double> forced_loop_of(const Case& the_case);
 /// value is not admissible.
 ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value);
 
+/// The loop with P = D = 0 and a drive without backlash.
+ForcedLoop<double> uncontrolled(ForcedLoop<double> loop);
+
 /// The motion of the case from its initial state, with its control or without any.
 SampledMotion<double> motion_of(const Case& the_case);
 SampledMotion<double> uncontrolled_motion_of(const Case& the_case);

@@ -82,20 +82,20 @@ void NetcdfDataset::add_coordinate(const GridAxis& axis) {
   set_units(coordinates_.back(), axis.column);
 }
 
-NetcdfDataset::Number NetcdfDataset::add_reals(const Column& column, const Shape& chunk) {
-  const Number variable = file_.add_reals(column.name, dimensions_);
+NetcdfDataset::Number NetcdfDataset::described(Number variable, const Column& column,
+                                               const Shape& chunk) {
   set_units(variable, column);
   set_long_name(variable, column);
   file_.set_chunks(variable, chunk);
   return variable;
 }
 
+NetcdfDataset::Number NetcdfDataset::add_reals(const Column& column, const Shape& chunk) {
+  return described(file_.add_reals(column.name, dimensions_), column, chunk);
+}
+
 NetcdfDataset::Number NetcdfDataset::add_integers(const Column& column, const Shape& chunk) {
-  const Number variable = file_.add_integers(column.name, dimensions_);
-  set_units(variable, column);
-  set_long_name(variable, column);
-  file_.set_chunks(variable, chunk);
-  return variable;
+  return described(file_.add_integers(column.name, dimensions_), column, chunk);
 }
 
 NetcdfDataset::Number NetcdfDataset::add_flags(const Column& column,

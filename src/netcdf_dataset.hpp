@@ -60,6 +60,7 @@ class NetcdfDataset {
   void describe_origin(const JobContext& context);
   void set_long_name(Number variable, const Column& column);
   void set_units(Number variable, const Column& column);
+  Number described(Number variable, const Column& column, const Shape& chunk);
   void add_coordinate(const GridAxis& axis);
   void write_coordinate(Number variable, const GridAxis& axis);
 

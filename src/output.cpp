@@ -9,6 +9,7 @@
 #include <string>
 
 #include "errors.hpp"
+#include "new_file.hpp"
 #include "system_words.hpp"
 
 namespace holdfast::program {
@@ -83,16 +84,10 @@ void OutputFile::open_device() {
 }
 
 void OutputFile::open_temporary() {
-  constexpr mode_t everyone_may_read_and_write = 0666;  // less the user's umask
-  // A name left over by a process that was killed and had our number is passed over.
-  for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
-    const fs::path candidate = target_.parent_path() / unique_name();
-    descriptor_ = open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                       everyone_may_read_and_write);
-    if (descriptor_ >= 0) temporary_ = candidate;
-    if (descriptor_ < 0 && errno != EEXIST) break;
-  }
+  fs::path opened;
+  descriptor_ = open_new_file([this] { return target_.parent_path() / unique_name(); }, opened);
   if (descriptor_ < 0) refuse_to_open(shown_, errno);
+  temporary_ = opened;
   owns_descriptor_ = true;
   // Absolute, since the handler of a second signal does not know of a change of folder.
   guard_ = std::make_unique<RemovedBySignal>(fs::absolute(temporary_).c_str());

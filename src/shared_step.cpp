@@ -6,27 +6,8 @@
 
 #include "errors.hpp"
 #include "exit.hpp"
-#include "holdfast/core/errors.hpp"
-#include "interrupt.hpp"
 
 namespace holdfast::program {
-namespace {
-
-int exit_code_of(const std::exception_ptr& fault) {
-  try {
-    std::rethrow_exception(fault);
-  } catch (const Interrupted&) {
-    return exit_code::interrupted;
-  } catch (const WrongInput&) {
-    return exit_code::wrong_input;
-  } catch (const InvalidParameter&) {
-    return exit_code::wrong_input;
-  } catch (...) {
-    return exit_code::no_answer;
-  }
-}
-
-}  // namespace
 
 void take_shared_step(ProcessGroup& group, const std::function<void()>& step) {
   std::exception_ptr fault;

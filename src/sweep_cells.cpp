@@ -147,8 +147,7 @@ class TileCells {
   }
 
   static SweepMotion without_control(SweepMotion motion) {
-    motion.loop.gains = {0.0, 0.0};
-    motion.loop.backlash_width = 0.0;
+    motion.loop = uncontrolled(motion.loop);
     motion.loop.sampling.processing_delay = 0.0;  // of a force that is zero
     return motion;
   }

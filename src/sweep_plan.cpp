@@ -64,16 +64,6 @@ std::vector<SweepMetric> sweep_metrics(const std::vector<std::string>& names) {
   return metrics;
 }
 
-/// Wind stands in place of the excitation, and a case has it or not.
-void require_settable(const Case& the_case, const GridAxis& axis) {
-  const CaseKey& key = *find_case_key(axis.column.name);
-  if (key.table() == "wind" && !the_case.wind)
-    throw WrongInput("--axis: " + key.name + ": the case has no [wind]");
-  if (key.table() == "excitation" && the_case.wind)
-    throw WrongInput("--axis: " + key.name +
-                     ": the case has [wind], which stands in place of [excitation]");
-}
-
 std::string table_of(const GridAxis& axis) { return find_case_key(axis.column.name)->table(); }
 
 /// What a plant that is not given is reduced from.
@@ -120,7 +110,8 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepQuestion& question)
       layout_{sweep_axes(question.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
   require_room_for_best_gain(question_, layout_.axes);
-  for (const GridAxis& axis : layout_.axes) require_settable(context_.case_data, axis);
+  for (const GridAxis& axis : layout_.axes)
+    require_in_force(context_.case_data, *find_case_key(axis.column.name));
   shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
   settle_case();
   samples_ = counted_samples();

@@ -38,8 +38,8 @@ bool has_named_output(const JobContext& context) {
 }
 
 /// Beside a named output, where an interrupted sweep is gone on with; else one for this run alone.
-fs::path work_folder(const JobContext& context) {
-  if (has_named_output(context)) return fs::path(context.output->string() + ".tiles");
+fs::path work_folder(const JobContext& context, bool named) {
+  if (named) return fs::path(context.output->string() + ".tiles");
   std::string name = (fs::temp_directory_path() / "holdfast-sweep-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr)
     throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
@@ -104,7 +104,7 @@ class SweepRun {
     open_output();
     // What can be written is known now; a process that is killed shall leave nothing of it.
     if (named_) output_.reset();
-    const fs::path folder = work_folder(context());
+    const fs::path folder = work_folder(context(), named_);
     store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.question().resume);
     tiles_found_ = contents_of_work_folder(folder).tiles;
   }
@@ -114,7 +114,7 @@ class SweepRun {
   }
 
   void join() {
-    if (!is_first()) store_ = TileStore::join(work_folder(context()), tile_plan_of(plan_));
+    if (!is_first()) store_ = TileStore::join(work_folder(context(), named_), tile_plan_of(plan_));
   }
 
   void compute_tiles() {

@@ -9,6 +9,7 @@
 #include <cerrno>
 
 #include "descriptor.hpp"
+#include "new_file.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -26,19 +27,6 @@ fs::path temporary_beside(const fs::path& file) {
 bool is_number(std::string_view text) {
   const auto is_digit = [](char character) { return character >= '0' && character <= '9'; };
   return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
-}
-
-/// A new file beside the given one, or −1 with the reason in errno.
-int open_temporary(const fs::path& file, fs::path& temporary) {
-  constexpr mode_t everyone_may_read_and_write = 0666;  // less the user's umask
-  // A name left over by a process that was killed and had our number is passed over.
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    temporary = temporary_beside(file);
-    const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                                everyone_may_read_and_write);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
-  return -1;
 }
 
 /// Finishes a write that a signal cuts short: what comes here is ready, and a job looks for the
@@ -80,7 +68,7 @@ int read_regular(int descriptor, std::string& text) {
 
 int write_whole_file(const fs::path& file, std::string_view bytes) {
   fs::path temporary;
-  const int descriptor = open_temporary(file, temporary);
+  const int descriptor = open_new_file([&file] { return temporary_beside(file); }, temporary);
   if (descriptor < 0) return errno;
   int error = write_all(descriptor, bytes);
   // Some file systems report a lack of space only here. The file is not forced to the disk, which
