@@ -86,6 +86,42 @@ TEST(ExactHarmonic, TheMotionDoesNotDependOnHowTheTimeIsCut) {
   EXPECT_LE((a - b).norm(), 1e-12 * a.norm());
 }
 
+TEST(AheadBy, AddsItsAngleToThePhase) {
+  test::Random random(82);
+  for (int draw = 0; draw < 200; ++draw) {
+    const HarmonicInput<double> input{random.matrix<Vector<double, 4>>(),
+                                      random.matrix<Vector<double, 4>>()};
+    const double angle = random.uniform(-10, 10), other = random.uniform(-10, 10);
+    const double theta = random.uniform(-10, 10);
+    const auto ahead = ahead_by(angle, input);
+    const Vector<double, 4> expected =
+        input.cosine * std::cos(theta + angle) + input.sine * std::sin(theta + angle);
+    const Vector<double, 4> found = ahead.cosine * std::cos(theta) + ahead.sine * std::sin(theta);
+    EXPECT_LE((found - expected).norm(), 1e-14);
+    const auto twice = ahead_by(other, ahead), together = ahead_by(angle + other, input);
+    EXPECT_LE((twice.cosine - together.cosine).norm(), 1e-14);
+    EXPECT_LE((twice.sine - together.sine).norm(), 1e-14);
+  }
+  const HarmonicInput<double> input{random.matrix<Vector<double, 4>>(),
+                                    random.matrix<Vector<double, 4>>()};
+  EXPECT_EQ(ahead_by(0.0, input).cosine, input.cosine);
+  EXPECT_EQ(ahead_by(0.0, input).sine, input.sine);
+}
+
+// A force that begins in the middle of a period: the second half of a step is the first one ahead.
+TEST(AheadBy, TheSecondHalfOfAPeriodIsTheFirstOneAhead) {
+  const auto plant = kollar2022_plant();
+  for (const double period : {0.001, 0.01}) {
+    const auto half = exact_harmonic(plant, period / 2, omega);
+    const auto later = ahead_by(omega * period / 2, half);
+    const auto whole = exact_harmonic(plant, period, omega);
+    const Matrix<double, 4> step = sampled_loop(plant, Sampling<double>{period / 2}).transition;
+    EXPECT_LE((step * half.cosine + later.cosine - whole.cosine).norm(),
+              1e-14 * whole.cosine.norm());
+    EXPECT_LE((step * half.sine + later.sine - whole.sine).norm(), 1e-14 * whole.cosine.norm());
+  }
+}
+
 // What is second order about the held force is one step: it errs by ½ ω τ² c sin(ωt) in velocity.
 // Over a fixed time 1/τ such steps add up to a motion that is first order in τ, because a held
 // force is, in the mean, the force of τ/2 ago. Take that delay out (sample the force mid-way) and

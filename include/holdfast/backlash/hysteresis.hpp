@@ -13,6 +13,12 @@ struct BacklashMemory {
   Scalar previous_velocity;  ///< Δż of the last sample (m/s); zero before the first one
 };
 
+/// Whether a sample that leaves the gap may also enter the next one.
+enum class EntryTest {
+  after_exit,  ///< entry is tested only from the sample after it on
+  at_exit,     ///< entry is tested at that sample too
+};
+
 /// Backlash of the drive, as a hysteresis that steps on sampled Δz = z₂ − z₁ and Δż = ż₂ − ż₁
 /// alone.
 ///
@@ -31,7 +37,8 @@ struct BacklashMemory {
 /// Source: Kollár 2022, Eqs. (7)–(8), read so that Fig. 8's switching instants come out
 /// (docs/reading-the-paper.md). One kernel for scalars and SIMD packs: about 12 comparisons and
 /// selects.
-template <class Scalar>
+/// @tparam Entry  `at_exit` changes rule 2: see immediate_backlash.hpp
+template <class Scalar, EntryTest Entry = EntryTest::after_exit>
 class Backlash {
  public:
   /// @param width  r₀ (m), ≥ 0
@@ -50,8 +57,8 @@ class Backlash {
     const Scalar& before = memory_.previous_velocity;
     const Mask<Scalar> from_positive = (before > zero) & (relative_velocity <= zero);
     const Mask<Scalar> from_negative = (before < zero) & (relative_velocity >= zero);
-    const Mask<Scalar> enters =
-        (!memory_.inside) & (width_ > zero) & (from_positive | from_negative);
+    const Mask<Scalar>& not_tested = Entry == EntryTest::at_exit ? stays : memory_.inside;
+    const Mask<Scalar> enters = (!not_tested) & (width_ > zero) & (from_positive | from_negative);
 
     const Scalar reach_down = select(from_positive, width_, zero);
     const Scalar reach_up = width_ - reach_down;

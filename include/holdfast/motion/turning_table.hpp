@@ -40,23 +40,18 @@ ExcitationSample<Scalar> turn_by(const Scalar& x) {
           select(second | third, Scalar(-across), across)};
 }
 
-/// The harmonic forcing of a motion, or of as many as a pack has lanes, each with its own input,
-/// amplitude, frequency and sampling period:
-///
-///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
+/// F_m cos ω t_j and F_m sin ω t_j of a harmonic, or of as many as a pack has lanes, for
+/// j = 0, 1, 2, …
 ///
 /// The cosine and sine are computed once in `block` periods; between them they are turned by fixed
 /// angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}, so that the rounding does not grow with j.
 template <class Scalar>
-class TurningTable {
+class TurningPhase {
  public:
   static constexpr std::size_t block = 16;
 
-  TurningTable(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
-               const Scalar& sampling_period)
-      : input_(input),
-        amplitude_(excitation.amplitude),
-        cycles_(excitation.frequency * sampling_period) {
+  TurningPhase(const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
+      : amplitude_(excitation.amplitude), cycles_(excitation.frequency * sampling_period) {
     for (std::size_t k = 0; k < block; ++k) turns_[k] = turn_at(static_cast<std::int64_t>(k));
   }
 
@@ -66,15 +61,11 @@ class TurningTable {
     base_ = {amplitude_ * turn.cosine, amplitude_ * turn.sine};
   }
 
-  /// The addition (4 × 1) of the period `k` (< block) after the last prepared one: 12
-  /// multiply-adds.
-  Vector<Scalar, 4> addition(std::size_t k) const {
+  /// Of the period `k` (< block) after the last prepared one: 4 multiply-adds.
+  ExcitationSample<Scalar> at(std::size_t k) const {
     const ExcitationSample<Scalar>& turn = turns_[k];
-    const Scalar cosine = turn.cosine * base_.cosine - turn.sine * base_.sine;
-    const Scalar sine = turn.cosine * base_.sine + turn.sine * base_.cosine;
-    Vector<Scalar, 4> sum;
-    for (int i = 0; i < 4; ++i) sum[i] = input_.cosine[i] * cosine + input_.sine[i] * sine;
-    return sum;
+    return {turn.cosine * base_.cosine - turn.sine * base_.sine,
+            turn.cosine * base_.sine + turn.sine * base_.cosine};
   }
 
  private:
@@ -85,11 +76,40 @@ class TurningTable {
     return turn_by(Scalar(turned - floor(turned)));
   }
 
-  HarmonicInput<Scalar> input_;
   Scalar amplitude_;  // F_m (N)
   Scalar cycles_;     // f τ
   std::array<ExcitationSample<Scalar>, block> turns_;
   ExcitationSample<Scalar> base_{Scalar(0), Scalar(0)};
+};
+
+/// The harmonic forcing of a motion, or of as many as a pack has lanes, each with its own input,
+/// amplitude, frequency and sampling period:
+///
+///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
+template <class Scalar>
+class TurningTable {
+ public:
+  static constexpr std::size_t block = TurningPhase<Scalar>::block;
+
+  TurningTable(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
+               const Scalar& sampling_period)
+      : input_(input), phase_(excitation, sampling_period) {}
+
+  /// Prepares the periods from `index` on; call at every multiple of `block` before its period.
+  void turn_to(std::int64_t index) { phase_.turn_to(index); }
+
+  /// The addition (4 × 1) of the period `k` (< block) after the last prepared one: 12
+  /// multiply-adds.
+  Vector<Scalar, 4> addition(std::size_t k) const {
+    const ExcitationSample<Scalar> now = phase_.at(k);
+    Vector<Scalar, 4> sum;
+    for (int i = 0; i < 4; ++i) sum[i] = input_.cosine[i] * now.cosine + input_.sine[i] * now.sine;
+    return sum;
+  }
+
+ private:
+  HarmonicInput<Scalar> input_;
+  TurningPhase<Scalar> phase_;
 };
 
 }  // namespace holdfast

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "holdfast/core/select.hpp"
+
+namespace holdfast {
+
+/// The play operator: an output y that is dragged along by an input x between two ends at the
+/// distance r.
+///
+///     y_j = max(x_j − r, min(x_j + r, y_{j−1}))
+///
+/// y rests while |x − y| ≤ r, moves up with x − r and down with x + r. It depends on the order of
+/// the extremes of x alone, not on how fast x passes between them (rate independence). Under a
+/// sine of amplitude X > r it runs through a parallelogram of area 4 r (X − r).
+///
+/// Source: Krasnosel'skii and Pokrovskii, Systems with Hysteresis, Springer 1989; Visintin,
+/// Differential Models of Hysteresis, Springer 1994; Macki, Nistri and Zecca, Mathematical models
+/// for hysteresis, SIAM Review 35 (1993).
+template <class Scalar>
+class PlayOperator {
+ public:
+  /// @param half_width  r, ≥ 0, in the unit of the input
+  /// @param output      y before the first sample; the first step brings it within r of the input
+  PlayOperator(const Scalar& half_width, const Scalar& output)
+      : half_width_(half_width), output_(output) {}
+
+  /// Takes in x_j. @return y_j
+  Scalar step(const Scalar& input) {
+    const Scalar least = input - half_width_, largest = input + half_width_;
+    const Scalar not_above = select(output_ > largest, largest, output_);
+    output_ = select(not_above < least, least, not_above);
+    return output_;
+  }
+
+  /// y: of the last sample, or as given before the first one.
+  const Scalar& output() const { return output_; }
+  /// r.
+  const Scalar& half_width() const { return half_width_; }
+
+ private:
+  Scalar half_width_;
+  Scalar output_;
+};
+
+/// What a drive with play remembers of the past samples.
+template <class Scalar>
+struct PlayMemory {
+  Mask<Scalar> inside;   ///< transmits nothing since the last sample
+  Mask<Scalar> decided;  ///< some sample had Δż ≠ 0
+  Scalar far_side;       ///< y, the far side of the drive on the scale of Δz (m); once decided
+};
+
+/// Backlash of the drive as a play of half-width r₀/2 on sampled Δz = z₂ − z₁: Δz moves the near
+/// side, y is the far side, which the near side drags along.
+///
+///     y_j = max(Δz_j − r₀/2, min(Δz_j + r₀/2, y_{j−1}))
+///     the force is transmitted from sample j on where y_j ≠ y_{j−1}
+///
+/// The far side moves exactly where the clamp takes one of its outer branches, Δz_j − r₀/2 >
+/// y_{j−1} or Δz_j + r₀/2 < y_{j−1}; both ends of the gap [y − r₀/2, y + r₀/2] belong to it.
+///
+/// Before the first sample the far side is at neither end. The force is transmitted until a sample
+/// has Δż ≠ 0; that sample puts the far side behind the motion, y = Δz − r₀/2 for Δż > 0 and
+/// y = Δz + r₀/2 for Δż < 0, and transmits. Motion on in that direction keeps transmitting, motion
+/// back crosses the whole gap, as after any other reversal. From rest the first sample transmits,
+/// as with `Backlash`. Δż is used for nothing else.
+///
+/// The gap at a reversal is [Δz_max − r₀, Δz_max] or [Δz_min, Δz_min + r₀] with the extreme sample.
+/// `Backlash` takes the first sample after the change of sign of Δż instead, whether or not Δz is
+/// farther out there. A near side that passes the whole gap within one sampling period transmits
+/// without a pause. r₀ = 0 means a drive without backlash: it always transmits, at rest too.
+///
+/// Source: see `PlayOperator`. One kernel for scalars and SIMD packs.
+template <class Scalar>
+class PlayBacklash {
+ public:
+  /// @param width  r₀ (m), ≥ 0
+  explicit PlayBacklash(const Scalar& width)
+      : PlayBacklash(width, {Scalar(0) > Scalar(0), Scalar(0) > Scalar(0), Scalar(0)}) {}
+
+  /// Goes on from what another one of the same width remembered.
+  PlayBacklash(const Scalar& width, const PlayMemory<Scalar>& memory)
+      : width_(width), half_width_(width / Scalar(2)), memory_(memory) {}
+
+  /// Takes in one sample. @return true where the force is transmitted during the coming period
+  Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
+    const Scalar zero(0);
+    const Mask<Scalar> undecided = !memory_.decided, moves_up = relative_velocity > zero;
+    const Scalar behind = select(moves_up, Scalar(relative_displacement - half_width_),
+                                 Scalar(relative_displacement + half_width_));
+    const Scalar before = select(undecided, behind, memory_.far_side);
+    const Scalar after = PlayOperator<Scalar>(half_width_, before).step(relative_displacement);
+    // The outer branches are strict, so a far side that was pushed is another number than before.
+    const Mask<Scalar> is_pushed = (after > before) | (after < before);
+
+    memory_.far_side = after;
+    memory_.decided = memory_.decided | moves_up | (relative_velocity < zero);
+    memory_.inside = (width_ > zero) & !(undecided | is_pushed);
+    return !memory_.inside;
+  }
+
+  /// True where nothing has been transmitted since the last step.
+  Mask<Scalar> inside() const { return memory_.inside; }
+  /// Lower end of the current gap, y − r₀/2, Δz in m; meaningful once decided.
+  Scalar lower() const { return memory_.far_side - half_width_; }
+  /// Upper end of the current gap, y + r₀/2, Δz in m; meaningful once decided.
+  Scalar upper() const { return memory_.far_side + half_width_; }
+  /// r₀ (m).
+  const Scalar& width() const { return width_; }
+  /// All that the coming samples depend on.
+  const PlayMemory<Scalar>& memory() const { return memory_; }
+
+ private:
+  Scalar width_;
+  Scalar half_width_;
+  PlayMemory<Scalar> memory_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/quantiser.hpp"
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// Where the controller has the conductor's velocity from.
+enum class VelocitySensing {
+  measured,    ///< a sensor of its own
+  difference,  ///< the backward difference of the displacements as read
+};
+
+/// What keeps a real controller from u = P z₁ + D ż₁. As it stands, nothing does.
+struct DigitalLimits {
+  double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
+  double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
+                                ///< without effect on a difference
+  VelocitySensing velocity = VelocitySensing::measured;
+  double largest_force = std::numeric_limits<double>::infinity();  ///< u_max (N), > 0
+};
+
+/// Whether the limits leave the law u = P z₁ + D ż₁ as it is.
+inline bool is_ideal(const DigitalLimits& limits) {
+  return limits.displacement_quantum == 0 && limits.velocity_quantum == 0 &&
+         limits.velocity == VelocitySensing::measured &&
+         limits.largest_force == std::numeric_limits<double>::infinity();
+}
+
+/// @throws InvalidParameter unless both quanta are finite and ≥ 0 and the largest force is > 0
+/// (infinity: no limit)
+inline void validate(const DigitalLimits& limits) {
+  require_non_negative("displacement quantum", limits.displacement_quantum, "m");
+  require_non_negative("velocity quantum", limits.velocity_quantum, "m/s");
+  if (!(limits.largest_force > 0)) {
+    throw InvalidParameter("largest force", limits.largest_force, "N", "> 0");
+  }
+}
+
+/// What a controller remembers of the past samples.
+struct ControllerMemory {
+  double previous_displacement = 0;  ///< ẑ_{j−1} (m), as read; meaningful once it has sampled
+  bool has_sampled = false;          ///< there has been a sample
+};
+
+/// The derivatives of a command u_j.
+struct ControllerSlope {
+  double displacement = 0;           ///< ∂u_j / ∂z₁ at t_j (N/m)
+  double velocity = 0;               ///< ∂u_j / ∂ż₁ at t_j (N s/m)
+  double previous_displacement = 0;  ///< ∂u_j / ∂z₁ at t_{j−1} (N/m)
+};
+
+/// The proportional–differential law with the limits of a real digital loop:
+///
+///     ẑ_j = q_z round(z₁ / q_z)
+///     v̂_j = q_v round(ż₁ / q_v)        measured
+///         = (ẑ_j − ẑ_{j−1}) / h_j       difference; 0 at the first sample
+///     u_j = min(max(P ẑ_j + D v̂_j, −u_max), u_max)
+///
+/// h_j being the time since the sample before. With ideal limits u_j is P z₁ + D ż₁ to the last
+/// bit, unless the compiler fuses products with sums. A difference of quantised displacements moves
+/// in steps of q_z / h_j, however small q_v is. A sample costs a few operations and allocates
+/// nothing.
+///
+/// Sources: Kollár 2022, Eq. (5), for the law; `quantised` names those of the rounding.
+class Controller {
+ public:
+  /// @throws InvalidParameter unless gains and limits are admissible
+  Controller(const PdGains<double>& gains, const DigitalLimits& limits)
+      : gains_(gains), limits_(limits) {
+    validate(gains_);
+    validate(limits_);
+  }
+
+  /// Takes in sample j. @return u_j (N), within ±u_max
+  /// @param displacement  z₁ (m)
+  /// @param velocity      ż₁ (m/s); not looked at where the velocity is a difference
+  /// @param elapsed       h_j (s), > 0; looked at only where the velocity is a difference, from
+  ///                      the second sample on
+  /// @throws InvalidParameter where h_j is looked at and is not finite and > 0; the controller is
+  /// then as before the call
+  double command(double displacement, double velocity, double elapsed) {
+    const bool differs = limits_.velocity == VelocitySensing::difference;
+    if (differs && memory_.has_sampled) require_elapsed(elapsed);
+    const double read = quantised(displacement, limits_.displacement_quantum);
+    const double rate =
+        differs ? difference(read, elapsed) : quantised(velocity, limits_.velocity_quantum);
+    const double demand = gains_.proportional * read + gains_.differential * rate;
+    const bool saturates = std::abs(demand) > limits_.largest_force;
+    slope_ = saturates ? ControllerSlope{} : free_slope(elapsed);
+    memory_ = {read, true};
+    return std::clamp(demand, -limits_.largest_force, limits_.largest_force);
+  }
+
+  /// The derivatives of the last command: zero where it saturates, and with respect to what is
+  /// quantised. On the steps of a quantiser and where saturation begins they are those of the side
+  /// that the command is on. All zero before the first command and after `restore`.
+  const ControllerSlope& slope() const { return slope_; }
+
+  /// All that the coming commands depend on.
+  const ControllerMemory& memory() const { return memory_; }
+  /// Goes on from what a controller of the same gains and limits remembered.
+  void restore(const ControllerMemory& memory) {
+    memory_ = memory;
+    slope_ = {};
+  }
+  const PdGains<double>& gains() const { return gains_; }
+  const DigitalLimits& limits() const { return limits_; }
+
+ private:
+  static void require_elapsed(double elapsed) {
+    // Asked first: the words of the error would be allocated at every sample.
+    if (std::isfinite(elapsed) && elapsed > 0) return;
+    throw InvalidParameter("time since the last sample", elapsed, "s", "finite and > 0");
+  }
+
+  double difference(double read, double elapsed) const {
+    return memory_.has_sampled ? (read - memory_.previous_displacement) / elapsed : 0.0;
+  }
+
+  /// The slope without saturation; before the memory takes the sample in.
+  ControllerSlope free_slope(double elapsed) const {
+    const double through_displacement =
+        limits_.displacement_quantum > 0 ? 0.0 : gains_.proportional;
+    if (limits_.velocity == VelocitySensing::measured) {
+      return {through_displacement, limits_.velocity_quantum > 0 ? 0.0 : gains_.differential, 0.0};
+    }
+    if (limits_.displacement_quantum > 0 || !memory_.has_sampled) {
+      return {through_displacement, 0.0, 0.0};
+    }
+    const double through_difference = gains_.differential / elapsed;
+    return {through_displacement + through_difference, 0.0, -through_difference};
+  }
+
+  PdGains<double> gains_;
+  DigitalLimits limits_;
+  ControllerMemory memory_;
+  ControllerSlope slope_;
+};
+
+}  // namespace holdfast

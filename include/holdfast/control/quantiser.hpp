@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace holdfast {
+
+/// What a sensor of finite resolution reads: the multiple of its quantum that is nearest to the
+/// value (a mid-tread quantiser).
+///
+///     ẑ = q · round(z / q),   |ẑ − z| ≤ q / 2 up to round-off;   q = 0: ẑ = z
+///
+/// A value halfway between two multiples goes to the even one, the nearest-even rounding that a
+/// program has unless it changes it. The function is odd and idempotent. Where q is no longer wide
+/// against the spacing of the numbers around z (|z / q| ≥ 2⁵¹ in double precision), ẑ = z.
+///
+/// Where z spreads over more than a quantum, ẑ − z acts like noise that is uniform over
+/// ±q / 2: mean 0, variance q² / 12. In a loop that would be unstable without control the same
+/// rounding makes small chaotic oscillations, micro-chaos; the papers on it cut off the fraction
+/// instead of rounding.
+///
+/// @param value    z, any unit
+/// @param quantum  q ≥ 0 and finite, in the unit of z
+/// Sources: B. Widrow and I. Kollár, Quantization Noise, Cambridge University Press (2008);
+/// G. Haller and G. Stépán, Micro-chaos in digital control, J. Nonlinear Sci. 6 (1996);
+/// G. Csernák and G. Stépán, Digital control as source of chaotic behavior, Int. J. Bifurcation
+/// and Chaos 20 (2010).
+template <class Scalar>
+Scalar quantised(const Scalar& value, const Scalar& quantum) {
+  using std::abs;
+  using std::nearbyint;
+  if (quantum == Scalar(0)) return value;
+  // Below this count of quanta the rounded product, divided again, rounds to the same count.
+  const Scalar most_quanta = Scalar(0.5) / std::numeric_limits<Scalar>::epsilon();
+  const Scalar quanta = value / quantum;
+  return abs(quanta) >= most_quanta ? value : Scalar(quantum * nearbyint(quanta));
+}
+
+}  // namespace holdfast

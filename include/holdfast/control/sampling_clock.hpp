@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// How far the instants of the samples stray from their grid. As it stands, not at all.
+struct Jitter {
+  double half_width = 0;   ///< J (s), ≥ 0: no sample strays farther
+  std::uint64_t seed = 1;  ///< which of the random sequences
+};
+
+/// Refuses a jitter that could bring a sample before the force of the one before it.
+/// @throws InvalidParameter unless the sampling is admissible, J is finite and ≥ 0, J < τ / 2 and
+/// 2 J + δ ≤ τ, the last up to the round-off of decimal numbers
+inline void validate(const Sampling<double>& sampling, const Jitter& jitter) {
+  validate(sampling);
+  const double half_width = jitter.half_width;
+  require_non_negative("jitter half width", half_width, "s");
+  // 2 · 0.1 + 0.1 exceeds 0.3 by one unit in the last place.
+  const double room = sampling.period * (1 + 4 * std::numeric_limits<double>::epsilon());
+  const bool keeps_order =
+      half_width < sampling.period / 2 && 2 * half_width + sampling.processing_delay <= room;
+  if (keeps_order) return;
+  std::ostringstream admissible;
+  admissible << "less than tau / 2 = " << sampling.period / 2
+             << " and at most (tau - processing delay) / 2 = "
+             << (sampling.period - sampling.processing_delay) / 2;
+  throw InvalidParameter("jitter half width", half_width, "s", admissible.str());
+}
+
+namespace detail {
+
+/// The output number `index` (1, 2, …) of the generator SplitMix64 that starts from `seed`:
+///
+///     s = seed + index · γ,   s ← (s ⊕ s≫30) a,   s ← (s ⊕ s≫27) b,   s ⊕ s≫31   (mod 2⁶⁴)
+///
+/// with γ = 9e3779b97f4a7c15, a = bf58476d1ce4e5b9, b = 94d049bb133111eb (hexadecimal).
+/// Source: G. L. Steele, D. Lea and C. H. Flood, Fast splittable pseudorandom number generators,
+/// OOPSLA 2014; a and b are D. Stafford's thirteenth pair.
+constexpr std::uint64_t split_mix_64(std::uint64_t seed, std::uint64_t index) {
+  std::uint64_t state = seed + index * 0x9e3779b97f4a7c15U;
+  state = (state ^ (state >> 30U)) * 0xbf58476d1ce4e5b9U;
+  state = (state ^ (state >> 27U)) * 0x94d049bb133111ebU;
+  return state ^ (state >> 31U);
+}
+
+}  // namespace detail
+
+/// The instants of the samples of a clock that jitters:
+///
+///     t_j = j τ + e_j,   e_0 = 0,   e_j uniform over (−J, J) and independent, j = 1, 2, …
+///
+/// The deviations do not add up: the clock keeps to its grid. e_j depends on the seed and on j
+/// alone, so that samples may be asked for in any order. All is integer arithmetic and correctly
+/// rounded multiply-adds: a run is the same on every machine. J = 0 gives t_j = j τ and the period
+/// τ, both to the last bit.
+class SamplingClock {
+ public:
+  /// @param period  τ (s), > 0
+  /// @param jitter  J < τ / 2, so that every sample comes after the one before; with a processing
+  ///                delay, `validate(sampling, jitter)` asks for more
+  /// @throws InvalidParameter unless both are admissible
+  explicit SamplingClock(double period, const Jitter& jitter = {})
+      : period_(period), jitter_(jitter) {
+    validate(Sampling<double>{period}, jitter);
+  }
+
+  /// t_j (s), j ≥ 0.
+  double time(std::int64_t index) const {
+    return std::fma(jitter_.half_width, share(index), static_cast<double>(index) * period_);
+  }
+
+  /// t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0: rounded once, where the difference of two late
+  /// instants would have lost digits.
+  double period_of(std::int64_t index) const {
+    return std::fma(jitter_.half_width, share(index + 1) - share(index), period_);
+  }
+
+  /// e_j (s), j ≥ 0.
+  double deviation(std::int64_t index) const { return jitter_.half_width * share(index); }
+
+  /// τ (s).
+  double period() const { return period_; }
+  const Jitter& jitter() const { return jitter_; }
+
+ private:
+  /// e_j / J: an odd multiple of 2⁻⁵³, as many below zero as above, so that the difference of two
+  /// is exact.
+  double share(std::int64_t index) const {
+    if (index == 0) return 0;
+    const std::uint64_t bits =
+        detail::split_mix_64(jitter_.seed, static_cast<std::uint64_t>(index));
+    constexpr std::int64_t half_range = std::int64_t{1} << 53U;
+    const std::int64_t odd = static_cast<std::int64_t>((bits >> 10U) | 1U) - half_range;
+    return static_cast<double>(odd) * 0x1.0p-53;
+  }
+
+  double period_;
+  Jitter jitter_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// F cos(2π f t + φ), one harmonic of an excitation.
+struct Harmonic {
+  double amplitude;    ///< F (N), ≥ 0
+  double frequency;    ///< f (Hz), > 0
+  double phase = 0.0;  ///< φ (rad)
+
+  /// ω = 2π f (rad/s).
+  double angular_frequency() const { return 2.0 * pi<double> * frequency; }
+
+  /// 2π f t + φ (rad) without the whole cycles of f t, accurate to a few round-offs of 2π + |φ|
+  /// however late the time t (s) is.
+  double angle(double time) const {
+    const double cycles = frequency * time;
+    const double rounded_off = std::fma(frequency, time, -cycles);
+    return 2.0 * pi<double> * ((cycles - std::floor(cycles)) + rounded_off) + phase;
+  }
+
+  /// F cos(2π f t + φ) in N.
+  double at(double time) const { return amplitude * std::cos(angle(time)); }
+};
+
+/// @throws InvalidParameter unless F ≥ 0 and f > 0, all three finite
+inline void validate(const Harmonic& harmonic) {
+  require_non_negative("harmonic amplitude", harmonic.amplitude, "N");
+  require_positive("harmonic frequency", harmonic.frequency, "Hz");
+  require_finite("harmonic phase", harmonic.phase, "rad");
+}
+
+}  // namespace holdfast

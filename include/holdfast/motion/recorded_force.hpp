@@ -1,0 +1,120 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// What a recorded force is between its rows.
+enum class RecordInterpolation : std::uint8_t {
+  linear,  ///< the straight line between the two rows
+  held     ///< the force of the earlier row
+};
+
+/// value + slope (t − time), the polynomial that a force follows from an instant `time` on.
+struct LinearPiece {
+  double value;  ///< N
+  double slope;  ///< N/s
+};
+
+/// A force given by rows (t_k, F_k), k = 0 … n − 1, and zero outside of them:
+///
+///     linear:  F(t) = F_k + (F_{k+1} − F_k) (t − t_k)/(t_{k+1} − t_k)
+///     held:    F(t) = F_k                                for t_k ≤ t < t_{k+1}, k ≤ n − 2
+///
+/// F is continuous from the right: from t_{n−1} on it is zero. F_{n−1} is therefore the limit of
+/// the last line, or, held, never in force: the last row then says how long the row before it
+/// holds.
+///
+/// Work of a question: a binary search over the rows.
+class RecordedForce {
+ public:
+  /// @param times   t_k (s), two or more, strictly increasing
+  /// @param forces  F_k (N), one for each time
+  /// @throws InvalidParameter for fewer than two rows, unequal numbers of times and forces, values
+  ///         that are not finite, times that do not increase, rows too far apart for their
+  ///         difference to be finite
+  RecordedForce(std::vector<double> times, std::vector<double> forces,
+                RecordInterpolation interpolation)
+      : times_(std::move(times)), forces_(std::move(forces)), interpolation_(interpolation) {
+    check_sizes();
+    for (std::size_t row = 0; row < times_.size(); ++row) check_row(row);
+    require_finite("duration of the recorded force", last_time() - first_time(), "s");
+    if (interpolation_ == RecordInterpolation::held) return;
+    for (std::size_t row = 0; row + 1 < times_.size(); ++row) {
+      require_finite("slope of the recorded force", slope_after(row), "N/s");
+    }
+  }
+
+  /// t_0 (s).
+  double first_time() const { return times_.front(); }
+  /// t_{n−1} (s).
+  double last_time() const { return times_.back(); }
+  RecordInterpolation interpolation() const { return interpolation_; }
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<double>& forces() const { return forces_; }
+
+  /// F(t) in N.
+  double at(double time) const { return piece(time).value; }
+
+  /// The polynomial in force just after `time` (s), in powers of t − `time`; it holds up to
+  /// `next_break(time)`.
+  LinearPiece piece(double time) const {
+    const std::size_t after = first_row_after(time);
+    if (after == 0 || after == times_.size()) return {0.0, 0.0};
+    const std::size_t row = after - 1;
+    if (interpolation_ == RecordInterpolation::held) return {forces_[row], 0.0};
+    const double slope = slope_after(row);
+    return {forces_[row] + slope * (time - times_[row]), slope};
+  }
+
+  /// The first instant after `time` at which another polynomial begins: the time of the next row,
+  /// also where that row happens to lie on the line before it; +∞ from the last row on.
+  double next_break(double time) const {
+    const std::size_t after = first_row_after(time);
+    return after == times_.size() ? std::numeric_limits<double>::infinity() : times_[after];
+  }
+
+ private:
+  std::size_t first_row_after(double time) const {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+    return static_cast<std::size_t>(after - times_.begin());
+  }
+
+  double slope_after(std::size_t row) const {
+    return (forces_[row + 1] - forces_[row]) / (times_[row + 1] - times_[row]);
+  }
+
+  void check_sizes() const {
+    const auto rows = static_cast<double>(times_.size());
+    if (times_.size() < 2) {
+      throw InvalidParameter("rows of the recorded force", rows, "", ">= 2");
+    }
+    if (forces_.size() != times_.size()) {
+      throw InvalidParameter("number of recorded forces", static_cast<double>(forces_.size()), "",
+                             "the number of times");
+    }
+  }
+
+  void check_row(std::size_t row) const {
+    require_finite("time of the recorded force", times_[row], "s");
+    require_finite("recorded force", forces_[row], "N");
+    if (row > 0 && !(times_[row] > times_[row - 1])) {
+      throw InvalidParameter("time of the recorded force", times_[row], "s",
+                             "later than that of the row before");
+    }
+  }
+
+  std::vector<double> times_;
+  std::vector<double> forces_;
+  RecordInterpolation interpolation_;
+};
+
+}  // namespace holdfast
