@@ -8,8 +8,7 @@ namespace holdfast::program {
 namespace {
 
 struct Options {
-  BasinQuestion question{{}, 100'000, false};
-  std::string switching = "sampled";
+  BasinQuestion question{{}, 100'000};
 };
 
 }  // namespace
@@ -25,7 +24,7 @@ void add_basins(CLI::App& program) {
   add_largest_period(job, options->question.largest_period);
   job->add_flag("--fractions", options->question.fractions,
                 "A row for each attractor instead: its share of the states, with its error");
-  add_switching(job, options->switching);
+  add_switching(job, options->question.switching);
   job->final_callback([job, options] { write_basins(job.context(), options->question); });
 }
 

@@ -6,7 +6,7 @@
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
-#include "loop_of_case.hpp"
+#include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
 #include "table.hpp"
@@ -18,7 +18,7 @@ struct Options {
   std::optional<std::string> window;
   std::string durations = "10,100,1000";
   int cells = 50;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
 /// Given, or all that the motion sweeps in the second half of the shortest duration.
@@ -28,9 +28,9 @@ PhaseWindow window_of(const JobContext& context, const Options& options, double 
     return {given.displacement.min, given.displacement.max, given.velocity.min, given.velocity.max};
   }
   PhaseExtent extent(duration / 2.0);
-  auto motion = motion_of(context.case_data);
-  const std::int64_t samples = samples_within(duration, context.case_data.control.sampling_period);
-  run_to_completion(motion, samples, {}, extent);
+  const std::int64_t samples = samples_of(context.case_data, duration);
+  with_motion_of(context.case_data, {options.switching},
+                 [&](auto motion) { run_to_completion(motion, samples, {}, extent); });
   if (!(extent.displacement() > 0) || !(extent.velocity() > 0)) {
     throw NoAnswer("the motion stands still, so it has no window of its own; give --window");
   }
@@ -53,13 +53,14 @@ void run(const JobContext& context, const Options& options) {
                         {"cells", "", "cells of the window", "integer"},
                         {"visited", "", "cells that hold a sample of the motion", "integer"},
                         {"fraction", "", "visited over cells"}});
-  auto motion = motion_of(context.case_data);
-  for (const double duration : durations) {
-    const std::int64_t samples =
-        samples_within(duration, context.case_data.control.sampling_period);
-    run_to_completion(motion, samples - motion.index(), {}, coverage);
-    table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
-  }
+  with_motion_of(context.case_data, {options.switching}, [&](auto motion) {
+    for (const double duration : durations) {
+      const std::int64_t samples = samples_of(context.case_data, duration);
+      run_to_completion(motion, samples - motion.index(), {}, coverage);
+      table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
+    }
+    require_resolved(motion, context.quiet);
+  });
   table.commit();
 }
 

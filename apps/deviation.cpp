@@ -1,6 +1,6 @@
 #include "holdfast/attractor/deviation.hpp"
 #include "job.hpp"
-#include "loop_of_case.hpp"
+#include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
 #include "table.hpp"
@@ -11,24 +11,25 @@ namespace {
 struct Options {
   double offset = 1e-5;
   double duration = 10.0;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
 void run(const JobContext& context, const Options& options) {
-  Case neighbour = context.case_data;
-  neighbour.initial.z1 += options.offset;
-  auto first = motion_of(context.case_data);
-  auto second = motion_of(neighbour);
   Table table(context, {{"time_s", "s", "t = j tau"},
                         {"z1_deviation_m", "m", "z1 of the neighbour minus z1 of the case"},
                         {"state_deviation", "",
                          "Euclidean norm of the difference of [z1, v1, z2, v2] in SI units"}});
-  const std::int64_t samples =
-      samples_within(options.duration, context.case_data.control.sampling_period);
-  const auto outcome = run_deviation(first, second, samples, [&table](const Deviation& deviation) {
-    table.row(deviation.time, deviation.displacement, deviation.state);
+  const std::int64_t samples = samples_of(context.case_data, options.duration);
+  with_motion_of(context.case_data, {options.switching}, [&](auto first) {
+    auto second = first;
+    second.displace_conductor(options.offset);
+    const auto outcome =
+        run_deviation(first, second, samples, [&table](const Deviation& deviation) {
+          table.row(deviation.time, deviation.displacement, deviation.state);
+        });
+    require_completed(outcome, first.time());
+    require_resolved(first, context.quiet);
   });
-  require_completed(outcome, first.time());
   table.commit();
 }
 

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <memory>
 
 #include "axis.hpp"
+#include "case_keys.hpp"
 #include "exit.hpp"
 #include "holdfast/attractor/orbit_diagram.hpp"
 #include "interrupt.hpp"
@@ -15,7 +17,7 @@ namespace {
 struct Options {
   std::string axis = "backlash.width=0:0.003:121";
   DiagramQuestion question;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
 void run(const JobContext& context, const Options& options) {
@@ -28,17 +30,25 @@ void run(const JobContext& context, const Options& options) {
                         {"v1_m_per_s", "m/s", "velocity of the conductor there"},
                         {"z2_m", "m", "displacement of the absorber there"},
                         {"v2_m_per_s", "m/s", "velocity of the absorber there"}});
-  const auto path = [&, name = key](double value) {
-    throw_if_interrupted();
-    return forced_loop_with(context.case_data, name, value);
-  };
   DiagramQuestion question = options.question;
   question.watch = throw_if_interrupted;
-  const std::size_t diverged = run_orbit_diagram(
-      path, values, initial_state_of(context.case_data), question, [&](const StrobePoint& point) {
-        table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
-                  point.state[2], point.state[3]);
-      });
+  const auto write = [&](const StrobePoint& point) {
+    table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
+              point.state[2], point.state[3]);
+  };
+  const auto along = [&](const auto& path) {
+    return run_orbit_diagram(path, values, initial_state_of(context.case_data), question, write);
+  };
+  const Case& given = context.case_data;
+  const auto of_the_paper = [&, name = key](double value) {
+    return is_of_the_paper(case_with(given, name, value), options.switching);
+  };
+  const std::size_t diverged =
+      std::all_of(values.begin(), values.end(), of_the_paper)
+          ? along([&, name = key](double value) { return forced_loop_with(given, name, value); })
+          : along([&, name = key](double value) {
+              return real_loop_with(given, name, value, options.switching);
+            });
   table.commit();
   if (diverged > 0) {
     report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +

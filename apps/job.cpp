@@ -92,6 +92,7 @@ JobContext Job::context(PlantNeed need) const {
     source.text = read_input(source.name);
   }
   context.case_data = source.load();
+  source.attach_record(context.case_data);
   report_warning(wind_warning(context.case_data), common_->quiet);
   if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
   context.options = given_options(*options_);

@@ -11,14 +11,13 @@ namespace {
 struct Options {
   LyapunovQuestion question;
   bool history = false;
-  std::string switching = "sampled";
 };
 
 }  // namespace
 
 void add_lyapunov(CLI::App& program) {
   const Job job(program, "lyapunov", question::attractor,
-                "The five Lyapunov exponents of the sampled motion");
+                "The five Lyapunov exponents of the motion");
   const auto options = std::make_shared<Options>();
   LyapunovQuestion& asked = options->question;
   add_duration(job, asked.duration);
@@ -44,7 +43,7 @@ void add_lyapunov(CLI::App& program) {
       ->excludes(discard)
       ->excludes(error)
       ->excludes(largest);
-  add_switching(job, options->switching);
+  add_switching(job, asked.switching);
   job->final_callback([job, options] {
     options->history ? write_exponent_history(job.context(), options->question)
                      : write_exponents(job.context(), options->question);

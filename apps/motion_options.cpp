@@ -1,5 +1,7 @@
 #include "motion_options.hpp"
 
+#include <map>
+
 namespace holdfast::program {
 
 CLI::Option* add_duration(const Job& job, double& duration) {
@@ -16,11 +18,15 @@ void add_from(const Job& job, double& from) {
       ->capture_default_str();
 }
 
-void add_switching(const Job& job, std::string& switching) {
-  job->add_option("--switching", switching,
-                  "When the drive enters and leaves its backlash: sampled, the paper's rule")
-      ->check(CLI::IsMember({"sampled"}))
-      ->capture_default_str();
+void add_switching(const Job& job, Switching& switching) {
+  static const std::map<std::string, Switching> words{{"sampled", Switching::sampled},
+                                                      {"exact", Switching::exact}};
+  job->add_option_function<std::string>(
+         "--switching", [&switching](const std::string& word) { switching = words.at(word); },
+         "When the drive enters and leaves its backlash: at samples, the paper's rule, or when it "
+         "happens")
+      ->check(CLI::IsMember({"sampled", "exact"}))
+      ->default_str("sampled");
 }
 
 void add_largest_period(const Job& job, std::int64_t& largest_period) {

@@ -1,7 +1,10 @@
 #include <memory>
 #include <optional>
 
+#include "errors.hpp"
+#include "hybrid_orbit_tables.hpp"
 #include "job.hpp"
+#include "loop_of_case.hpp"
 #include "motion_options.hpp"
 #include "orbit_tables.hpp"
 
@@ -13,10 +16,30 @@ struct Options {
   bool trace = false;
   bool certificate = false;
   std::optional<std::string> follow;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
+void write_built(const JobContext& context, const Options& options) {
+  const RealLoop loop = real_loop_of(context.case_data, options.switching);
+  if (options.follow) {
+    throw WrongInput(
+        "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
+        "computer only");
+  }
+  if (options.trace) {
+    write_orbit_trace(context, loop, options.largest_period);
+  } else if (options.certificate) {
+    write_certificate(context, loop, options.largest_period);
+  } else {
+    write_orbit(context, loop, options.largest_period);
+  }
+}
+
 void run(const JobContext& context, const Options& options) {
+  if (!is_of_the_paper(context.case_data, options.switching)) {
+    write_built(context, options);
+    return;
+  }
   if (options.trace) {
     write_orbit_trace(context, options.largest_period);
   } else if (options.certificate) {

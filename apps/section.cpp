@@ -1,11 +1,13 @@
 #include <memory>
 
 #include "errors.hpp"
+#include "holdfast/attractor/hybrid_section.hpp"
 #include "holdfast/attractor/poincare_section.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "interrupt.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
+#include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
 #include "table.hpp"
@@ -16,8 +18,20 @@ namespace {
 struct Options {
   double duration = 60.0;
   double from = 30.0;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
+
+template <class Observer>
+TrajectoryOutcome section_of(const Case& the_case, SampledMotion<double>& motion,
+                             std::int64_t samples, const Observer& observer) {
+  return run_section(forced_loop_of(the_case), motion, samples, observer);
+}
+
+template <class Contact, class Observer>
+TrajectoryOutcome section_of(const Case&, HybridMotion<Contact>& motion, std::int64_t samples,
+                             const Observer& observer) {
+  return run_section(motion, samples, observer);
+}
 
 void run(const JobContext& context, const Options& options) {
   if (options.from > options.duration)
@@ -29,18 +43,20 @@ void run(const JobContext& context, const Options& options) {
                {"z2_m", "m", "displacement of the absorber, positive downward"},
                {"rising", "", "1: v2 - v1 goes from negative to positive, 0: back", "integer"},
                {"in_backlash", "", "1: the drive is in its backlash, 0: it transmits", "integer"}});
-  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-  auto motion = motion_of(context.case_data);
-  const std::int64_t before = samples_within(options.from, loop.sampling.period) - 1;
-  const std::int64_t samples = samples_within(options.duration, loop.sampling.period) - 1;
-  run_to_completion(motion, before, {});
-  const auto outcome = run_section(loop, motion, samples - before, [&](const SectionPoint& point) {
+  const std::int64_t before = samples_of(context.case_data, options.from) - 1;
+  const std::int64_t samples = samples_of(context.case_data, options.duration) - 1;
+  const auto write = [&](const SectionPoint& point) {
     throw_if_interrupted();
     if (!not_before(point.time, options.from)) return;
     table.row(point.time, point.state[0], point.state[1], point.state[2], point.rising ? 1 : 0,
               point.engaged ? 0 : 1);
+  };
+  with_motion_of(context.case_data, {options.switching}, [&](auto motion) {
+    run_to_completion(motion, before, {});
+    require_completed(section_of(context.case_data, motion, samples - before, write),
+                      motion.time());
+    require_resolved(motion, context.quiet);
   });
-  require_completed(outcome, motion.time());
   table.commit();
 }
 

@@ -3,8 +3,8 @@
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
-#include "loop_of_case.hpp"
 #include "motion_columns.hpp"
+#include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
 #include "table.hpp"
@@ -17,7 +17,7 @@ struct Options {
   double from = 0.0;
   std::optional<std::string> kick;
   bool no_control = false;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
 std::optional<Kick> kick_of(const Options& options) {
@@ -26,20 +26,26 @@ std::optional<Kick> kick_of(const Options& options) {
   return Kick{kick.time, kick.displacement};
 }
 
+ContactMode mode_of(const HybridSample& sample) { return sample.mode; }
+ContactMode mode_of(const MotionSample<double>& sample) {
+  return sample.engaged ? ContactMode::engaged : ContactMode::gap;
+}
+
 void run(const JobContext& context, const Options& options) {
   const std::optional<Kick> kick = kick_of(options);
   if (options.from > options.duration)
     throw WrongInput("--from lies after --duration: no row is left");
   if (kick && kick->time > options.duration) throw WrongInput("--kick acts after --duration");
-  auto motion =
-      options.no_control ? uncontrolled_motion_of(context.case_data) : motion_of(context.case_data);
-  const std::int64_t samples =
-      samples_within(options.duration, context.case_data.control.sampling_period);
-  Table table(context, motion_columns());
-  run_to_completion(motion, samples, kick, [&table, &options](const MotionSample<double>& sample) {
-    if (!not_before(sample.time, options.from)) return;
-    table.row(sample.time, sample.state[0], sample.state[1], sample.state[2], sample.state[3],
-              sample.control_force, sample.engaged ? 0 : 1);
+  const std::int64_t samples = samples_of(context.case_data, options.duration);
+  Table table(context, motion_columns(options.switching));
+  const MotionChoice choice{options.switching, !options.no_control};
+  with_motion_of(context.case_data, choice, [&](auto motion) {
+    run_to_completion(motion, samples, kick, [&](const auto& sample) {
+      if (!not_before(sample.time, options.from)) return;
+      write_motion_row(table, options.switching,
+                       {sample.time, sample.state, sample.control_force, mode_of(sample)});
+    });
+    require_resolved(motion, context.quiet);
   });
   table.commit();
 }

@@ -3,6 +3,7 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
+#include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
 #include "table.hpp"
@@ -14,7 +15,7 @@ struct Options {
   double duration = 60.0;
   std::optional<double> discard;
   std::string window = "rectangular";
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
 /// z1 of the samples after the discarded time, cut to whole forcing and sampling periods.
@@ -22,16 +23,18 @@ std::vector<double> steady_record(const JobContext& context, const Options& opti
   const double period = context.case_data.control.sampling_period;
   const double discard = options.discard.value_or(options.duration / 2.0);
   if (!(discard < options.duration)) throw WrongInput("--discard leaves nothing of --duration");
-  const std::int64_t samples = samples_within(options.duration, period);
+  const std::int64_t samples = samples_of(context.case_data, options.duration);
   const std::int64_t kept =
       whole_period_samples(samples - samples_within(discard, period),
                            excitation_of(context.case_data).frequency, period);
   if (kept < 2) throw WrongInput("--duration and --discard leave fewer than two samples");
   std::vector<double> record;
   record.reserve(static_cast<std::size_t>(kept));
-  auto motion = motion_of(context.case_data);
-  run_to_completion(motion, samples, {}, [&](const MotionSample<double>& sample) {
-    if (sample.index >= samples - kept) record.push_back(sample.state[0]);
+  with_motion_of(context.case_data, {options.switching}, [&](auto motion) {
+    run_to_completion(motion, samples, {}, [&](const MotionSample<double>& sample) {
+      if (sample.index >= samples - kept) record.push_back(sample.state[0]);
+    });
+    require_resolved(motion, context.quiet);
   });
   return record;
 }

@@ -11,7 +11,6 @@ namespace {
 struct Options {
   SweepQuestion question;
   bool dry_run = false;
-  std::string switching = "sampled";
 };
 
 /// How the work is cut, gone on with, or only told.
@@ -57,7 +56,7 @@ void add_sweep(CLI::App& program) {
                 "finds it; the metric differential_gain tells it. P is the case's: with an axis "
                 "over excitation.frequency use --set control.proportional_gain=tuned");
   add_tile_options(job, *options);
-  add_switching(job, options->switching);
+  add_switching(job, asked.switching);
   job->final_callback([job, options] {
     // The plan reduces the plant, if it is to be, of the case or of each cell.
     const JobContext context = job.context(PlantNeed::none);

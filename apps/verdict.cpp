@@ -11,7 +11,7 @@ namespace {
 
 struct Options {
   std::int64_t largest_period = OrbitLimits{}.largest_period;
-  std::string switching = "sampled";
+  Switching switching = Switching::sampled;
 };
 
 }  // namespace
@@ -22,7 +22,9 @@ void add_verdict(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   add_largest_period(job, options->largest_period);
   add_switching(job, options->switching);
-  job->final_callback([job, options] { write_verdict(job.context(), options->largest_period); });
+  job->final_callback([job, options] {
+    write_verdict(job.context(), options->largest_period, options->switching);
+  });
 }
 
 }  // namespace holdfast::program

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "axis.hpp"
 #include "case_keys.hpp"
 #include "errors.hpp"
 #include "grid_table.hpp"
 #include "holdfast/attractor/basins.hpp"
+#include "holdfast/attractor/hybrid_basins.hpp"
 #include "interrupt.hpp"
 #include "key_axis.hpp"
 #include "loop_of_case.hpp"
@@ -20,17 +22,19 @@ namespace {
 
 constexpr double most_states = 1e7;
 
-BasinMap basins_of(const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& states,
-                   const OrbitLimits& limits, int threads) {
-  const auto for_tiles = [threads](std::size_t count, std::size_t tile, const auto& job) {
+/// Deals tiles of states out to threads.
+struct ThreadedTiles {
+  int threads;
+
+  template <class TileJob>
+  void operator()(std::size_t count, std::size_t tile, const TileJob& job) const {
     parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile), threads, 0,
                   [&job](int&, std::int64_t first, std::int64_t number) {
                     throw_if_interrupted();
                     job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
                   });
-  };
-  return find_basins<ChartNumber>(loop, states, limits, for_tiles);
-}
+  }
+};
 
 KeyAxis initial_axis(const std::string& text) {
   KeyAxis axis = parse_key_axis("--axis", text);
@@ -80,12 +84,14 @@ double number_of(const MotionFate& fate) {
   return fate.attractor < 0 ? -1.0 : static_cast<double>(fate.attractor + 1);
 }
 
-double period_of(const BasinMap& map, const MotionFate& fate) {
+template <class Orbit>
+double period_of(const BasinsOf<Orbit>& map, const MotionFate& fate) {
   if (fate.attractor < 0) return std::numeric_limits<double>::quiet_NaN();
   return map.attractors[static_cast<std::size_t>(fate.attractor)].orbit.period();
 }
 
-void write_states(const JobContext& context, const StateGrid& grid, const BasinMap& map) {
+template <class Orbit>
+void write_states(const JobContext& context, const StateGrid& grid, const BasinsOf<Orbit>& map) {
   GridTable table(
       context, grid_axis(grid.slow), grid_axis(grid.fast),
       {{{"attractor", "", "its number from 1 on; 0: the motion diverges; -1: no orbit was found",
@@ -103,7 +109,8 @@ void write_states(const JobContext& context, const StateGrid& grid, const BasinM
   table.commit();
 }
 
-void write_fractions(const JobContext& context, const BasinMap& map) {
+template <class Orbit>
+void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
   Table table(
       context,
       {{"attractor", "", "its number; 0: diverges; -1: no orbit was found", "integer"},
@@ -117,8 +124,8 @@ void write_fractions(const JobContext& context, const BasinMap& map) {
        {"mirror_image_of", "", "number of the attractor that it mirrors; 0: none", "integer"}});
   const auto all = static_cast<double>(map.fates.size());
   int number = 0;
-  for (const BasinAttractor& attractor : map.attractors) {
-    const PeriodicOrbit& orbit = attractor.orbit;
+  for (const auto& attractor : map.attractors) {
+    const Orbit& orbit = attractor.orbit;
     table.row(++number, orbit.period_samples(), orbit.period(), orbit.amplitude(),
               orbit.largest_multiplier(), attractor.states, attractor.fraction,
               attractor.standard_error, attractor.mirror_image ? *attractor.mirror_image + 1 : 0);
@@ -135,26 +142,41 @@ void write_fractions(const JobContext& context, const BasinMap& map) {
   table.commit();
 }
 
-}  // namespace
-
-void write_basins(const JobContext& context, const BasinQuestion& question) {
-  const StateGrid grid = grid_of(question);
-  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-  const auto ratio = forcing_ratio(loop);
+void require_attractors(const std::optional<Rational>& ratio, std::int64_t largest_period) {
   if (!ratio) {
     throw NoAnswer(
         "sampling and excitation never coincide, so no motion is periodic and attractors cannot be "
         "told apart by their orbits");
   }
-  if (ratio->denominator > question.largest_period) {
+  if (ratio->denominator > largest_period) {
     throw NoAnswer("sampling and excitation coincide only every " +
                    std::to_string(ratio->denominator) +
                    " samples; give --max-period at least as many");
   }
-  const BasinMap map =
-      basins_of(loop, grid.states(context.case_data),
-                {question.largest_period, 0, throw_if_interrupted}, context.threads);
+}
+
+template <class Orbit>
+void write_map(const JobContext& context, const BasinQuestion& question, const StateGrid& grid,
+               const BasinsOf<Orbit>& map) {
   question.fractions ? write_fractions(context, map) : write_states(context, grid, map);
+}
+
+}  // namespace
+
+void write_basins(const JobContext& context, const BasinQuestion& question) {
+  const StateGrid grid = grid_of(question);
+  const auto states = grid.states(context.case_data);
+  const OrbitLimits limits{question.largest_period, 0, throw_if_interrupted};
+  const ThreadedTiles tiles{context.threads};
+  if (is_of_the_paper(context.case_data, question.switching)) {
+    const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+    require_attractors(forcing_ratio(loop), question.largest_period);
+    write_map(context, question, grid, find_basins<ChartNumber>(loop, states, limits, tiles));
+  } else {
+    const RealLoop loop = real_loop_of(context.case_data, question.switching);
+    require_attractors(forcing_ratio(loop.digital), question.largest_period);
+    write_map(context, question, grid, find_hybrid_basins(loop, states, limits, tiles));
+  }
 }
 
 }  // namespace holdfast::program

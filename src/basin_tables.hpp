@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "holdfast/motion/real_loop.hpp"
 #include "job_context.hpp"
 
 namespace holdfast::program {
@@ -13,6 +14,7 @@ struct BasinQuestion {
   std::vector<std::string> axes;  ///< KEY=MIN:MAX:COUNT, two of initial.*
   std::int64_t largest_period;    ///< samples
   bool fractions = false;         ///< a row for each attractor instead of one for each state
+  Switching switching = Switching::sampled;
 };
 
 /// Writes which attractor every initial state of a grid comes to: its number from 1 on in the order

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <array>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "holdfast/motion/recorded_force.hpp"
 
 namespace holdfast::program {
 
@@ -47,17 +53,33 @@ struct Control {
   double differential_gain = 0.0;
   double sampling_period = 0.0;
   double processing_delay = 0.0;
+  double displacement_quantum = 0.0;
+  double velocity_quantum = 0.0;
+  std::string velocity = "measured";
+  double largest_force = std::numeric_limits<double>::infinity();  // infinity: "none"
+  double jitter = 0.0;                                             // half width
+  double jitter_seed = 1.0;                                        // whole
 };
 
 struct Backlash {
   double width = 0.0;
   std::string law = "kollar";
+  double contact_stiffness = 0.0;
+  double contact_damping = 0.0;
 };
 
 struct Excitation {
   double amplitude = 0.0;
   double frequency = 0.0;  // Hz
   std::string hold = "sampled";
+  std::vector<std::array<double, 3>> harmonics;  // amplitude (N), frequency (Hz), phase (rad)
+  std::string record;                            // a file, seen from the working folder; "": none
+  std::string record_interpolation = "linear";
+  double noise_rms = 0.0;
+  double noise_lowest = 1.0;    // Hz
+  double noise_highest = 50.0;  // Hz
+  double noise_lines = 1000.0;  // whole
+  double noise_seed = 1.0;      // whole
 };
 
 struct Wind {
@@ -86,9 +108,13 @@ struct Case {
   case_tables::Plant plant;
   case_tables::Control control;
   case_tables::Backlash backlash;
-  case_tables::Excitation excitation;  // with wind, only `hold` counts: ask effective_excitation()
+  // With wind, its amplitude and frequency do not count: ask effective_excitation().
+  case_tables::Excitation excitation;
   std::optional<case_tables::Wind> wind;
   case_tables::Initial initial;
+
+  // What excitation.record holds; null where it is "". CaseSource::attach_record() reads it.
+  std::shared_ptr<const RecordedForce> force_record;
 
   bool plant_given = false;      // the user gave a key of [plant]
   bool conductor_given = false;  // the user gave a key of [conductor], [absorber] or [reduction]
@@ -97,8 +123,8 @@ struct Case {
   bool second_frequency_computed = false;
 };
 
-/// The harmonic force on the conductor: [excitation] as given, or made from [wind]:
-/// frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
+/// The force on the conductor: [excitation] as given, or with its amplitude and frequency made from
+/// [wind]: frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
 /// effective_length·lift_coefficient (N).
 case_tables::Excitation effective_excitation(const Case& the_case);
 

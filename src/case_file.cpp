@@ -2,9 +2,11 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <locale>
+#include <optional>
 #include <sstream>
 
 #include "builtin_case.hpp"
@@ -35,12 +37,22 @@ struct Entry {
 
 std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
-std::string value_text(const toml::node& node) {
+/// As a file would have it; numbers with their shortest digits.
+std::string toml_text(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return format_number(*number);
+  if (const toml::array* list = node.as_array()) {
+    std::string text;
+    for (const toml::node& one : *list) text += (text.empty() ? "" : ", ") + toml_text(one);
+    return "[" + text + "]";
+  }
   std::ostringstream stream;
   stream.imbue(std::locale::classic());
   node.visit([&](const auto& value) { stream << value; });
-  std::string text = one_line(stream.str());
+  return one_line(stream.str());
+}
+
+std::string value_text(const toml::node& node) {
+  std::string text = toml_text(node);
   constexpr std::size_t longest = 60;
   if (text.size() > longest) text = text.substr(0, longest) + "...";
   return text;
@@ -83,6 +95,7 @@ class CaseReader {
   void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
   void set_number(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_word(const CaseKey& key, const toml::node& node, const std::string& place);
+  void set_file(const CaseKey& key, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
   void note_user(const CaseKey& key);
   const Given* last_given(const std::vector<std::string>& keys) const;
@@ -91,10 +104,53 @@ class CaseReader {
   void check_faults() const;
 
   Case case_, builtin_;
+  std::filesystem::path folder_;  // of what is being read; empty: the working folder
   std::vector<Given> given_;
   std::string wind_place_;
   Layer wind_layer_ = Layer::builtin;
 };
+
+bool is_word_of(const CaseKey& key, const std::string& word) {
+  return std::find(key.words.begin(), key.words.end(), word) != key.words.end();
+}
+
+/// What to say behind a refusal: the nearest word, where a word was given and some are admissible.
+std::string suggested_word(const CaseKey& key, const toml::node& node) {
+  const auto word = node.value_exact<std::string>();
+  if (!word || key.words.empty()) return "";
+  return "; did you mean \"" + nearest_word(key, *word) + "\"?";
+}
+
+/// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.
+std::optional<std::array<double, 3>> harmonic_of(const toml::node& node) {
+  const toml::array* numbers = node.as_array();
+  const auto& parts = harmonic_parts();
+  if (numbers == nullptr || (numbers->size() != 2 && numbers->size() != parts.size())) return {};
+  std::array<double, 3> harmonic{};
+  for (std::size_t k = 0; k < numbers->size(); ++k) {
+    const toml::node& number = (*numbers)[k];
+    if (!number.is_number()) return {};
+    harmonic[k] = number.value<double>().value_or(std::nan(""));
+    if (!parts[k].range.contains(harmonic[k])) return {};
+  }
+  return harmonic;
+}
+
+std::vector<std::array<double, 3>> harmonics_of(const CaseKey& key, const toml::node& node,
+                                                const std::string& place) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) throw WrongInput(place + ": must be " + key.admissible());
+  std::vector<std::array<double, 3>> harmonics;
+  for (const toml::node& one : *list) {
+    const auto harmonic = harmonic_of(one);
+    if (!harmonic) {
+      throw WrongInput(place + ": the harmonic " + value_text(one) + " must be as in " +
+                       key.admissible());
+    }
+    harmonics.push_back(*harmonic);
+  }
+  return harmonics;
+}
 
 toml::table parse_file(std::string_view text, const std::string& name) {
   try {
@@ -107,6 +163,7 @@ toml::table parse_file(std::string_view text, const std::string& name) {
 
 void CaseReader::read_text(std::string_view text, const std::string& name, Layer layer) {
   const toml::table root = parse_file(text, name);
+  folder_ = std::filesystem::path(name).parent_path();
   if (const toml::node* wind = root.get("wind"); wind != nullptr && wind->is_table()) {
     begin_wind(name + ":" + std::to_string(line_of(*wind)) + ": [wind]", layer);
   }
@@ -142,13 +199,15 @@ std::vector<Entry> CaseReader::entries(const toml::table& root, const std::strin
   return found;
 }
 
-/// The value of an override: TOML, or a word without quotes.
-toml::table parse_override_value(std::string_view value, const std::string& place) {
+/// The value of an override: TOML, or a word or the name of a file without quotes.
+toml::table parse_override_value(const CaseKey& key, std::string_view value,
+                                 const std::string& place) {
   try {
     toml::table parsed = toml::parse("value = " + std::string(value));
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
-    if (is_bare_word(value)) return toml::table{{"value", std::string(value)}};
+    const bool is_text = key.file != nullptr || is_bare_word(value);
+    if (is_text) return toml::table{{"value", std::string(value)}};
   }
   throw WrongInput(place + ": the value is neither TOML nor a word");
 }
@@ -161,10 +220,12 @@ void CaseReader::read_override(const std::string& text) {
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
   if (is_case_table(name))
     throw WrongInput(place + ": [" + name + "] is a table; set one of its keys, " + name + ".KEY");
-  if (find_case_key(name) == nullptr) throw WrongInput(place + ": " + unknown_key(name));
+  const CaseKey* key = find_case_key(name);
+  if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
   if (value.empty()) throw WrongInput(place + ": expected key=value");
-  const toml::table parsed = parse_override_value(value, place);
+  const toml::table parsed = parse_override_value(*key, value, place);
   if (name.rfind("wind.", 0) == 0) begin_wind(place, Layer::override);
+  folder_.clear();
   set(name, *parsed.get("value"), place, Layer::override);
 }
 
@@ -177,6 +238,10 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
   if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
   if (key->word != nullptr) {
     set_word(*key, node, place);
+  } else if (key->file != nullptr) {
+    set_file(*key, node, place);
+  } else if (key->harmonics != nullptr) {
+    *key->harmonics(case_) = harmonics_of(*key, node, place);
   } else {
     set_number(*key, node, place);
   }
@@ -186,12 +251,13 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
 
 void CaseReader::set_number(const CaseKey& key, const toml::node& node, const std::string& place) {
   const auto word = node.value_exact<std::string>();
-  if (key.tuned != nullptr && word && *word == key.words.front()) {
-    *key.tuned(case_) = true;
+  if (word && is_word_of(key, *word)) {
+    key.give_word(case_);
     return;
   }
   if (!node.is_number())
-    throw WrongInput(place + ": must be a number; admissible is " + key.admissible());
+    throw WrongInput(place + ": must be a number; admissible is " + key.admissible() +
+                     suggested_word(key, node));
   const double value = node.value<double>().value_or(std::nan(""));
   if (!std::isfinite(value)) {
     throw WrongInput(place + ": must be finite; admissible is " + key.admissible());
@@ -203,10 +269,17 @@ void CaseReader::set_number(const CaseKey& key, const toml::node& node, const st
 
 void CaseReader::set_word(const CaseKey& key, const toml::node& node, const std::string& place) {
   const auto word = node.value_exact<std::string>();
-  const bool known =
-      word && std::find(key.words.begin(), key.words.end(), *word) != key.words.end();
-  if (!known) throw WrongInput(place + ": must be " + key.admissible());
+  if (!word || !is_word_of(key, *word))
+    throw WrongInput(place + ": must be " + key.admissible() + suggested_word(key, node));
   *key.word(case_) = *word;
+}
+
+void CaseReader::set_file(const CaseKey& key, const toml::node& node, const std::string& place) {
+  const auto name = node.value_exact<std::string>();
+  // The system's names of files end at a zero.
+  const bool is_name = name && name->find('\0') == std::string::npos;
+  if (!is_name) throw WrongInput(place + ": must be " + key.admissible());
+  *key.file(case_) = name->empty() ? "" : (folder_ / *name).string();
 }
 
 void CaseReader::begin_wind(const std::string& place, Layer layer) {

@@ -13,7 +13,11 @@ namespace holdfast::program {
 
 /// The built-in case, then the file, then each override `key=value` in its order (the value is
 /// TOML; a bare word counts as a string: `control.proportional_gain=tuned`).
-/// [wind] takes the place of [excitation]; excitation.hold may stand beside it.
+/// [wind] takes the place of excitation.amplitude and excitation.frequency; the other keys of
+/// [excitation] may stand beside it.
+/// A relative excitation.record is one to the folder of the file that it stands in, in an override
+/// to the working folder, where quotes about it may be left out. The case bears it as seen from the
+/// working folder; nobody reads it here.
 /// Throws WrongInput, one line with file and line or the override, the key, the value and what is
 /// admissible: syntax, unknown key, wrong type, out of range, check_case(), unreadable file.
 Case load_case(const std::optional<std::filesystem::path>& file,

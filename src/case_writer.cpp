@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "builtin_case.hpp"
 #include "case_file.hpp"
@@ -14,21 +16,56 @@ std::string toml_number(double value) {
   return whole ? text + ".0" : text;
 }
 
-bool is_tuned(const CaseKey& key, Case& the_case) {
-  return key.tuned != nullptr && *key.tuned(the_case);
+/// A TOML string: quotes, backslashes and control characters are escaped.
+std::string toml_string(std::string_view text) {
+  constexpr std::string_view hexadecimal = "0123456789abcdef";
+  std::string quoted = "\"";
+  for (const char character : text) {
+    const auto code = static_cast<unsigned char>(character);
+    if (code < 0x20 || code == 0x7f) {
+      quoted.append("\\u00").append({hexadecimal[code / 16U], hexadecimal[code % 16U]});
+      continue;
+    }
+    if (character == '"' || character == '\\') quoted += '\\';
+    quoted += character;
+  }
+  return quoted + "\"";
 }
 
+std::string toml_harmonics(const std::vector<std::array<double, 3>>& harmonics) {
+  std::string list;
+  for (const auto& [amplitude, frequency, phase] : harmonics) {
+    list += (list.empty() ? "[" : ", [") + toml_number(amplitude) + ", " + toml_number(frequency) +
+            ", " + toml_number(phase) + "]";
+  }
+  return "[" + list + "]";
+}
+
+std::int64_t whole(double value) { return static_cast<std::int64_t>(value); }
+
 std::string toml_value(const CaseKey& key, Case& the_case) {
-  if (key.word != nullptr) return "\"" + *key.word(the_case) + "\"";
-  if (is_tuned(key, the_case)) return "\"" + key.words.front() + "\"";
-  return toml_number(*key.number(the_case));
+  if (key.word != nullptr) return toml_string(*key.word(the_case));
+  if (key.file != nullptr) return toml_string(*key.file(the_case));
+  if (key.harmonics != nullptr) return toml_harmonics(*key.harmonics(the_case));
+  if (key.bears_word(the_case)) return toml_string(key.words.front());
+  const double number = *key.number(the_case);
+  return key.range.whole ? std::to_string(whole(number)) : toml_number(number);
+}
+
+nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
+  if (key.word != nullptr) return *key.word(the_case);
+  if (key.file != nullptr) return *key.file(the_case);
+  if (key.harmonics != nullptr) return *key.harmonics(the_case);
+  if (key.bears_word(the_case)) return key.words.front();
+  const double number = *key.number(the_case);
+  if (key.range.whole) return whole(number);
+  return number;
 }
 
 /// What stands for a case's key: nothing for [wind] without wind, and for what wind replaces.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
   if (key.table() == "wind") return the_case.wind.has_value();
-  const bool replaced = key.table() == "excitation" && key.number != nullptr;
-  return !(replaced && the_case.wind);
+  return !(key.replaced_by_wind && the_case.wind);
 }
 
 std::string toml_line(const CaseKey& key, Case& the_case) {
@@ -71,14 +108,7 @@ nlohmann::ordered_json case_to_json(const Case& the_case) {
   nlohmann::ordered_json json;
   for (const CaseKey& key : case_keys()) {
     if (!is_in_force(key, the_case)) continue;
-    nlohmann::ordered_json& place = json[key.table()][key.short_name()];
-    if (key.word != nullptr) {
-      place = *key.word(copy);
-    } else if (is_tuned(key, copy)) {
-      place = key.words.front();
-    } else {
-      place = *key.number(copy);
-    }
+    json[key.table()][key.short_name()] = json_value(key, copy);
   }
   return json;
 }

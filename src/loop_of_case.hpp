@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "case.hpp"
@@ -7,6 +8,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/excitation.hpp"
 #include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/stepper.hpp"
 #include "holdfast/plant/two_dof.hpp"
 #include "holdfast/stability/loop_point.hpp"
@@ -33,8 +35,26 @@ ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key
 /// The loop with P = D = 0 and a drive without backlash.
 ForcedLoop<double> uncontrolled(ForcedLoop<double> loop);
 
-/// The motion of the case from its initial state, with its control or without any.
+/// Whether the motion is one of the paper's model, which ForcedLoop describes: switching at
+/// samples, the paper's backlash or none, one harmonic, an ideal computer.
+bool is_of_the_paper(const Case& the_case, Switching switching);
+
+/// Number of samples of a motion of the case at t = 0, τ, … up to the last one not after
+/// `duration`, s. Throws WrongInput where the recorded force of the case ends before.
+std::int64_t samples_of(const Case& the_case, double duration);
+
+/// The motion of the paper's model from the case's initial state.
 SampledMotion<double> motion_of(const Case& the_case);
-SampledMotion<double> uncontrolled_motion_of(const Case& the_case);
+
+/// The loop with all that the case says of it.
+RealLoop real_loop_of(const Case& the_case, Switching switching);
+
+/// The same with one number of the case changed, by its key. Throws WrongInput where the key or the
+/// value is not admissible.
+RealLoop real_loop_with(const Case& the_case, const std::string& key, double value,
+                        Switching switching);
+
+/// The loop with P = D = 0 and a drive without backlash.
+RealLoop uncontrolled(RealLoop loop);
 
 }  // namespace holdfast::program

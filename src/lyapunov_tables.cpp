@@ -4,9 +4,12 @@
 
 #include "errors.hpp"
 #include "exit.hpp"
+#include "holdfast/attractor/hybrid_lyapunov.hpp"
 #include "holdfast/attractor/lyapunov.hpp"
 #include "holdfast/attractor/lyapunov_run.hpp"
+#include "interrupt.hpp"
 #include "loop_of_case.hpp"
+#include "motion_of_case.hpp"
 #include "motion_run.hpp"
 #include "table.hpp"
 
@@ -21,10 +24,71 @@ SampledLoop<double> tangent_loop_of(const Case& the_case, const LyapunovQuestion
 }
 
 std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& question) {
-  const double period = context.case_data.control.sampling_period;
-  const std::int64_t steps = samples_within(question.duration, period) - 1;
+  const std::int64_t steps = samples_of(context.case_data, question.duration) - 1;
   if (steps < 1) throw WrongInput("--duration is shorter than one sampling period");
   return steps;
+}
+
+/// Of the paper's model.
+LyapunovResult sampled_exponents(const JobContext& context, const LyapunovQuestion& question,
+                                 const LyapunovRun& run) {
+  InterruptibleMotion motion(motion_of(context.case_data));
+  const auto words = std::make_shared<const ContactWords>(
+      tangent_loop_of(context.case_data, question), gains_of(context.case_data));
+  const LyapunovResult result = run_lyapunov(motion, words, run);
+  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
+  return result;
+}
+
+/// Of any loop, with the saltation at its switches.
+LyapunovResult built_exponents(const JobContext& context, const LyapunovQuestion& question,
+                               const LyapunovRun& run) {
+  const RealLoop loop = real_loop_of(context.case_data, question.switching);
+  return with_motion(loop, initial_state_of(context.case_data), [&](auto motion) {
+    const LyapunovResult result = run_hybrid_lyapunov(motion, run, throw_if_interrupted);
+    if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
+    require_resolved(motion, context.quiet);
+    return result;
+  });
+}
+
+void require_consistent(const LyapunovQuestion& question) {
+  if (question.tangent != "printed") return;
+  throw WrongInput(
+      "--tangent printed goes with --switching sampled, the paper's backlash, one harmonic and an "
+      "ideal computer only");
+}
+
+/// A row of the exponents so far.
+void write_history_row(Table& table, double time, const Vector<double, 5>& exponents) {
+  table.writer().cell(time);
+  for (const double exponent : exponents) table.writer().cell(exponent);
+  table.writer().end_row();
+}
+
+void write_sampled_history(const JobContext& context, const LyapunovQuestion& question,
+                           std::int64_t steps, Table& table) {
+  const double period = context.case_data.control.sampling_period;
+  LyapunovObserver observer(tangent_loop_of(context.case_data, question),
+                            gains_of(context.case_data));
+  auto motion = motion_of(context.case_data);
+  run_to_completion(motion, steps, {}, observer, [&](const MotionSample<double>& sample) {
+    write_history_row(table, sample.time + period, observer.spectrum().exponents());
+  });
+}
+
+void write_built_history(const JobContext& context, const LyapunovQuestion& question,
+                         std::int64_t steps, Table& table) {
+  const RealLoop loop = real_loop_of(context.case_data, question.switching);
+  with_motion(loop, initial_state_of(context.case_data), [&](auto motion) {
+    HybridLyapunov lyapunov(motion);
+    for (std::int64_t step = 0; step < steps; ++step) {
+      look_for_interrupt(step);
+      run_to_completion(lyapunov, 1, {});
+      write_history_row(table, motion.time(), lyapunov.spectrum().exponents().template head<5>());
+    }
+    require_resolved(motion, context.quiet);
+  });
 }
 
 }  // namespace
@@ -34,6 +98,8 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& question
   const std::int64_t steps = steps_of(context, question);
   const std::int64_t discard = samples_within(question.discard, period) - 1;
   if (discard >= steps) throw WrongInput("--discard leaves nothing of --duration");
+  const bool of_the_paper = is_of_the_paper(context.case_data, question.switching);
+  if (!of_the_paper) require_consistent(question);
   Table table(
       context,
       {{"exponent", "", "number of the exponent, in the order of the QR; descending once converged",
@@ -44,11 +110,8 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& question
   LyapunovRun run{steps - discard, discard, question.standard_error, LyapunovScope::all,
                   LyapunovScope::largest};
   if (question.largest) run.scope = LyapunovScope::largest;
-  InterruptibleMotion motion(motion_of(context.case_data));
-  const auto words = std::make_shared<const ContactWords>(
-      tangent_loop_of(context.case_data, question), gains_of(context.case_data));
-  const LyapunovResult result = run_lyapunov(motion, words, run);
-  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
+  const LyapunovResult result = of_the_paper ? sampled_exponents(context, question, run)
+                                             : built_exponents(context, question, run);
   if (question.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
   for (int i = 0; i < (question.largest ? 1 : 5); ++i)
@@ -57,21 +120,17 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& question
 }
 
 void write_exponent_history(const JobContext& context, const LyapunovQuestion& question) {
-  const double period = context.case_data.control.sampling_period;
   std::vector<Column> columns = {{"time_s", "s", "end of the averaged motion"}};
   for (int i = 1; i <= 5; ++i)
     columns.push_back({"lambda" + std::to_string(i), "", "exponent per sample up to this time"});
   const std::int64_t steps = steps_of(context, question);
+  const bool of_the_paper = is_of_the_paper(context.case_data, question.switching);
+  if (!of_the_paper) require_consistent(question);
   Table table(context, columns);
-  LyapunovObserver observer(tangent_loop_of(context.case_data, question),
-                            gains_of(context.case_data));
-  auto motion = motion_of(context.case_data);
-  const auto write_row = [&](const MotionSample<double>& sample) {
-    table.writer().cell(sample.time + period);
-    for (const double exponent : observer.spectrum().exponents()) table.writer().cell(exponent);
-    table.writer().end_row();
-  };
-  run_to_completion(motion, steps, {}, observer, write_row);
+  if (of_the_paper)
+    write_sampled_history(context, question, steps, table);
+  else
+    write_built_history(context, question, steps, table);
   table.commit();
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "holdfast/motion/real_loop.hpp"
 #include "job_context.hpp"
 
 namespace holdfast::program {
@@ -13,6 +14,7 @@ struct LyapunovQuestion {
   double standard_error = 0.0;         ///< per sample, at which to stop; 0: go on to the end
   std::string tangent = "consistent";  ///< or "printed"
   bool largest = false;                ///< the largest exponent alone
+  Switching switching = Switching::sampled;
 };
 
 /// One row for each exponent: per sample, per second, standard error.

@@ -11,47 +11,13 @@
 #include "loop_of_case.hpp"
 #include "motion_columns.hpp"
 #include "orbit_certificate.hpp"
+#include "orbit_failure.hpp"
+#include "orbit_rows.hpp"
 #include "table.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
 namespace {
-
-std::string reason_for(const OrbitResult& found, const ForcedLoop<double>& loop,
-                       std::int64_t largest_period) {
-  const std::string longest = std::to_string(largest_period);
-  switch (found.outcome) {
-    case OrbitOutcome::incommensurate:
-      return "sampling and excitation never coincide: f tau = " +
-             format_number(loop.excitation.frequency * loop.sampling.period) +
-             " is no fraction p/q with q up to 1000000, so no motion repeats; the job verdict says "
-             "what it is";
-    case OrbitOutcome::diverges:
-      return "the motion diverges, so it comes to no orbit";
-    case OrbitOutcome::on_surface:
-      return "the motion repeats after " + std::to_string(found.orbit->period_samples()) +
-             " sample(s) but touches a switching surface, so that rounding decides its contacts: "
-             "there is no certificate";
-    case OrbitOutcome::approaching:
-      return "the motion comes near a certified orbit of " +
-             std::to_string(found.orbit->period_samples()) + " sample(s), but in " +
-             std::to_string(found.samples) +
-             " samples not within its radius of capture; a larger --max-period looks longer";
-    case OrbitOutcome::not_reproduced:
-      return "the contacts repeat, but their exact solution switches otherwise: no orbit in " +
-             std::to_string(found.samples) + " samples; the job verdict says more";
-    default:
-      if (found.samples == 0) {
-        return "sampling and excitation coincide only every " +
-               std::to_string(forcing_ratio(loop)->denominator) +
-               " samples; give --max-period at least as many";
-      }
-      return "no periodic orbit of up to " + longest + " samples in " +
-             std::to_string(found.samples) +
-             " samples of the motion; a larger --max-period looks further, the job verdict weighs "
-             "the evidence";
-  }
-}
 
 const char* word_for(SwitchingSurface surface) {
   switch (surface) {
@@ -63,30 +29,6 @@ const char* word_for(SwitchingSurface surface) {
       return "gap_upper";
   }
   return "";
-}
-
-/// Rows of a table quantity, value, unit.
-class QuantityRows {
- public:
-  explicit QuantityRows(Table& table) : table_(table) {}
-
-  void row(const std::string& quantity, double value, const char* unit = "") {
-    table_.row(quantity, value, unit);
-  }
-
- private:
-  Table& table_;
-};
-
-void write_multipliers(QuantityRows& rows, const PeriodicOrbit& orbit) {
-  const auto samples = static_cast<double>(orbit.period_samples());
-  int number = 1;
-  for (const Multiplier& multiplier : orbit.multipliers) {
-    const std::string name = "multiplier_" + std::to_string(number++);
-    rows.row(name + "_modulus", std::abs(multiplier.value()));
-    rows.row(name + "_angle", multiplier.angle, "rad");
-    rows.row(name + "_exponent", multiplier.log_modulus / samples, "per sample");
-  }
 }
 
 void write_border(QuantityRows& rows, const std::string& name, const Border& border,
@@ -116,7 +58,9 @@ KeyRange parse_key_range(const std::string& text) {
 }
 
 bool moves_the_orbit(const std::string& key) {
-  return key.rfind("control.", 0) == 0 || key.rfind("plant.", 0) == 0 || key == "backlash.width" ||
+  const bool of_the_loop = key == "control.proportional_gain" ||
+                           key == "control.differential_gain" || key == "control.processing_delay";
+  return of_the_loop || key.rfind("plant.", 0) == 0 || key == "backlash.width" ||
          key == "excitation.amplitude";
 }
 
@@ -129,9 +73,10 @@ double followed_value(const Case& the_case, const std::string& key, const std::s
                      ": another value changes how sampling and excitation coincide, so the orbit "
                      "cannot be followed along it");
   if (!moves_the_orbit(key))
-    throw WrongInput("--follow " + key +
-                     ": expected a key of [control] or [plant], backlash.width or "
-                     "excitation.amplitude");
+    throw WrongInput(
+        "--follow " + key +
+        ": expected control.proportional_gain, differential_gain or processing_delay, a key "
+        "of [plant], backlash.width or excitation.amplitude");
   const CaseKey& known = *find_case_key(key);
   for (const double end : {range.min, range.max}) {
     if (!known.range.contains(end))
@@ -165,22 +110,16 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
   const ForcedLoop<double> loop = forced_loop_of(context.case_data);
   OrbitResult found = find_periodic_orbit(loop, initial_state_of(context.case_data),
                                           {largest_period, 0, throw_if_interrupted});
-  if (found.outcome != OrbitOutcome::certified)
-    throw NoAnswer(reason_for(found, loop, largest_period));
+  if (found.outcome != OrbitOutcome::certified) {
+    throw NoAnswer(
+        reason_for(failure_of(found, forcing_ratio(loop),
+                              loop.excitation.frequency * loop.sampling.period, largest_period)));
+  }
   return std::move(*found.orbit);
 }
 
 void write_orbit(const JobContext& context, std::int64_t largest_period) {
-  Table table(
-      context,
-      {{"period_samples", "", "samples of one period", "integer"},
-       {"period_s", "s", "period"},
-       {"forcing_periods", "", "periods of the excitation in one of the orbit", "integer"},
-       {"largest_multiplier", "", "largest modulus of a multiplier of one period"},
-       {"closure_error", "m", "state after one period less the first one, norm in SI numbers"},
-       {"border_distance_m", "m",
-        "smallest distance of z2 - z1 from a change of contact at an end of the gap"},
-       {"engaged_fraction", "", "share of the samples at which the drive transmits"}});
+  Table table(context, orbit_columns());
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.borders.displacement.distance,
@@ -189,9 +128,7 @@ void write_orbit(const JobContext& context, std::int64_t largest_period) {
 }
 
 void write_certificate(const JobContext& context, std::int64_t largest_period) {
-  Table table(context, {{"quantity", "", "what is certified", "string"},
-                        {"value", "", "in the unit of the row"},
-                        {"unit", "", "of the value", "string"}});
+  Table table(context, certificate_columns());
   const ForcedLoop<double> loop = forced_loop_of(context.case_data);
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   QuantityRows rows(table);
@@ -208,7 +145,7 @@ void write_certificate(const JobContext& context, std::int64_t largest_period) {
   const OrbitCertificate certificate = certificate_of(loop, orbit);
   rows.row("capture_radius_smallest", certificate.smallest_radius, "m");
   rows.row("capture_radius_largest", certificate.largest_radius, "m");
-  write_multipliers(rows, orbit);
+  write_multipliers(rows, orbit.multipliers, orbit.period_samples());
   write_recheck(rows, certificate.recheck);
   table.commit();
 }
@@ -218,10 +155,11 @@ void write_orbit_trace(const JobContext& context, std::int64_t largest_period) {
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
-    const auto& state = orbit.states[k % samples];
-    const double force = orbit.states[(k + 1) % samples][4];
-    table.row(static_cast<double>(k) * orbit.sampling_period, state[0], state[1], state[2],
-              state[3], force, orbit.contacts[k % samples] != 0 ? 0 : 1);
+    const std::size_t j = k % samples;
+    write_motion_row(table, Switching::sampled,
+                     {static_cast<double>(k) * orbit.sampling_period, orbit.states[j].head<4>(),
+                      orbit.states[(k + 1) % samples][4],
+                      orbit.contacts[j] != 0 ? ContactMode::engaged : ContactMode::gap});
   }
   table.commit();
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> outcome_words() {
-  return {"computed", "diverges", "invalid", "no_gain", "aliased"};
+  return {"computed", "diverges", "invalid", "no_gain", "aliased", "accumulates"};
 }
 
 /// The code of a verdict on what is not admissible: behind those of MotionKind.
@@ -78,7 +78,7 @@ std::vector<NamedColumn> attractor_columns() {
        {{"outcome", "",
          "computed; diverges: the motion leaves the range of numbers within the duration (one that "
          "grows more slowly is computed); invalid: the case is not admissible; no_gain, aliased: "
-         "there is no best gain",
+         "there is no best gain; accumulates: the contact changes too often to be followed",
          "string"},
         outcome_words()}}};
 }
@@ -95,6 +95,7 @@ const std::vector<NamedColumn>& columns() {
 }
 
 double verdict_code(const CellResult& result) {
+  if (result.outcome == CellOutcome::accumulates) return static_cast<double>(MotionKind::undecided);
   if (!has_motion(result.outcome)) return invalid_code;
   if (result.outcome == CellOutcome::diverges) return static_cast<double>(MotionKind::diverges);
   return static_cast<double>(result.kind);

@@ -34,10 +34,11 @@ enum class SweepMetric {
 /// How the computation of a cell ended.
 enum class CellOutcome {
   computed,
-  diverges,  ///< the motion left the range of numbers within the duration
-  invalid,   ///< the case is not admissible; nothing was computed
-  no_gain,   ///< no best D: none lets the motion settle; nothing was computed
-  aliased,   ///< no best D: the samples do not show the vibration; nothing was computed
+  diverges,     ///< the motion left the range of numbers within the duration
+  invalid,      ///< the case is not admissible; nothing was computed
+  no_gain,      ///< no best D: none lets the motion settle; nothing was computed
+  aliased,      ///< no best D: the samples do not show the vibration; nothing was computed
+  accumulates,  ///< the motion's changes of contact do: it cannot be followed
 };
 
 /// Whether there is a motion that the metrics tell of.

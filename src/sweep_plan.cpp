@@ -8,6 +8,7 @@
 #include "axis.hpp"
 #include "cable_of_case.hpp"
 #include "case_file.hpp"
+#include "checksum.hpp"
 #include "damping_fit.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
@@ -26,7 +27,7 @@ GridAxis sweep_axis(const std::string& text) {
   const CaseKey* key = find_case_key(name);
   if (key != nullptr && key->number == nullptr)
     throw WrongInput("--axis " + text + ": " + name +
-                     " is a word; run a sweep for each with --set");
+                     " is not a number; run a sweep for each with --set");
   const KeyValues axis = parse_key_values("--axis", text);
   if (key == nullptr) {
     throw WrongInput("--axis " + text + ": unknown key " + name + "; did you mean " +
@@ -93,6 +94,15 @@ void require_room_for_best_gain(const SweepQuestion& question, const std::vector
       throw WrongInput(
           "--best-gain takes the place of control.differential_gain, which is an axis");
   }
+}
+
+/// Of the numbers of a record, so that another record of the same name is noticed.
+std::string checksum_of(const RecordedForce& record) {
+  const auto bytes_of = [](const std::vector<double>& numbers) {
+    return std::string_view(reinterpret_cast<const char*>(numbers.data()),
+                            numbers.size() * sizeof(double));
+  };
+  return std::to_string(checksum(bytes_of(record.forces()), checksum(bytes_of(record.times()))));
 }
 
 /// Samples of one motion; none where τ is not admissible.
@@ -199,6 +209,10 @@ TilePlan SweepPlan::tile_plan() const {
                          metric_column(metrics_[k]).column.name);
   entries.emplace_back("--duration", format_number(question_.duration));
   entries.emplace_back("--max-period", std::to_string(question_.largest_period));
+  entries.emplace_back("--switching",
+                       question_.switching == Switching::exact ? "exact" : "sampled");
+  if (context_.case_data.force_record)
+    entries.emplace_back("force record", checksum_of(*context_.case_data.force_record));
   entries.emplace_back("--best-gain", question_.best_gain ? "yes" : "no");
   if (reduced_cases_) {
     const CaseSource& source = context_.case_source;

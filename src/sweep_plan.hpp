@@ -7,6 +7,7 @@
 
 #include "case_keys.hpp"
 #include "holdfast/attractor/orbit_search.hpp"
+#include "holdfast/motion/real_loop.hpp"
 #include "job_context.hpp"
 #include "reduced_cases.hpp"
 #include "sweep_metric.hpp"
@@ -22,8 +23,9 @@ struct SweepQuestion {
   double duration = 20.0;            // s
   std::int64_t largest_period =
       OrbitLimits{}.largest_period;  // samples, of the search for an orbit
-  bool best_gain = false;            // D of each cell is that of least steady amplitude
-  std::int64_t tile_cells = 0;       // cells of a tile; 0: chosen from the plan
+  Switching switching = Switching::sampled;
+  bool best_gain = false;       // D of each cell is that of least steady amplitude
+  std::int64_t tile_cells = 0;  // cells of a tile; 0: chosen from the plan
   bool resume = false;
 };
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "holdfast/attractor/hybrid_verdict.hpp"
 #include "holdfast/attractor/motion_verdict.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
@@ -37,18 +38,30 @@ double known(const std::optional<Part>& part, const Read& read) {
   return part ? read(*part) : std::numeric_limits<double>::quiet_NaN();
 }
 
+struct Judged {
+  Verdict verdict;
+  MotionEvidence evidence;
+};
+
+Judged judged(const Case& the_case, std::int64_t largest_period, Switching switching) {
+  const Vector<double, 4> state = initial_state_of(the_case);
+  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
+  if (is_of_the_paper(the_case, switching)) {
+    const MotionVerdict found = classify_motion(forced_loop_of(the_case), state, limits);
+    return {found.verdict, found.evidence};
+  }
+  const HybridVerdict found = classify_motion(real_loop_of(the_case, switching), state, limits);
+  return {found.verdict, found.evidence};
+}
+
 }  // namespace
 
-void write_verdict(const JobContext& context, std::int64_t largest_period) {
+void write_verdict(const JobContext& context, std::int64_t largest_period, Switching switching) {
   Table table(context, verdict_columns());
-  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-  const MotionVerdict found = classify_motion(loop, initial_state_of(context.case_data),
-                                              {largest_period, 0, throw_if_interrupted});
-  const Verdict& verdict = found.verdict;
-  const MotionEvidence& evidence = found.evidence;
-  const double period = verdict.period > 0
-                            ? static_cast<double>(verdict.period) * loop.sampling.period
-                            : std::numeric_limits<double>::quiet_NaN();
+  const auto [verdict, evidence] = judged(context.case_data, largest_period, switching);
+  const double period = verdict.period > 0 ? static_cast<double>(verdict.period) *
+                                                 context.case_data.control.sampling_period
+                                           : std::numeric_limits<double>::quiet_NaN();
   table.row(
       motion_kind_text(verdict), verdict.period, period, evidence.certified_period ? 1 : 0,
       known(evidence.largest_exponent, [](const auto& exponent) { return exponent.value; }),

@@ -100,6 +100,8 @@ std::string picture(const DrawnFigure& drawn) {
          "\" src=\"data:image/svg+xml;base64," + base64(drawn.svg) + "\">\n";
 }
 
+}  // namespace
+
 std::string figure_html(const DrawnFigure& drawn) {
   std::string html = "<figure id=\"" + drawn.figure.name + "\">\n<h3>" +
                      escaped(drawn.figure.title) + "</h3>\n" + picture(drawn) + "<figcaption>" +
@@ -112,8 +114,6 @@ std::string figure_html(const DrawnFigure& drawn) {
   for (const std::string& command : drawn.commands) html += escaped(command) + "\n";
   return html + "</pre></details>\n</figure>\n";
 }
-
-}  // namespace
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -167,6 +167,7 @@ std::string html_of(const Page& page) {
       escaped(page.title) + "</h1>\n<p>" + page.introduction + "</p>\n";
   html += comparison_table(page.comparisons);
   html += motions_table(page.motions);
+  html += page.switching;
   html += "<h2>Figures</h2>\n";
   for (const DrawnFigure& drawn : page.figures) html += figure_html(drawn);
   html += "<h2>The case</h2>\n<pre>" + escaped(page.case_text) + "</pre>\n</body>\n</html>\n";

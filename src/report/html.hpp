@@ -30,11 +30,15 @@ struct Page {
   std::string case_text;                ///< the full case as TOML
   std::vector<Comparison> comparisons;  ///< may be empty
   std::vector<ShownMotion> motions;
+  std::string switching;  ///< HTML: how much the sampled switching matters
   std::vector<DrawnFigure> figures;
 };
 
 /// The page as one self-contained HTML text: pictures inside, nothing loaded from elsewhere.
 std::string html_of(const Page& page);
+
+/// A figure with its caption, its tables and the commands that make them.
+std::string figure_html(const DrawnFigure& drawn);
 
 /// Text with &, <, > and quotes escaped.
 std::string escaped(const std::string& text);

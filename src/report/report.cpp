@@ -15,6 +15,8 @@
 #include "report/figures.hpp"
 #include "report/gnuplot.hpp"
 #include "report/html.hpp"
+#include "report/switching_page.hpp"
+#include "report/switching_words.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
@@ -55,16 +57,27 @@ class ReportWriter {
       drawn.reason = reason.what();
       return drawn;
     }
+    return with_picture(std::move(drawn));
+  }
+
+  /// A figure whose tables the report has written itself, unless there is a reason not to.
+  DrawnFigure make_of_own_tables(const SwitchingFigure& own) const {
+    const std::string command = shell_text(command_of({"report"}, case_arguments_));
+    DrawnFigure drawn{own.figure, {command + " --output ."}, "", own.reason};
+    return own.reason.empty() ? with_picture(std::move(drawn)) : drawn;
+  }
+
+ private:
+  DrawnFigure with_picture(DrawnFigure drawn) const {
     if (!can_draw_) {
       drawn.reason = "gnuplot is not installed (Debian package gnuplot-nox)";
       return drawn;
     }
-    draw(figure, folder_);
-    drawn.svg = read_input(folder_ / "pictures" / (figure.name + ".svg"));
+    draw(drawn.figure, folder_);
+    drawn.svg = read_input(folder_ / "pictures" / (drawn.figure.name + ".svg"));
     return drawn;
   }
 
- private:
   void write_table(const TableRequest& table) const {
     const std::string file = (folder_ / "data" / (table.name + ".csv")).string();
     // A sweep that was interrupted has left its tiles; this report may be one of another case.
@@ -103,6 +116,14 @@ std::string introduction_of(bool builtin) {
          "the number found here.";
 }
 
+std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {
+  const SwitchingPage page = make_switching_page(context, builtin);
+  std::vector<DrawnFigure> drawn;
+  for (const SwitchingFigure& figure : page.figures)
+    drawn.push_back(writer.make_of_own_tables(figure));
+  return html_of(page, drawn);
+}
+
 }  // namespace
 
 void write_report(const JobContext& context, const Arguments& case_arguments,
@@ -120,7 +141,9 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   page.case_text = case_to_toml(context.case_data);
   if (builtin) page.comparisons = compare_with_paper();
   page.motions = shown_motions(context.case_data, builtin, case_arguments);
-  Progress progress(figures.size(), "report", progress_wanted(context));
+  Progress progress(figures.size() + 1, "report", progress_wanted(context));
+  page.switching = switching_part(context, builtin, writer);
+  progress.advance();
   for (const Figure& figure : figures) {
     throw_if_interrupted();
     page.figures.push_back(writer.make(figure));

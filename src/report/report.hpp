@@ -14,9 +14,9 @@ using CommandRunner = std::function<void(const std::vector<std::string>&)>;
 /// Writes the report of a case into the folder `context.output`: data/*.csv with metadata,
 /// pictures/*.svg with their gnuplot scripts, and report.html with everything in it.
 ///
-/// Every table is made by a command line of the program itself, and the page shows it. The built-in
-/// case gets the paper's figures and the comparison with its numbers, any other case its own
-/// figures.
+/// Every table but those of the part about switching is made by a command line of the program
+/// itself, and the page shows it. The built-in case gets the paper's figures and the comparison
+/// with its numbers, any other case its own figures.
 /// @param case_arguments  the `--case` and `--set` options that made the case
 /// Throws WrongInput when the folder cannot be made. A figure whose motion has no answer says so in
 /// the page.

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "holdfast/motion/real_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/message_of.hpp"
 
@@ -65,6 +68,100 @@ TEST(OrbitDiagram, AMotionThatDivergesShowsNothingAndTheNextBeginsAnew) {
                     [&](const StrobePoint& point) { points.push_back(point); });
   EXPECT_EQ(points.size(), 10U);
   for (const StrobePoint& point : points) EXPECT_EQ(point.index, 1U);
+}
+
+/// The diagram of loops as they are built, one for each width.
+template <class Change>
+std::vector<StrobePoint> built_diagram_of(double period, const std::vector<double>& widths,
+                                          const DiagramQuestion& question, const Change& change) {
+  std::vector<StrobePoint> points;
+  const auto path = [&](double width) {
+    RealLoop loop = real_loop(diagram_loop(period, width));
+    change(loop);
+    return loop;
+  };
+  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), question,
+                    [&](const StrobePoint& point) { points.push_back(point); });
+  return points;
+}
+
+TEST(OrbitDiagram, OfTheLoopOfThePaperAsItIsBuiltIsTheSame) {
+  for (const double period : {0.001, 0.009}) {
+    const std::vector<double> widths{0.0, 0.0005, 0.001};
+    const DiagramQuestion question{20.0, 20};
+    const auto expected = diagram_of(period, widths, question);
+    const auto points = built_diagram_of(period, widths, question, [](RealLoop&) {});
+    ASSERT_EQ(points.size(), expected.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      EXPECT_EQ(points[k].index, expected[k].index);
+      EXPECT_EQ(points[k].upward, expected[k].upward);
+      EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-12) << k;
+    }
+  }
+}
+
+TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {
+  const auto exactly = [](RealLoop& loop) { loop.switching = Switching::exact; };
+  const auto points = built_diagram_of(0.001, {0.0, 0.0005}, {40.0, 30}, exactly);
+  EXPECT_EQ(points.size(), 2U * 2U * 30U);
+  for (const bool upward : {true, false})
+    for (const std::size_t index : {std::size_t{0}, std::size_t{1}})
+      EXPECT_EQ(levels(points, index, upward).size(), 1U);
+}
+
+TEST(OrbitDiagram, StrobesBetweenJitteringSamplesAreThoseOfTheResponse) {
+  // Without control the samples are of no effect, wherever they fall: the strobes of the steady
+  // response to an exactly integrated force are all one.
+  const auto points = built_diagram_of(0.009, {0.0}, {60.0, 30}, [](RealLoop& loop) {
+    loop.digital.gains = {0.0, 0.0};
+    loop.digital.hold = ForceHold::exact;
+    loop.digital.jitter = {0.004, 7};
+  });
+  ASSERT_EQ(points.size(), 2U * 30U);
+  const double size = points.front().state.cwiseAbs().maxCoeff();
+  ASSERT_GT(size, 1e-4);
+  for (const StrobePoint& point : points)
+    EXPECT_LE((point.state - points.front().state).cwiseAbs().maxCoeff(), 1e-11 * size);
+}
+
+TEST(OrbitDiagram, StrobesAreAtThePeriodsOfTheFirstHarmonic) {
+  // 10 Hz and 5 Hz: once every period of the second the motion repeats, so that strobes at those
+  // of the first come in two levels, and the other way round in one.
+  for (const bool slower_first : {false, true}) {
+    const auto points = built_diagram_of(0.001, {0.0}, {60.0, 20}, [&](RealLoop& loop) {
+      const Harmonic slower{0.3, 5.0, 1.0};
+      auto& harmonics = loop.digital.force.harmonics;
+      harmonics.insert(slower_first ? harmonics.begin() : harmonics.end(), slower);
+    });
+    EXPECT_EQ(levels(points, 0, true).size(), slower_first ? 1U : 2U);
+  }
+}
+
+TEST(OrbitDiagram, ABuiltLoopThatDivergesShowsNothing) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const auto points = built_diagram_of(0.011, {0.0}, {60.0, 5}, [&](RealLoop& loop) {
+      loop.digital.sampling.processing_delay = 0.011;
+      loop.switching = switching;
+    });
+    EXPECT_TRUE(points.empty());
+  }
+}
+
+TEST(OrbitDiagram, WatchesABuiltLoop) {
+  int looks = 0;
+  DiagramQuestion question{40.0, 1};
+  question.watch = [&] { ++looks; };
+  built_diagram_of(0.001, {0.0}, question, [](RealLoop&) {});
+  EXPECT_EQ(looks, 2 * 3) << "at samples 0, 16384 and 32768 of each way";
+}
+
+TEST(OrbitDiagram, RefusesALoopWithoutAHarmonic) {
+  const auto built = [] {
+    built_diagram_of(0.001, {0.0}, {1.0, 1},
+                     [](RealLoop& loop) { loop.digital.force.harmonics.clear(); });
+  };
+  EXPECT_NE(tests::message_of<InvalidParameter>(built).find("number of harmonics"),
+            std::string::npos);
 }
 
 TEST(OrbitDiagram, RefusesWhatIsNotAdmissible) {

@@ -62,7 +62,7 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
   expect_refused("deviation --offset nan", "offset");
   expect_refused("spectrum --discard inf", "discard");
   expect_refused("simulate --kick 1", "--kick");
-  expect_refused("simulate --switching exact", "switching");
+  expect_refused("simulate --switching exakt", "switching");
   expect_refused("coverage --window 1:0:0:1", "--window");
   expect_refused("coverage --durations 0", "--durations");
   expect_refused("lyapunov --tangent best", "tangent");

@@ -85,7 +85,7 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   expect_reason("orbit --follow backlash.width", 2, "KEY=MIN:MAX");
   expect_reason("orbit --follow backlash.width=0.001:0.002", 2, "lies outside");
   expect_reason("orbit --follow control.sampling_period=0.0005:0.002", 2, "coincide");
-  expect_reason("orbit --follow initial.z1=0:1", 2, "[control]");
+  expect_reason("orbit --follow initial.z1=0:1", 2, "[plant]");
   expect_reason("orbit --follow backlash.width=-1:1", 2, "must be");
   expect_reason("orbit --follow backlash.width=0:1 --set backlash.width=0", 2, "no backlash");
   expect_reason("orbit --follow backlash.widht=0:0.002", 2, "backlash.width");

@@ -32,6 +32,8 @@ void expect_every_figure_as_table_and_picture(const fs::path& report) {
       "fig12a", "fig12b",  "fig12c",           "fig13a",       "fig13b", "table2a", "table2b",
       "orbits", "section", "diagram-backlash", "diagram-gain", "basins"};
   figures.insert(figures.end(), {"success-delay-backlash", "success-frequency-delay"});
+  figures.insert(figures.end(),
+                 {"switching-phases", "switching-laws", "switching-delay", "switching-backlash"});
   if (program::has_sundials()) figures.insert(figures.end(), {"fig02b", "fig02c", "fig02d"});
   for (const std::string& figure : figures) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
@@ -178,6 +180,32 @@ void expect_maps_to_name_every_mark(const fs::path& report) {
   EXPECT_EQ(count_of(page, "Nothing excites"), 0U);
 }
 
+/// The part about switching: its sentence, and what the table of the paper's loops says of the
+/// motion with the longest period, beside the figures' tables.
+void expect_how_much_the_switching_matters(const fs::path& report) {
+  const std::string page = read_text(report / "report.html");
+  const std::string part = part_between(page, "<h2 id=\"switching\">", "<h2>Figures</h2>");
+  expect_holds(part, {"For this case the sampled switching changes the steady amplitude by",
+                      "where the drive switches at samples", "where it switches exactly",
+                      "231 forcing periods (23.1 s)", "11 forcing periods (1.1 s)",
+                      "With exact switching 7 of the 7 motions have the shortest period"});
+  const auto paper = program::read_csv(report / "data/switching-paper.csv");
+  ASSERT_EQ(paper.rows(), 21U);
+  for (std::size_t row = 0; row < paper.rows(); ++row) {
+    const bool exact = paper.text(row, "switching") == "exact";
+    EXPECT_EQ(paper.number(row, "stick_phases_per_half_cycle") > 0.9, exact) << "row " << row;
+    EXPECT_GE(paper.number(row, "largest_z1_m"), paper.number(row, "largest_sampled_z1_m"));
+  }
+  const auto laws = program::read_csv(report / "data/switching-law-motions.csv");
+  std::vector<double> of_play;  // exactly taken, three laws are one
+  for (std::size_t row = 0; row < laws.rows(); ++row) {
+    const std::string& law = laws.text(row, "law");
+    if (laws.text(row, "switching") == "exact" && law != "dead_zone" && law != "none")
+      of_play.push_back(laws.number(row, "largest_z1_m"));
+  }
+  EXPECT_EQ(of_play, std::vector<double>(3, of_play.at(0)));
+}
+
 // One report for all that is to be seen in it: it takes seconds.
 TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const TemporaryFolder folder;
@@ -192,6 +220,7 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   expect_the_motions_without_backlash_keep_the_limit(report);
   expect_cells_without_motion_to_have_their_reasons(report);
   expect_maps_to_name_every_mark(report);
+  expect_how_much_the_switching_matters(report);
 }
 
 TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
@@ -202,6 +231,8 @@ TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
   const std::string page = read_text(folder / "mine/report.html");
   EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
   EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
+  EXPECT_NE(page.find("How much the sampled switching matters"), std::string::npos);
+  EXPECT_EQ(page.find("switching-paper"), std::string::npos);
   EXPECT_EQ(count_of(page, "<tr class=\"motion\">"), 1U);
   expect_holds(motion_named(page, "this case"),
                {"τ = 5 ms, r₀ = 0.5 mm", "Certified orbit", "forcing period",
@@ -233,7 +264,8 @@ TEST(Report, OfACableThatNothingExcitesSaysThatItDoesNotVibrate) {
     const std::string picture = read_text(folder / "mine/pictures" / (figure + ".svg"));
     EXPECT_EQ(count_of(picture, "no vibration"), 2U) << figure;
   }
-  expect_holds(read_text(folder / "mine/report.html"), {"Nothing excites this cable"});
+  expect_holds(read_text(folder / "mine/report.html"),
+               {"Nothing excites this cable", "This cable comes to rest with either switching"});
 }
 
 TEST(Report, OfADivergingCaseSaysSoInThePage) {
@@ -244,6 +276,7 @@ TEST(Report, OfADivergingCaseSaysSoInThePage) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const std::string page = read_text(folder / "mine/report.html");
   EXPECT_NE(page.find("No picture: the motion diverges"), std::string::npos);
+  expect_holds(page, {"For this case the motion with switching at samples is: diverges"});
   expect_holds(motion_named(page, "this case"), {"<td class=\"verdict\">diverges</td>",
                                                  "left all bounds", "holdfast verdict --set"});
 }

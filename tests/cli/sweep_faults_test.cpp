@@ -93,7 +93,7 @@ TEST(SweepJob, RefusesAxesThatAreNone) {
   expect_sweep_refused("--axis backlash.width=0,,1", "0,,1");
   expect_sweep_refused("--axis backlash.width=log:0:1:3", "log:0:1:3");
   expect_sweep_refused("--axis backlash.width=log:-1:1:3", "log:-1:1:3");
-  expect_sweep_refused("--axis excitation.hold=sampled,exact", "excitation.hold is a word");
+  expect_sweep_refused("--axis excitation.hold=sampled,exact", "excitation.hold is not a number");
   expect_sweep_refused("--axis wind.speed=1,2", "[wind]");
   expect_sweep_refused("--axis initial.z1=0:1:2 --axis initial.z1=2,3", "initial.z1");
   expect_sweep_refused("--axis initial.z1=0:1:1000000000 --axis initial.z2=0:1:1000000000",

@@ -14,7 +14,7 @@ namespace holdfast {
 namespace {
 
 /// One series, its values added one by one.
-class Series {
+class StepSeries {
  public:
   void push(double value) { sums_.add(Vector<double, 1>(value), 1); }
   double mean() const { return sums_.totals()[0] / static_cast<double>(sums_.steps()); }
@@ -42,7 +42,7 @@ double batch_error(const std::vector<double>& values, std::size_t length) {
 
 TEST(BatchSums, MeanIsThatOfAllValuesAtEveryLength) {
   test::Random random(41);
-  Series series;
+  StepSeries series;
   double sum = 0;
   for (int n = 1; n <= 1000; ++n) {
     const double value = random.uniform(-1, 3);
@@ -54,7 +54,7 @@ TEST(BatchSums, MeanIsThatOfAllValuesAtEveryLength) {
 }
 
 TEST(BatchSums, NoMeanBeforeTheFirstValueAndNoErrorBeforeFourBatches) {
-  Series series;
+  StepSeries series;
   EXPECT_TRUE(std::isnan(series.mean()));
   for (int n = 0; n < 3; ++n) {
     series.push(n);
@@ -65,14 +65,14 @@ TEST(BatchSums, NoMeanBeforeTheFirstValueAndNoErrorBeforeFourBatches) {
 }
 
 TEST(BatchSums, FourValuesGiveTheTextbookStandardError) {
-  Series series;
+  StepSeries series;
   for (const double value : {1.0, 2.0, 3.0, 6.0}) series.push(value);
   // Deviations from the mean 3: −2, −1, 0, 3; variance 14/3 of one value, 14/12 of the mean.
   EXPECT_NEAR(series.standard_error(), std::sqrt(14.0 / 12.0), 1e-15);
 }
 
 TEST(BatchSums, AConstantSeriesHasNoError) {
-  Series series;
+  StepSeries series;
   for (int n = 0; n < 1000; ++n) series.push(0.25);
   EXPECT_EQ(series.mean(), 0.25);
   EXPECT_EQ(series.standard_error(), 0.0);
@@ -84,7 +84,7 @@ TEST(BatchSums, BatchesCoverTheKnownMeanOfIndependentValues) {
   int covered = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     test::Random random(1000 + seed);
-    Series series;
+    StepSeries series;
     for (int n = 0; n < 3000; ++n) series.push(0.7 + random.normal());
     if (std::abs(series.mean() - 0.7) <= 2.0 * series.standard_error()) ++covered;
   }
@@ -98,7 +98,7 @@ TEST(BatchSums, ErrorsOfCorrelatedValuesAreNotUnderestimated) {
   int covered = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     test::Random random(2000 + seed);
-    Series series;
+    StepSeries series;
     double x = 0;
     for (int n = 0; n < 20000; ++n) {
       x = 0.9 * x + random.normal();
@@ -111,7 +111,7 @@ TEST(BatchSums, ErrorsOfCorrelatedValuesAreNotUnderestimated) {
 
 TEST(BatchSums, ErrorFallsWithTheRootOfTheLength) {
   test::Random random(43);
-  Series shorter, longer;
+  StepSeries shorter, longer;
   for (int n = 0; n < 4096; ++n) shorter.push(random.normal());
   for (int n = 0; n < 64 * 4096; ++n) longer.push(random.normal());
   EXPECT_NEAR(shorter.standard_error() / longer.standard_error(), 8.0, 3.0);

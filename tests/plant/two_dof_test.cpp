@@ -11,7 +11,7 @@
 namespace holdfast {
 namespace {
 
-TwoDof<double> random_plant(test::Random& random) {
+TwoDof<double> drawn_plant(test::Random& random) {
   return {random.log_uniform(0.01, 10), random.log_uniform(1, 1000), random.log_uniform(0.01, 10),
           random.log_uniform(0.01, 10), random.log_uniform(1, 1000), random.log_uniform(0.01, 10)};
 }
@@ -19,7 +19,7 @@ TwoDof<double> random_plant(test::Random& random) {
 TEST(TwoDof, ObeysNewtonForEachMass) {
   test::Random random(51);
   for (int draw = 0; draw < 1000; ++draw) {
-    const auto p = random_plant(random);
+    const auto p = drawn_plant(random);
     const auto z = random.matrix<Vector<double, 4>>();
     const double u = random.uniform(-1, 1), force = random.uniform(-1, 1);
     const Vector<double, 4> rate =
@@ -39,7 +39,7 @@ TEST(TwoDof, ObeysNewtonForEachMass) {
 
 TEST(TwoDof, TheDriveExertsNoNetForce) {
   test::Random random(52);
-  const auto p = random_plant(random);
+  const auto p = drawn_plant(random);
   const Vector<double, 4> b = p.control_input();
   EXPECT_NEAR(p.conductor_mass * b[1] + p.absorber_mass * b[3], 0.0, 1e-15);
 }
@@ -47,7 +47,7 @@ TEST(TwoDof, TheDriveExertsNoNetForce) {
 TEST(TwoDof, EnergyIsLostToTheDampersOnly) {
   test::Random random(53);
   for (int draw = 0; draw < 1000; ++draw) {
-    const auto p = random_plant(random);
+    const auto p = drawn_plant(random);
     const auto z = random.matrix<Vector<double, 4>>();
     const Vector<double, 4> rate = p.state_matrix() * z;
     const double stretch = z[2] - z[0], stretch_rate = z[3] - z[1];

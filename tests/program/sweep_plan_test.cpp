@@ -86,7 +86,8 @@ TEST(SweepPlan, RefusesWhatNoCellCouldHave) {
   EXPECT_NE(refusal_of(sweep_over({})).find("at least one"), std::string::npos);
   EXPECT_NE(refusal_of(sweep_over({"backlash.widht=0,1"})).find("backlash.width"),
             std::string::npos);
-  EXPECT_NE(refusal_of(sweep_over({"backlash.law=0,1"})).find("is a word"), std::string::npos);
+  EXPECT_NE(refusal_of(sweep_over({"backlash.law=0,1"})).find("is not a number"),
+            std::string::npos);
   EXPECT_NE(refusal_of(sweep_over({"wind.speed=1,2"})).find("no [wind]"), std::string::npos);
   EXPECT_NE(refusal_of(sweep_over({"backlash.width=0,1", "backlash.width=2,3"})).find("twice"),
             std::string::npos);

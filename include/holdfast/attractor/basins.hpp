@@ -19,12 +19,14 @@ namespace holdfast {
 /// What one initial state comes to.
 struct MotionFate {
   OrbitOutcome outcome = OrbitOutcome::none_found;
-  int attractor = -1;  ///< index into BasinMap::attractors; −1 unless certified
+  int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
 };
 
 /// One attractor of a set of initial states.
-struct BasinAttractor {
-  PeriodicOrbit orbit;
+/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+template <class Orbit>
+struct AttractorOf {
+  Orbit orbit;
   std::size_t states;               ///< how many of the initial states come to it
   double fraction;                  ///< of all of them
   double standard_error;            ///< √(fraction (1 − fraction)/n): the states being a sample
@@ -32,12 +34,45 @@ struct BasinAttractor {
 };
 
 /// Which attractor each of many initial states comes to.
-struct BasinMap {
-  std::vector<MotionFate> fates;           ///< in the order of the initial states
-  std::vector<BasinAttractor> attractors;  ///< in the order in which the states first meet them
+template <class Orbit>
+struct BasinsOf {
+  std::vector<MotionFate> fates;               ///< in the order of the initial states
+  std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
 };
 
+using BasinAttractor = AttractorOf<PeriodicOrbit>;
+using BasinMap = BasinsOf<PeriodicOrbit>;
+
 namespace detail {
+
+/// The basins of fates whose attractors are numbered in the order in which their orbits were found,
+/// with the attractors in that in which the states meet them.
+template <class Orbit>
+BasinsOf<Orbit> numbered_basins(std::vector<MotionFate> fates, const std::vector<Orbit>& orbits) {
+  BasinsOf<Orbit> basins{std::move(fates), {}};
+  std::vector<int> number_of(orbits.size(), -1);
+  for (MotionFate& fate : basins.fates) {
+    if (fate.attractor < 0) continue;
+    const auto found = static_cast<std::size_t>(fate.attractor);
+    if (number_of[found] < 0) {
+      number_of[found] = static_cast<int>(basins.attractors.size());
+      basins.attractors.push_back({orbits[found], 0, 0.0, 0.0, std::nullopt});
+    }
+    fate.attractor = number_of[found];
+    ++basins.attractors[static_cast<std::size_t>(fate.attractor)].states;
+  }
+  const auto all = static_cast<double>(basins.fates.size());
+  for (std::size_t k = 0; k < basins.attractors.size(); ++k) {
+    AttractorOf<Orbit>& attractor = basins.attractors[k];
+    attractor.fraction = static_cast<double>(attractor.states) / all;
+    attractor.standard_error = std::sqrt(attractor.fraction * (1.0 - attractor.fraction) / all);
+    for (std::size_t earlier = 0; earlier < k && !attractor.mirror_image; ++earlier) {
+      if (is_mirror_image(attractor.orbit, basins.attractors[earlier].orbit))
+        attractor.mirror_image = static_cast<int>(earlier);
+    }
+  }
+  return basins;
+}
 
 /// Finds the fates of many initial states of one loop, in rounds: some of the states that are left
 /// are searched for their own orbits, one by one; then all that are left move on together past the
@@ -52,12 +87,12 @@ class BasinSearch {
       : loop_(loop), limits_(limits), for_tiles_(for_tiles), catalogue_(loop) {}
 
   BasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
-    map_.fates.resize(initial_states.size());
+    fates_.resize(initial_states.size());
     const auto ratio = forcing_ratio(loop_);
     if (!ratio || ratio->denominator > limits_.largest_period) {
       const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
-      for (MotionFate& fate : map_.fates) fate.outcome = outcome;
-      return std::move(map_);
+      for (MotionFate& fate : fates_) fate.outcome = outcome;
+      return {std::move(fates_), {}};
     }
     for (std::size_t k = 0; k < initial_states.size(); ++k)
       left_.push_back({k, memory_of_start(initial_states[k])});
@@ -69,8 +104,7 @@ class BasinSearch {
       probes *= 2;
       samples *= 2;
     }
-    number_attractors();
-    return std::move(map_);
+    return numbered_basins(std::move(fates_), catalogue_.orbits());
   }
 
  private:
@@ -87,7 +121,7 @@ class BasinSearch {
     });
     for (std::size_t k = 0; k < count; ++k) {
       TravellingMotion& motion = left_[place_of(k, count)];
-      MotionFate& fate = map_.fates[motion.number];
+      MotionFate& fate = fates_[motion.number];
       fate.outcome = results[k].outcome;
       if (fate.outcome == OrbitOutcome::certified)
         fate.attractor = catalogue_.add(std::move(*results[k].orbit));
@@ -108,8 +142,8 @@ class BasinSearch {
       own.run(left_.data() + first, number, samples, catalogue_);
     });
     for (const TravellingMotion& motion : left_) {
-      if (motion.diverged) map_.fates[motion.number] = {OrbitOutcome::diverges, -1};
-      if (motion.orbit >= 0) map_.fates[motion.number] = {OrbitOutcome::certified, motion.orbit};
+      if (motion.diverged) fates_[motion.number] = {OrbitOutcome::diverges, -1};
+      if (motion.orbit >= 0) fates_[motion.number] = {OrbitOutcome::certified, motion.orbit};
     }
     drop([](const TravellingMotion& motion) { return motion.diverged || motion.orbit >= 0; });
   }
@@ -119,37 +153,12 @@ class BasinSearch {
     left_.erase(std::remove_if(left_.begin(), left_.end(), ended), left_.end());
   }
 
-  /// From the order in which orbits were found to that in which the states meet them.
-  void number_attractors() {
-    std::vector<int> number_of(catalogue_.orbits().size(), -1);
-    for (MotionFate& fate : map_.fates) {
-      if (fate.attractor < 0) continue;
-      const auto found = static_cast<std::size_t>(fate.attractor);
-      if (number_of[found] < 0) {
-        number_of[found] = static_cast<int>(map_.attractors.size());
-        map_.attractors.push_back({catalogue_.orbits()[found], 0, 0.0, 0.0, std::nullopt});
-      }
-      fate.attractor = number_of[found];
-      ++map_.attractors[static_cast<std::size_t>(fate.attractor)].states;
-    }
-    const auto all = static_cast<double>(map_.fates.size());
-    for (std::size_t k = 0; k < map_.attractors.size(); ++k) {
-      BasinAttractor& attractor = map_.attractors[k];
-      attractor.fraction = static_cast<double>(attractor.states) / all;
-      attractor.standard_error = std::sqrt(attractor.fraction * (1.0 - attractor.fraction) / all);
-      for (std::size_t earlier = 0; earlier < k && !attractor.mirror_image; ++earlier) {
-        if (is_mirror_image(attractor.orbit, map_.attractors[earlier].orbit))
-          attractor.mirror_image = static_cast<int>(earlier);
-      }
-    }
-  }
-
   ForcedLoop<double> loop_;
   OrbitLimits limits_;
   const Tiles& for_tiles_;
   OrbitCatalogue catalogue_;
   std::vector<TravellingMotion> left_;
-  BasinMap map_;
+  std::vector<MotionFate> fates_;
 };
 
 }  // namespace detail

@@ -91,6 +91,15 @@ class LyapunovSpectrum {
   }
 
   std::int64_t steps() const { return state_.sums.steps(); }
+  /// Number of batches complete, for the standard errors.
+  std::size_t complete_batches() const { return state_.sums.complete_batches(); }
+
+  /// Forgets all but the directions of the tangent vectors and how many of them are annihilated:
+  /// the exponents are those of the steps from here on.
+  void restart() {
+    state_.sums = BatchSums<Scalar, Size>();
+    state_.remainder.setZero();
+  }
 
  private:
   Vector<Scalar, Size> with(const Vector<Scalar, Size>& values, Scalar where_annihilated) const {

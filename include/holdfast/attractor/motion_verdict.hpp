@@ -23,10 +23,10 @@ struct MotionVerdict {
 
 namespace detail {
 
-/// How the sampled loop is looked at: as many samples as the 0–1 test wants forcing periods for.
-inline EvidencePlan evidence_plan(const ForcedLoop<double>& loop) {
+/// How a sampled loop is looked at: as many samples as the 0–1 test wants forcing periods for.
+/// @param cycles  f τ, periods of the forcing in a sample, > 0
+inline EvidencePlan evidence_plan(double cycles) {
   EvidencePlan plan;
-  const double cycles = loop.excitation.frequency * loop.sampling.period;
   const double samples_of_period = std::clamp(std::round(1.0 / cycles), 1.0, 200.0);
   plan.zero_one_stride = static_cast<std::int64_t>(samples_of_period);
   plan.samples = std::clamp<std::int64_t>(1008 * plan.zero_one_stride, 20160, 100000);
@@ -61,7 +61,9 @@ MotionEvidence evidence_of_motion(const ForcedLoop<Scalar>& loop,
   return evidence;
 }
 
-inline MotionEvidence evidence_of_orbit(const PeriodicOrbit& orbit) {
+/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+template <class Orbit>
+MotionEvidence evidence_of_orbit(const Orbit& orbit) {
   MotionEvidence evidence;
   evidence.certified_period = orbit.period_samples();
   const double samples = static_cast<double>(orbit.period_samples());
@@ -70,7 +72,9 @@ inline MotionEvidence evidence_of_orbit(const PeriodicOrbit& orbit) {
   return evidence;
 }
 
-inline std::string certificate_text(const PeriodicOrbit& orbit) {
+/// @param shown  what it shows of the orbit's contacts
+template <class Orbit>
+std::string certificate_text(const Orbit& orbit, const std::string& shown) {
   const auto counted = [](std::int64_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
   };
@@ -78,11 +82,28 @@ inline std::string certificate_text(const PeriodicOrbit& orbit) {
   if (orbit.forcing_periods() > 0)
     text += ", " + counted(orbit.forcing_periods(), "forcing period");
   const double modulus = orbit.largest_multiplier();
-  text += ": it reproduces its own contacts, its largest multiplier is " +
+  text += ": " + shown + ", its largest multiplier is " +
           (modulus > 0.0 ? EvidenceWords::number(modulus)
                          : "e^" + EvidenceWords::number(orbit.multipliers.front().log_modulus)) +
           ", and it closes to " + EvidenceWords::number(orbit.closure_error) + " in m and m/s.";
   return text;
+}
+
+/// Takes the verdict from the search where that has certified an orbit or seen the motion diverge.
+/// @tparam Found  MotionVerdict or HybridVerdict, its search done
+/// @param shown   what a certificate shows of the orbit's contacts
+/// @return whether it has
+template <class Found>
+bool is_decided_by_search(Found& found, const std::string& shown) {
+  const bool certified = found.search.outcome == OrbitOutcome::certified;
+  if (!certified && found.search.outcome != OrbitOutcome::diverges) return false;
+  if (certified)
+    found.evidence = evidence_of_orbit(*found.search.orbit);
+  else
+    found.evidence.diverged_at = found.search.samples;
+  found.verdict = judge(found.evidence);
+  if (certified) found.verdict.rests_on = certificate_text(*found.search.orbit, shown);
+  return true;
 }
 
 }  // namespace detail
@@ -101,24 +122,13 @@ template <class Scalar>
 MotionVerdict classify_motion(const ForcedLoop<Scalar>& loop,
                               const Vector<double, 4>& initial_state,
                               const OrbitLimits& limits = {}) {
-  MotionVerdict result{{}, find_periodic_orbit(loop, initial_state, limits), {}};
-  switch (result.search.outcome) {
-    case OrbitOutcome::certified:
-      result.evidence = detail::evidence_of_orbit(*result.search.orbit);
-      result.verdict = judge(result.evidence);
-      result.verdict.rests_on = detail::certificate_text(*result.search.orbit);
-      return result;
-    case OrbitOutcome::diverges:
-      result.evidence.diverged_at = result.search.samples;
-      break;
-    default: {
-      EvidencePlan plan = detail::evidence_plan(loop);
-      plan.forcing_incommensurate = result.search.outcome == OrbitOutcome::incommensurate;
-      result.evidence = detail::evidence_of_motion(loop, initial_state, plan);
-    }
-  }
-  result.verdict = judge(result.evidence);
-  return result;
+  MotionVerdict found{{}, find_periodic_orbit(loop, initial_state, limits), {}};
+  if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
+  EvidencePlan plan = detail::evidence_plan(loop.excitation.frequency * loop.sampling.period);
+  plan.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
+  found.evidence = detail::evidence_of_motion(loop, initial_state, plan);
+  found.verdict = judge(found.evidence);
+  return found;
 }
 
 }  // namespace holdfast

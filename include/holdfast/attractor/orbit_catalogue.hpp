@@ -17,22 +17,24 @@ namespace holdfast {
 namespace detail {
 
 /// Whether `other`, begun `shift` samples later and its states multiplied by `sign`, is `orbit`.
-inline bool same_course(const PeriodicOrbit& orbit, const PeriodicOrbit& other, std::size_t shift,
-                        double sign, double tolerance) {
+template <class Orbit>
+bool same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign,
+                 double tolerance) {
   const std::size_t samples = orbit.states.size();
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   for (std::size_t j = 0; j < samples; j += step) {
-    const Vector<double, 4> apart =
-        orbit.states[j].head<4>() - sign * other.states[(j + shift) % samples].head<4>();
+    const Vector<double, 4> apart = orbit.states[j].template head<4>() -
+                                    sign * other.states[(j + shift) % samples].template head<4>();
     if (!(apart.cwiseAbs().maxCoeff() <= tolerance)) return false;
   }
   return true;
 }
 
-inline double largest_entry(const PeriodicOrbit& orbit) {
+template <class Orbit>
+double largest_entry(const Orbit& orbit) {
   double largest = 0.0;
   for (const auto& state : orbit.states)
-    largest = std::max(largest, state.head<4>().cwiseAbs().maxCoeff());
+    largest = std::max(largest, state.template head<4>().cwiseAbs().maxCoeff());
   return largest;
 }
 
@@ -40,8 +42,10 @@ inline double largest_entry(const PeriodicOrbit& orbit) {
 
 /// Whether two orbits of the same loop are one motion, begun at different coincidences of sampling
 /// and forcing. Gaps in which the drive stays for ever may differ.
-inline bool is_phase_shifted_copy(const PeriodicOrbit& orbit, const PeriodicOrbit& other) {
-  if (orbit.contacts.size() != other.contacts.size()) return false;
+/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+template <class Orbit>
+bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
+  if (orbit.states.size() != other.states.size()) return false;
   const double tolerance = 1e-9 * detail::largest_entry(orbit);
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   for (std::size_t shift = 0; shift < orbit.states.size(); shift += step) {
@@ -53,10 +57,12 @@ inline bool is_phase_shifted_copy(const PeriodicOrbit& orbit, const PeriodicOrbi
 /// Whether one orbit is the other with all signs changed, half a forcing period later: the loop is
 /// symmetric under that, which sampling keeps where q is even. Without excitation any shift will
 /// do.
-inline bool is_mirror_image(const PeriodicOrbit& orbit, const PeriodicOrbit& other) {
+/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+template <class Orbit>
+bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   const bool forced = orbit.ratio.numerator != 0;
-  if (orbit.contacts.size() != other.contacts.size() || (forced && step % 2 != 0)) return false;
+  if (orbit.states.size() != other.states.size() || (forced && step % 2 != 0)) return false;
   const double tolerance = 1e-9 * detail::largest_entry(orbit);
   for (std::size_t shift = forced ? step / 2 : 0; shift < orbit.states.size(); shift += step) {
     if (detail::same_course(orbit, other, shift, -1.0, tolerance)) return true;

@@ -7,10 +7,14 @@
 #include <functional>
 #include <vector>
 
+#include "holdfast/attractor/motion_way.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/between_samples.hpp"
+#include "holdfast/motion/composed_force.hpp"
 #include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/harmonic.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/stepper.hpp"
 
 namespace holdfast {
 
@@ -37,41 +41,67 @@ struct StrobePoint {
 namespace detail {
 
 /// A size that no bounded motion reaches: 10¹² times all that sets its scale.
-inline double divergence_bound(const ForcedLoop<double>& loop, const Vector<double, 4>& state) {
-  const double deflection = loop.excitation.amplitude / loop.plant.conductor_stiffness;
-  const double scale = deflection * (1.0 + loop.excitation.angular_frequency()) +
-                       loop.backlash_width + state.cwiseAbs().maxCoeff();
+inline double divergence_bound(const RealLoop& loop, const Vector<double, 4>& state) {
+  const ComposedForce& force = loop.digital.force;
+  double largest = 0.0;
+  if (force.record)
+    for (const double row : force.record->forces()) largest = std::max(largest, std::abs(row));
+  for (const Harmonic& harmonic : force.harmonics) largest += harmonic.amplitude;
+  const double deflection = largest / loop.plant.conductor_stiffness;
+  const double scale = deflection * (1.0 + force.highest_angular_frequency()) +
+                       loop.backlash.width + state.cwiseAbs().maxCoeff();
   return 1e12 * std::max(scale, 1e-100);
 }
 
 /// Shows the states of a motion once every forcing period after the transient; leaves the last of
-/// them, at the excitation's peak, in `state`. @return false where it leaves the range of numbers
-template <class Observer>
-bool show_strobes(const ForcedLoop<double>& loop, const DiagramQuestion& question,
+/// them in `state`. @return false where it leaves the range of numbers
+/// @param forcing_period  s
+/// @param bound           of the state's entries
+template <class Way, class Observer>
+bool show_strobes(Way& way, const DiagramQuestion& question, double forcing_period, double bound,
                   Vector<double, 4>& state, Observer&& observer) {
   constexpr std::int64_t samples_between_looks = 1 << 14;
-  const double bound = divergence_bound(loop, state);
-  const BetweenSamples between(loop);
-  const double tau = loop.sampling.period, forcing_period = 1.0 / loop.excitation.frequency;
-  auto motion = harmonically_forced_motion(loop, state);
   auto strobe = std::ceil(question.transient / forcing_period);
   for (int shown = 0; shown < question.strobes;) {
-    const double previous_force = motion.memory().previous_force;
-    const MotionSample<double> sample = motion.sense();
+    const MotionSample<double> sample = way.sense();
     if (!(sample.state.cwiseAbs().maxCoeff() < bound)) return false;
     if (question.watch && sample.index % samples_between_looks == 0) question.watch();
     // A strobe that falls on a sample but for rounding is that sample.
+    const double period = way.period(), end = period * (1.0 - 1e-9);
     double after = strobe * forcing_period - sample.time;
-    for (; shown < question.strobes && after < tau * (1.0 - 1e-9); after += forcing_period) {
-      const bool at_sample = after < 1e-9 * tau;
-      state = at_sample ? sample.state : between.state(sample, previous_force, after);
+    way.advance(after < end);
+    for (; shown < question.strobes && after < end; after += forcing_period) {
+      const bool at_sample = after < 1e-9 * period;
+      state = at_sample ? sample.state : way.state(after);
       observer(state);
       ++shown;
       strobe += 1.0;
     }
-    motion.advance();
   }
   return true;
+}
+
+template <class Observer>
+bool show_strobes(const ForcedLoop<double>& loop, const DiagramQuestion& question,
+                  Vector<double, 4>& state, Observer&& observer) {
+  SampledWay way(loop, state);
+  return show_strobes(way, question, 1.0 / loop.excitation.frequency,
+                      divergence_bound(real_loop(loop), state), state, observer);
+}
+
+/// @throws InvalidParameter where the force has no harmonic
+template <class Observer>
+bool show_strobes(const RealLoop& loop, const DiagramQuestion& question, Vector<double, 4>& state,
+                  Observer&& observer) {
+  const std::vector<Harmonic>& harmonics = loop.digital.force.harmonics;
+  if (harmonics.empty())
+    throw InvalidParameter("number of harmonics", 0.0, "",
+                           ">= 1: the strobes are at whole periods of the first one");
+  return with_motion(loop, state, [&](auto motion) {
+    HybridWay way(motion);
+    return show_strobes(way, question, 1.0 / harmonics.front().frequency,
+                        divergence_bound(loop, state), state, observer);
+  });
 }
 
 }  // namespace detail
@@ -81,14 +111,20 @@ bool show_strobes(const ForcedLoop<double>& loop, const DiagramQuestion& questio
 /// excitation's peak. Where the two ways differ, attractors may coexist, if the transient is over
 /// and the strobes cover the period.
 ///
-/// The drive begins outside its backlash at each value. A motion
-/// that diverges shows nothing, and the next one begins at the initial state.
-/// @param path           parameter ↦ ForcedLoop<double>
+/// The strobes of a RealLoop are at whole periods of the first harmonic of its force, from t = 0
+/// on; where there are more harmonics or a record, a motion begins with them at t = 0 again, and
+/// only a common period keeps their phases from one motion to the next.
+///
+/// The drive begins outside its backlash at each value (a dead zone where the state is), the
+/// computer without a memory of the past. A motion that diverges shows no more of itself, and
+/// the next one begins at the initial state.
+/// @param path           parameter ↦ ForcedLoop<double> or RealLoop
 /// @param values         of the parameter, in their order
 /// @param initial_state  of the first motion
 /// @param observer       called with each `StrobePoint`
 /// @return how many of the motions, two for each value, diverged
-/// @throws InvalidParameter where the question or a loop is not admissible
+/// @throws InvalidParameter where the question or a loop is not admissible, or the force of a
+/// RealLoop has no harmonic
 template <class Path, class Observer>
 std::size_t run_orbit_diagram(const Path& path, const std::vector<double>& values,
                               const Vector<double, 4>& initial_state,
@@ -99,7 +135,7 @@ std::size_t run_orbit_diagram(const Path& path, const std::vector<double>& value
   for (const bool upward : {true, false}) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::size_t index = upward ? k : values.size() - 1 - k;
-      const ForcedLoop<double> loop = path(values[index]);
+      const auto loop = path(values[index]);
       validate(loop);
       const bool bounded =
           detail::show_strobes(loop, question, state, [&](const Vector<double, 4>& strobe) {

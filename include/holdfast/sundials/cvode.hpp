@@ -144,6 +144,109 @@ inline SUNContext make_context() {
   return context;
 }
 
+/// What every integration by CVODE holds and how it fails: the handles, the outcome, the words.
+class Session {
+ public:
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  Session(Session&&) = delete;
+  Session& operator=(Session&&) = delete;
+
+  IntegrationOutcome outcome() const { return outcome_; }
+  /// CVODE's own words on a failure: the flag's name, and its message where it gave one.
+  const std::string& words() const { return words_; }
+
+ protected:
+  /// @throws InvalidParameter for tolerances that are not positive
+  explicit Session(const Tolerances& tolerances) {
+    require_positive("relative tolerance", tolerances.relative, "");
+    require_positive("absolute tolerance", tolerances.absolute, "");
+    context_.reset(make_context());
+  }
+  ~Session() = default;
+
+  /// Makes ready to integrate from t = 0; `user_data` is what CVODE hands to the functions.
+  void open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
+            const Tolerances& tolerances, void* user_data);
+  void use_fixed_point();
+
+  bool check(int flag) {
+    if (outcome_ != IntegrationOutcome::completed) return false;
+    const bool warning = flag > 0 && flag != CV_ROOT_RETURN;
+    outcome_ = warning ? IntegrationOutcome::completed : outcome_of_flag(flag);
+    if (outcome_ == IntegrationOutcome::completed) return true;
+    words_ = name_of_flag(flag) + (message_.empty() ? "" : ": " + message_);
+    return false;
+  }
+
+  bool lacks_memory(bool made) {
+    if (made) return false;
+    outcome_ = IntegrationOutcome::out_of_memory;
+    words_ = "CV_MEM_FAIL";
+    return true;
+  }
+
+  /// One of CVODE's counters, 0 where there is none.
+  long count(int (*get)(void*, long*)) const {
+    long number = 0;
+    return memory_ && get(memory_.get(), &number) == CV_SUCCESS ? number : 0;
+  }
+
+  IntegrationOutcome outcome_ = IntegrationOutcome::completed;
+  std::string words_, message_;
+  // Freed in the opposite order: everything before its context.
+  Owned<SUNContext, FreeContext> context_;
+  Owned<N_Vector, FreeVector> state_;
+  Owned<SUNMatrix, FreeMatrix> matrix_;
+  Owned<SUNLinearSolver, FreeLinearSolver> linear_solver_;
+  Owned<SUNNonlinearSolver, FreeNonlinearSolver> nonlinear_solver_;
+  std::unique_ptr<void, FreeIntegrator> memory_;
+
+ private:
+#if SUNDIALS_VERSION_MAJOR < 7
+  static void note_message(int, const char*, const char*, char* message, void* self) {
+    static_cast<Session*>(self)->message_ = message;
+  }
+#else
+  static void note_message(int, const char*, const char*, const char* message, SUNErrCode,
+                           void* self, SUNContext) {
+    if (message != nullptr) static_cast<Session*>(self)->message_ = message;
+  }
+#endif
+
+  void listen_to_messages() {
+#if SUNDIALS_VERSION_MAJOR < 7
+    check(CVodeSetErrHandlerFn(memory_.get(), &note_message, this));
+#else
+    SUNContext_PushErrHandler(context_.get(), &note_message, this);
+#endif
+  }
+};
+
+inline void Session::open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
+                          const Tolerances& tolerances, void* user_data) {
+  if (lacks_memory(context_ != nullptr)) return;
+  state_.reset(N_VNew_Serial(initial_state.size(), context_.get()));
+  if (lacks_memory(state_ != nullptr)) return;
+  Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), initial_state.size()) =
+      initial_state;
+  memory_.reset(CVodeCreate(method, context_.get()));
+  if (lacks_memory(memory_ != nullptr)) return;
+  listen_to_messages();
+  check(CVodeInit(memory_.get(), rate, 0.0, state_.get()));
+  check(CVodeSetUserData(memory_.get(), user_data));
+  check(CVodeSStolerances(memory_.get(), tolerances.relative, tolerances.absolute));
+  check(CVodeSetMaxNumSteps(memory_.get(), tolerances.largest_number_of_steps));
+  check(CVodeSetMaxHnilWarns(memory_.get(), -1));  // SUNDIALS 7 prints these warnings itself
+}
+
+inline void Session::use_fixed_point() {
+  if (outcome_ != IntegrationOutcome::completed) return;
+  nonlinear_solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
+  if (lacks_memory(nonlinear_solver_ != nullptr)) return;
+  check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
+}
+
 }  // namespace detail
 
 /// One integration of an autonomous system ẏ = rate(y) from a given state.
@@ -156,17 +259,12 @@ inline SUNContext make_context() {
 ///
 /// The system must outlive the integrator. Not to be copied or moved: CVODE holds its address.
 template <class System>
-class Integrator {
+class Integrator : public detail::Session {
  public:
   /// @param initial_state  states() numbers, in SI units
   /// @throws InvalidParameter for another number of them, or tolerances that are not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances);
-  ~Integrator() = default;
-  Integrator(const Integrator&) = delete;
-  Integrator& operator=(const Integrator&) = delete;
-  Integrator(Integrator&&) = delete;
-  Integrator& operator=(Integrator&&) = delete;
 
   /// Integrates to the instant `time` (s). Once it has failed it stays failed.
   IntegrationOutcome advance_to(double time) {
@@ -179,17 +277,9 @@ class Integrator {
   const double* state() const { return N_VGetArrayPointer(state_.get()); }
   /// That instant (s).
   double time() const { return time_; }
-  IntegrationOutcome outcome() const { return outcome_; }
-  /// CVODE's own words on a failure: the flag's name, and its message where it gave one.
-  const std::string& words() const { return words_; }
 
   IntegrationCost cost() const {
     IntegrationCost cost;
-    if (!memory_) return cost;
-    const auto count = [this](int (*get)(void*, long*)) {
-      long number = 0;
-      return get(memory_.get(), &number) == CV_SUCCESS ? number : 0;
-    };
     cost.steps = count(&CVodeGetNumSteps);
     cost.rate_evaluations = count(&CVodeGetNumRhsEvals);
     if constexpr (banded) cost.jacobian_evaluations = count(&CVodeGetNumJacEvals);
@@ -223,56 +313,11 @@ class Integrator {
     return 0;
   }
 
-#if SUNDIALS_VERSION_MAJOR < 7
-  static void note_message(int, const char*, const char*, char* message, void* self) {
-    static_cast<Integrator*>(self)->message_ = message;
-  }
-#else
-  static void note_message(int, const char*, const char*, const char* message, SUNErrCode,
-                           void* self, SUNContext) {
-    if (message != nullptr) static_cast<Integrator*>(self)->message_ = message;
-  }
-#endif
-
-  void listen_to_messages() {
-#if SUNDIALS_VERSION_MAJOR < 7
-    check(CVodeSetErrHandlerFn(memory_.get(), &note_message, this));
-#else
-    SUNContext_PushErrHandler(context_.get(), &note_message, this);
-#endif
-  }
-
-  bool check(int flag) {
-    if (outcome_ != IntegrationOutcome::completed) return false;
-    const bool warning = flag > 0 && flag != CV_ROOT_RETURN;
-    outcome_ = warning ? IntegrationOutcome::completed : outcome_of_flag(flag);
-    if (outcome_ == IntegrationOutcome::completed) return true;
-    words_ = name_of_flag(flag) + (message_.empty() ? "" : ": " + message_);
-    return false;
-  }
-
-  bool lacks_memory(bool made) {
-    if (made) return false;
-    outcome_ = IntegrationOutcome::out_of_memory;
-    words_ = "CV_MEM_FAIL";
-    return true;
-  }
-
   void use_banded_newton();
-  void use_fixed_point();
   void watch_margin();
 
   const System& system_;
-  IntegrationOutcome outcome_ = IntegrationOutcome::completed;
-  std::string words_, message_;
   double time_ = 0.0;
-  // Freed in the opposite order: everything before its context.
-  detail::Owned<SUNContext, detail::FreeContext> context_;
-  detail::Owned<N_Vector, detail::FreeVector> state_;
-  detail::Owned<SUNMatrix, detail::FreeMatrix> matrix_;
-  detail::Owned<SUNLinearSolver, detail::FreeLinearSolver> linear_solver_;
-  detail::Owned<SUNNonlinearSolver, detail::FreeNonlinearSolver> nonlinear_solver_;
-  std::unique_ptr<void, detail::FreeIntegrator> memory_;
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -280,24 +325,12 @@ class Integrator {
 template <class System>
 Integrator<System>::Integrator(const System& system, const Eigen::VectorXd& initial_state,
                                const Tolerances& tolerances)
-    : system_(system), context_(detail::make_context()) {
-  require_positive("relative tolerance", tolerances.relative, "");
-  require_positive("absolute tolerance", tolerances.absolute, "");
+    : Session(tolerances), system_(system) {
   if (initial_state.size() != system.states())
     throw InvalidParameter("number of initial states", static_cast<double>(initial_state.size()),
                            "", "states() of the system");
-  if (lacks_memory(context_ != nullptr)) return;
-  state_.reset(N_VNew_Serial(system.states(), context_.get()));
-  if (lacks_memory(state_ != nullptr)) return;
-  Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), system.states()) = initial_state;
-  memory_.reset(CVodeCreate(banded ? CV_BDF : CV_ADAMS, context_.get()));
-  if (lacks_memory(memory_ != nullptr)) return;
-  listen_to_messages();
-  check(CVodeInit(memory_.get(), &Integrator::rate, 0.0, state_.get()));
-  check(CVodeSetUserData(memory_.get(), this));
-  check(CVodeSStolerances(memory_.get(), tolerances.relative, tolerances.absolute));
-  check(CVodeSetMaxNumSteps(memory_.get(), tolerances.largest_number_of_steps));
-  check(CVodeSetMaxHnilWarns(memory_.get(), -1));  // SUNDIALS 7 prints these warnings itself
+  open(banded ? CV_BDF : CV_ADAMS, &Integrator::rate, initial_state, tolerances, this);
+  if (outcome_ != IntegrationOutcome::completed) return;
   if constexpr (banded)
     use_banded_newton();
   else
@@ -324,13 +357,6 @@ void Integrator<System>::use_banded_newton() {
   if (lacks_memory(linear_solver_ != nullptr)) return;
   check(CVodeSetLinearSolver(memory_.get(), linear_solver_.get(), matrix_.get()));
   check(CVodeSetJacFn(memory_.get(), &Integrator::jacobian));
-}
-
-template <class System>
-void Integrator<System>::use_fixed_point() {
-  nonlinear_solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
-  if (lacks_memory(nonlinear_solver_ != nullptr)) return;
-  check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
 }
 
 }  // namespace holdfast::cvode

@@ -12,8 +12,9 @@ namespace holdfast {
 
 /// How a motion ended.
 enum class MotionEnd {
-  completed,  ///< all its samples were taken
-  diverged,   ///< the state left the range of the number type
+  completed,    ///< all its samples were taken
+  diverged,     ///< the state left the range of the number type
+  accumulates,  ///< its changes of contact do (motion/hybrid_motion.hpp): it cannot be followed
 };
 
 /// What a sweep keeps of one motion of the sampled loop with backlash.
@@ -21,7 +22,8 @@ enum class MotionEnd {
 /// t_j = j τ for j = 0, 1, … up to the last sample not after the duration. The steady samples are
 /// those with t_j not before half the duration, round-off apart; where there are none, what is
 /// taken of them is NaN. Of a motion that diverged everything is infinite but `engaged_fraction`
-/// and `reversals_per_s`, which are NaN, and `first_peak`, which stays what it was.
+/// and `reversals_per_s`, which are NaN, and `first_peak`, which stays what it was. Of one whose
+/// changes of contact accumulate everything is NaN but the samples up to there.
 struct MotionMetrics {
   MotionEnd end;
   std::int64_t samples;  ///< taken; of a motion that diverged, those with a finite state

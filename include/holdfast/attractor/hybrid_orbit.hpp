@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/attractor/multipliers.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/contact_mode.hpp"
+
+namespace holdfast {
+
+/// How far an orbit is from switching otherwise than it does; +∞ for what it never comes to.
+///
+/// Of a margin of zero the motion grazes: its neighbours do not switch alike, and multipliers do
+/// not describe them. They are those of the guards of the contact between the samples; what a law
+/// decides at the samples alone has none here.
+struct SwitchingMargins {
+  static constexpr double none = std::numeric_limits<double>::infinity();
+
+  /// Of Δz from an end of its gap, where it turns before it has come there (m).
+  double border_distance = none;
+  /// Way of Δz from where it left a gap to where it reverses (m).
+  double shortest_travel = none;
+  /// |Δż| where Δz passes an end of its gap (m/s).
+  double exit_velocity = none;
+  /// |Δż| of an engaged drive where it is least without a reversal (m/s).
+  double reversal_velocity = none;
+  /// |a(u)|, the relative acceleration at a reversal under the force that was transmitted (m/s²).
+  double reversal_acceleration = none;
+  /// |a(0)|, that without a force, whose sign decides between stick and gap at a reversal (m/s²).
+  double stick_acceleration = none;
+};
+
+/// A periodic motion of the sampled loop whose contact switches between the samples, with its
+/// numerical certificate.
+///
+/// What is certified, in double precision: that the motion of HybridMotion closes upon itself after
+/// N samples, to the error stated; that it switches alike in three successive periods; that all its
+/// multipliers, with the saltation at every switch, lie inside the unit circle; and how far it is
+/// from switching otherwise. Not certified is what interval arithmetic would: that a true orbit
+/// lies within a bound of the computed one.
+struct HybridOrbit {
+  Rational ratio;                         ///< f τ = p/q
+  double sampling_period;                 ///< τ (s)
+  std::vector<Vector<double, 4>> states;  ///< z_j, N of them; the first one at phase 0 of the force
+  std::vector<ContactMode> modes;         ///< from each sample on
+  std::vector<double> forces;             ///< transmitted just after each sample (N)
+  std::vector<ContactSwitch> switches;    ///< of one period, s after its first sample
+  /// Of one period, largest first; −∞ for an annihilated direction. Those of [z; u_{j−1}; the gap;
+  /// the displacement as last read] that depend on the past at all, padded to five.
+  std::vector<Multiplier> multipliers;
+  double closure_error;              ///< ‖z_N − z₀‖, SI numbers of m and m/s
+  SwitchingMargins margins;          ///< the nearest of all switches and all that do not happen
+  std::array<double, 3> time_share;  ///< of each ContactMode; their sum is 1
+  double largest_displacement;       ///< max |z₁(t)| (m), between the samples too
+
+  /// N.
+  std::int64_t period_samples() const { return static_cast<std::int64_t>(states.size()); }
+  /// N τ (s).
+  double period() const { return static_cast<double>(period_samples()) * sampling_period; }
+  /// N p/q, a whole number; 0 without excitation.
+  std::int64_t forcing_periods() const {
+    return period_samples() / ratio.denominator * ratio.numerator;
+  }
+  /// max |λ|; 0 where that is below the smallest number.
+  double largest_multiplier() const { return std::exp(multipliers.front().log_modulus); }
+  /// Every neighbour that switches in the same order comes nearer, in the long run; not so where
+  /// the largest modulus is told from 1 by rounding alone.
+  bool is_attracting() const {
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    return multipliers.front().log_modulus < -rounding * static_cast<double>(states.size());
+  }
+  /// Share of the samples after which the drive is engaged.
+  double engaged_fraction() const {
+    const auto engaged = std::count(modes.begin(), modes.end(), ContactMode::engaged);
+    return static_cast<double>(engaged) / static_cast<double>(modes.size());
+  }
+  /// Share of the time in which the drive is engaged.
+  double engaged_time_fraction() const { return time_share[0]; }
+  /// Largest |z₁| (m) of the samples.
+  double amplitude() const {
+    double largest = 0.0;
+    for (const auto& state : states) largest = std::max(largest, std::abs(state[0]));
+    return largest;
+  }
+  /// How often a mode begins in one period.
+  std::int64_t entries(ContactMode mode) const {
+    return std::count_if(switches.begin(), switches.end(),
+                         [mode](const ContactSwitch& change) { return change.mode == mode; });
+  }
+};
+
+}  // namespace holdfast

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace holdfast {
+
+/// Most coefficients of a series.
+inline constexpr int most_terms = 20;
+
+/// Coefficients of p(x) = c₀ + c₁ x + … , at most `most_terms` of them; never on the heap.
+using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_terms, 1>;
+
+/// p(x) and p′(x).
+struct ValueAndSlope {
+  double value, slope;
+};
+
+template <class Coefficients>
+ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial, double x) {
+  ValueAndSlope result{polynomial[polynomial.size() - 1], 0.0};
+  for (Eigen::Index k = polynomial.size() - 2; k >= 0; --k) {
+    result.slope = result.slope * x + result.value;
+    result.value = result.value * x + polynomial[k];
+  }
+  return result;
+}
+
+/// What is left of p(x), 0 ≤ x ≤ 1, from some x on: the coefficients of p(from + y (1 − from)).
+inline Series rest_of(Series p, double from) {
+  const Eigen::Index terms = p.size();
+  for (Eigen::Index k = 0; k + 1 < terms; ++k)
+    for (Eigen::Index i = terms - 2; i >= k; --i) p[i] += from * p[i + 1];
+  double power = 1.0;
+  for (Eigen::Index k = 1; k < terms; ++k) p[k] *= power *= 1.0 - from;
+  return p;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/two_dof.hpp"
+
+namespace holdfast {
+
+/// The norm ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂², twice the energy of the plant.
+///
+/// Springs and masses exchange energy and dampers take it away, so that ‖e^{At}‖ ≤ 1: nothing grows
+/// by itself, whatever the units, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
+class EnergyNorm {
+ public:
+  explicit EnergyNorm(const TwoDof<double>& plant) : plant_(plant) {}
+
+  /// ‖z‖ (√J).
+  double operator()(const Vector<double, 4>& state) const {
+    const double relative = relative_displacement(state);
+    return std::sqrt(plant_.conductor_stiffness * state[0] * state[0] +
+                     plant_.absorber_stiffness * relative * relative +
+                     plant_.conductor_mass * state[1] * state[1] +
+                     plant_.absorber_mass * state[3] * state[3]);
+  }
+
+  /// The largest ℓᵀz over ‖z‖ = 1, of a functional ℓ (4 × 1).
+  double dual(const Vector<double, 4>& functional) const {
+    const double together = functional[0] + functional[2];
+    return std::sqrt(together * together / plant_.conductor_stiffness +
+                     functional[2] * functional[2] / plant_.absorber_stiffness +
+                     functional[1] * functional[1] / plant_.conductor_mass +
+                     functional[3] * functional[3] / plant_.absorber_mass);
+  }
+
+ private:
+  TwoDof<double> plant_;
+};
+
+}  // namespace holdfast

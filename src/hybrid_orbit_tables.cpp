@@ -1,0 +1,95 @@
+#include "hybrid_orbit_tables.hpp"
+
+#include <optional>
+
+#include "errors.hpp"
+#include "holdfast/attractor/hybrid_orbit_search.hpp"
+#include "interrupt.hpp"
+#include "loop_of_case.hpp"
+#include "motion_columns.hpp"
+#include "orbit_failure.hpp"
+#include "orbit_rows.hpp"
+#include "table.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// f τ of the first harmonic.
+double cycles_per_sample(const RealLoop& loop) {
+  return loop.digital.force.harmonics.front().frequency * loop.digital.sampling.period;
+}
+
+void write_margins(QuantityRows& rows, const SwitchingMargins& margins) {
+  rows.row("gap_distance", margins.border_distance, "m");
+  rows.row("exit_velocity", margins.exit_velocity, "m/s");
+  rows.row("reversal_velocity", margins.reversal_velocity, "m/s");
+  rows.row("reversal_acceleration", margins.reversal_acceleration, "m/s2");
+  rows.row("stick_acceleration", margins.stick_acceleration, "m/s2");
+}
+
+void write_modes(QuantityRows& rows, const HybridOrbit& orbit) {
+  for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
+    const std::string name = word_for(mode);
+    rows.row(name + "_time_share", orbit.time_share[static_cast<std::size_t>(mode)]);
+    rows.row(name + "_phases", static_cast<double>(orbit.entries(mode)));
+  }
+}
+
+}  // namespace
+
+HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
+                            std::int64_t largest_period) {
+  const std::optional<Rational> ratio = forcing_ratio(loop.digital);
+  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
+  return with_motion(loop, initial_state_of(context.case_data), [&](const auto& motion) {
+    auto found = find_hybrid_orbit(motion, limits);
+    if (found.outcome != OrbitOutcome::certified) {
+      throw NoAnswer(reason_for(failure_of(found, ratio, cycles_per_sample(loop), largest_period)));
+    }
+    return *found.orbit;
+  });
+}
+
+void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t largest_period) {
+  Table table(context, orbit_columns());
+  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
+            orbit.largest_multiplier(), orbit.closure_error, orbit.margins.border_distance,
+            orbit.engaged_fraction());
+  table.commit();
+}
+
+void write_certificate(const JobContext& context, const RealLoop& loop,
+                       std::int64_t largest_period) {
+  Table table(context, certificate_columns());
+  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  QuantityRows rows(table);
+  rows.row("coincidence_samples", static_cast<double>(orbit.ratio.denominator));
+  rows.row("coincidence_forcing_periods", static_cast<double>(orbit.ratio.numerator));
+  rows.row("period_samples", static_cast<double>(orbit.period_samples()));
+  rows.row("period", orbit.period(), "s");
+  rows.row("forcing_periods", static_cast<double>(orbit.forcing_periods()));
+  rows.row("amplitude", orbit.largest_displacement, "m");
+  rows.row("engaged_fraction", orbit.engaged_fraction());
+  rows.row("closure_error", orbit.closure_error, "m");
+  write_margins(rows, orbit.margins);
+  write_modes(rows, orbit);
+  write_multipliers(rows, orbit.multipliers, orbit.period_samples());
+  table.commit();
+}
+
+void write_orbit_trace(const JobContext& context, const RealLoop& loop,
+                       std::int64_t largest_period) {
+  Table table(context, motion_columns(loop.switching));
+  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const std::size_t samples = orbit.states.size();
+  for (std::size_t k = 0; k <= samples; ++k) {
+    const std::size_t j = k % samples;
+    MotionRow row{static_cast<double>(k) * orbit.sampling_period, orbit.states[j], orbit.forces[j],
+                  orbit.modes[j]};
+    write_motion_row(table, loop.switching, row);
+  }
+  table.commit();
+}
+
+}  // namespace holdfast::program
