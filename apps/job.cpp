@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "damping_fit.hpp"
+#include "errors.hpp"
 #include "exit.hpp"
 #include "input.hpp"
 #include "text.hpp"
@@ -82,13 +83,16 @@ CLI::Option* Job::add_text(const std::string& name, std::string& value,
   return options_->add_option(name, value, description)->capture_default_str();
 }
 
-JobContext Job::context(PlantNeed need) const {
+JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_file) const {
+  if (case_file && common_->case_file)
+    throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");
+  const std::optional<std::string>& file = case_file ? case_file : common_->case_file;
   JobContext context;
   context.job = options_->get_name();
   CaseSource& source = context.case_source;
   source.overrides = common_->overrides;
-  if (common_->case_file) {
-    source.name = *common_->case_file;
+  if (file) {
+    source.name = *file;
     source.text = read_input(source.name);
   }
   context.case_data = source.load();

@@ -31,7 +31,9 @@ class Job {
   /// Checked case, output and the options that were given; call once the command line is read.
   /// A plant that the case does not give is reduced from its conductor, unless the job does
   /// without.
-  JobContext context(PlantNeed need = PlantNeed::whole) const;
+  /// @param case_file  in place of --case, which must not be given then
+  JobContext context(PlantNeed need = PlantNeed::whole,
+                     const std::optional<std::string>& case_file = std::nullopt) const;
 
   /// The --case and --set options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;
@@ -60,6 +62,7 @@ void do_job(const std::vector<std::string>& arguments);
 /// The whole program: reads the command line, does the job, gives the exit code.
 int run_program(const std::vector<std::string>& arguments);
 
+void add_case(CLI::App& program);
 void add_stability(CLI::App& program);
 void add_boundary(CLI::App& program);
 void add_max_delay(CLI::App& program);
@@ -87,6 +90,7 @@ void add_fit(CLI::App& program);
 void add_report(CLI::App& program);
 
 namespace question {
+inline constexpr const char* case_file = "What does my case say?";
 inline constexpr const char* cable = "What plant is my cable with its absorber?";
 inline constexpr const char* gains = "Which gains are stable, and which are best?";
 inline constexpr const char* delay = "How slow may the computer be?";
@@ -94,6 +98,7 @@ inline constexpr const char* motion = "How does it move?";
 inline constexpr const char* attractor = "What is this irregular motion?";
 inline constexpr const char* map = "For which delays, backlashes, frequencies does it still help?";
 inline constexpr const char* all = "All of it on one page";
+inline constexpr const char* program = "The program itself";
 }  // namespace question
 
 }  // namespace holdfast::program

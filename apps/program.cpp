@@ -1,27 +1,43 @@
 #include <algorithm>
+#include <memory>
 
+#include "completion.hpp"
 #include "errors.hpp"
+#include "examples.hpp"
 #include "exit.hpp"
 #include "holdfast/core/version.hpp"
 #include "job.hpp"
+#include "manual.hpp"
+#include "output.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
 namespace {
 
-constexpr const char* examples =
-    "Examples:\n"
-    "  holdfast report --output report                        every figure of the built-in case\n"
-    "  holdfast stability --set control.sampling_period=0.01  stable gains with a 10 ms computer\n"
-    "  holdfast max-delay --frequency 5:50:10                 how slow may the computer be?\n"
-    "  holdfast simulate --duration 1 --output motion.csv     the motion from rest\n"
-    "  holdfast verdict --set backlash.width=0.002            is it periodic, and how sure is "
-    "that?\n"
-    "  holdfast sweep --axis backlash.width=0:0.003:31        how much play may the belt have?\n"
-    "  holdfast reduce --case line.toml                       the plant of a conductor\n"
-    "  holdfast JOB --help                                    every option with unit and default\n";
+void print(const std::string& text) {
+  OutputFile output(std::nullopt);
+  output.write(text);
+  output.commit();
+}
+
+/// Texts about the program itself, which take no case.
+void add_texts(CLI::App& program) {
+  CLI::App* completion =
+      program.add_subcommand("completion", "Completion of command lines, for a shell to read");
+  const auto shell = std::make_shared<std::string>("bash");
+  completion->add_option("SHELL", *shell, "Which shell")
+      ->check(CLI::IsMember({"bash", "zsh"}))
+      ->required();
+  completion->group(question::program)->final_callback([&program, shell] {
+    print(*shell == "zsh" ? zsh_completion(program) : bash_completion(program));
+  });
+  program.add_subcommand("manual", "The manual page, for man to read")
+      ->group(question::program)
+      ->final_callback([&program] { print(manual_page(program, examples_of("holdfast"))); });
+}
 
 void add_jobs(CLI::App& program) {
+  add_case(program);
   add_reduce(program);
   add_statics(program);
   add_modes(program);
@@ -47,6 +63,7 @@ void add_jobs(CLI::App& program) {
   add_lyapunov(program);
   add_sweep(program);
   add_report(program);
+  add_texts(program);
 }
 
 /// The first word is the job; CLI11 would only say that something was not expected.
@@ -71,7 +88,7 @@ void check_job_name(const CLI::App& program, const std::vector<std::string>& arg
 void do_job(const std::vector<std::string>& arguments) {
   CLI::App program("holdfast: suspended cables under digital vibration control", "holdfast");
   program.set_version_flag("--version", "holdfast " + std::string(version_string));
-  program.footer(examples);
+  program.formatter(std::make_shared<ExamplesFirst>());
   program.require_subcommand(1);
   program.get_formatter()->column_width(20);
   program.get_formatter()->label("SUBCOMMAND", "JOB");

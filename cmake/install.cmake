@@ -23,6 +23,15 @@ install(FILES
   ${PROJECT_BINARY_DIR}/holdfast-config-version.cmake
   DESTINATION ${HOLDFAST_PACKAGE_DIR})
 
+# The build folder serves as a package too: -D holdfast_DIR=BUILD.
+export(EXPORT holdfast_targets
+  FILE ${PROJECT_BINARY_DIR}/holdfast-targets.cmake
+  NAMESPACE holdfast::)
+configure_file(cmake/holdfast-adapters.cmake ${PROJECT_BINARY_DIR}/holdfast-adapters.cmake COPYONLY)
+
+configure_file(cmake/holdfast.pc.in holdfast.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/holdfast.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
+
 if(TARGET holdfast_executable)
   install(TARGETS holdfast_executable DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

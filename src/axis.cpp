@@ -97,6 +97,8 @@ Range parse_range(std::string_view option, std::string_view text) {
 }
 
 Axis parse_axis(std::string_view option, std::string_view text) {
+  const std::optional<double> single = parse_number(trimmed(text));
+  if (single && std::isfinite(*single)) return {*single, *single, 1};
   return OptionText(option, text, "MIN:MAX:COUNT").axis(text);
 }
 

@@ -44,7 +44,7 @@ struct WindowOption {
 /// Each reads the text given to an option (`--force`); throws WrongInput, one line that names the
 /// option, the text and the form expected.
 Range parse_range(std::string_view option, std::string_view text);
-/// 1 <= count <= 1e9. A count of 1 is min alone.
+/// MIN:MAX:COUNT, 1 <= count <= 1e9, a count of 1 being min alone; or one number.
 Axis parse_axis(std::string_view option, std::string_view text);
 KeyAxis parse_key_axis(std::string_view option, std::string_view text);
 /// A list has at least one number; `log:` wants 0 < MIN.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "case_keys.hpp"
 #include "errors.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "text.hpp"
@@ -35,7 +36,10 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
 }  // namespace
 
 bool plant_is_reduced(const Case& the_case) {
-  return the_case.conductor_given && !the_case.plant_given;
+  const auto& keys = case_keys();
+  return the_case.conductor_given && std::any_of(keys.begin(), keys.end(), [&](const CaseKey& key) {
+           return key.table() == "plant" && the_case.places.count(key.name) == 0;
+         });
 }
 
 Conductor<double> conductor_of(const Case& the_case) {

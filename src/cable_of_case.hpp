@@ -11,7 +11,8 @@
 
 namespace holdfast::program {
 
-/// Whether the plant comes from the conductor: one is given and no plant beside it.
+/// Whether the plant comes from the conductor: one is given, and not every key of [plant] beside
+/// it.
 bool plant_is_reduced(const Case& the_case);
 
 /// The library's objects for [conductor], [absorber] and [reduction] of a case.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,6 +117,8 @@ struct Case {
   // What excitation.record holds; null where it is "". CaseSource::attach_record() reads it.
   std::shared_ptr<const RecordedForce> force_record;
 
+  // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
+  std::map<std::string, std::string> places;
   bool plant_given = false;      // the user gave a key of [plant]
   bool conductor_given = false;  // the user gave a key of [conductor], [absorber] or [reduction]
   // The frequencies of [reduction] are computed from the conductor: it is the user's, they are not.

@@ -246,7 +246,9 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
     set_number(*key, node, place);
   }
   given_.push_back({name, place, layer});
-  if (layer != Layer::builtin) note_user(*key);
+  if (layer == Layer::builtin) return;
+  case_.places[name] = place.rfind("--set", 0) == 0 ? place : place.substr(0, place.find(": "));
+  note_user(*key);
 }
 
 void CaseReader::set_number(const CaseKey& key, const toml::node& node, const std::string& place) {

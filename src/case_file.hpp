@@ -27,6 +27,10 @@ Case load_case(const std::optional<std::filesystem::path>& file,
 Case load_case_text(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides);
 
+/// The value that a key has in a case, as TOML; empty for [wind] without wind, and for what wind
+/// replaces.
+std::string case_value_text(const CaseKey& key, const Case& the_case);
+
 /// The value that a key has when nobody gives it, as TOML; empty when it must be given.
 std::string case_default(const CaseKey& key);
 

@@ -81,6 +81,11 @@ std::string toml_line(const CaseKey& key, Case& the_case) {
 
 }  // namespace
 
+std::string case_value_text(const CaseKey& key, const Case& the_case) {
+  Case copy = the_case;
+  return is_in_force(key, the_case) ? toml_value(key, copy) : "";
+}
+
 std::string case_default(const CaseKey& key) {
   if (key.required) return "";
   Case builtin = load_case(std::nullopt, {});

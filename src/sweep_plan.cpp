@@ -73,7 +73,7 @@ bool is_of_conductor(const GridAxis& axis) {
   return table == "conductor" || table == "absorber" || table == "reduction";
 }
 
-/// Those that decide what the plant is. One key of [plant] makes the whole of it given.
+/// Those that decide what the plant is. A key of [plant] goes over what the reduction gives.
 std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
                                             const std::vector<GridAxis>& axes) {
   const bool reduced =

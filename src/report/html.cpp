@@ -7,10 +7,12 @@ namespace {
 
 constexpr const char* style = R"(
 :root { color-scheme: light dark; --ink: #1d2329; --soft: #5a646e; --paper: #ffffff; --line: #d8dee4;
-        --good: #00664a; --bad: #a33b00; --code: #f4f6f8; }
+        --good: #00664a; --bad: #a33b00; --code: #f4f6f8;
+        --link: #0b5cad; }
 @media (prefers-color-scheme: dark) {
   :root { --ink: #e4e8ec; --soft: #a7b0b9; --paper: #15191d; --line: #343c44; --good: #58c9a3;
-          --bad: #ffa36b; --code: #20262c; } }
+          --bad: #ffa36b; --code: #20262c; --link: #8ec2ff; } }
+a { color: var(--link); }
 body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper);
        max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.7rem; line-height: 1.2; } h2 { margin-top: 2.5rem; }
@@ -27,8 +29,13 @@ h3 { margin: 0 0 0.4rem; font-size: 1.1rem; }
 pre, code { font: 0.82rem/1.45 ui-monospace, monospace; } pre { background: var(--code); padding: 0.7rem;
   overflow-x: auto; border-radius: 4px; }
 details { margin: 0.4rem 0; } summary { cursor: pointer; color: var(--soft); font-size: 0.9rem; }
+nav { display: flex; flex-wrap: wrap; gap: 0.3rem 1.2rem; margin: 1rem 0; } nav a { color: var(--link); }
+.answer { border-left: 3px solid var(--line); padding: 0.1rem 0 0.1rem 1rem; margin: 1.2rem 0;
+  break-inside: avoid; }
+.answer .said { font-size: 1.15rem; font-weight: 600; margin: 0.2rem 0; }
+.answer .why { color: var(--soft); font-size: 0.92rem; margin: 0.2rem 0; }
 .none { border: 1px dashed var(--line); padding: 1rem; color: var(--bad); }
-@media print { body { max-width: none; margin: 0; } details { display: none; } }
+@media print { body { max-width: none; margin: 0; } details, nav { display: none; } }
 )";
 
 std::string comparison_row(const Comparison& row) {
@@ -44,8 +51,8 @@ std::string comparison_table(const std::vector<Comparison>& comparisons) {
   const auto agreeing = std::count_if(comparisons.begin(), comparisons.end(),
                                       [](const Comparison& row) { return row.agrees; });
   std::string html =
-      "<h2>The paper and this program</h2>\n<p>" + std::to_string(agreeing) + " of " +
-      std::to_string(comparisons.size()) +
+      "<h2 id=\"comparison\">The paper and this program</h2>\n<p>" + std::to_string(agreeing) +
+      " of " + std::to_string(comparisons.size()) +
       " comparisons agree within what the paper's print allows. Every value in the column "
       "<em>ours</em> was computed for this page; the reading says how the paper was "
       "understood.</p>\n"
@@ -91,6 +98,14 @@ std::string motions_table(const std::vector<ShownMotion>& motions) {
                      "<th>extended precision</th></tr></thead>\n<tbody>\n";
   for (const ShownMotion& motion : motions) html += motion_rows(motion);
   return html + "</tbody></table></div>\n";
+}
+
+std::string contents_of(const Page& page) {
+  std::string html = "<nav><a href=\"#answers\">The answers</a> <a href=\"#figures\">Figures</a>";
+  if (!page.motions.empty()) html += " <a href=\"#motions\">What the motion is</a>";
+  html += " <a href=\"#switching\">Between the samples</a>";
+  if (!page.comparisons.empty()) html += " <a href=\"#comparison\">Paper and program</a>";
+  return html + " <a href=\"#case\">The case</a></nav>\n";
 }
 
 std::string picture(const DrawnFigure& drawn) {
@@ -165,12 +180,15 @@ std::string html_of(const Page& page) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       escaped(page.title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" +
       escaped(page.title) + "</h1>\n<p>" + page.introduction + "</p>\n";
-  html += comparison_table(page.comparisons);
+  html += contents_of(page);
+  html += page.answers;
+  html += "<h2 id=\"figures\">Figures</h2>\n";
+  for (const DrawnFigure& drawn : page.figures) html += figure_html(drawn);
   html += motions_table(page.motions);
   html += page.switching;
-  html += "<h2>Figures</h2>\n";
-  for (const DrawnFigure& drawn : page.figures) html += figure_html(drawn);
-  html += "<h2>The case</h2>\n<pre>" + escaped(page.case_text) + "</pre>\n</body>\n</html>\n";
+  html += comparison_table(page.comparisons);
+  html += "<h2 id=\"case\">The case</h2>\n<pre>" + escaped(page.case_text) +
+          "</pre>\n</body>\n</html>\n";
   return html;
 }
 

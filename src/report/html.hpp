@@ -28,6 +28,7 @@ struct Page {
   std::string title;
   std::string introduction;
   std::string case_text;                ///< the full case as TOML
+  std::string answers;                  ///< HTML: what a designer asks, answered
   std::vector<Comparison> comparisons;  ///< may be empty
   std::vector<ShownMotion> motions;
   std::string switching;  ///< HTML: how much the sampled switching matters

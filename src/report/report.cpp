@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "report/answers.hpp"
 #include "report/command_line.hpp"
 #include "report/figures.hpp"
 #include "report/gnuplot.hpp"
@@ -116,6 +117,13 @@ std::string introduction_of(bool builtin) {
          "the number found here.";
 }
 
+std::string answers_part(const Case& the_case, const Arguments& case_arguments) {
+  std::vector<ShownAnswer> shown;
+  for (const Answer& answer : answers_of(the_case))
+    shown.push_back({answer, shell_text(command_of(answer.arguments, case_arguments))});
+  return html_of(shown);
+}
+
 std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {
   const SwitchingPage page = make_switching_page(context, builtin);
   std::vector<DrawnFigure> drawn;
@@ -141,7 +149,9 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   page.case_text = case_to_toml(context.case_data);
   if (builtin) page.comparisons = compare_with_paper();
   page.motions = shown_motions(context.case_data, builtin, case_arguments);
-  Progress progress(figures.size() + 1, "report", progress_wanted(context));
+  Progress progress(figures.size() + 2, "report", progress_wanted(context));
+  page.answers = answers_part(context.case_data, case_arguments);
+  progress.advance();
   page.switching = switching_part(context, builtin, writer);
   progress.advance();
   for (const Figure& figure : figures) {

@@ -33,7 +33,7 @@ struct SimulatedMotion {
 
 SimulatedMotion simulated(const std::string& settings, double duration) {
   const CsvTable table =
-      table_of("simulate --duration " + std::to_string(duration) + " " + settings);
+      table_of("simulate --quiet --duration " + std::to_string(duration) + " " + settings);
   SimulatedMotion motion;
   motion.time = table.numbers("time_s");
   motion.z1 = table.numbers("z1_m");

@@ -1,17 +1,9 @@
 # Run by ctest with the variables that tests/package/CMakeLists.txt gives.
 cmake_minimum_required(VERSION 3.22)
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 
 set(prefix ${WORK}/prefix)
 file(REMOVE_RECURSE ${WORK})
-
-function(run_step)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  if(NOT code EQUAL 0)
-    list(JOIN ARGV " " command)
-    message(FATAL_ERROR "${command}\n${output}")
-  endif()
-  set(step_output "${output}" PARENT_SCOPE)
-endfunction()
 
 run_step(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${prefix})
 # An installed file that names the source folder would work on this machine alone.
@@ -28,6 +20,4 @@ run_step(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
   -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=Debug)
 run_step(${CMAKE_COMMAND} --build ${WORK}/build)
 run_step(${WORK}/build/consumer)
-if(NOT step_output STREQUAL "${VERSION}\n")
-  message(FATAL_ERROR "expected ${VERSION}, the consumer printed ${step_output}")
-endif()
+expect_output("${VERSION}\n")

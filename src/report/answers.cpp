@@ -1,0 +1,255 @@
+#include "report/answers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "best_gains.hpp"
+#include "case_keys.hpp"
+#include "cell_motion.hpp"
+#include "errors.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/stability/margins.hpp"
+#include "holdfast/stability/max_delay.hpp"
+#include "interrupt.hpp"
+#include "loop_of_case.hpp"
+#include "report/comparison_tools.hpp"
+#include "report/html.hpp"
+#include "report/motions.hpp"
+#include "report/switching_study.hpp"
+#include "text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr const char* width_key = "backlash.width";
+
+/// Seconds of a motion: 20, or as long as the case's force lasts.
+double duration_of(const Case& the_case) {
+  const double longest = the_case.force_record ? the_case.force_record->last_time() : 20.0;
+  return std::min(20.0, longest);
+}
+
+std::string millimetres(double length) { return rounded(1e3 * length, 3) + " mm"; }
+std::string milliseconds(double time) { return rounded(1e3 * time, 3) + " ms"; }
+std::string percent(double share) { return rounded(100.0 * share, 3) + " %"; }
+std::string damping(double gain) { return rounded(gain, 4) + " N s/m"; }
+
+std::string range_of(double value) {
+  const std::string text = format_number(value);
+  return text + ":" + text + ":1";
+}
+
+/// Largest |z₁| of the steady motion with control and without it.
+struct Vibration {
+  double controlled, free;
+
+  double ratio() const { return controlled / free; }
+  bool is_reduced() const { return controlled < free; }
+};
+
+std::vector<Vibration> vibrations_of(const std::vector<Case>& cases) {
+  const double duration = duration_of(cases.front());
+  std::vector<CellMotion> motions, free;
+  for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, {}, duration));
+  free.push_back(without_control(motions.front()));
+  const std::vector<MotionMetrics> with = metrics_of(motions, duration);
+  const double without = metrics_of(free, duration).front().steady_peak;
+  std::vector<Vibration> vibrations;
+  for (const MotionMetrics& metrics : with) vibrations.push_back({metrics.steady_peak, without});
+  return vibrations;
+}
+
+Answer does_it_help(const Case& the_case, const Vibration& vibration) {
+  Answer answer{
+      "Does control help here?",
+      "",
+      "Largest |z₁| in the second half of " + rounded(duration_of(the_case), 3) +
+          " s from the case's initial state, with its backlash of " +
+          millimetres(the_case.backlash.width) + ", beside the same without control force.",
+      {"sweep", "--axis", std::string(width_key) + "=" + range_of(the_case.backlash.width),
+       "--metric", "steady_peak", "--metric", "ratio_to_uncontrolled"}};
+  if (!(vibration.free > 0.0)) {
+    answer.answer = "Nothing vibrates without control either: there is nothing to reduce.";
+  } else if (!std::isfinite(vibration.controlled)) {
+    answer.answer = "No: with these gains the motion grows without end.";
+  } else {
+    answer.answer = std::string(vibration.is_reduced() ? "Yes: " : "No: ") +
+                    percent(vibration.ratio()) + " of the vibration is left, " +
+                    millimetres(vibration.controlled) + " of " + millimetres(vibration.free) + ".";
+  }
+  return answer;
+}
+
+/// "from −1 to 3 N/m", "up to 3 N/m".
+std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::string& name) {
+  const auto is_end = [](const MarginEnd& at) { return at.outcome == MarginEndOutcome::boundary; };
+  const auto text = [unit](const MarginEnd& at) { return rounded(unit * at.position, 4); };
+  const std::string below = text(margin.below), above = text(margin.above);
+  if (is_end(margin.below) && is_end(margin.above))
+    return "from " + below + " to " + above + " " + name;
+  if (is_end(margin.above)) return "up to " + above + " " + name;
+  return is_end(margin.below) ? "from " + below + " " + name + " on" : "of any size";
+}
+
+std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
+  const StabilityMargins margins =
+      stability_margins(plant_of(the_case), sampling_of(the_case), gains);
+  if (margins.outcome == MarginOutcome::not_stable) return "With it the loop is not stable.";
+  return "With it the loop is stable for D " +
+         stretch_text(margins.differential_gain, 1.0, "N s/m") + ", for P " +
+         stretch_text(margins.proportional_gain, 1.0, "N/m") + ", and for sampling periods " +
+         stretch_text(margins.sampling_period, 1e3, "ms") + ", each alone.";
+}
+
+std::string gain_of_case_text(const Case& the_case) {
+  const TwoDof<double> plant = plant_of(the_case);
+  const double tuned = tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
+                                               excitation_of(the_case).frequency);
+  const PdGains<double> gains = gains_of(the_case);
+  return " The case has D = " + damping(gains.differential) +
+         " and P = " + rounded(gains.proportional, 4) +
+         " N/m; tuned to its frequency (Eq. 6) P is " + rounded(tuned, 4) + " N/m.";
+}
+
+Answer which_gain(const Case& the_case) {
+  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  const double duration = duration_of(the_case);
+  const LeastAmplitude best = BestGains(duration).of(loop);
+  Answer answer{"Which D?", "", "", {"design", "--largest-radius"}};
+  answer.arguments.push_back(format_number(std::exp(-10.0 * loop.sampling.period / duration)));
+  if (best.outcome == LeastAmplitudeOutcome::none) {
+    answer.answer = "None: at the case's P no D lets the motion settle in " +
+                    rounded(0.5 * duration, 3) + " s.";
+  } else if (best.outcome == LeastAmplitudeOutcome::aliased) {
+    answer.answer =
+        "None: the computer takes fewer than two samples in a period of the vibration and does "
+        "not see it.";
+  } else {
+    answer.answer = "D = " + damping(best.differential_gain) + ": with an ideal drive it leaves " +
+                    percent(best.ratio_to_uncontrolled) + " of the amplitude without control.";
+    answer.detail = "Of the gains that let the motion settle in " + rounded(0.5 * duration, 3) +
+                    " s the one of least steady amplitude. " +
+                    margins_text(the_case, {loop.gains.proportional, best.differential_gain});
+  }
+  answer.detail += gain_of_case_text(the_case);
+  return answer;
+}
+
+Answer how_slow(const Case& the_case) {
+  const TwoDof<double> plant = plant_of(the_case);
+  MaxDelayQuestion question;
+  question.criterion = DelayCriterion::attenuates;
+  question.hold = force_hold_of(the_case);
+  question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
+  question.frequency = excitation_of(the_case).frequency;
+  question.proportional_gain =
+      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, question.frequency);
+  const MaxDelay longest = max_sampling_period(plant, question);
+  Answer answer{"How slow may the computer be?",
+                "",
+                "Up to there some D, P being tuned to the excitation, is stable and leaves less "
+                "vibration than no control; the drive is ideal, and the processing delay keeps its "
+                "share of the period.",
+                {"max-delay", "--frequency", range_of(question.frequency)}};
+  const std::string own = "; the case has " + milliseconds(the_case.control.sampling_period) + ".";
+  if (!(longest.sampling_period > 0.0))
+    answer.answer = "No sampling period serves at this frequency" + own;
+  else if (std::isinf(longest.sampling_period))
+    answer.answer = "No largest sampling period was found" + own;
+  else
+    answer.answer = "Up to " + milliseconds(longest.sampling_period) + " a sample" + own;
+  return answer;
+}
+
+std::vector<Case> with_widths(const Case& the_case, const std::vector<double>& widths) {
+  std::vector<Case> cases;
+  for (const double width : widths) cases.push_back(case_with(the_case, width_key, width));
+  return cases;
+}
+
+/// The first of ascending widths with which control does not reduce the vibration.
+std::optional<std::size_t> first_too_wide(const Case& the_case, const std::vector<double>& widths) {
+  const std::vector<Vibration> vibrations = vibrations_of(with_widths(the_case, widths));
+  for (std::size_t k = 0; k < widths.size(); ++k)
+    if (!vibrations[k].is_reduced()) return k;
+  return std::nullopt;
+}
+
+std::vector<double> evenly(double from, double to, int parts) {
+  std::vector<double> values;
+  for (int part = 0; part <= parts; ++part) values.push_back(from + (to - from) * part / parts);
+  return values;
+}
+
+/// The play that swallows the whole motion without control, and half as much again.
+double widest_play(const Case& the_case) {
+  const double swing = swing_without_control(the_case, duration_of(the_case));
+  return swing > 0.0 ? 1.5 * swing : 1e-3;
+}
+
+Answer how_much_play(const Case& the_case, const Vibration& vibration) {
+  constexpr int parts = 120, finer_parts = 20;
+  const double widest = widest_play(the_case), step = widest / parts;
+  Answer answer{
+      "How much play may the belt have?",
+      "",
+      "With the case's gains, from its initial state. " + std::to_string(parts) + " widths up to " +
+          millimetres(widest) +
+          " were tried, and those about the limit more finely. Wider ones may serve too, but not "
+          "all of them.",
+      {"sweep", "--axis",
+       std::string(width_key) + "=0:" + format_number(widest) + ":" + std::to_string(parts + 1),
+       "--metric", "ratio_to_uncontrolled"}};
+  if (!(vibration.free > 0.0)) {
+    answer.answer = "Nothing vibrates: any.";
+    return answer;
+  }
+  const auto coarse = first_too_wide(the_case, evenly(0.0, widest, parts));
+  const std::string own = "; the case has " + millimetres(the_case.backlash.width) + ".";
+  if (!coarse) {
+    answer.answer = "Every play up to " + millimetres(widest) + " that was tried serves" + own;
+  } else if (*coarse == 0) {
+    answer.answer = "None: control does not help without any play either" + own;
+  } else {
+    const double begin = step * static_cast<double>(*coarse - 1);
+    const auto widths = evenly(begin, begin + step, finer_parts);
+    const std::size_t first = first_too_wide(the_case, widths).value_or(widths.size() - 1);
+    answer.answer =
+        "Up to " + millimetres(widths[first > 0 ? first - 1 : 0]) + " it still helps" + own;
+  }
+  return answer;
+}
+
+Answer what_motion(const Case& the_case) {
+  const MotionRow row = motion_of_the_case(the_case);
+  const bool has_period = !row.period.empty() && row.period != "–";
+  return {"What is the motion?", row.verdict + (has_period ? ": " + row.period : "") + ".",
+          row.rests_on, row.arguments};
+}
+
+}  // namespace
+
+std::vector<Answer> answers_of(const Case& the_case) {
+  const Vibration vibration = vibrations_of({the_case}).front();
+  std::vector<Answer> answers = {does_it_help(the_case, vibration), which_gain(the_case),
+                                 how_slow(the_case)};
+  throw_if_interrupted();
+  answers.push_back(how_much_play(the_case, vibration));
+  answers.push_back(what_motion(the_case));
+  return answers;
+}
+
+std::string html_of(const std::vector<ShownAnswer>& answers) {
+  std::string html = "<section id=\"answers\">\n<h2>The answers</h2>\n";
+  for (const auto& [answer, command] : answers) {
+    html += "<div class=\"answer\">\n<h3>" + escaped(answer.question) +
+            "</h3>\n<p class=\"said\">" + escaped(answer.answer) + "</p>\n<p class=\"why\">" +
+            escaped(answer.detail) + "</p>\n<pre>" + escaped(command) + "</pre>\n</div>\n";
+  }
+  return html + "</section>\n";
+}
+
+}  // namespace holdfast::program

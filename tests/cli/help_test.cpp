@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case_keys.hpp"
+#include "cli/program.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+/// The jobs, as the completion of an empty word has them.
+std::vector<std::string> jobs() {
+  const std::string text = run_holdfast("completion bash").output;
+  const std::size_t begin = text.find("compgen -W \"") + 12;
+  std::istringstream words(text.substr(begin, text.find('"', begin) - begin));
+  std::vector<std::string> names;
+  for (std::string word; words >> word;)
+    if (word.front() != '-') names.push_back(word);
+  return names;
+}
+
+TEST(Help, LeadsWithExamples) {
+  for (const std::string& job : jobs()) {
+    const std::string help = run_holdfast(job + " --help").output;
+    const std::size_t examples = help.find("Examples:\n  holdfast " + job);
+    EXPECT_LT(examples, help.find("Options:")) << job;
+  }
+  const std::string help = run_holdfast("--help").output;
+  EXPECT_LT(help.find("Examples:\n  holdfast "), help.find("Options:"));
+}
+
+TEST(Help, ItsExamplesWork) {
+  const TemporaryFolder folder;
+  const std::filesystem::path data = std::filesystem::path(HOLDFAST_SOURCE_DIR) / "data";
+  std::filesystem::copy_file(data / "kollar2022-decay.csv", folder / "decay.csv");
+  int tried = 0;
+  for (const std::string& job : jobs()) {
+    if (job == "report" || job == "completion" || job == "manual") continue;  // tests of their own
+    for (const std::string& line : lines_of(run_holdfast(job + " --help").output)) {
+      if (line.rfind("  holdfast ", 0) != 0) continue;
+      const std::string arguments = line.substr(11, line.find('#') - 11);
+      const Outcome outcome = run_holdfast(arguments, ">/dev/null", folder.path().string());
+      if (!both_packages && outcome.errors.find("install the package lib") != std::string::npos)
+        continue;
+      EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.errors;
+      ++tried;
+    }
+  }
+  EXPECT_GE(tried, 30);
+}
+
+/// What bash offers for the last of some words.
+std::string completed(const std::string& words, int last) {
+  const TemporaryFolder folder;
+  const std::string script = (folder / "holdfast.bash").string();
+  const std::string output = (folder / "out").string();
+  run_holdfast("completion bash", ">'" + script + "'");
+  const std::string command = "bash -c 'source \"" + script + "\"; COMP_WORDS=(" + words +
+                              "); COMP_CWORD=" + std::to_string(last) +
+                              "; _holdfast 2>/dev/null; echo \"${COMPREPLY[*]}\"' > '" + output +
+                              "'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return read_text(output);
+}
+
+TEST(Completion, OffersJobsOptionsWordsAndKeys) {
+  EXPECT_EQ(completed("holdfast sim", 1), "simulate\n");
+  EXPECT_EQ(completed("holdfast simulate --sw", 2), "--switching\n");
+  EXPECT_EQ(completed("holdfast simulate --switching e", 3), "exact\n");
+  EXPECT_EQ(completed("holdfast sweep --axis backlash.w", 3), "backlash.width=\n");
+  EXPECT_EQ(completed("holdfast lyapunov --durat", 2), "--duration\n");
+  EXPECT_EQ(completed("holdfast completion z", 2), "zsh\n");
+}
+
+TEST(Completion, IsGoodForZshToo) {
+  const std::string text = run_holdfast("completion zsh").output;
+  EXPECT_EQ(text.rfind("#compdef holdfast\n", 0), 0U);
+  for (const std::string& job : jobs())
+    EXPECT_NE(text.find("    " + job + ")\n      _arguments"), std::string::npos) << job;
+  const Outcome unknown = run_holdfast("completion fish");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.error_lines(), 1U);
+}
+
+TEST(Manual, HasEveryJobAndEveryKey) {
+  const std::string page = run_holdfast("manual").output;
+  EXPECT_EQ(page.rfind(".TH HOLDFAST 1", 0), 0U);
+  const auto escaped = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find('-', at)) != std::string::npos; at += 2)
+      text.replace(at, 1, "\\-");
+    return text;
+  };
+  for (const std::string& job : jobs())
+    EXPECT_NE(page.find("\\fBholdfast " + escaped(job) + "\\fR"), std::string::npos) << job;
+  for (const program::CaseKey& key : program::case_keys())
+    EXPECT_NE(page.find("\n\\fB" + key.short_name() + "\\fR"), std::string::npos) << key.name;
+  for (const std::string& line : lines_of(page))
+    EXPECT_FALSE(line.rfind("'", 0) == 0) << "a request by accident: " << line;
+}
+
+}  // namespace
+}  // namespace holdfast::tests

@@ -1,0 +1,15 @@
+# Runs a command that must succeed; its output is in step_output then.
+function(run_step)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(NOT code EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\n${output}${errors}")
+  endif()
+  set(step_output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect_output expected)
+  if(NOT step_output STREQUAL expected)
+    message(FATAL_ERROR "expected\n${expected}\ngot\n${step_output}")
+  endif()
+endfunction()
