@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "completion.hpp"
 #include "errors.hpp"
@@ -83,6 +85,28 @@ void check_job_name(const CLI::App& program, const std::vector<std::string>& arg
                    "? (holdfast --help lists the jobs)");
 }
 
+std::string nearest_option(const CLI::App& job, const std::string& word) {
+  std::string nearest;
+  for (const CLI::Option* option : job.get_options()) {
+    const std::string name = option->get_name();
+    if (nearest.empty() || edit_distance(name, word) < edit_distance(nearest, word)) nearest = name;
+  }
+  return nearest;
+}
+
+/// What was probably meant by the first word of a command line that its job does not expect.
+std::string unexpected_text(const CLI::App& job) {
+  const std::string word = job.remaining().empty() ? "" : job.remaining().front();
+  if (word.rfind('-', 0) == 0)
+    return "unknown option " + word + "; did you mean " + nearest_option(job, word) +
+           "? (holdfast " + job.get_name() + " --help lists the options)";
+  const char* option = job.get_name() == "case" ? "--check " : "--case ";
+  std::error_code ignored;
+  if (std::filesystem::exists(word, ignored))
+    return "unexpected word " + word + "; did you mean " + option + word + "?";
+  return "unexpected word " + word + "; a name with blanks needs quotes";
+}
+
 }  // namespace
 
 void do_job(const std::vector<std::string>& arguments) {
@@ -96,6 +120,9 @@ void do_job(const std::vector<std::string>& arguments) {
   check_job_name(program, arguments);
   try {
     program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ExtrasError& outcome) {
+    const std::vector<CLI::App*> jobs = program.get_subcommands();
+    throw WrongInput(jobs.empty() ? one_line(outcome.what()) : unexpected_text(*jobs.front()));
   } catch (const CLI::ParseError& outcome) {
     // Help and version arrive as exceptions of exit code 0 and print themselves.
     if (outcome.get_exit_code() != 0) throw WrongInput(one_line(outcome.what()));

@@ -209,7 +209,8 @@ toml::table parse_override_value(const CaseKey& key, std::string_view value,
     const bool is_text = key.file != nullptr || is_bare_word(value);
     if (is_text) return toml::table{{"value", std::string(value)}};
   }
-  throw WrongInput(place + ": the value is neither TOML nor a word");
+  throw WrongInput(place + ": admissible is " + key.admissible() +
+                   (key.number != nullptr ? ", a plain number such as 0.01" : ""));
 }
 
 void CaseReader::read_override(const std::string& text) {

@@ -68,6 +68,27 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
   return !(key.replaced_by_wind && the_case.wind);
 }
 
+/// What a person should know of a table before changing it; empty for most.
+std::string table_comment(const std::string& table) {
+  if (table == "conductor")
+    return "# The sag of a span L under a horizontal tension H is mass_per_length gravity L^2 / (8 "
+           "H).\n"
+           "# This table, [absorber] and [reduction] make the plant where [plant] does not give "
+           "it.\n";
+  if (table == "plant")
+    return "# What stands here is used as it is. Take this table away to have the plant reduced "
+           "from\n"
+           "# [conductor], [absorber] and [reduction].\n";
+  if (table == "reduction")
+    return "# Take the frequencies away to have them computed for another conductor, or give those "
+           "that\n"
+           "# you measured; the higher one should be near that of the excitation.\n";
+  if (table == "excitation")
+    return "# In place of amplitude and frequency: a table [wind] with speed, diameter (of the\n"
+           "# conductor) and effective_length.\n";
+  return "";
+}
+
 std::string toml_line(const CaseKey& key, Case& the_case) {
   std::string line = key.short_name() + " = " + toml_value(key, the_case);
   constexpr std::size_t comment_column = 32;
@@ -101,7 +122,7 @@ std::string case_to_toml(const Case& the_case) {
     if (!is_in_force(key, the_case)) continue;
     if (key.table() != table) {
       table = key.table();
-      text += "\n[" + table + "]\n";
+      text += "\n[" + table + "]\n" + table_comment(table);
     }
     text += toml_line(key, copy);
   }

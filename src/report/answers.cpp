@@ -13,6 +13,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/stability/margins.hpp"
 #include "holdfast/stability/max_delay.hpp"
+#include "holdfast/stability/spectral_radius.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
 #include "report/comparison_tools.hpp"
@@ -42,9 +43,11 @@ std::string range_of(double value) {
   return text + ":" + text + ":1";
 }
 
-/// Largest |z₁| of the steady motion with control and without it.
+/// Largest |z₁| of the steady motion with control and without it, and how often the drive
+/// transmits.
 struct Vibration {
   double controlled, free;
+  double engaged;  ///< share of the samples
 
   double ratio() const { return controlled / free; }
   bool is_reduced() const { return controlled < free; }
@@ -58,8 +61,28 @@ std::vector<Vibration> vibrations_of(const std::vector<Case>& cases) {
   const std::vector<MotionMetrics> with = metrics_of(motions, duration);
   const double without = metrics_of(free, duration).front().steady_peak;
   std::vector<Vibration> vibrations;
-  for (const MotionMetrics& metrics : with) vibrations.push_back({metrics.steady_peak, without});
+  for (const MotionMetrics& metrics : with)
+    vibrations.push_back({metrics.steady_peak, without, metrics.engaged_fraction});
   return vibrations;
+}
+
+std::string help_text(const Vibration& vibration) {
+  constexpr double negligible = 0.005;
+  if (vibration.engaged == 0.0)
+    return "No: the drive never leaves its play, and the vibration is that without control.";
+  if (std::abs(vibration.ratio() - 1.0) < negligible)
+    return "No: the vibration is the same as without control, " + millimetres(vibration.free) + ".";
+  return std::string(vibration.is_reduced() ? "Yes: " : "No: ") + percent(vibration.ratio()) +
+         " of the vibration is left, " + millimetres(vibration.controlled) + " of " +
+         millimetres(vibration.free) + ".";
+}
+
+/// What a loop that is unstable owes to its play.
+std::string instability_text(const Case& the_case) {
+  const double radius = spectral_radius(loop_of(the_case).engaged_map(gains_of(the_case)));
+  if (radius < 1.0) return "";
+  return " But without play the loop is unstable with these gains (spectral radius " +
+         rounded(radius, 5) + "): nothing but the play bounds the motion.";
 }
 
 Answer does_it_help(const Case& the_case, const Vibration& vibration) {
@@ -76,9 +99,7 @@ Answer does_it_help(const Case& the_case, const Vibration& vibration) {
   } else if (!std::isfinite(vibration.controlled)) {
     answer.answer = "No: with these gains the motion grows without end.";
   } else {
-    answer.answer = std::string(vibration.is_reduced() ? "Yes: " : "No: ") +
-                    percent(vibration.ratio()) + " of the vibration is left, " +
-                    millimetres(vibration.controlled) + " of " + millimetres(vibration.free) + ".";
+    answer.answer = help_text(vibration) + instability_text(the_case);
   }
   return answer;
 }
@@ -138,6 +159,21 @@ Answer which_gain(const Case& the_case) {
   return answer;
 }
 
+/// "; with the gains of the case up to 12 ms; the case has 1 ms."
+std::string own_period_text(const Case& the_case) {
+  const StabilityMargins margins =
+      stability_margins(plant_of(the_case), sampling_of(the_case), gains_of(the_case));
+  const MarginEnd& longest = margins.sampling_period.above;
+  std::string text = "; with the gains of the case ";
+  if (margins.outcome == MarginOutcome::not_stable)
+    text += "the loop is not stable even now";
+  else if (longest.outcome == MarginEndOutcome::boundary)
+    text += "it is stable up to " + milliseconds(longest.position);
+  else
+    text += "no limit of stability was found";
+  return text + "; the case has " + milliseconds(the_case.control.sampling_period) + ".";
+}
+
 Answer how_slow(const Case& the_case) {
   const TwoDof<double> plant = plant_of(the_case);
   MaxDelayQuestion question;
@@ -154,13 +190,14 @@ Answer how_slow(const Case& the_case) {
                 "vibration than no control; the drive is ideal, and the processing delay keeps its "
                 "share of the period.",
                 {"max-delay", "--frequency", range_of(question.frequency)}};
-  const std::string own = "; the case has " + milliseconds(the_case.control.sampling_period) + ".";
+  const std::string own = own_period_text(the_case);
   if (!(longest.sampling_period > 0.0))
     answer.answer = "No sampling period serves at this frequency" + own;
   else if (std::isinf(longest.sampling_period))
     answer.answer = "No largest sampling period was found" + own;
   else
-    answer.answer = "Up to " + milliseconds(longest.sampling_period) + " a sample" + own;
+    answer.answer =
+        "Up to " + milliseconds(longest.sampling_period) + " a sample if D is chosen for it" + own;
   return answer;
 }
 
@@ -184,10 +221,12 @@ std::vector<double> evenly(double from, double to, int parts) {
   return values;
 }
 
-/// The play that swallows the whole motion without control, and half as much again.
+/// The play that swallows the whole motion without control, and some half as much again.
 double widest_play(const Case& the_case) {
   const double swing = swing_without_control(the_case, duration_of(the_case));
-  return swing > 0.0 ? 1.5 * swing : 1e-3;
+  if (!(swing > 0.0 && std::isfinite(swing))) return 1e-3;
+  const double per_unit = std::pow(10.0, 1.0 - std::floor(std::log10(swing)));
+  return std::ceil(1.5 * swing * per_unit) / per_unit;
 }
 
 Answer how_much_play(const Case& the_case, const Vibration& vibration) {

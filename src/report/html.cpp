@@ -35,7 +35,10 @@ nav { display: flex; flex-wrap: wrap; gap: 0.3rem 1.2rem; margin: 1rem 0; } nav 
 .answer .said { font-size: 1.15rem; font-weight: 600; margin: 0.2rem 0; }
 .answer .why { color: var(--soft); font-size: 0.92rem; margin: 0.2rem 0; }
 .none { border: 1px dashed var(--line); padding: 1rem; color: var(--bad); }
-@media print { body { max-width: none; margin: 0; } details, nav { display: none; } }
+@media print { body { max-width: none; margin: 0; } details, nav { display: none; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; } .scroll { overflow: visible; }
+  h2, h3 { break-after: avoid; } table { font-size: 0.75rem; } tr { break-inside: avoid; }
+  figure { margin: 1.2rem 0; } figure img { max-width: 36rem; } }
 )";
 
 std::string comparison_row(const Comparison& row) {

@@ -52,6 +52,23 @@ TEST(Help, ItsExamplesWork) {
   EXPECT_GE(tried, 30);
 }
 
+TEST(Help, AWordThatIsNotExpectedIsGuessed) {
+  const TemporaryFolder folder;
+  write_text(folder / "mine.toml", "");
+  const auto refusal = [&](const std::string& arguments) {
+    const Outcome outcome = run_holdfast(arguments, "", folder.path().string());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+    return outcome.errors;
+  };
+  EXPECT_NE(refusal("simulate --switchng exact").find("did you mean --switching?"),
+            std::string::npos);
+  EXPECT_NE(refusal("margins mine.toml").find("--case mine.toml"), std::string::npos);
+  EXPECT_NE(refusal("case mine.toml").find("--check mine.toml"), std::string::npos);
+  EXPECT_NE(refusal("simulate --set control.sampling_period=10ms").find("such as 0.01"),
+            std::string::npos);
+}
+
 /// What bash offers for the last of some words.
 std::string completed(const std::string& words, int last) {
   const TemporaryFolder folder;

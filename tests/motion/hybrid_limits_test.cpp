@@ -279,6 +279,41 @@ TEST(HybridMotion, ATouchIsNamedOrAPairOfChanges) {
 
 // A drive with a gap of next to nothing reverses through it at once; a period has no more changes
 // than its reversals ask for.
+// F = ± F_m sin ωt written as a cosine begins at zero to rounding only; that must not decide which
+// way the drive goes first.
+TEST(HybridMotion, TheRoundingOfTheFirstForceGivesItNoDirection) {
+  const auto motion_of = [](double quarters) {
+    DigitalLoop loop = kollar_digital(0.001);
+    loop.force.harmonics = {{0.5, 10.0, 0.5 * pi<double> * quarters}};
+    BacklashMotion motion = kollar_motion(loop, 0.002);
+    move_samples(motion, 100);
+    return motion;
+  };
+  const BacklashMotion first = motion_of(1.0), mirrored = motion_of(-1.0);
+  EXPECT_NEAR(std::abs(first.state()[0]), 9.27e-4, 1e-6);
+  EXPECT_LE((first.state() + mirrored.state()).norm(), 1e-12);
+  for (const double turns : {-3.0, 5.0})
+    EXPECT_LE((motion_of(turns).state() - first.state()).norm(), 1e-12) << turns;
+  EXPECT_LE((motion_of(3.0).state() - mirrored.state()).norm(), 1e-12);
+}
+
+// σ a(u) = 0 at the reversal itself, and falling: the command pushes back from then on, the spring
+// pushes on, and the drive sticks.
+TEST(HybridMotion, AReversalWithoutAccelerationIsDecidedByItsRate) {
+  const TwoDof<double> plant{1.0, 1.0, 0.0, 1.0, 1.0, 0.0};
+  const Vector<double, 4> state(1.0, -1.0, 1.0, -1.0);
+  const DigitalLoop loop{{0.1, 0.1}, {0.0, 0.0}, {}, ForceHold::exact};
+  ExactBacklash contact(plant, 1e-3);
+  contact.learn_sign(1.0);
+  BacklashMotion motion(loop, contact, state);
+  motion.restore(0, state, 0.5, contact);
+  motion.sense();
+  motion.advance();
+  EXPECT_EQ(motion.counts().entered[static_cast<std::size_t>(ContactMode::stick)], 1);
+  EXPECT_EQ(motion.counts().entered[static_cast<std::size_t>(ContactMode::gap)], 0);
+  EXPECT_FALSE(motion.counts().accumulates);
+}
+
 TEST(HybridMotion, ChangesOfContactDoNotPileUp) {
   for (const double width : {1e-6, 1e-9, 1e-12, 1e-15}) {
     BacklashMotion motion = kollar_motion(kollar_digital(0.001), width);

@@ -41,8 +41,9 @@ inline Matrix<double, 7> oblique_basis() {
 ///  - one is −∞ unless the controller takes differences of displacements: else it does not use the
 ///    displacement that it read before;
 ///  - one is −∞ without processing delay: u_{j−1} is without effect from t_j on;
-///  - one more is −∞ after a stick phase, in which Δż = 0, if at some instant of it no command that
-///    has been decided acts on the masses later, as at any sample in it without processing delay.
+///  - after a stick phase, in which Δż = 0 and the drive knows its place, no more are finite than
+///    three and the commands (and readings) that have been decided but act later, at whichever
+///    instant of it these are fewest: without processing delay one less, with one up to two less.
 ///
 /// With a delay and a difference together six may be finite; one less if this is made before the
 /// first sample of all, when nothing has been read that could be varied. A gap that is never left

@@ -50,8 +50,10 @@ struct HybridOrbit {
   double sampling_period;                 ///< τ (s)
   std::vector<Vector<double, 4>> states;  ///< z_j, N of them; the first one at phase 0 of the force
   std::vector<ContactMode> modes;         ///< from each sample on
-  std::vector<double> forces;             ///< transmitted just after each sample (N)
-  std::vector<ContactSwitch> switches;    ///< of one period, s after its first sample
+  /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on, 0 in the gap,
+  /// and in stick what holds the sides together at t_j.
+  std::vector<double> forces;
+  std::vector<ContactSwitch> switches;  ///< of one period, s after its first sample
   /// Of one period, largest first; −∞ for an annihilated direction. Those of [z; u_{j−1}; the gap;
   /// the displacement as last read] that depend on the past at all, padded to five.
   std::vector<Multiplier> multipliers;

@@ -57,7 +57,7 @@ class HybridOrbitSearch {
       take_coincidence();
       if (limits_.watch) limits_.watch();
       if (!(state().cwiseAbs().maxCoeff() < 1e100)) return finish(OrbitOutcome::diverges);
-      if (motion_.motion().counts().accumulates) break;
+      if (motion_.motion().counts().accumulates) return unfollowed();
       look_for_return();
       if (has_come())
         return finish(on_surface_ ? OrbitOutcome::on_surface : OrbitOutcome::certified);
@@ -145,6 +145,10 @@ class HybridOrbitSearch {
     const bool same_modes = std::equal(modes.begin(), modes.end(), modes_.end() - period);
     periods_on_orbit_ = nearer && same_modes ? periods_on_orbit_ + 1 : 0;
     return periods_on_orbit_ >= 2;
+  }
+
+  Result unfollowed() const {
+    return {OrbitOutcome::none_found, std::nullopt, std::nullopt, taken(), candidates_};
   }
 
   Result finish(OrbitOutcome outcome) const {

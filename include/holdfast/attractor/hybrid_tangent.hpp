@@ -196,6 +196,7 @@ class HybridTangent {
   }
 
   void cross(int from, int to, const ContactInstant& instant) {
+    if (from == to && Tangent::anchored(from)) return anchor_anew();
     SurfaceCrossing<5> crossing;
     crossing.before << rate(from, instant), 0.0;
     crossing.after << rate(to, instant), 0.0;
@@ -210,6 +211,12 @@ class HybridTangent {
     rows = saltation_matrix(crossing) * rows.eval();
     map_.template topRows<4>() = rows.template topRows<4>();
     map_.row(anchor_row) = rows.row(4);
+  }
+
+  /// From one gap into another that begins at Δz: the rates agree.
+  void anchor_anew() {
+    map_.row(anchor_row) = map_.row(2) - map_.row(0);
+    on_ranks([](StructuralRank& rank) { rank.end(Carried::anchor); });
   }
 
   /// ż in a mode.

@@ -95,6 +95,7 @@ class RepeatingMotion {
       motion_.sense();
     }
     motion_.restore(point.phase, point.state, point.previous_command, point.contact);
+    motion_.restart_counts();
   }
 
   const HybridMotion<Contact>& motion() const { return motion_; }

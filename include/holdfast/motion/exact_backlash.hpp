@@ -96,7 +96,7 @@ class ExactBacklash {
     zeros_ = 0;
   }
 
-  /// What the mode keeps without rounding: Δż = 0 and Δz in stick.
+  /// What the mode keeps: Δż = 0 without rounding, and Δz, in stick.
   void keep(const Vector<double, 4>& before, Vector<double, 4>& after) const {
     if (mode_ != ContactMode::stick) return;
     after[2] = after[0] + relative_displacement(before);
@@ -217,9 +217,11 @@ class ExactBacklash {
   void reverse(ContactInstant& now) {
     now.state[3] = now.state[1];
     open_gap(now);
-    const bool pushed_on = sign_ * acceleration(now, 0.0) > 0.0;
-    const bool turned_back = sign_ * acceleration(now, now.command) < 0.0;
-    if (pushed_on && turned_back)
+    // Where one of them is zero its derivative decides: a guard of stick that begins at zero ends
+    // it at once or not at all.
+    const bool pushed_on = !(sign_ * acceleration(now, 0.0) < 0.0);
+    const bool turned_back = !(sign_ * acceleration(now, now.command) > 0.0);
+    if (pushed_on && turned_back && now.command != 0.0)
       change_to(ContactMode::stick, 0);
     else
       change_to(ContactMode::gap, 2);

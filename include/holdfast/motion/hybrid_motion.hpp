@@ -107,6 +107,7 @@ class HybridMotion {
   HybridSample sense() {
     const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
     force_.begin_sample(index_, time());
+    switches_ = 0;
     contact_.sample(state_);
     command_ = contact_.commanded(controller_.command(state_[0], state_[1], elapsed));
     const ContactInstant now{state_, first_command(), force_at(0)};
@@ -132,7 +133,6 @@ class HybridMotion {
   template <class Observer>
   void advance(Observer&& observer) {
     const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
-    switches_ = 0;
     if (delay > 0.0) flow(previous_command_, 0.0, std::min(delay, period), 0, observer);
     observer.commanded();
     if (delay < period) {
@@ -170,6 +170,9 @@ class HybridMotion {
   double rate(int mode) const { return rate_[at(mode)]; }
   /// The motion in one of the modes of the contact.
   const AffineDynamics& dynamics(int mode) const { return dynamics_[at(mode)]; }
+
+  /// Forgets what the motion has met with.
+  void restart_counts() { counts_ = {}; }
 
   /// Goes on at sample `index` from a state, a command in force until t_j + δ, and a contact. What
   /// the controller last read stays.
@@ -325,10 +328,17 @@ class HybridMotion {
     const Eigen::Index zeros = std::min<Eigen::Index>(guard.zeros, series.size());
     series.head(zeros).setZero();
     clear_rounding(guard, motion, command, force, series);
-    if (!guard.unsigned_yet) return series;
+    return guard.unsigned_yet ? signed_series(series) : series;
+  }
+
+  /// The series with the sign that its guard takes first, which the contact learns. A force that
+  /// begins at zero does so to rounding only: what is that small beside the rest decides nothing.
+  Series signed_series(Series series) {
+    const double rounding = 1e-12 * series.cwiseAbs().sum();
     Eigen::Index leading = 0;
-    while (leading + 1 < series.size() && series[leading] == 0.0) ++leading;
-    if (series[leading] == 0.0) return series;
+    while (leading < series.size() && std::abs(series[leading]) <= rounding) ++leading;
+    series.head(leading).setZero();
+    if (leading == series.size()) return series;
     const double sign = series[leading] > 0.0 ? 1.0 : -1.0;
     contact_.learn_sign(sign);
     return sign * series;
