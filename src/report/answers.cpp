@@ -56,11 +56,13 @@ struct Vibration {
 std::vector<Vibration> vibrations_of(const std::vector<Case>& cases) {
   const double duration = duration_of(cases.front());
   std::vector<CellMotion> motions, free;
+  motions.reserve(cases.size());
   for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, {}, duration));
   free.push_back(without_control(motions.front()));
   const std::vector<MotionMetrics> with = metrics_of(motions, duration);
   const double without = metrics_of(free, duration).front().steady_peak;
   std::vector<Vibration> vibrations;
+  vibrations.reserve(with.size());
   for (const MotionMetrics& metrics : with)
     vibrations.push_back({metrics.steady_peak, without, metrics.engaged_fraction});
   return vibrations;
@@ -203,6 +205,7 @@ Answer how_slow(const Case& the_case) {
 
 std::vector<Case> with_widths(const Case& the_case, const std::vector<double>& widths) {
   std::vector<Case> cases;
+  cases.reserve(widths.size());
   for (const double width : widths) cases.push_back(case_with(the_case, width_key, width));
   return cases;
 }

@@ -72,6 +72,6 @@ Figure contact_window_figure(const std::string& name, const std::string& title,
 /// @param name  of the figure and of its table: number of the strip from 1, begin, end and mode of
 ///              each phase
 Figure contact_strips_figure(const std::string& name, const std::string& title,
-                             const std::string& caption, const std::vector<ContactStrip>& strips);
+                             const std::string& caption, const std::vector<ContactStrip>& all);
 
 }  // namespace holdfast::program

@@ -200,8 +200,8 @@ std::string laws_part(const std::vector<StudiedLaw>& laws) {
 
 std::string tables_part(const SwitchingPage& page) {
   std::vector<std::string> names = {"switching-case"};
-  if (!page.of_paper.empty()) names.push_back("switching-paper");
-  names.push_back("switching-law-motions");
+  if (!page.of_paper.empty()) names.emplace_back("switching-paper");
+  names.emplace_back("switching-law-motions");
   std::string html = "<p>As tables:";
   for (const std::string& name : names)
     html += " <a href=\"data/" + name + ".csv\">data/" + name + ".csv</a>";

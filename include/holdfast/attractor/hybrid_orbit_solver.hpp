@@ -20,9 +20,7 @@
 #include "holdfast/motion/contact_mode.hpp"
 #include "holdfast/motion/hybrid_motion.hpp"
 
-namespace holdfast {
-
-namespace detail {
+namespace holdfast::detail {
 
 /// One period of a motion, sample by sample.
 struct HybridTurn {
@@ -243,6 +241,4 @@ class HybridOrbitSolver {
   double sampling_period_;
 };
 
-}  // namespace detail
-
-}  // namespace holdfast
+}  // namespace holdfast::detail

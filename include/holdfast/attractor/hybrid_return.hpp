@@ -78,7 +78,7 @@ class HybridReturn {
     bool may_cut = true;
     follow(point, [&](const auto& tangent) {
       if (maps >= most && may_cut) {
-        blocks.push_back(Matrix<double, 7>::Identity());
+        blocks.emplace_back(Matrix<double, 7>::Identity());
         maps = 0;
       }
       blocks.back() = tangent.map() * blocks.back();
@@ -150,7 +150,7 @@ class HybridReturn {
     result.reserve(blocks.size());
     const auto size = static_cast<Eigen::Index>(counting.size());
     for (const Matrix<double, 7>& block : blocks) {
-      result.push_back(Matrix<double, 5>::Zero());
+      result.emplace_back(Matrix<double, 5>::Zero());
       result.back().topLeftCorner(size, size) = block(counting, counting);
     }
     return result;

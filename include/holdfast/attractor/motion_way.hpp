@@ -40,7 +40,10 @@ class HybridWay {
  public:
   explicit HybridWay(HybridMotion<Contact>& motion) : motion_(&motion), trace_(motion) {}
 
-  MotionSample<double> sense() { return motion_->sense(); }
+  MotionSample<double> sense() {
+    const HybridSample sample = motion_->sense();
+    return static_cast<const MotionSample<double>&>(sample);  // all but its mode
+  }
   double period() const { return motion_->period(); }
   /// @param asked  whether `state` will be, until the next sample
   void advance(bool asked) {
