@@ -64,14 +64,7 @@ void write_certificate(const JobContext& context, const RealLoop& loop,
   Table table(context, certificate_columns());
   const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
   QuantityRows rows(table);
-  rows.row("coincidence_samples", static_cast<double>(orbit.ratio.denominator));
-  rows.row("coincidence_forcing_periods", static_cast<double>(orbit.ratio.numerator));
-  rows.row("period_samples", static_cast<double>(orbit.period_samples()));
-  rows.row("period", orbit.period(), "s");
-  rows.row("forcing_periods", static_cast<double>(orbit.forcing_periods()));
-  rows.row("amplitude", orbit.largest_displacement, "m");
-  rows.row("engaged_fraction", orbit.engaged_fraction());
-  rows.row("closure_error", orbit.closure_error, "m");
+  write_orbit_rows(rows, orbit, orbit.largest_displacement);
   write_margins(rows, orbit.margins);
   write_modes(rows, orbit);
   write_multipliers(rows, orbit.multipliers, orbit.period_samples());

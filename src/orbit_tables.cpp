@@ -132,14 +132,7 @@ void write_certificate(const JobContext& context, std::int64_t largest_period) {
   const ForcedLoop<double> loop = forced_loop_of(context.case_data);
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   QuantityRows rows(table);
-  rows.row("coincidence_samples", static_cast<double>(orbit.ratio.denominator));
-  rows.row("coincidence_forcing_periods", static_cast<double>(orbit.ratio.numerator));
-  rows.row("period_samples", static_cast<double>(orbit.period_samples()));
-  rows.row("period", orbit.period(), "s");
-  rows.row("forcing_periods", static_cast<double>(orbit.forcing_periods()));
-  rows.row("amplitude", orbit.amplitude(), "m");
-  rows.row("engaged_fraction", orbit.engaged_fraction());
-  rows.row("closure_error", orbit.closure_error, "m");
+  write_orbit_rows(rows, orbit, orbit.amplitude());
   write_border(rows, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
   write_border(rows, "reversal_distance", orbit.borders.velocity, "m/s", orbit.sampling_period);
   const OrbitCertificate certificate = certificate_of(loop, orbit);

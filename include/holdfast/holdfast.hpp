@@ -20,6 +20,7 @@
 #include "holdfast/attractor/hybrid_section.hpp"
 #include "holdfast/attractor/hybrid_tangent.hpp"
 #include "holdfast/attractor/hybrid_verdict.hpp"
+#include "holdfast/attractor/loop_orbit.hpp"
 #include "holdfast/attractor/lyapunov.hpp"
 #include "holdfast/attractor/lyapunov_run.hpp"
 #include "holdfast/attractor/lyapunov_spectrum.hpp"

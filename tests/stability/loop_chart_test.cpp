@@ -65,6 +65,22 @@ TEST(LoopChart, ThePeriodTakesTheDelayWithIt) {
   EXPECT_DOUBLE_EQ(chart.cell(11, 0).sampling.processing_delay, 0.4 * 0.03);
 }
 
+TEST(LoopChart, AGivenDelayDoesNotScaleWithAGivenPeriod) {
+  const LoopAxis delays{Parameter::processing_delay, {0.0, 0.004, 5}};
+  const LoopAxis periods{Parameter::sampling_period, {0.005, 0.025, 6}};
+  const LoopChart upright{chart_point, delays, periods}, lying{chart_point, periods, delays};
+  for (std::int64_t delay = 0; delay < 5; ++delay) {
+    for (std::int64_t period = 0; period < 6; ++period) {
+      const Sampling<double> sampling = upright.cell(delay, period).sampling;
+      EXPECT_EQ(sampling.processing_delay, delays.values.at(delay));
+      EXPECT_EQ(sampling.period, periods.values.at(period));
+      EXPECT_EQ(lying.cell(period, delay).sampling.processing_delay, delays.values.at(delay));
+    }
+  }
+  expect_cell_by_cell(upright);
+  expect_cell_by_cell(lying);
+}
+
 TEST(LoopChart, RefusesWhatIsNoLoop) {
   EXPECT_THROW(validate(LoopChart{chart_point, axis_p, axis_p}), InvalidParameter);
   const LoopAxis beyond{Parameter::processing_delay, {0.0, 0.006, 3}};

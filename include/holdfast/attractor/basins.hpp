@@ -18,7 +18,7 @@ namespace holdfast {
 
 /// What one initial state comes to.
 struct MotionFate {
-  OrbitOutcome outcome = OrbitOutcome::none_found;
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or why it has no attractor
   int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
 };
 
@@ -26,10 +26,10 @@ struct MotionFate {
 /// @tparam Orbit  PeriodicOrbit or HybridOrbit
 template <class Orbit>
 struct AttractorOf {
-  Orbit orbit;
-  std::size_t states;               ///< how many of the initial states come to it
-  double fraction;                  ///< of all of them
-  double standard_error;            ///< √(fraction (1 − fraction)/n): the states being a sample
+  Orbit orbit;            ///< certified; of copies begun at other coincidences the one found first
+  std::size_t states;     ///< how many of the initial states come to it
+  double fraction;        ///< of all of them
+  double standard_error;  ///< √(fraction (1 − fraction)/n): the states being a sample
   std::optional<int> mirror_image;  ///< of an earlier attractor
 };
 
@@ -40,7 +40,9 @@ struct BasinsOf {
   std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
 };
 
+/// One attractor of a ForcedLoop.
 using BasinAttractor = AttractorOf<PeriodicOrbit>;
+/// Which attractor each of many initial states of a ForcedLoop comes to.
 using BasinMap = BasinsOf<PeriodicOrbit>;
 
 namespace detail {
@@ -168,12 +170,14 @@ class BasinSearch {
 /// Distinct attractors are told apart by their orbits; copies of one that run some coincidences of
 /// sampling and forcing later are the same attractor. An initial state counts as an attractor's
 /// only once its motion is in a neighbourhood from which it surely tends to it.
-/// @param limits     of each search for one motion's own orbit; motions travel on in between, so
-/// that
-///                   more of them may be found than by searches alone
-/// @tparam Scalar    the lanes: `double`, or a SIMD pack
-/// @param for_tiles  for_tiles(count, tile, job) calls job(first, number) for tiles that cover 0 …
-///                   count − 1, on as many threads as it likes; the result does not depend on it
+/// @param loop            the loop with its excitation and backlash
+/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit; motions travel on in between,
+///                        so that more of them may be found than by searches alone
+/// @tparam Scalar         the lanes: `double`, or a SIMD pack
+/// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
+///                        0 … count − 1, on as many threads as it likes; the result does not depend
+///                        on it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Scalar, class Tiles>
 BasinMap find_basins(const ForcedLoop<double>& loop,

@@ -32,7 +32,8 @@ struct CapturePoint {
   Vector<double, 5> state;        ///< z̃ = [z; u_{j−1}] there
   BacklashMemory<double> memory;  ///< of the drive before that sample
   bool stays_inside;              ///< the drive never leaves its gap
-  double lowest, highest;         ///< Δz of the orbit (m)
+  double lowest,                  ///< least Δz of the orbit (m)
+      highest;                    ///< largest Δz of the orbit (m)
   double radius;                  ///< m, or m a metre of clearance; > 0
 };
 
@@ -41,6 +42,7 @@ struct DeviationScale {
   double angular_frequency;  ///< ω (rad/s)
   double stiffness;          ///< k₁ (N/m)
 
+  /// ω is √(k₁/m₁) where the excitation has no amplitude.
   explicit DeviationScale(const ForcedLoop<double>& loop)
       : angular_frequency(
             loop.excitation.amplitude > 0.0
@@ -81,6 +83,7 @@ inline double capture_radius(const CapturePoint& point, const BacklashMemory<dou
 }
 
 /// Whether a motion at a coincidence of sampling and forcing lies in a point's neighbourhood.
+/// @param point    the neighbourhood, at the same phase of the forcing
 /// @param motion   its memory(), before the sample
 /// @param weights  DeviationScale::weights()
 template <class Memory>
@@ -260,6 +263,7 @@ inline std::vector<CapturePoint> points_with_radii(const ForcedLoop<double>& loo
 /// together contract. Along each, a deviation changes no decision while |h Φ e| stays below the
 /// distance from the surface, h being the surface's normal and Φ the flow of deviations; at its end
 /// it has grown by at most ‖Φ‖. Both bounds together are an induction over all time.
+/// @param loop   the loop that the orbit is of
 /// @param orbit  attracting and certified
 /// @return in the order of the orbit; empty where no segments of up to 64 periods, or 10⁶ samples,
 ///         contract

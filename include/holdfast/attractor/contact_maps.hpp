@@ -20,8 +20,8 @@ using Contacts = std::vector<std::uint8_t>;
 /// x ↦ map x + addition.
 template <class Scalar>
 struct AffineMap {
-  Matrix<Scalar, 5> map;
-  Vector<Scalar, 5> addition;
+  Matrix<Scalar, 5> map;       ///< 5 × 5, of x = z̃ = [z; u_{j−1}]
+  Vector<Scalar, 5> addition;  ///< in the units of x: m, m/s, m, m/s, N
 };
 
 /// The affine maps that move z̃ = [z; u_{j−1}] over one sampling period,
@@ -32,6 +32,7 @@ struct AffineMap {
 template <class Scalar>
 class ContactMaps {
  public:
+  /// @param loop   its backlash width is not looked at
   /// @param ratio  f τ = p/q, of forcing_ratio()
   ContactMaps(const ForcedLoop<Scalar>& loop, const Rational& ratio)
       : ContactMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
@@ -92,6 +93,7 @@ std::size_t samples_of_block(const ContactMaps<Scalar>& maps) {
 /// Some samples of a sequence of contacts as one affine map each, few enough for their product to
 /// lose no digits.
 ///
+/// @param maps      of the loop
 /// @param contacts  of all samples, the first one at phase 0 of the forcing
 template <class Scalar>
 std::vector<AffineMap<Scalar>> affine_blocks(const ContactMaps<Scalar>& maps,

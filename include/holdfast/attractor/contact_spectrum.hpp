@@ -47,12 +47,15 @@ enum class LyapunovScope {
 template <class Number>
 class ContactSpectrum {
  public:
+  /// The contacts of the same samples in every lane.
   using Words = LaneWords<Number>;
   /// Largest a of a block that is longer than a sample.
   static constexpr double largest_amplification = 5e6;
   /// Longest block, in words.
   static constexpr int most_words = 64;
 
+  /// @param words  of the loop whose S and S* are the tangents
+  /// @param scope  of `largest` the spectrum shows −∞ for all exponents but the first
   explicit ContactSpectrum(std::shared_ptr<const ContactWords> words,
                            LyapunovScope scope = LyapunovScope::all)
       : words_(std::move(words)), sums_(ContactWords::length) {

@@ -18,12 +18,16 @@ struct ContactTangent {
   static Vector<double, 4> gradient(int) { return displacement_row(); }
 };
 
+/// The same for the gap of ExactBacklash, which lies where Δż last reversed, at Δz = g.
 template <>
 struct ContactTangent<ExactBacklash> {
+  /// Number of `ContactMode::stick`.
   static constexpr int sticking = static_cast<int>(ContactMode::stick);
+  /// True in the gap and in stick; while engaged g is without effect.
   static constexpr bool anchored(int mode) {
     return mode != static_cast<int>(ContactMode::engaged);
   }
+  /// By z: of Δz − g where the mode is anchored, of Δż while engaged.
   static Vector<double, 4> gradient(int from) {
     return anchored(from) ? displacement_row() : velocity_row();
   }

@@ -49,8 +49,11 @@ constexpr ContactWord last_of(ContactWord word, int samples) {
 class ContactWords {
  public:
   static constexpr int length = 6;  ///< samples of the longest words
+  /// A tangent map with contiguous rows.
   using Map = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
 
+  /// @param engaged   S
+  /// @param backlash  S*
   ContactWords(const Matrix<double, 5>& engaged, const Matrix<double, 5>& backlash)
       : scale_(balancing<double, 5>(engaged.cwiseAbs() + backlash.cwiseAbs())) {
     maps_[0] = maps_[1] = Map::Identity();
@@ -64,6 +67,8 @@ class ContactWords {
     reach_ = engaged.col(4).isZero(0.0) && backlash.col(4).isZero(0.0) ? 4 : 5;
   }
 
+  /// @param tangent_loop  whose S and S* are the tangents
+  /// @param gains         P (N/m) and D (N s/m)
   ContactWords(const SampledLoop<double>& tangent_loop, const PdGains<double>& gains)
       : ContactWords(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
 
@@ -72,7 +77,9 @@ class ContactWords {
 
   /// Smallest rank of the word's maps, each to working precision.
   int rank(ContactWord word) const { return ranks_[word]; }
+  /// The smaller of the ranks of S and S*.
   int smallest_rank() const { return std::min(ranks_[2], ranks_[3]); }
+  /// The larger of them: no more exponents than this are finite.
   int largest_rank() const { return std::max(ranks_[2], ranks_[3]); }
 
   /// 4 where both maps ignore the last coordinate, as without a processing delay; else 5.
@@ -113,7 +120,9 @@ constexpr LaneWords<Number> no_contacts() {
 template <class Number>
 class LaneMaps {
  public:
+  /// Refers to a map of `words`, which must outlive this.
   LaneMaps(const ContactWords& words, const LaneWords<Number>& lanes) : map_(words.map(lanes[0])) {}
+  /// Entry of T⁻¹ M T, 0 ≤ row, column < 5.
   const Number& operator()(int row, int column) const { return map_(row, column); }
 
  private:

@@ -11,8 +11,10 @@ namespace holdfast {
 
 /// A rectangle of the phase plane (z₁, ż₁).
 struct PhaseWindow {
-  double displacement_min, displacement_max;  ///< m, min < max
-  double velocity_min, velocity_max;          ///< m/s, min < max
+  double displacement_min,  ///< least z₁ (m), inside the window
+      displacement_max;     ///< largest z₁ (m), outside it, > displacement_min
+  double velocity_min,      ///< least ż₁ (m/s), inside the window
+      velocity_max;         ///< largest ż₁ (m/s), outside it, > velocity_min
 };
 
 /// @throws InvalidParameter unless both sides of the window are positive and finite
@@ -28,6 +30,7 @@ inline void validate(const PhaseWindow& window) {
 /// stops at the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
 class Coverage {
  public:
+  /// @param window          with sides longer than zero
   /// @param cells_per_side  1 … 10 000; the window has its square of cells
   /// @throws InvalidParameter for an empty window or another number of cells
   Coverage(const PhaseWindow& window, std::size_t cells_per_side)
@@ -37,6 +40,7 @@ class Coverage {
     visited_cells_.assign(cells_per_side * cells_per_side, false);
   }
 
+  /// Marks the cell of a sample's (z₁, ż₁); of one outside the window nothing.
   void operator()(const MotionSample<double>& sample) {
     const double x = fraction(sample.state[0], window_.displacement_min, window_.displacement_max);
     const double y = fraction(sample.state[1], window_.velocity_min, window_.velocity_max);
@@ -48,8 +52,11 @@ class Coverage {
     visited_cells_[cell] = true;
   }
 
+  /// Number of cells of the window, visited or not.
   std::size_t cells() const { return visited_cells_.size(); }
+  /// Number of cells in which at least one sample has been.
   std::size_t visited() const { return visited_; }
+  /// visited() over cells(), 0 … 1.
   double visited_fraction() const {
     return static_cast<double>(visited_) / static_cast<double>(cells());
   }

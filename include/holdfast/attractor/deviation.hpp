@@ -19,7 +19,10 @@ struct Deviation {
 ///
 /// Neighbours that separate exponentially are a mark of chaos; Kollár 2022, Fig. 11 starts them
 /// z₁₀,b − z₁₀,a = 10⁻⁵ m apart.
-/// @param observer  called with a `Deviation` at each of `samples` samples
+/// @param first     before a sample, like `second`; both are left before the next one
+/// @param second    the motion whose deviation from the first is shown
+/// @param samples   how many are taken, fewer where the state leaves the range of numbers
+/// @param observer  called with a `Deviation` at each sample
 template <class Motion, class Observer>
 TrajectoryOutcome run_deviation(Motion& first, Motion& second, std::int64_t samples,
                                 Observer&& observer) {

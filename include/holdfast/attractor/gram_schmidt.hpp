@@ -53,6 +53,7 @@ Number inverse_square_norm(const Number (&unit_upper)[Columns][Columns],
 /// R = D N with D diagonal and N unit upper triangular, N_ij = ⟨b_i, b_j⟩ / D_i²: no root is in the
 /// way of the products. R errs by round-off times ‖B‖ ‖R⁻¹‖, column by column, and Q fails to be
 /// orthogonal by as much. Source: Å. Björck, BIT 7 (1967).
+/// @param basis  B, replaced by Q
 /// @param alive  columns that are not are replaced by zeros; from the first one on that vanishes
 ///               they are no more
 template <class Number, int Columns>

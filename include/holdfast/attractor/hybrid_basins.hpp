@@ -254,9 +254,12 @@ class HybridBasinSearch {
 /// search certifies that orbit, or where it comes within a millionth of the extent of an orbit that
 /// another search has certified, keeps to its modes for two periods and comes nearer over both,
 /// over the second by 0.9 of the decay (in logarithms) that the largest multiplier asks.
-/// @param limits     of each search for one motion's own orbit
-/// @param for_tiles  for_tiles(count, tile, job) calls job(first, number) for tiles that cover 0 …
-///                   count − 1, on as many threads as it likes; the result does not depend on it
+/// @param loop            as it is built
+/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit
+/// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
+///                        0 … count − 1, on as many threads as it likes; the result does not depend
+///                        on it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Tiles>
 HybridBasinMap find_hybrid_basins(const RealLoop& loop,

@@ -61,6 +61,7 @@ class HybridLyapunov {
   explicit HybridLyapunov(HybridMotion<Contact>& motion)
       : motion_(&motion), tangent_(motion), spectrum_(detail::oblique_basis()) {}
 
+  /// Takes the sample; once before each `advance()`.
   HybridSample sense() { return motion_->sense(); }
 
   /// Moves on to the next sample, and the tangent vectors with it.
@@ -70,8 +71,12 @@ class HybridLyapunov {
     spectrum_.push(tangent_.map(), tangent_.rank_of_product());
   }
 
+  /// Adds a displacement (m) to z₁, which leaves the tangent vectors as they are; call before
+  /// `sense()`.
   void displace_conductor(double displacement) { motion_->displace_conductor(displacement); }
+  /// t_j (s) of the present sample.
   double time() const { return motion_->time(); }
+  /// z_j (m, m/s, m, m/s).
   const Vector<double, 4>& state() const { return motion_->state(); }
 
   /// Natural logarithm per sample, over the samples since the last restart.
@@ -126,6 +131,7 @@ bool run_until(Motion& motion, std::int64_t samples, const std::function<void()>
 /// motion whose `counts()` say that its changes of contact accumulate has no exponents to be
 /// trusted from there on.
 /// @param motion  left after the last sample taken
+/// @param run     how long, and with what accuracy, is averaged
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Contact>

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "holdfast/attractor/multipliers.hpp"
-#include "holdfast/core/rational.hpp"
-#include "holdfast/core/types.hpp"
+#include "holdfast/attractor/loop_orbit.hpp"
 #include "holdfast/motion/contact_mode.hpp"
 
 namespace holdfast {
@@ -21,6 +17,7 @@ namespace holdfast {
 /// not describe them. They are those of the guards of the contact between the samples; what a law
 /// decides at the samples alone has none here.
 struct SwitchingMargins {
+  /// The margin of what the motion never comes to.
   static constexpr double none = std::numeric_limits<double>::infinity();
 
   /// Of Δz from an end of its gap, where it turns before it has come there (m).
@@ -45,39 +42,19 @@ struct SwitchingMargins {
 /// multipliers, with the saltation at every switch, lie inside the unit circle; and how far it is
 /// from switching otherwise. Not certified is what interval arithmetic would: that a true orbit
 /// lies within a bound of the computed one.
-struct HybridOrbit {
-  Rational ratio;                         ///< f τ = p/q
-  double sampling_period;                 ///< τ (s)
-  std::vector<Vector<double, 4>> states;  ///< z_j, N of them; the first one at phase 0 of the force
-  std::vector<ContactMode> modes;         ///< from each sample on
+///
+/// Its multipliers are those of [z; u_{j−1}; the gap; the displacement as last read] that depend on
+/// the past at all, padded to five.
+struct HybridOrbit : LoopOrbit<4> {
+  std::vector<ContactMode> modes;  ///< from each sample on
   /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on, 0 in the gap,
   /// and in stick what holds the sides together at t_j.
   std::vector<double> forces;
   std::vector<ContactSwitch> switches;  ///< of one period, s after its first sample
-  /// Of one period, largest first; −∞ for an annihilated direction. Those of [z; u_{j−1}; the gap;
-  /// the displacement as last read] that depend on the past at all, padded to five.
-  std::vector<Multiplier> multipliers;
-  double closure_error;              ///< ‖z_N − z₀‖, SI numbers of m and m/s
-  SwitchingMargins margins;          ///< the nearest of all switches and all that do not happen
-  std::array<double, 3> time_share;  ///< of each ContactMode; their sum is 1
-  double largest_displacement;       ///< max |z₁(t)| (m), between the samples too
+  SwitchingMargins margins;             ///< the nearest of all switches and all that do not happen
+  std::array<double, 3> time_share;     ///< of each ContactMode; their sum is 1
+  double largest_displacement;          ///< max |z₁(t)| (m), between the samples too
 
-  /// N.
-  std::int64_t period_samples() const { return static_cast<std::int64_t>(states.size()); }
-  /// N τ (s).
-  double period() const { return static_cast<double>(period_samples()) * sampling_period; }
-  /// N p/q, a whole number; 0 without excitation.
-  std::int64_t forcing_periods() const {
-    return period_samples() / ratio.denominator * ratio.numerator;
-  }
-  /// max |λ|; 0 where that is below the smallest number.
-  double largest_multiplier() const { return std::exp(multipliers.front().log_modulus); }
-  /// Every neighbour that switches in the same order comes nearer, in the long run; not so where
-  /// the largest modulus is told from 1 by rounding alone.
-  bool is_attracting() const {
-    const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-    return multipliers.front().log_modulus < -rounding * static_cast<double>(states.size());
-  }
   /// Share of the samples after which the drive is engaged.
   double engaged_fraction() const {
     const auto engaged = std::count(modes.begin(), modes.end(), ContactMode::engaged);
@@ -85,12 +62,6 @@ struct HybridOrbit {
   }
   /// Share of the time in which the drive is engaged.
   double engaged_time_fraction() const { return time_share[0]; }
-  /// Largest |z₁| (m) of the samples.
-  double amplitude() const {
-    double largest = 0.0;
-    for (const auto& state : states) largest = std::max(largest, std::abs(state[0]));
-    return largest;
-  }
   /// How often a mode begins in one period.
   std::int64_t entries(ContactMode mode) const {
     return std::count_if(switches.begin(), switches.end(),

@@ -69,6 +69,7 @@ inline bool is_of_velocity(const Guard& guard) {
 template <class Contact>
 class HybridMeasures {
  public:
+  /// Measures from the motion's present sample on.
   explicit HybridMeasures(const HybridMotion<Contact>& motion) : motion_(&motion), trace_(motion) {}
 
   /// To be called after `sense()` and before `advance(measures)`.
@@ -77,6 +78,7 @@ class HybridMeasures {
     seen_ = 0;
   }
 
+  /// The least of each kind so far.
   const SwitchingMargins& margins() const { return margins_; }
   /// Time spent in each ContactMode, as a share of all.
   std::array<double, 3> time_share() const {
@@ -87,6 +89,8 @@ class HybridMeasures {
   double largest_displacement() const { return largest_displacement_; }
 
   // The observer of HybridMotion::advance.
+
+  /// Measures a stretch of one mode; `begin` (s) counts from the sample.
   void flowed(int mode, double begin, double length) {
     guards_ = motion_->contact().guards();
     time_[static_cast<std::size_t>(motion_->contact().word())] += length;
@@ -99,7 +103,10 @@ class HybridMeasures {
       for (Guard& guard : guards.guard) guard.zeros = 0;
     }
   }
+  /// From here on u_j is in force.
   void commanded() { trace_.commanded(); }
+  /// Takes the speed or the accelerations at a guard that was reached; a switch by a jump of force
+  /// or command, guard −1, has no margin.
   void switched(int from, int, int guard, const ContactInstant& instant) {
     last_slope_ = {};
     if (guard < 0) return;

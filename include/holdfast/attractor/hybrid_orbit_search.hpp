@@ -21,7 +21,7 @@ namespace holdfast {
 /// What a search for the periodic orbit of a HybridMotion found.
 template <class Contact>
 struct HybridOrbitResult {
-  OrbitOutcome outcome;
+  OrbitOutcome outcome;              ///< how the search ended
   std::optional<HybridOrbit> orbit;  ///< certified, approached, touching a surface, not reproduced
   std::optional<HybridPoint<Contact>> point;  ///< of the orbit, at its first sample
   std::int64_t samples = 0;                   ///< of the motion that was looked at
@@ -195,6 +195,7 @@ class HybridOrbitSearch {
 /// solved for. Memory: a byte a sample of the motion, some 150 a sample of the orbit.
 /// @param start   the motion, before a sample; it is left as it is
 /// @param ratio   of forcing_ratio()
+/// @param limits  how long and how far to look
 /// @throws InvalidParameter where the limits are not admissible, or where sampling and forcing do
 ///         not coincide every q samples: other frequencies, a recorded force, samples that stray
 template <class Contact>

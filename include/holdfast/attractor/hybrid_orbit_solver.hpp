@@ -124,16 +124,10 @@ inline std::int64_t quiet_sample(const HybridTurn& turn, ContactMode mode, doubl
 
 /// Whether an orbit comes so near to grazing that rounding may decide how it switches.
 inline bool touches_surface(const HybridOrbit& orbit) {
-  double displacement = 0.0, velocity = 0.0;
-  for (const auto& state : orbit.states) {
-    displacement = std::max({displacement, std::abs(state[0]), std::abs(state[2])});
-    velocity = std::max({velocity, std::abs(state[1]), std::abs(state[3])});
-  }
-  const double rounding = surface_rounding * std::numeric_limits<double>::epsilon();
-  const double error = 64.0 * orbit.closure_error;
+  const SurfaceRounding rounding = surface_rounding(orbit, orbit.closure_error);
   const SwitchingMargins& margins = orbit.margins;
-  return margins.border_distance <= rounding * displacement + error ||
-         std::min(margins.exit_velocity, margins.reversal_velocity) <= rounding * velocity + error;
+  return margins.border_distance <= rounding.displacement ||
+         std::min(margins.exit_velocity, margins.reversal_velocity) <= rounding.velocity;
 }
 
 /// Solves for the orbit of N samples near a point and measures it.

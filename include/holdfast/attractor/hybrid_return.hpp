@@ -24,6 +24,7 @@ namespace holdfast {
 template <class Contact>
 class HybridReturn {
  public:
+  /// X with the contact that goes with it.
   using Point = HybridPoint<Contact>;
 
   /// @param motion   any motion of the loop

@@ -85,6 +85,9 @@ class HybridTangent {
   }
 
   // The observer of HybridMotion::advance.
+
+  /// Notes a stretch of one mode, `begin` (s) counting from the sample; it enters the map with the
+  /// next change, or at the end of the period.
   void flowed(int mode, double begin, double length) {
     if (!(length > 0.0)) return;
     if (open_length_ == 0.0) open_begin_ = begin;
@@ -93,6 +96,7 @@ class HybridTangent {
     if (begin + length >= period_ * (1.0 - same_length)) close_flow();
   }
 
+  /// δu_j takes the place of δu_{j−1}.
   void commanded() {
     close_flow();
     map_.row(command_row) = pending_;
@@ -102,6 +106,8 @@ class HybridTangent {
     });
   }
 
+  /// Multiplies by the saltation matrix where a guard was reached outside stick; a jump of force or
+  /// command, guard −1, adds nothing.
   void switched(int from, int to, int guard, const ContactInstant& instant) {
     close_flow();
     if (guard >= 0 && from != Tangent::sticking) cross(from, to, instant);

@@ -26,6 +26,7 @@ namespace holdfast {
 
 /// What a search for the periodic orbit of a RealLoop's motion found, whatever its contact.
 struct HybridSearch {
+  /// How the search ended; `incommensurate` also under a recorded force or where samples stray.
   OrbitOutcome outcome = OrbitOutcome::none_found;
   std::optional<HybridOrbit> orbit;  ///< as in HybridOrbitResult
   std::int64_t samples = 0;          ///< of the motion that was looked at
@@ -34,7 +35,7 @@ struct HybridSearch {
 
 /// What a motion of a RealLoop is, with its certificate or the evidence.
 struct HybridVerdict {
-  Verdict verdict;
+  Verdict verdict;          ///< what the motion is, and what that rests on
   HybridSearch search;      ///< the orbit, where there is one
   MotionEvidence evidence;  ///< of a certified orbit its period and its exponent alone
 };
@@ -220,6 +221,7 @@ void weigh_samples(const RealLoop& loop, const HybridMotion<Contact>& start, Hyb
 ///  - a quantised measurement has no tangent at its steps: exponents and multipliers are those
 ///    between them;
 ///  - where changes of contact accumulate the verdict is undecided.
+/// @param loop           as it is built
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         of the search for an orbit
 /// Work: that of find_hybrid_orbit() and of gather_evidence() for up to 10⁵ samples.

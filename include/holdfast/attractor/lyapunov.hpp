@@ -19,9 +19,12 @@ namespace holdfast {
 /// Table 2.
 class LyapunovObserver {
  public:
+  /// @param tangent_loop  whose S and S* are the tangents
+  /// @param gains         P (N/m) and D (N s/m) of the motion
   LyapunovObserver(const SampledLoop<double>& tangent_loop, const PdGains<double>& gains)
       : engine_(std::make_shared<const ContactWords>(tangent_loop, gains)) {}
 
+  /// Takes the contact of the next sample, and nothing else of it.
   void operator()(const MotionSample<double>& sample) {
     open_[0] = followed_by(open_[0], sample.engaged);
     if (!is_whole(open_[0])) return;

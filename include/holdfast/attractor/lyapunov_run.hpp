@@ -42,7 +42,7 @@ enum class LyapunovOutcome {
 
 /// The Lyapunov exponents of a motion, natural logarithm per sample.
 struct LyapunovResult {
-  LyapunovOutcome outcome;
+  LyapunovOutcome outcome;  ///< why no more samples were taken
   /// λ₁ … λ₅ in the order of the QR, −∞ where a direction is annihilated; NaN but for the first
   /// where that alone was asked for.
   Vector<double, 5> exponents;
@@ -118,6 +118,7 @@ OpenContacts run_contacts(Motion& motion, std::int64_t samples, const Take& take
 ///
 /// @param motion  SampledMotion on scalars; left after the last sample taken
 /// @param words   of the loop whose S and S* are the tangents
+/// @param run     how long, and with what accuracy, is averaged
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ContactWords>& words,

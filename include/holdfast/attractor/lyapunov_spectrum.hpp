@@ -34,9 +34,8 @@ class LyapunovSpectrum {
   };
 
   /// @param initial_basis  Q₀, orthogonal; the exponents are those of the space that its leading
-  /// columns
-  ///                       reach, so that maps with an invariant coordinate axis need another than
-  ///                       the identity
+  ///                       columns reach, so that maps with an invariant coordinate axis need
+  ///                       another than the identity
   explicit LyapunovSpectrum(
       const Matrix<Scalar, Size>& initial_basis = Matrix<Scalar, Size>::Identity())
       : state_{initial_basis, BatchSums<Scalar, Size>(), Vector<Scalar, Size>::Zero(), Size} {}
@@ -67,6 +66,7 @@ class LyapunovSpectrum {
     state_.sums.add(logarithms, 1);
   }
 
+  /// The same, the map's rank found first.
   void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
 
   /// λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞ where exact, NaN
@@ -90,6 +90,7 @@ class LyapunovSpectrum {
     return with(single.cwiseMax(state_.sums.standard_errors(2)), Scalar(0));
   }
 
+  /// n, the number of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
   /// Number of batches complete, for the standard errors.
   std::size_t complete_batches() const { return state_.sums.complete_batches(); }

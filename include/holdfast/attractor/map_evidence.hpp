@@ -240,7 +240,8 @@ MotionEvidence weighed(const CollectedMotion<Size>& motion, const EvidencePlan& 
 /// @param initial     the state at sample 0
 /// @param advance     void(Vector<double, Size>&)
 /// @param observable  double(const Vector<double, Size>&), the number that spectrum and 0–1 test
-/// see
+///                    see
+/// @param plan        how much of the motion to look at, and how closely
 /// @param tangent     Matrix<double, Size>(const Vector<double, Size>&), or NoTangent
 /// @param contact     bool(), true where the drive transmits, or NoContact
 /// @throws InvalidParameter for a plan out of its ranges or an initial state that is not finite

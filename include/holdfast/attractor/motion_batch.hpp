@@ -28,7 +28,7 @@ struct TravellingMotion {
   std::size_t number;                 ///< the caller's
   ForcedMotionMemory<double> memory;  ///< at a coincidence of sampling and forcing
   int orbit = -1;                     ///< of the catalogue, once captured
-  bool diverged = false;
+  bool diverged = false;  ///< an entry of its state has reached 10¹⁰⁰, or is no number
   bool searched = false;  ///< its own orbit has been looked for
 };
 
@@ -108,14 +108,19 @@ class MotionBatch {
   using Lane = Lanes<Scalar>;
 
  public:
+  /// @param loop   of all motions
+  /// @param ratio  of forcing_ratio(loop)
   MotionBatch(const ForcedLoop<double>& loop, const Rational& ratio)
       : ratio_(ratio),
         motion_(detail::broadcast<Scalar>(
             periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()),
             loop.gains)) {}
 
-  /// @param motions  `count` of them; captured and diverged ones are marked, the others have moved
-  ///                 on by at least `samples` samples, a whole number of coincidences
+  /// @param motions    captured and diverged ones are marked, the others have moved on by at least
+  ///                   `samples` samples, a whole number of coincidences
+  /// @param count      number of motions, ≥ 0
+  /// @param samples    ≥ 1
+  /// @param catalogue  of orbits of the same loop
   void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
            const OrbitCatalogue& catalogue) {
     // Looking costs about as much as twenty samples of all lanes.

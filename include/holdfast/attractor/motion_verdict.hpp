@@ -16,7 +16,7 @@ namespace holdfast {
 
 /// What a motion of the sampled loop with backlash is, with its certificate or the evidence.
 struct MotionVerdict {
-  Verdict verdict;
+  Verdict verdict;          ///< what the motion is, and what that rests on
   OrbitResult search;       ///< the orbit, where there is one
   MotionEvidence evidence;  ///< of a certified orbit its period and its exponent alone
 };

@@ -73,6 +73,7 @@ bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
 /// The different orbits of one loop, and the neighbourhoods from which motions tend to them.
 class OrbitCatalogue {
  public:
+  /// @param loop  of all orbits that will be added
   explicit OrbitCatalogue(const ForcedLoop<double>& loop)
       : loop_(loop), weights_(DeviationScale(loop).weights()) {}
 
@@ -106,6 +107,7 @@ class OrbitCatalogue {
     return -1;
   }
 
+  /// Each at the index that is its number.
   const std::vector<PeriodicOrbit>& orbits() const { return orbits_; }
 
  private:

@@ -27,8 +27,8 @@ enum class OrbitEndOutcome {
 
 /// Where and why an orbit ends.
 struct OrbitEnd {
-  OrbitEndOutcome outcome = OrbitEndOutcome::range_end;
-  double parameter = 0.0;   ///< its value at the end
+  OrbitEndOutcome outcome = OrbitEndOutcome::range_end;  ///< why it is not followed any further
+  double parameter = 0.0;                                ///< its value at the end
   Border border;            ///< of a border collision: which surface at which sample of the orbit
   Multiplier multiplier{};  ///< the largest there; of `unit_circle`, angle 0: fold, π: flip, else a
                             ///< pair

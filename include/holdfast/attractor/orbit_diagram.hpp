@@ -121,6 +121,7 @@ bool show_strobes(const RealLoop& loop, const DiagramQuestion& question, Vector<
 /// @param path           parameter ↦ ForcedLoop<double> or RealLoop
 /// @param values         of the parameter, in their order
 /// @param initial_state  of the first motion
+/// @param question       how much is left out and shown at each value
 /// @param observer       called with each `StrobePoint`
 /// @return how many of the motions, two for each value, diverged
 /// @throws InvalidParameter where the question or a loop is not admissible, or the force of a

@@ -48,8 +48,9 @@ inline void validate(const OrbitLimits& limits) {
 
 /// What a search for a periodic orbit found.
 struct OrbitResult {
-  OrbitOutcome outcome;
-  std::optional<PeriodicOrbit> orbit;  ///< certified, touching a surface, or not reproduced
+  OrbitOutcome outcome;                ///< how the search ended
+  std::optional<PeriodicOrbit> orbit;  ///< certified, approached, touching a surface, or not
+                                       ///< reproduced
   std::int64_t samples = 0;            ///< of the motion that was looked at
   int candidates = 0;                  ///< sequences that were solved for
 };
@@ -257,6 +258,7 @@ class OrbitSearch {
 /// orbit.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
+/// @param limits         how long and how far to look
 /// @throws InvalidParameter where one of them or the limits are not admissible
 template <class Scalar>
 OrbitResult find_periodic_orbit(const ForcedLoop<Scalar>& loop,

@@ -24,9 +24,9 @@ namespace holdfast {
 /// boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 template <class Scalar>
 struct EndRelation {
-  Matrix<Scalar, 5> first;
-  Matrix<Scalar, 5> last;
-  Vector<Scalar, 5> addition;
+  Matrix<Scalar, 5> first;     ///< of z̃₀
+  Matrix<Scalar, 5> last;      ///< of z̃_N
+  Vector<Scalar, 5> addition;  ///< what the forcing adds on the way
 };
 
 /// The relation of the ends of a sequence of affine maps, at least one. Work per map: about 2000
@@ -80,7 +80,9 @@ Vector<Scalar, 5> follow_contacts(const ContactMaps<Scalar>& maps, const Contact
 ///
 /// The first state comes from the relation of the ends; the others follow by the maps themselves,
 /// and what is left open after one period is divided out once more.
+/// @param maps      of the loop
 /// @param contacts  N samples, N a multiple of the forcing's q, the first one at phase 0
+/// @param ends      relation_of_ends() of the sequence's maps
 /// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
 ///         periodic solution, or a continuum of them
 template <class Scalar>

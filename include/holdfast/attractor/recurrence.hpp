@@ -21,8 +21,9 @@ namespace holdfast {
 template <int Size>
 class RelativeDistance {
  public:
-  /// @param sizes  size of each coordinate where it is more than the series shows, as when the
-  ///               motion has decayed from there
+  /// @param states  the series whose extents are the measure
+  /// @param sizes   size of each coordinate where it is more than the series shows, as when the
+  ///                motion has decayed from there
   /// @throws InvalidParameter for an empty series or a state that is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = Vector<double, Size>::Zero()) {
@@ -39,6 +40,7 @@ class RelativeDistance {
     }
   }
 
+  /// d of two states, of which either may lie outside the series; 0 where no coordinate varies.
   double operator()(const Vector<double, Size>& one, const Vector<double, Size>& other) const {
     return (one - other).cwiseAbs().cwiseProduct(weights_).maxCoeff();
   }
@@ -57,6 +59,7 @@ struct ClosestReturn {
 /// Least distance over all pairs of states at least `least_lag` apart.
 ///
 /// Work: N²/2 distances, N ≤ 5000.
+/// @param states     x_j at successive samples, whose extents are the measure
 /// @param least_lag  ≥ 1; neighbours in time of a finely sampled motion are close for no reason
 /// @throws InvalidParameter for no or more than 5000 states, a state not finite, or lag 0
 template <int Size>
@@ -90,6 +93,7 @@ struct RepeatSearch {
 ///
 /// Work: one distance a lag where it fails at once, as with motions that do not repeat; at worst
 /// N²/(4 repeats), N ≤ 10⁶.
+/// @param states     x_0 … x_{N−1} at successive samples
 /// @param tolerance  relative to the extent of the second half, 0 ≤ tolerance < 1
 /// @param repeats    ≥ 1
 /// @param sizes      see RelativeDistance: what has decayed below round-off of it is at rest
@@ -126,6 +130,7 @@ struct RecurrenceShares {
 /// Determinism is near 1 for a motion on a closed curve and about 1 − (1 − rate)² for chance.
 /// Work: N²/2 distances and no storage, N ≤ 5000. Source: N. Marwan et al., Physics Reports 438
 /// (2007), 237–329.
+/// @param states  x_j at successive samples, whose extents are the measure
 /// @param radius  share of the extent, > 0
 /// @throws InvalidParameter for fewer than two or more than 5000 states, a state not finite, or
 ///         another radius

@@ -74,19 +74,24 @@ class RepeatingMotion {
     turn_to(motion.index() % period);
   }
 
+  /// Takes the present sample; once before each `advance()`.
   HybridSample sense() { return motion_.sense(); }
+  /// Moves to the next sample.
   void advance() { advance(IgnoreFlow()); }
+  /// The same past an observer as that of HybridMotion::advance.
   template <class Observer>
   void advance(Observer&& observer) {
     motion_.advance(observer);
     if (motion_.index() == period_) turn_to(0);
   }
 
+  /// Where the motion stands; ask before `sense()`.
   HybridPoint<Contact> point() const {
     return {motion_.index(), motion_.state(), motion_.previous_command(),
             motion_.controller().memory().previous_displacement, motion_.contact()};
   }
 
+  /// Goes on from a point, its counts begun anew.
   void go_to(const HybridPoint<Contact>& point) {
     if (motion_.loop().limits.velocity == VelocitySensing::difference) {
       // A sample taken at the last reading is how the controller comes to remember it.
@@ -98,6 +103,7 @@ class RepeatingMotion {
     motion_.restart_counts();
   }
 
+  /// The motion itself; its index is the phase, 0 … q − 1.
   const HybridMotion<Contact>& motion() const { return motion_; }
   /// q.
   std::int64_t period() const { return period_; }

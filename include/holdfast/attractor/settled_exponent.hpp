@@ -55,6 +55,7 @@ class SettledExponent {
     sums_.push_back(spectrum_.exponents() * static_cast<double>(spectrum_.steps()));
   }
 
+  /// All exponents over the maps pushed, with standard errors by batch means alone.
   const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
 
   /// The largest exponent; only after at least 64 maps.

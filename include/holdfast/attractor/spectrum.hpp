@@ -32,6 +32,7 @@ struct SpectralLine {
 ///
 /// @param signal           x_n, N ≥ 2 samples, finite
 /// @param sampling_period  τ (s), > 0
+/// @param window           w_n; `rectangular` for a record of whole periods
 /// Work: N log N where N has small prime factors only, N times the largest factor otherwise.
 /// @return N/2 + 1 lines at k / (N τ)
 /// @throws InvalidParameter for fewer than two or more than 10⁹ samples, or τ ≤ 0

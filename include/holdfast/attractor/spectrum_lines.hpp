@@ -13,6 +13,7 @@ namespace holdfast {
 
 /// Power of each line, its share of the mean square of the signal: ½ a², a² at zero and at the
 /// Nyquist frequency.
+/// @param lines    of amplitude_spectrum()
 /// @param samples  N of the record that the lines come from, N/2 + 1 of them
 /// @throws InvalidParameter where the numbers of samples and of lines do not belong together
 inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
@@ -81,7 +82,9 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
 
 /// Smallest number of lines, the mean left out, that together hold `share` of the power; 0 for a
 /// signal without power.
-/// @param share  0 < share ≤ 1
+/// @param lines    of amplitude_spectrum()
+/// @param samples  N of the record that the lines come from
+/// @param share    0 < share ≤ 1
 /// @throws InvalidParameter for another share, or lines that do not belong to N
 inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::size_t samples,
                                  double share) {

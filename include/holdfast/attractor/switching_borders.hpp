@@ -24,7 +24,7 @@ enum class SwitchingSurface {
 /// How near a motion comes to a switching surface.
 struct Border {
   double distance = std::numeric_limits<double>::infinity();  ///< m, or m/s for `reversal`
-  SwitchingSurface surface = SwitchingSurface::reversal;
+  SwitchingSurface surface = SwitchingSurface::reversal;      ///< nothing where `sample` is −1
   std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1 where there is none
 };
 
@@ -41,8 +41,8 @@ struct ContactDecision {
 
 /// The decisions of one period and what the drive remembers before the first of them.
 struct SwitchingPattern {
-  std::vector<ContactDecision> decisions;
-  BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};
+  std::vector<ContactDecision> decisions;               ///< one for each sample
+  BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< of the drive before the first sample
   bool repeats = false;  ///< the drive ends the period as it begins it
 
   /// The drive never leaves its gap.
@@ -122,8 +122,9 @@ struct Borders {
 ///
 /// Inside the gap the distance is that of Δz from its nearer end; where the drive leaves it, how
 /// far Δz is beyond; elsewhere that of Δż from zero.
-/// @param states  z̃_j, one for each decision, of a motion that repeats them for ever
-/// @param width   r₀ (m)
+/// @param pattern  of the orbit, or of one that it is to be compared with
+/// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
+/// @param width    r₀ (m)
 inline Borders borders_of(const SwitchingPattern& pattern,
                           const std::vector<Vector<double, 5>>& states, double width) {
   Borders nearest;

@@ -111,7 +111,8 @@ inline std::size_t lempel_ziv_phrases(const std::vector<bool>& sequence) {
 
 /// H_k, the entropy (bit) of the words of k symbols that a sequence holds, by their frequencies.
 /// It is too low where the sequence has not many times 2^k symbols. Work: n + 2^k.
-/// @param block  k, 0 … 20 and ≤ n; H₀ = 0
+/// @param sequence  n symbols, read with overlap
+/// @param block     k, 0 … 20 and ≤ n; H₀ = 0
 /// @throws InvalidParameter for another k
 inline double block_entropy(const std::vector<bool>& sequence, std::size_t block) {
   const double longest = std::fmin(20.0, static_cast<double>(sequence.size()));

@@ -30,7 +30,9 @@ struct ExponentEvidence {
   double half_width;           ///< ≥ 0
   std::string per = "sample";  ///< the step that the exponent is of
 
+  /// The whole interval is above zero.
   bool positive() const { return value - half_width > 0.0; }
+  /// The whole interval is below zero.
   bool negative() const { return value + half_width < 0.0; }
 };
 
@@ -39,6 +41,7 @@ struct ExponentEvidence {
 /// The half width is Student's 95 % quantile for the fewest batches that a series of more than 64
 /// steps has (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for
 /// the rounding of logarithms, below which no exponent is told from zero.
+/// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see SettledExponent
 /// @throws InvalidParameter for another standard error or end effect
@@ -69,24 +72,24 @@ struct SpectralEvidence {
 struct MotionEvidence {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion had left all bounds
   std::optional<std::int64_t> certified_period;  ///< of an orbit that was proved (samples)
-  std::optional<RepeatEvidence> repeat;
-  std::optional<ExponentEvidence> largest_exponent;
-  std::optional<double> zero_one;  ///< median K of the 0–1 test
-  std::optional<SpectralEvidence> lines;
+  std::optional<RepeatEvidence> repeat;          ///< of the states
+  std::optional<ExponentEvidence> largest_exponent;  ///< natural logarithm per step
+  std::optional<double> zero_one;                    ///< median K of the 0–1 test
+  std::optional<SpectralEvidence> lines;             ///< of the observable
   std::optional<double> extent_growth;  ///< extent of the last quarter over that of the first
-  std::optional<ClosestReturn> closest_return;
-  std::optional<RecurrenceShares> recurrence;
-  std::optional<SwitchingComplexity> switching;
-  std::optional<double> forcing_periods;  ///< that the series covers
-  bool forcing_incommensurate = false;    ///< f τ is no fraction with a denominator in reach: no
-                                          ///< motion that answers the forcing repeats
+  std::optional<ClosestReturn> closest_return;   ///< among the last states
+  std::optional<RecurrenceShares> recurrence;    ///< of the same states, at a given radius
+  std::optional<SwitchingComplexity> switching;  ///< of the contacts, where they are known
+  std::optional<double> forcing_periods;         ///< that the series covers
+  bool forcing_incommensurate = false;  ///< f τ is no fraction with a denominator in reach: no
+                                        ///< motion that answers the forcing repeats
 };
 
 /// A kind, and the numbers that it rests on.
 struct Verdict {
-  MotionKind kind = MotionKind::undecided;
-  std::int64_t period = 0;  ///< samples; 0 unless periodic
-  std::string rests_on;     ///< one or two English sentences
+  MotionKind kind = MotionKind::undecided;  ///< what the motion is
+  std::int64_t period = 0;                  ///< samples; 0 unless periodic
+  std::string rests_on;                     ///< one or two English sentences
 };
 
 /// `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, `diverges`, `undecided`.
@@ -108,6 +111,7 @@ inline std::string motion_kind_text(MotionKind kind, std::int64_t period = 0) {
   return "undecided";
 }
 
+/// The text of a verdict's kind, with its period where it is periodic.
 inline std::string motion_kind_text(const Verdict& verdict) {
   return motion_kind_text(verdict.kind, verdict.period);
 }
@@ -269,11 +273,9 @@ inline Verdict judge_contracting(const MotionEvidence& evidence, const EvidenceW
 ///     where the largest exponent is above zero: then an unstable orbit or round-off repeats;
 ///  4. no exponent, or an extent that still changes by `steady_growth` → undecided;
 ///  5. exponent above zero by its 95 % interval: chaotic if K ≥ `zero_one_high` and the spectrum,
-///  if
-///     known, is not one of lines alone; else undecided;
+///     if known, is not one of lines alone; else undecided;
 ///  6. exponent not told from zero: quasi-periodic if K ≤ `zero_one_low`, a repetition was looked
-///  for
-///     in vain, and the spectrum has lines alone with no common base; else undecided;
+///     for in vain, and the spectrum has lines alone with no common base; else undecided;
 ///  7. exponent below zero: where forcing and sampling are incommensurate and K ≤ `zero_one_low`
 ///     and the spectrum, if known, has lines alone → quasi-periodic. Else, if a repetition was
 ///     looked for in vain → irregular, exponent <= 0: a piecewise affine loop can go on switching

@@ -48,10 +48,10 @@ class NoBacklash {
 
 /// A law and its parameters.
 struct BacklashParameters {
-  ContactLaw law = ContactLaw::kollar;
-  double width = 0.0;              ///< r₀ (m), ≥ 0; `none` does not use it
-  double contact_stiffness = 0.0;  ///< k_c (N/m), ≥ 0; only `dead_zone` uses it
-  double contact_damping = 0.0;    ///< c_c (N s/m), ≥ 0; only `dead_zone` uses it
+  ContactLaw law = ContactLaw::kollar;  ///< which of the laws
+  double width = 0.0;                   ///< r₀ (m), ≥ 0; `none` does not use it
+  double contact_stiffness = 0.0;       ///< k_c (N/m), ≥ 0; only `dead_zone` uses it
+  double contact_damping = 0.0;         ///< c_c (N s/m), ≥ 0; only `dead_zone` uses it
 };
 
 /// Refuses parameters outside the ranges that their members state, whether or not the law uses

@@ -9,7 +9,8 @@ namespace holdfast {
 template <class Scalar>
 struct BacklashMemory {
   Mask<Scalar> inside;       ///< in its gap since the last sample
-  Scalar lower, upper;       ///< ends of the gap, Δz in m; meaningful while inside
+  Scalar lower,              ///< lower end of the gap, Δz (m); meaningful while inside
+      upper;                 ///< upper end of the gap, Δz (m); meaningful while inside
   Scalar previous_velocity;  ///< Δż of the last sample (m/s); zero before the first one
 };
 

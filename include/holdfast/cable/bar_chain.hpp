@@ -48,13 +48,17 @@ class BarChain {
   /// @throws InvalidParameter otherwise
   BarChain(const Conductor<double>& conductor, double position, int elements);
 
+  /// N, the number of bars.
   int elements() const { return static_cast<int>(lengths_.size()); }
+  /// N − 1, the nodes between the supports.
   int free_nodes() const { return elements() - 1; }
   /// Index of the free node at the absorber's place.
   int loaded_node() const { return loaded_node_; }
   /// l₀ (m) of bar e, between the free nodes e − 1 and e.
   double length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
+  /// EA (N), of every bar.
   double axial_stiffness() const { return cable_.axial_stiffness(); }
+  /// The cable that the bars stand for.
   const Conductor<double>& conductor() const { return conductor_; }
 
   /// Lumped mass (kg) of a free node: half of each of its two bars.

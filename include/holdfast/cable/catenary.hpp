@@ -25,7 +25,11 @@ struct CatenaryExtent {
 ///
 /// The derivative is the Hessian of the complementary energy ∫ (T²/2EA + T) ds: symmetric, and
 /// positive definite for H > 0. Source: Irvine 1981, Sect. 1.4.
-/// @param weight  w, > 0; @param stiffness  EA, > 0; @param tension  H, > 0; @param length  l, ≥ 0
+/// @param weight          w (N/m), > 0
+/// @param stiffness       EA (N), > 0
+/// @param tension         H (N), > 0
+/// @param vertical_force  V (N), of either sign
+/// @param length          l (m), ≥ 0
 template <class Scalar>
 CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiffness,
                                        const Scalar& tension, const Scalar& vertical_force,

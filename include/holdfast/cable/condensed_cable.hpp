@@ -28,22 +28,27 @@ namespace holdfast {
 template <int Sines = 8>
 class CondensedCable {
  public:
+  /// Number of coordinates: the sines and the tent.
   static constexpr int coordinates = Sines + 1;
+  /// q (m): the sines, the longest wave first, and then the tent; or what belongs to them.
   using Coordinates = Vector<double, coordinates>;
+  /// A matrix over the coordinates.
   using Square = Matrix<double, coordinates>;
 
   /// @throws InvalidParameter for an inadmissible conductor, position, mass (kg) or damping
   CondensedCable(const Conductor<double>& conductor, double position, double absorber_mass,
                  const RayleighDamping& damping);
 
+  /// Size of a state: q and q̇.
   static constexpr int states() { return 2 * coordinates; }
 
   /// The state at rest under a further force (N), and whether that and the equilibrium with the
   /// weight alone were found.
   struct Start {
-    Eigen::VectorXd state;
-    EquilibriumOutcome outcome;
+    Eigen::VectorXd state;       ///< [q, 0], of states() numbers; of use where it converged
+    EquilibriumOutcome outcome;  ///< converged where both were found
   };
+  /// @param force  N, downward positive, beside the weight of the absorber
   Start held_by(double force) const {
     const auto [held, outcome] = equilibrium(resting_load_ + force);
     const bool found = rest_outcome_ == EquilibriumOutcome::converged;

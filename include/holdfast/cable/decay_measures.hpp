@@ -38,8 +38,8 @@ struct DecayPeak {
 /// noise crosses the equilibrium to and fro before that, the crossing is midway between the first
 /// and the last. Noise still lifts each peak by about two of its standard deviations.
 struct DecayEvents {
-  std::vector<double> crossings;
-  std::vector<DecayPeak> peaks;  ///< peaks[k] lies between crossings[k] and crossings[k + 1]
+  std::vector<double> crossings;  ///< s, ascending
+  std::vector<DecayPeak> peaks;   ///< peaks[k] lies between crossings[k] and crossings[k + 1]
 };
 
 namespace detail {

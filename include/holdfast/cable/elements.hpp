@@ -18,10 +18,10 @@ enum class AbsorberReading {
 
 /// The absorber on the continuous cable.
 struct HangingAbsorber {
-  AbsorberReading reading;
-  double mass;             ///< m₂ (kg), ≥ 0; > 0 for the spring–mass
-  double stiffness = 0.0;  ///< k₂ (N/m), of the spring–mass only
-  double damping = 0.0;    ///< c₂ (N s/m), of the spring–mass only
+  AbsorberReading reading;  ///< what of the numbers below counts
+  double mass;              ///< m₂ (kg), ≥ 0; > 0 for the spring–mass
+  double stiffness = 0.0;   ///< k₂ (N/m), of the spring–mass only
+  double damping = 0.0;     ///< c₂ (N s/m), of the spring–mass only
 };
 
 /// Rayleigh damping C = α M + β K.
@@ -57,10 +57,13 @@ class CableElements {
   /// @param conductor  admissible in the sense of `validate`
   /// @param position   x_p (m) of the absorber, inside the span
   /// @param elements   N, ≥ 2
+  /// @param absorber   on the node at x_p
+  /// @param damping    of the cable; both factors ≥ 0
   /// @throws InvalidParameter otherwise, or for an absorber outside its ranges
   CableElements(const Conductor<double>& conductor, double position, int elements,
                 const HangingAbsorber& absorber, const RayleighDamping& damping);
 
+  /// The cable's bars and nodes, without absorber and damping.
   const BarChain& chain() const { return chain_; }
   /// Number of states.
   int states() const { return 4 * chain_.free_nodes() + (sprung() ? 2 : 0); }
@@ -73,9 +76,10 @@ class CableElements {
   /// The state at rest under a further force (N) at the absorber's place, and whether that and the
   /// equilibrium with the weight alone were found.
   struct Start {
-    Eigen::VectorXd state;
-    EquilibriumOutcome outcome;
+    Eigen::VectorXd state;       ///< of states() numbers, at rest; of use where it converged
+    EquilibriumOutcome outcome;  ///< converged where both were found
   };
+  /// @param force  N, downward positive, beside the weight of the absorber
   Start held_by(double force) const;
 
   /// Drop (m) of the absorber's node from the equilibrium.
@@ -141,6 +145,8 @@ class CableElements {
 
 // ---------------------------------------------------------------------------------------------
 
+/// @throws InvalidParameter for m₂ below zero; of the spring–mass also for m₂ or k₂ not above zero,
+/// or c₂ below zero
 inline void validate(const HangingAbsorber& absorber) {
   require_non_negative("absorber mass m2", absorber.mass, "kg");
   if (absorber.reading != AbsorberReading::spring_mass) return;

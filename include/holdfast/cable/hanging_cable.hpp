@@ -17,9 +17,9 @@ enum class EquilibriumOutcome {
 /// Equilibrium of the whole cable under one vertical point load; NaN where it was not found.
 template <class Scalar>
 struct LoadedCable {
-  Scalar tension;         ///< H (N), horizontal, the same all along
-  Scalar vertical_force;  ///< V (N), upward, of the left support
-  EquilibriumOutcome outcome;
+  Scalar tension;              ///< H (N), horizontal, the same all along
+  Scalar vertical_force;       ///< V (N), upward, of the left support
+  EquilibriumOutcome outcome;  ///< whether the cable meets both supports
 };
 
 /// The exact statics of an elastic cable: two catenaries that meet under the point load.
@@ -45,8 +45,11 @@ class HangingCable {
   const Scalar& unstretched_length() const { return length_; }
   /// H (N) of the bare cable.
   const Scalar& bare_tension() const { return bare_tension_; }
+  /// L (m), between the supports, which are level.
   const Scalar& span() const { return span_; }
+  /// EA (N).
   const Scalar& axial_stiffness() const { return stiffness_; }
+  /// w = μ g (N per metre of unstretched length).
   const Scalar& weight_per_length() const { return weight_; }
 
   /// The bare cable.
@@ -206,6 +209,7 @@ class CatenaryPointLoad {
         bare_drop_(cable_.extent(cable_.bare(), place_).vertical),
         lowest_load_(-conductor.weight() / Scalar(2)) {}
 
+  /// The whole cable, to be asked about any load and place.
   const HangingCable<Scalar>& cable() const { return cable_; }
   /// s_p (m).
   const Scalar& material_coordinate() const { return place_; }

@@ -17,7 +17,7 @@ enum class ModeFamily {
 
 /// One in-plane mode of a shallow cable.
 struct CableMode {
-  ModeFamily family;
+  ModeFamily family;               ///< its symmetry, which decides its shape
   double dimensionless_frequency;  ///< ω̄ = ω L/√(H/μ), > 0
   double frequency;                ///< ω/2π (Hz)
 

@@ -16,12 +16,14 @@ namespace holdfast {
 template <class PointLoad>
 class StaticsFromRest {
  public:
+  /// @param model         of the place, its displacement counted from the bare cable
   /// @param resting_load  weight of the absorber (N), ≥ 0
   StaticsFromRest(PointLoad model, double resting_load)
       : model_(std::move(model)),
         resting_load_(resting_load),
         resting_displacement_(model_.displacement(resting_load)) {}
 
+  /// The statics of the place as counted from the bare cable.
   const PointLoad& model() const { return model_; }
 
   /// Drop (m) of the place from the bare cable to the equilibrium.

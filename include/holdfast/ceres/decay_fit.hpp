@@ -30,9 +30,12 @@ namespace holdfast::fit {
 /// The parameters are fitted by their logarithms, within a factor 10⁶ of the given plant's
 /// either way (c₂: of the critical damping 2 √(k₂m₂), z₀: of the record's); derivatives come from
 /// dual numbers through the motion's closed form.
-/// @param plant  the values of the parameters that are not free, and where the others start
-/// @throws InvalidParameter for an inadmissible plant, a record with fewer instants than unknowns,
-/// or not ascending, or not finite, or not starting displaced; or no free parameter
+/// @param record    at least 8 instants, ascending, the first one displaced
+/// @param plant     the values of the parameters that are not free, and where the others start
+/// @param question  which parameters are free and what of the record is to be met
+/// @throws InvalidParameter for an inadmissible plant, a record with fewer instants, not
+///         ascending, not finite or not starting displaced; for no free parameter, one named
+///         twice, or more of them than the measures asked for can determine
 inline DecayFit fit_decay(const DecayRecord& record, const TwoDof<double>& plant,
                           const DecayQuestion& question = {});
 

@@ -9,11 +9,11 @@ namespace holdfast::fit {
 
 /// A parameter of the plant that a decay can determine; m₂ is the absorber's design.
 enum class PlantParameter {
-  conductor_mass,
-  conductor_stiffness,
-  conductor_damping,
-  absorber_stiffness,
-  absorber_damping,
+  conductor_mass,       ///< m₁ (kg)
+  conductor_stiffness,  ///< k₁ (N/m)
+  conductor_damping,    ///< c₁ (N s/m)
+  absorber_stiffness,   ///< k₂ (N/m)
+  absorber_damping,     ///< c₂ (N s/m)
 };
 
 /// The value of that parameter, in its unit of TwoDof.
@@ -46,7 +46,7 @@ inline bool is_measured(DecayTarget target) { return target != DecayTarget::time
 /// What is asked of a fit.
 struct DecayQuestion {
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};  ///< none twice
-  DecayTarget target = DecayTarget::time_history;
+  DecayTarget target = DecayTarget::time_history;  ///< what the misfit is measured in
   /// Huber's loss at 1.345 standard deviations, those taken from the median residual of the deepest
   /// minimum, the same for all starts: outliers of the record then count little, and Gaussian noise
   /// loses 5 % of its information. Only for the time history.
@@ -58,7 +58,7 @@ struct DecayQuestion {
 
 /// One local minimum.
 struct DecayMinimum {
-  TwoDof<double> plant;
+  TwoDof<double> plant;         ///< the given plant with the free parameters as fitted
   double initial_displacement;  ///< z₀ (m)
   /// Standard errors of the free parameters in the order of the question; NaN where the record does
   /// not determine them. Time history: from the residuals' scatter, with a robust loss by Huber's
@@ -79,10 +79,12 @@ enum class FitOutcome {
   no_minimum,
 };
 
+/// All minima that the starts of a fit led to.
 struct DecayFit {
-  FitOutcome outcome;
+  FitOutcome outcome;                ///< whether there is one
   std::vector<DecayMinimum> minima;  ///< the deepest first
-  int starts;
+  int starts;  ///< how many were run: 8 where c₂ is free, else 1; 0 for a record without four peaks
+               ///< whose measures are asked for
 };
 
 }  // namespace holdfast::fit

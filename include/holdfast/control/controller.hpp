@@ -21,6 +21,7 @@ struct DigitalLimits {
   double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
   double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
                                 ///< without effect on a difference
+  /// Where v̂_j comes from.
   VelocitySensing velocity = VelocitySensing::measured;
   double largest_force = std::numeric_limits<double>::infinity();  ///< u_max (N), > 0
 };
@@ -109,7 +110,9 @@ class Controller {
     memory_ = memory;
     slope_ = {};
   }
+  /// P and D of the law.
   const PdGains<double>& gains() const { return gains_; }
+  /// q_z, q_v and u_max, and where the velocity comes from.
   const DigitalLimits& limits() const { return limits_; }
 
  private:

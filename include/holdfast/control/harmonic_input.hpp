@@ -40,10 +40,11 @@ HarmonicInput<Scalar> held_harmonic(const SampledLoop<Scalar>& loop) {
 ///
 ///     d/dt [z; cos ωt; sin ωt] = [A c 0; 0 0 −ω; 0 ω 0] [z; cos ωt; sin ωt]
 ///
+/// Differs from the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
 /// @param a                  A, 4 × 4 (1/s)
 /// @param c                  4 × 1, per newton of F
+/// @param period             τ (s), ≥ 0
 /// @param angular_frequency  ω = 2π f (rad/s), finite
-/// Differs from the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
 template <class Scalar>
 HarmonicInput<Scalar> exact_harmonic(const Matrix<Scalar, 4>& a, const Vector<Scalar, 4>& c,
                                      const Scalar& period, const Scalar& angular_frequency) {

@@ -35,7 +35,7 @@ inline void validate(const Sampling<double>& sampling) {
 /// = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md).
 template <class Scalar>
 struct SampledLoop {
-  Sampling<Scalar> sampling;
+  Sampling<Scalar> sampling;          ///< the τ and δ that the matrices below belong to
   Matrix<Scalar, 4> transition;       ///< A_d, 4 × 4
   Matrix<Scalar, 4> increment;        ///< A_d − I, 4 × 4, to full relative accuracy for any τ
   Vector<Scalar, 4> previous_force;   ///< Γ₁, 4 × 1: response per newton of u_{j−1}

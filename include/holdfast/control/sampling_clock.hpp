@@ -88,6 +88,7 @@ class SamplingClock {
 
   /// τ (s).
   double period() const { return period_; }
+  /// J (s) and the seed of the deviations.
   const Jitter& jitter() const { return jitter_; }
 
  private:

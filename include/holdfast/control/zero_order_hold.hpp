@@ -13,8 +13,8 @@ namespace holdfast {
 ///     transition = e^{Ah},   input = ∫₀ʰ e^{As} ds B
 template <class Scalar, int States, int Inputs>
 struct HeldStep {
-  Matrix<Scalar, States> transition;
-  Matrix<Scalar, States, Inputs> input;
+  Matrix<Scalar, States> transition;     ///< e^{Ah}, States × States
+  Matrix<Scalar, States, Inputs> input;  ///< ∫₀ʰ e^{As} ds B, States × Inputs
 };
 
 namespace detail {

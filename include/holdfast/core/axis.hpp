@@ -8,8 +8,8 @@ namespace holdfast {
 
 /// Equally spaced values from `min` to `max`, both included exactly.
 struct Axis {
-  double min = 0.0;
-  double max = 0.0;        ///< ≥ min
+  double min = 0.0;        ///< the first value
+  double max = 0.0;        ///< the last value, ≥ min
   std::int64_t count = 1;  ///< ≥ 1; with count = 1 the only value is `min`
 
   /// Value number `index`, 0 ≤ index < count.

@@ -41,9 +41,10 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
 /// diag(factors)⁻¹.
 template <class Scalar, int Size>
 struct BalancedMatrix {
-  Vector<Scalar, Size> factors;  ///< powers of two
-  Matrix<Scalar, Size> balanced;
+  Vector<Scalar, Size> factors;   ///< powers of two
+  Matrix<Scalar, Size> balanced;  ///< row i and column i of about the same size
 
+  /// Balances `original`, whose entries must be finite.
   explicit BalancedMatrix(const Matrix<Scalar, Size>& original)
       : factors(balancing(original)),
         balanced(factors.cwiseInverse().asDiagonal() * original * factors.asDiagonal()) {}

@@ -27,7 +27,7 @@ class BatchSums {
   static_assert(Batches % 2 == 0 && Batches >= 4, "batches are merged in pairs");
 
  public:
-  using Sums = Vector<Number, Series>;
+  using Sums = Vector<Number, Series>;  ///< one number for each series
 
   /// @param first_length  steps of a batch before the first merging, ≥ 1
   explicit BatchSums(std::int64_t first_length = 1) : length_(first_length) { sums_.fill(open_); }
@@ -39,11 +39,13 @@ class BatchSums {
     if (open_steps_ == length_) close();
   }
 
+  /// Steps taken in so far, those of the open batch among them.
   std::int64_t steps() const {
     return static_cast<std::int64_t>(complete_) * length_ + open_steps_;
   }
   /// Steps to the end of the open batch, ≥ 1.
   std::int64_t steps_left() const { return length_ - open_steps_; }
+  /// Batches that are full, < `Batches`: reaching that number, they are merged into half as many.
   std::size_t complete_batches() const { return complete_; }
 
   /// Sums over all steps.

@@ -10,10 +10,11 @@ namespace holdfast {
 /// Two arguments between which a function changes sign, and its values there.
 template <class Scalar>
 struct SignChange {
-  Scalar lower, upper;    ///< lower < upper, or equal where the function is exactly zero
+  Scalar lower,           ///< the smaller argument
+      upper;              ///< the larger one, or equal where the function is exactly zero
   Scalar value_at_lower;  ///< of the sign opposite to value_at_upper, or zero
-  Scalar value_at_upper;
-  int evaluations = 0;  ///< calls of the function so far
+  Scalar value_at_upper;  ///< of the sign opposite to value_at_lower, or zero
+  int evaluations = 0;    ///< calls of the function so far
 };
 
 namespace detail {

@@ -25,9 +25,13 @@ class InvalidParameter : public std::invalid_argument {
         unit_(std::move(unit)),
         admissible_(std::move(admissible)) {}
 
+  /// Which parameter was refused, in words of the field.
   const std::string& name() const noexcept { return name_; }
+  /// The refused value, in `unit()`; may be NaN or infinite.
   double value() const noexcept { return value_; }
+  /// SI unit of the value; empty for a pure number.
   const std::string& unit() const noexcept { return unit_; }
+  /// What would have been accepted, to be read after "must be".
   const std::string& admissible() const noexcept { return admissible_; }
 
  private:

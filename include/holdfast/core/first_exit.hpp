@@ -12,14 +12,15 @@ namespace holdfast {
 /// A point of the complex plane that moves with a real argument, and where it is expected to be a
 /// step further on: on a straight line, or on the spiral value · exp(rate · step + bend · step²).
 struct MovingPoint {
-  using Complex = std::complex<double>;
+  using Complex = std::complex<double>;  ///< a place in the plane, or a rate of it
 
-  Complex value;
+  Complex value;              ///< where the point is now
   Complex rate;               ///< of the value; of its logarithm on a spiral
   Complex bend = Complex(0);  ///< of a spiral: half the second derivative of the logarithm
-  bool spiral = false;
+  bool spiral = false;        ///< true: on the spiral; false: on the straight line
   double excess = std::abs(value) - 1.0;  ///< |value| − 1, where it is known without cancellation
 
+  /// Where the point is expected once the argument has grown by `step`, which may be negative.
   Complex expected(double step) const {
     return spiral ? value * std::exp(step * (rate + step * bend)) : value + step * rate;
   }
@@ -48,11 +49,12 @@ enum class WalkOutcome {
   blocked,  ///< one is not inside at the start
 };
 
+/// Where a walk ended.
 struct FirstExit {
-  WalkOutcome outcome;
-  double last_inside;    ///< the last argument at which all points were inside
+  WalkOutcome outcome;   ///< how; `first_outside` is a number for `exit` alone
+  double last_inside;    ///< the last argument at which all points were inside; the start if none
   double first_outside;  ///< the first one seen at which they were not; NaN without an exit
-  int evaluations;
+  int evaluations;       ///< arguments at which the points were asked for, ≥ 1
 };
 
 namespace detail {
@@ -102,6 +104,8 @@ inline double contradiction(const WatchedPoints& here, const WatchedPoints& ther
 /// excursion narrower than that may be passed over, and so may one that is over within a step and
 /// of which neither end shows anything.
 /// @param evaluate  argument → WatchedPoints
+/// @param from      argument at which the walk begins
+/// @param to        argument at which it ends, at the latest
 /// @param first     length of the first step, > 0
 /// @param smallest  shortest step as a share of |argument| or, if that is larger, of `first`, > 0
 template <class Evaluate>

@@ -17,10 +17,11 @@ enum class RootOutcome {
              ///< falls through, touches or turns before
 };
 
+/// Where a polynomial that begins above zero first meets it in [0, 1].
 struct FirstRoot {
-  RootOutcome outcome;
-  double at;        ///< 0 ≤ x ≤ 1; 1 where there is none
-  int evaluations;  ///< of the polynomial and its slope
+  RootOutcome outcome;  ///< whether it does, and how
+  double at;            ///< 0 ≤ x ≤ 1; 1 where there is none
+  int evaluations;      ///< of the polynomial and its slope
 };
 
 namespace detail {

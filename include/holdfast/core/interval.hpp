@@ -7,9 +7,12 @@ namespace holdfast {
 /// An open interval (lower, upper) of the real line; an end may be infinite.
 template <class Scalar>
 struct Interval {
+  /// Not in the interval itself; −∞: unbounded below.
   Scalar lower = -std::numeric_limits<Scalar>::infinity();
+  /// Not in the interval itself; ∞: unbounded above.
   Scalar upper = std::numeric_limits<Scalar>::infinity();
 
+  /// lower < value < upper; false for NaN.
   bool contains(const Scalar& value) const { return lower < value && value < upper; }
 
   /// A point inside: the middle, or one unit (or one magnitude) beyond the finite end.

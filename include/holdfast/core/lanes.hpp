@@ -10,10 +10,12 @@ namespace holdfast {
 /// hand a lane that needs more care to scalar code.
 template <class Scalar>
 struct Lanes {
-  using Value = Scalar;  ///< what one lane holds
-  static constexpr std::size_t count = 1;
+  using Value = Scalar;                    ///< what one lane holds
+  static constexpr std::size_t count = 1;  ///< how many lanes there are
 
+  /// Reads `count` neighbours, the first one into lane 0.
   static Scalar load(const Value* values) { return *values; }
+  /// Writes all lanes to `count` neighbours, lane 0 first.
   static void store(const Scalar& pack, Value* values) { *values = pack; }
 
   /// One byte a lane: 1 where the mask is set, else 0.

@@ -11,8 +11,8 @@ namespace holdfast {
 
 /// A fraction in lowest terms.
 struct Rational {
-  std::int64_t numerator = 0;
-  std::int64_t denominator = 1;
+  std::int64_t numerator = 0;    ///< p, of the sign of the fraction
+  std::int64_t denominator = 1;  ///< q, ≥ 1
 };
 
 /// The fraction p/q in lowest terms that the decimal digits of `value` stand for, by continued
@@ -23,9 +23,9 @@ struct Rational {
 ///
 /// @param value                finite, |value| < 2⁵³
 /// @param largest_denominator  ≥ 1
+/// @param relative_tolerance   ≥ 0: largest |value − p/q| as a share of |value|
 /// @return nothing when no fraction with q ≤ largest_denominator is that close: the two frequencies
-/// are
-///         then treated as incommensurate
+///         are then treated as incommensurate
 /// @throws InvalidParameter when `value` is not finite or too large
 inline std::optional<Rational> reconstruct_rational(double value, std::int64_t largest_denominator,
                                                     double relative_tolerance = 1e-13) {

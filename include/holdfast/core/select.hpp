@@ -9,7 +9,7 @@ namespace holdfast {
 /// found by argument-dependent lookup, and a specialisation of `MaskOf`.
 template <class Scalar>
 struct MaskOf {
-  using type = bool;
+  using type = bool;  ///< what a comparison of two `Scalar`s gives
 };
 
 /// The type of a comparison of two `Scalar`s.

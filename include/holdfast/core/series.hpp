@@ -12,9 +12,13 @@ using Series = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_te
 
 /// p(x) and p′(x).
 struct ValueAndSlope {
-  double value, slope;
+  double value,  ///< p(x)
+      slope;     ///< p′(x)
 };
 
+/// p(x) and p′(x) by Horner's rule.
+/// @param polynomial  c₀, c₁, …, one coefficient or more
+/// @param x           any number
 template <class Coefficients>
 ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial, double x) {
   ValueAndSlope result{polynomial[polynomial.size() - 1], 0.0};

@@ -24,6 +24,7 @@ inline double normal_quantile(double confidence) {
 /// The t with P(|T| ≤ t) = confidence for Student's T of ν degrees of freedom: the expansion of
 /// Abramowitz & Stegun 26.7.5 about the normal quantile. At 95 % it is right to 0.2 % from three
 /// degrees of freedom on.
+/// @param confidence          0 < confidence ≤ 0.9999
 /// @param degrees_of_freedom  ν ≥ 3
 /// @throws InvalidParameter for another confidence (see normal_quantile) or ν
 inline double student_quantile(double confidence, double degrees_of_freedom) {

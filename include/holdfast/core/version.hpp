@@ -26,9 +26,11 @@ constexpr int version_part(std::string_view text, int position) {
 
 }  // namespace detail
 
-/// The three parts as numbers, for comparisons at compile time.
+/// First part of `version_string` as a number, for comparisons at compile time.
 inline constexpr int version_major = detail::version_part(version_string, 0);
+/// Second part of `version_string` as a number.
 inline constexpr int version_minor = detail::version_part(version_string, 1);
+/// Third part of `version_string` as a number.
 inline constexpr int version_patch = detail::version_part(version_string, 2);
 
 }  // namespace holdfast

@@ -41,11 +41,14 @@ inline int terms_for(double x) {
 /// what is left out is less than round-off. Work per term: 24 multiply-adds.
 class AffineExpansion {
  public:
+  /// The z_k as columns, at most `most_terms` of them; never on the heap.
   using Coefficients = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, most_terms>;
 
-  /// @param command  u (N)
-  /// @param force    F_k (N); its size is the number of terms
-  /// @param length   h (s), > 0
+  /// @param dynamics  A, b, c and the drift, constant over the length
+  /// @param state     z(t), 4 × 1
+  /// @param command   u (N)
+  /// @param force     F_k (N), one or more; its size is the number of terms
+  /// @param length    h (s), ≥ 0
   AffineExpansion(const AffineDynamics& dynamics, const Vector<double, 4>& state, double command,
                   const Series& force, double length)
       : coefficients_(4, force.size()) {

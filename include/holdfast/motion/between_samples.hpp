@@ -19,6 +19,7 @@ namespace holdfast {
 /// with the delay min(δ, s), since the contact and the force change at samples only.
 class BetweenSamples {
  public:
+  /// @param loop  of the motion; admissible, which is not asked here
   explicit BetweenSamples(const ForcedLoop<double>& loop) : loop_(loop) {}
 
   /// @param sample          z_j, u_j and j
@@ -37,6 +38,7 @@ class BetweenSamples {
            input.sine * force.sine;
   }
 
+  /// The loop with its excitation, as given.
   const ForcedLoop<double>& loop() const { return loop_; }
 
  private:

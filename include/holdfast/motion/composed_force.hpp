@@ -50,7 +50,7 @@ void divide_by_factorials(Eigen::MatrixBase<Coefficients>& coefficients) {
 /// F(t) = Σ_i F_i cos(2π f_i t + φ_i) + F_r(t): any number of harmonics, band-limited noise among
 /// them, and at most one recorded force.
 struct ComposedForce {
-  std::vector<Harmonic> harmonics;
+  std::vector<Harmonic> harmonics;              ///< F_i, f_i, φ_i; may be empty
   std::shared_ptr<const RecordedForce> record;  ///< F_r; null: none
 
   /// F(t) in N, continuous from the right.

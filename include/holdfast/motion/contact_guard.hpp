@@ -15,10 +15,10 @@ struct ContactInstant {
 
 /// g = state · z + command u + force F + constant, positive while the contact stays as it is.
 struct Guard {
-  Vector<double, 4> state;
-  double command = 0.0;
-  double force = 0.0;
-  double constant = 0.0;
+  Vector<double, 4> state;  ///< 4 × 1; g is in m, m/s or m/s², as the mode has it
+  double command = 0.0;     ///< per newton of u
+  double force = 0.0;       ///< per newton of F
+  double constant = 0.0;    ///< in the unit of g
   /// How many of g, ġ, g̈, … are zero at this instant because the contact has just changed here.
   int zeros = 0;
   /// The sign of g is not known yet: it is that which g takes first.
@@ -27,12 +27,13 @@ struct Guard {
 
 /// The guards of a mode, two at most.
 struct Guards {
-  std::array<Guard, 2> guard;
-  int count = 0;
+  std::array<Guard, 2> guard;  ///< the first `count` of them mean something
+  int count = 0;               ///< 0: the contact stays as it is, whatever the motion
 };
 
-/// Δz = z₂ − z₁ and Δż = ż₂ − ż₁ as functionals of the state.
+/// Δz = z₂ − z₁ as a functional of the state, 4 × 1.
 inline Vector<double, 4> displacement_row() { return {-1.0, 0.0, 1.0, 0.0}; }
+/// Δż = ż₂ − ż₁ as a functional of the state, 4 × 1.
 inline Vector<double, 4> velocity_row() { return {0.0, -1.0, 0.0, 1.0}; }
 
 }  // namespace holdfast

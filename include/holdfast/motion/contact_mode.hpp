@@ -13,8 +13,8 @@ enum class ContactMode : std::uint8_t {
 
 /// From an instant on the drive is in another mode.
 struct ContactSwitch {
-  double time;  ///< s
-  ContactMode mode;
+  double time;       ///< s
+  ContactMode mode;  ///< from then on
 };
 
 /// "engaged", "gap" or "stick".

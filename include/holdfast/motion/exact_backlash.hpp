@@ -31,8 +31,10 @@ namespace holdfast {
 /// A. F. Filippov, Differential equations with discontinuous righthand sides, 1988.
 class ExactBacklash {
  public:
-  static constexpr int modes = 3;
+  static constexpr int modes = 3;  ///< one for each ContactMode, numbered as they are
 
+  /// Begins engaged, σ not known yet.
+  /// @param plant  the two masses, without control
   /// @param width  r₀ (m), ≥ 0
   /// @throws InvalidParameter for another width, or where the plant is not admissible
   ExactBacklash(const TwoDof<double>& plant, double width)
@@ -57,7 +59,9 @@ class ExactBacklash {
   /// The plant whose energy bounds the motion in one of the modes.
   const TwoDof<double>& plant(int) const { return plant_; }
 
+  /// Number of the present mode, 0 … `modes` − 1.
   int mode() const { return index_of(mode_); }
+  /// The present mode.
   ContactMode word() const { return mode_; }
   /// u as it goes to the drive: the contact, not the computer, decides what is transmitted.
   double commanded(double command) const { return command; }
@@ -68,6 +72,8 @@ class ExactBacklash {
     return mode_ == ContactMode::gap ? 0.0 : -acceleration(now, 0.0) / acceleration_.command;
   }
 
+  /// The guards of the present mode: Δż while engaged, none then for r₀ = 0; the way (m) to either
+  /// end of the gap; in stick the accelerations that keep the sides together.
   Guards guards() const {
     switch (mode_) {
       case ContactMode::engaged:
@@ -127,8 +133,9 @@ class ExactBacklash {
 
   /// σ; 0 before Δż was first unlike zero.
   double sign() const { return sign_; }
-  /// The ends of the gap, Δz in m; meaningful but while engaged.
+  /// Lower end of the gap, Δz (m); has no meaning while engaged.
   double lower() const { return lower_; }
+  /// Upper end of the gap, Δz (m); has no meaning while engaged.
   double upper() const { return upper_; }
   /// Moves both ends by a displacement (m).
   void shift_gap(double by) {
@@ -227,6 +234,8 @@ class ExactBacklash {
       change_to(ContactMode::gap, 2);
   }
 
+  /// Ends stick where its condition does not hold any more; else leaves the mode as it is.
+  /// @param now    the instant, under the command and the force from then on
   /// @param zeros  of the velocity where the drive engages: one where the command jumped past what
   ///               holds the sides together, two where that came to the command
   void leave_stick(const ContactInstant& now, int zeros) {

@@ -36,12 +36,13 @@ inline AffineDynamics dynamics_on_stop(const TwoDof<double>& plant, double stiff
 /// finite time. Every bounce is followed, as far as SwitchCounts::accumulates.
 class ExactDeadZone {
  public:
-  static constexpr int modes = 3;
+  static constexpr int modes = 3;  ///< on the lower stop, between the stops, on the upper one
 
+  /// @param plant      the two masses, without control and stops
   /// @param width      r₀ (m), ≥ 0
   /// @param stiffness  k_c (N/m), ≥ 0
   /// @param damping    c_c (N s/m), ≥ 0
-  /// @param state      where the motion begins
+  /// @param state      where the motion begins, 4 × 1: its Δz decides which stop is touched
   /// @throws InvalidParameter where one of them, or the plant, is not admissible
   ExactDeadZone(const TwoDof<double>& plant, double width, double stiffness, double damping,
                 const Vector<double, 4>& state)
@@ -53,22 +54,30 @@ class ExactDeadZone {
     find_side(state);
   }
 
+  /// How the state moves in one of the modes: on a stop with its spring and damper, between the
+  /// stops without the command.
   AffineDynamics dynamics(int mode) const {
     if (mode != inside)
       return dynamics_on_stop(plant_, stiffness_, damping_, (mode - inside) * half_width_);
     return {plant_.state_matrix(), Vector<double, 4>::Zero(), plant_.excitation_input()};
   }
+  /// The plant whose energy bounds the motion in one of the modes; on a stop that is part of it.
   TwoDof<double> plant(int mode) const {
     return mode == inside ? plant_ : plant_on_stop(plant_, stiffness_, damping_);
   }
 
+  /// Number of the present mode, 0 … `modes` − 1.
   int mode() const { return mode_; }
+  /// `gap` between the stops, `engaged` on either.
   ContactMode word() const { return mode_ == inside ? ContactMode::gap : ContactMode::engaged; }
+  /// u as it goes to the drive: the contact, not the computer, decides what is transmitted.
   double commanded(double command) const { return command; }
+  /// What the drive transmits of the command (N); the stop's own force is not in it.
   double transmitted(const ContactInstant& now) const {
     return mode_ == inside ? 0.0 : now.command;
   }
 
+  /// The way (m) to either stop; on a stop, how far Δz is beyond its end of the gap.
   Guards guards() const {
     Guards result;
     if (mode_ != inside) {
@@ -83,7 +92,9 @@ class ExactDeadZone {
     return result;
   }
 
+  /// Takes a sample: this law does not wait for one.
   void sample(const Vector<double, 4>&) {}
+  /// The force or the command has jumped, or may have: Δz has not, and nothing changes.
   void jumped(const ContactInstant&) {}
   /// The contact stays what it was; a stop that was passed is found at once, its guard being below
   /// zero.
@@ -91,13 +102,17 @@ class ExactDeadZone {
     zeros_ = 0;
     displaced_ = true;
   }
+  /// What the mode keeps of the state: nothing.
   void keep(const Vector<double, 4>&, Vector<double, 4>&) const {}
+  /// Some time has passed since the last change.
   void flowed() {
     zeros_ = 0;
     displaced_ = false;
   }
+  /// Never called: the signs of the guards are known.
   void learn_sign(double) {}
 
+  /// A guard has come to zero: a stop is met or left. The state stays as it is.
   void reached(int guard, ContactInstant&) {
     left_ = mode_;
     mode_ = mode_ != inside ? inside : guard == 0 ? inside + 1 : inside - 1;

@@ -21,8 +21,8 @@ struct HarmonicExcitation {
 /// The excitation's cosine and sine at one sample, times its amplitude (N).
 template <class Scalar>
 struct ExcitationSample {
-  Scalar cosine;
-  Scalar sine;
+  Scalar cosine;  ///< F_m cos ω t_j (N); the bare cosine where no amplitude is meant
+  Scalar sine;    ///< F_m sin ω t_j (N); the bare sine likewise
 };
 
 /// F_m cos(ω j τ) and F_m sin(ω j τ); whole cycles are removed first, so that j may be large.

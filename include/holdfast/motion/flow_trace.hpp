@@ -27,11 +27,13 @@ class FlowTrace {
  public:
   /// A stretch without a change of contact or command, short enough for one series.
   struct Part {
-    double begin, length;  ///< s after the sample, s
-    ContactMode mode;
+    double begin,           ///< s after the sample
+        length;             ///< s, ≥ 0
+    ContactMode mode;       ///< all through the stretch
     AffineExpansion state;  ///< over the length
   };
 
+  /// Keeps the address of the motion.
   explicit FlowTrace(const HybridMotion<Contact>& motion) : motion_(&motion) {}
 
   /// To be called after `sense()` and before `advance(trace)`.
@@ -54,7 +56,8 @@ class FlowTrace {
   /// One after the other, without a space between them.
   const std::vector<Part>& parts() const { return parts_; }
 
-  // The observer of HybridMotion::advance.
+  /// For HybridMotion::advance: a part of the period has been passed, `length` seconds from `begin`
+  /// (s after the sample) on, in the mode of that number.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
     double reached = begin;
@@ -72,7 +75,9 @@ class FlowTrace {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
+  /// For HybridMotion::advance, at t_j + δ: from here on u_j is in force.
   void commanded() { command_ = motion_->command(); }
+  /// For HybridMotion::advance: a change of contact, which the next part shows.
   void switched(int, int, int, const ContactInstant&) {}
 
  private:

@@ -27,6 +27,8 @@ struct PeriodInstant {
 /// The excitation as one sampling period after the other sees it, held at the sample or exactly.
 class ForceOverSamples {
  public:
+  /// @param force            F(t), admissible
+  /// @param hold             held at its value at the sample, record included, or followed exactly
   /// @param sampling_period  τ (s), > 0
   ForceOverSamples(const ComposedForce& force, ForceHold hold, double sampling_period)
       : force_(force), hold_(hold) {
@@ -57,6 +59,8 @@ class ForceOverSamples {
     return hold_ == ForceHold::sampled ? held_ : force_.at(time_ + after);
   }
 
+  /// What `at` needs of the instant `after` (s) past every sample: a cosine and a sine for each
+  /// harmonic.
   PeriodInstant instant(double after) const {
     PeriodInstant instant{after, {}};
     for (const Harmonic& line : force_.harmonics) {

@@ -20,12 +20,12 @@ namespace holdfast {
 /// initial state.
 template <class Scalar>
 struct ForcedLoop {
-  TwoDof<Scalar> plant;
-  Sampling<Scalar> sampling;
-  PdGains<Scalar> gains;
-  HarmonicExcitation<Scalar> excitation;
-  Scalar backlash_width = Scalar(0);    ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;  ///< how the harmonic force is taken over a sample
+  TwoDof<Scalar> plant;                   ///< conductor and absorber
+  Sampling<Scalar> sampling;              ///< τ and δ
+  PdGains<Scalar> gains;                  ///< P and D
+  HarmonicExcitation<Scalar> excitation;  ///< F_m and f
+  Scalar backlash_width = Scalar(0);      ///< r₀ (m), ≥ 0
+  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
 };
 
 /// @throws InvalidParameter where any part is not admissible
@@ -50,8 +50,9 @@ ForcedLoop<To> converted(const ForcedLoop<From>& loop) {
 
 /// f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods of the
 /// excitation. Without excitation 0/1.
+/// @param loop             of which f, τ and F_m are looked at
 /// @param largest_samples  ≥ 1; beyond 10⁶ it counts as 10⁶, since to the precision of its digits
-/// every number is a fraction with a larger q
+///                         every number is a fraction with a larger q
 /// @return nothing where f τ is no fraction with q ≤ largest_samples: then the two count as
 ///         incommensurate
 inline std::optional<Rational> forcing_ratio(const ForcedLoop<double>& loop,
@@ -67,7 +68,9 @@ template <class Scalar>
 using PeriodicallyForcedMotion = SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar>>;
 
 /// The motion from an initial state [z₁, ż₁, z₂, ż₂], the forcing being exactly periodic.
-/// @param ratio  of forcing_ratio()
+/// @param loop           admissible; the phases of the forcing come from `ratio`, not from its f
+/// @param ratio          of forcing_ratio()
+/// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
 template <class Scalar>
 PeriodicallyForcedMotion<Scalar> periodically_forced_motion(
     const ForcedLoop<Scalar>& loop, const Rational& ratio, const Vector<Scalar, 4>& initial_state) {

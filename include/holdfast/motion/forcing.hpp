@@ -24,6 +24,9 @@ namespace holdfast {
 template <class Scalar>
 class HarmonicForcing {
  public:
+  /// @param input            g_c and g_s, 4 × 1 per newton
+  /// @param excitation       F_m and f
+  /// @param sampling_period  τ (s), > 0
   HarmonicForcing(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
                   const Scalar& sampling_period)
       : table_(input, excitation, sampling_period) {}
@@ -49,8 +52,10 @@ class PeriodicForcing {
   using Value = typename Lanes<Scalar>::Value;
 
  public:
-  /// @param ratio  f τ = p/q in lowest terms, q ≥ 1; it replaces the product of the two, whose
-  ///               rounding would let them drift apart
+  /// @param input      g_c and g_s, 4 × 1 per newton
+  /// @param amplitude  F_m (N)
+  /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; it replaces the product of the two, whose
+  ///                   rounding would let them drift apart
   PeriodicForcing(const HarmonicInput<Value>& input, const Value& amplitude, const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
 
@@ -69,6 +74,7 @@ class PeriodicForcing {
   std::size_t samples() const { return additions_->size(); }
   /// Sampling periods since the last coincidence, 0 … q − 1.
   std::size_t phase() const { return phase_; }
+  /// The q additions (4 × 1), that of phase 0 first.
   const std::vector<Vector<Value, 4>>& additions() const { return *additions_; }
 
  private:

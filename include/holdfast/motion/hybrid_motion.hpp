@@ -30,12 +30,12 @@ namespace holdfast {
 /// The digital side of a loop and its excitation: all that a motion depends on beside its contact
 /// and its initial state.
 struct DigitalLoop {
-  Sampling<double> sampling;
-  PdGains<double> gains;
-  ComposedForce force;
-  ForceHold hold = ForceHold::sampled;
-  DigitalLimits limits = {};
-  Jitter jitter = {};
+  Sampling<double> sampling;            ///< τ and δ
+  PdGains<double> gains;                ///< P and D
+  ComposedForce force;                  ///< F(t), the excitation of the conductor
+  ForceHold hold = ForceHold::sampled;  ///< how F is taken over a sample, a record included
+  DigitalLimits limits = {};            ///< of the sensors and the drive
+  Jitter jitter = {};                   ///< of the clock; 2 J + δ ≤ τ
 };
 
 /// @throws InvalidParameter where any part is not admissible
@@ -48,7 +48,7 @@ inline void validate(const DigitalLoop& loop) {
 
 /// What is known of a motion at one sample, with the mode of its contact from then on.
 struct HybridSample : MotionSample<double> {
-  ContactMode mode;
+  ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
 };
 
 /// What a motion has met with.
@@ -62,8 +62,13 @@ struct SwitchCounts {
 
 /// Does not look at what happens between the samples.
 struct IgnoreFlow {
+  /// A part of the sampling period was passed: the mode's number, its begin (s after the sample)
+  /// and its length (s).
   void flowed(int, double, double) const {}
+  /// At t_j + δ u_j took the place of u_{j−1}.
   void commanded() const {}
+  /// The contact changed: the numbers of the mode before and after, that of the guard that came to
+  /// zero (−1: a jump of the command or the force did it), the instant.
   void switched(int, int, int, const ContactInstant&) const {}
 };
 
@@ -82,6 +87,7 @@ struct IgnoreFlow {
 template <class Contact>
 class HybridMotion {
  public:
+  /// Most changes of contact in one sampling period; beyond them SwitchCounts::accumulates is set.
   static constexpr int most_switches = 1000;
   /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
   /// change.
@@ -153,14 +159,19 @@ class HybridMotion {
   std::int64_t index() const { return index_; }
   /// t_j (s).
   double time() const { return clock_.time(index_); }
+  /// z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const Vector<double, 4>& state() const { return state_; }
   /// u_{j−1} (N), which is in force until t_j + δ.
   double previous_command() const { return previous_command_; }
   /// u_j (N), once `sense()` has taken sample j.
   double command() const { return command_; }
+  /// The contact in its present mode.
   const Contact& contact() const { return contact_; }
+  /// The controller with what it remembers of the past samples.
   const Controller& controller() const { return controller_; }
+  /// The digital side and the excitation, as given.
   const DigitalLoop& loop() const { return loop_; }
+  /// What the motion has met with since it began or since `restart_counts()`.
   const SwitchCounts& counts() const { return counts_; }
   /// The excitation, at the present sample from `sense()` on.
   const ForceOverSamples& force() const { return force_; }

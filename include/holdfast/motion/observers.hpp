@@ -14,11 +14,14 @@ namespace holdfast {
 /// Keeps every sample of a trajectory. Reserve before the run, so that the loop allocates nothing.
 class Recorder {
  public:
+  /// @param expected_samples  ≥ 0; room is made for that many, and more may come
   explicit Recorder(std::int64_t expected_samples) {
     samples_.reserve(static_cast<std::size_t>(expected_samples));
   }
 
+  /// Keeps a sample.
   void operator()(const MotionSample<double>& sample) { samples_.push_back(sample); }
+  /// All samples, in the order in which they came.
   const std::vector<MotionSample<double>>& samples() const { return samples_; }
 
  private:
@@ -31,12 +34,15 @@ class PhaseExtent {
   /// @param from  s; samples before it are left out
   explicit PhaseExtent(double from) : from_(from) {}
 
+  /// Takes in a sample.
   void operator()(const MotionSample<double>& sample) {
     if (!not_before(sample.time, from_)) return;
     displacement_ = std::fmax(displacement_, std::abs(sample.state[0]));
     velocity_ = std::fmax(velocity_, std::abs(sample.state[1]));
   }
+  /// Largest |z₁| (m) so far; 0 before the first sample that counts.
   double displacement() const { return displacement_; }
+  /// Largest |ż₁| (m/s) so far; 0 before the first sample that counts.
   double velocity() const { return velocity_; }
 
  private:
@@ -49,6 +55,8 @@ class PhaseExtent {
 /// rest. z is positive downward: the minimum is the peak above the equilibrium.
 class FirstPeaks {
  public:
+  /// Takes in the next sample. A peak shows with the sample after it; the first sample is none, nor
+  /// is a top of two equal samples.
   void operator()(const MotionSample<double>& sample) {
     const double value = sample.state[0];
     if (count_ >= 2) {
@@ -74,25 +82,27 @@ class FirstPeaks {
   std::int64_t count_ = 0;
 };
 
-/// Counts the samples that were taken in the backlash and notes when the drive entered or left it.
+/// Notes when the drive entered or left its backlash, as the samples show it.
 class SwitchLog {
  public:
   /// One change of contact: at sample `index` the drive is in the backlash (entered) or out of it.
   struct Switch {
-    std::int64_t index;
-    double time;  ///< s
-    bool entered;
+    std::int64_t index;  ///< j
+    double time;         ///< t_j (s)
+    bool entered;        ///< true: into the backlash; false: out of it
   };
 
   /// @param from  s; switches before it are not logged
   explicit SwitchLog(double from = 0.0) : from_(from) {}
 
+  /// Takes in the next sample. Before the first one the drive counts as engaged.
   void operator()(const MotionSample<double>& sample) {
     const bool inside = !sample.engaged;
     if (inside != inside_ && not_before(sample.time, from_))
       switches_.push_back({sample.index, sample.time, inside});
     inside_ = inside;
   }
+  /// The changes of contact so far, in order of time.
   const std::vector<Switch>& switches() const { return switches_; }
 
  private:

@@ -12,7 +12,9 @@ namespace holdfast {
 
 /// Bounds of |F|, |Ḟ|, |F̈| (N, N/s, N/s²) over all times.
 struct ForceBounds {
-  double value, rate, second_rate;
+  double value,     ///< of |F| (N)
+      rate,         ///< of |Ḟ| (N/s)
+      second_rate;  ///< of |F̈| (N/s²)
 };
 
 /// Tells that a guard cannot come to zero within a length h, from its values at both ends.
@@ -26,6 +28,10 @@ struct ForceBounds {
 /// holds for every guard of a mode that has the same |ℓ| and |m|.
 class QuietBound {
  public:
+  /// @param dynamics  A, b, c and the drift of a mode
+  /// @param plant     the one whose energy bounds the motion in that mode, admissible
+  /// @param guard     one of the mode's, of which ℓ and m count
+  /// @param force     bounds of the excitation
   QuietBound(const AffineDynamics& dynamics, const TwoDof<double>& plant, const Guard& guard,
              const ForceBounds& force)
       : energy_(plant),

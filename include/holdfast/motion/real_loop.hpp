@@ -26,10 +26,10 @@ enum class Switching : std::uint8_t {
 /// A loop as it is built: any law of the backlash, switching at samples or when it happens, any
 /// excitation, the limits of its sensors, drive and clock.
 struct RealLoop {
-  TwoDof<double> plant;
-  DigitalLoop digital;
-  BacklashParameters backlash = {};
-  Switching switching = Switching::sampled;
+  TwoDof<double> plant;                      ///< conductor and absorber
+  DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
+  BacklashParameters backlash = {};          ///< the law; by itself `kollar` with r₀ = 0
+  Switching switching = Switching::sampled;  ///< when the drive enters and leaves its backlash
 };
 
 /// @throws InvalidParameter where any part is not admissible

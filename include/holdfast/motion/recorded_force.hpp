@@ -36,8 +36,9 @@ struct LinearPiece {
 /// Work of a question: a binary search over the rows.
 class RecordedForce {
  public:
-  /// @param times   t_k (s), two or more, strictly increasing
-  /// @param forces  F_k (N), one for each time
+  /// @param times          t_k (s), two or more, strictly increasing
+  /// @param forces         F_k (N), one for each time
+  /// @param interpolation  what the force is between the rows
   /// @throws InvalidParameter for fewer than two rows, unequal numbers of times and forces, values
   ///         that are not finite, times that do not increase, rows too far apart for their
   ///         difference to be finite
@@ -57,8 +58,11 @@ class RecordedForce {
   double first_time() const { return times_.front(); }
   /// t_{n−1} (s).
   double last_time() const { return times_.back(); }
+  /// What the force is between the rows.
   RecordInterpolation interpolation() const { return interpolation_; }
+  /// t_k (s), strictly increasing.
   const std::vector<double>& times() const { return times_; }
+  /// F_k (N), as many as there are times.
   const std::vector<double>& forces() const { return forces_; }
 
   /// F(t) in N.

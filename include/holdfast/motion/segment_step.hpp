@@ -23,8 +23,10 @@ struct SegmentStep {
   Vector<double, 4> held;                    ///< 4 × 1 per newton of a force that is constant
   std::vector<HarmonicInput<double>> lines;  ///< one for each harmonic
 
-  /// @param begin   s from the sample
-  /// @param length  s, ≥ 0
+  /// @param dynamics   of the mode
+  /// @param harmonics  of the excitation, in the order of the phases that `state` is given
+  /// @param begin      s from the sample
+  /// @param length     s, ≥ 0
   SegmentStep(const AffineDynamics& dynamics, const std::vector<Harmonic>& harmonics, double begin,
               double length) {
     const Matrix<double, 4> identity = Matrix<double, 4>::Identity();
@@ -40,7 +42,12 @@ struct SegmentStep {
     }
   }
 
-  /// @param phases  of the harmonics at the sample, times their amplitudes; none: the force is held
+  /// The state (4 × 1) at the end of the part.
+  /// @param before      the state at its begin, 4 × 1
+  /// @param commanded   u in force all through it (N)
+  /// @param held_force  F_j (N); looked at only where there are no phases
+  /// @param phases      of the harmonics at the sample, times their amplitudes; none: the force is
+  ///                    held
   Vector<double, 4> state(const Vector<double, 4>& before, double commanded, double held_force,
                           const std::vector<ExcitationSample<double>>& phases) const {
     Vector<double, 4> after = transition * before + command * commanded + drift;

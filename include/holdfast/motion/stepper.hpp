@@ -50,12 +50,15 @@ struct MotionMemory {
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>>
 class SampledMotion {
  public:
+  /// The motion under a harmonic excitation, which begins at phase 0. Nothing is transmitted before
+  /// the first sample: u_{−1} = 0.
   SampledMotion(const SampledLoop<Scalar>& loop, const PdGains<Scalar>& gains,
                 const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
                 const Law& law, const Vector<Scalar, 4>& initial_state)
       : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
                       initial_state) {}
 
+  /// The motion under any forcing, taken up where that stands; u_{−1} = 0.
   SampledMotion(const SampledLoop<Scalar>& loop, const PdGains<Scalar>& gains,
                 const Forcing& forcing, const Law& law, const Vector<Scalar, 4>& initial_state)
       : loop_(loop),
@@ -92,12 +95,17 @@ class SampledMotion {
   /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
   void displace_conductor(const Scalar& displacement) { state_[0] += displacement; }
 
+  /// j, the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
   /// t_j (s).
   Scalar time() const { return Scalar(static_cast<double>(index_)) * loop_.sampling.period; }
+  /// z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
   const Vector<Scalar, 4>& state() const { return state_; }
+  /// The matrices of one sampling period.
   const SampledLoop<Scalar>& loop() const { return loop_; }
+  /// The backlash with what it remembers.
   const Law& law() const { return law_; }
+  /// The excitation, at the phase that the next `advance()` will use.
   const Forcing& forcing() const { return forcing_; }
   /// What the motion remembers at t_j; ask before `sense()`.
   auto memory() const {

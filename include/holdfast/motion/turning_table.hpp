@@ -48,8 +48,11 @@ ExcitationSample<Scalar> turn_by(const Scalar& x) {
 template <class Scalar>
 class TurningPhase {
  public:
-  static constexpr std::size_t block = 16;
+  static constexpr std::size_t block = 16;  ///< periods for which one turn_to() is enough
 
+  /// Call `turn_to` before the first `at`.
+  /// @param excitation       F_m and f
+  /// @param sampling_period  τ (s), > 0
   TurningPhase(const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : amplitude_(excitation.amplitude), cycles_(excitation.frequency * sampling_period) {
     for (std::size_t k = 0; k < block; ++k) turns_[k] = turn_at(static_cast<std::int64_t>(k));
@@ -89,8 +92,13 @@ class TurningPhase {
 template <class Scalar>
 class TurningTable {
  public:
+  /// Periods for which one turn_to() is enough.
   static constexpr std::size_t block = TurningPhase<Scalar>::block;
 
+  /// Call `turn_to` before the first `addition`.
+  /// @param input            g_c and g_s, 4 × 1 per newton
+  /// @param excitation       F_m and f
+  /// @param sampling_period  τ (s), > 0
   TurningTable(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
                const Scalar& sampling_period)
       : input_(input), phase_(excitation, sampling_period) {}

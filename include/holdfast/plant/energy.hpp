@@ -13,6 +13,7 @@ namespace holdfast {
 /// by itself, whatever the units, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
 class EnergyNorm {
  public:
+  /// The norm that belongs to one plant, whose k₁, k₂, m₁ and m₂ must be > 0.
   explicit EnergyNorm(const TwoDof<double>& plant) : plant_(plant) {}
 
   /// ‖z‖ (√J).

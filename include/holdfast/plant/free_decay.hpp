@@ -51,10 +51,10 @@ std::vector<Scalar> free_decay(const TwoDof<Scalar>& plant, const Scalar& displa
 /// First opposite peak over the initial displacement, period (s) and logarithmic decrement.
 template <class Scalar>
 struct RelativeDecay {
-  Scalar first_peak;       ///< < 0
-  Scalar first_peak_time;  ///< s
-  Scalar period;           ///< s
-  Scalar logarithmic_decrement;
+  Scalar first_peak;             ///< < 0
+  Scalar first_peak_time;        ///< s
+  Scalar period;                 ///< s
+  Scalar logarithmic_decrement;  ///< per cycle, of the first four peaks
 };
 
 /// The crossings and peaks of the plant's decay from 1 m, sampled 400 times in the period of both
@@ -73,6 +73,7 @@ inline DecayEvents free_decay_events(const TwoDof<double>& plant) {
 
 /// The measures of `decay_measures`, to round-off and for any number type: each crossing and peak
 /// found on samples is moved by Newton's method on the closed-form motion.
+/// @param plant   the two masses, without control
 /// @param events  `free_decay_events` of the same plant's values
 /// @return nothing for a decay with fewer than five crossings in four periods (overdamped)
 template <class Scalar>

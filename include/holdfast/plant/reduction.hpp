@@ -48,13 +48,14 @@ struct FrequencyReduction {
 struct ReducedMasses {
   double absorber_stiffness;  ///< k₂ (N/m)
   double conductor_mass;      ///< m₁ (kg)
-  /// Condition numbers Σ |∂ ln k₂/∂ ln p|, Σ |∂ ln m₁/∂ ln p| over p = k₁, m₂, ω₁, ω₂: how many
-  /// times a relative error of the inputs comes out larger.
+  /// Condition number Σ |∂ ln k₂/∂ ln p| over p = k₁, m₂, ω₁, ω₂: how many times a relative error
+  /// of the inputs comes out larger.
   double stiffness_condition;
-  double mass_condition;
+  double mass_condition;     ///< the same of m₁, Σ |∂ ln m₁/∂ ln p|
   double damping_condition;  ///< the same of c₁ by Eq. (3), besides the 1 that ζ counts
 };
 
+/// How many two-mass plants have the natural frequencies asked for.
 enum class ReductionOutcome {
   two_solutions,    ///< both roots are real and apart
   double_solution,  ///< they coincide: the outputs answer to no finite error of the inputs
@@ -63,7 +64,7 @@ enum class ReductionOutcome {
 
 /// m₁ and k₂ from two natural frequencies.
 struct ReductionResult {
-  ReductionOutcome outcome;
+  ReductionOutcome outcome;  ///< whether `solutions` holds numbers, and two different ones
   /// ((1/ω₁ − 1/ω₂)² k₁/m₂) − 1: the room before the two roots meet; negative without solution.
   double discriminant;
   /// The smaller k₂ first; NaN without solution. The paper's Table 1 takes the smaller.

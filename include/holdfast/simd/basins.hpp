@@ -15,7 +15,11 @@ namespace holdfast::simd {
 ///     const BasinMap map = simd::find_basins(loop, states);
 ///     for (const BasinAttractor& attractor : map.attractors) use(attractor.orbit.period());
 ///
-/// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
+/// @param loop            the loop with its excitation and backlash
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit
+/// @param threads         ≥ 1, or 0 for all cores; the result does not depend on it
+/// @throws InvalidParameter where loop, states or limits are not admissible
 inline BasinMap find_basins(const ForcedLoop<double>& loop,
                             const std::vector<Vector<double, 4>>& initial_states,
                             const OrbitLimits& limits = {}, int threads = 0) {

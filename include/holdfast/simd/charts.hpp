@@ -42,8 +42,9 @@ inline std::size_t cells_of(const LoopChart& chart) {
 ///                           {LoopParameter::differential_gain, {-40, 20, 1000}}};
 ///     const std::vector<std::uint8_t> stable = simd::stability_chart(chart);
 ///
+/// @param chart    the loop and the two parameters that vary
 /// @param stable   as many entries as the chart has cells; memory that nobody has touched yet is
-/// best, since each thread then brings in its own part
+///                 best, since each thread then brings in its own part
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible
 inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int threads = 0) {
@@ -65,6 +66,7 @@ inline std::vector<std::uint8_t> stability_chart(const LoopChart& chart, int thr
 }
 
 /// The spectral radius ρ = max |λ| for every cell of a chart, slow axis first; error below 1e−10.
+/// @param chart    the loop and the two parameters that vary
 /// @param radius   as many entries as the chart has cells
 /// @param threads  ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where the chart is not admissible

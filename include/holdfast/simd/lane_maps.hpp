@@ -14,11 +14,13 @@ class LaneMaps<xsimd::batch<double, Architecture>> {
   using Number = xsimd::batch<double, Architecture>;
 
  public:
+  /// Refers to maps of `words`, which must outlive this; one word a lane.
   LaneMaps(const ContactWords& words, const LaneWords<Number>& lanes) {
     for (std::size_t lane = 0; lane < Number::size; ++lane)
       maps_[lane] = words.map(lanes[lane]).data();
   }
 
+  /// The entry of every lane's T⁻¹ M T, 0 ≤ row, column < 5.
   Number operator()(int row, int column) const {
     return entry(static_cast<std::size_t>(5 * row + column),
                  std::make_index_sequence<Number::size>());

@@ -45,9 +45,13 @@ std::vector<LyapunovResult> lyapunov_spectra(const MotionFamily<Forcing>& family
 ///
 /// Each is that of `run_lyapunov` along its motion but for rounding. Where f τ = p/q, the forcing
 /// is exactly periodic.
+/// @param loop              the loop with its excitation and backlash
+/// @param initial_states    each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+/// @param run               how long, and with what accuracy, each is averaged
 /// @param tangent_sampling  sampling of the loop whose S and S* are the tangents
 /// @param threads           ≥ 1, or 0 for all cores; the results do not depend on it
-/// @throws InvalidParameter where `loop` or `run` is not admissible
+/// @return in the order of the initial states
+/// @throws InvalidParameter where `loop`, `run` or `tangent_sampling` is not admissible
 inline std::vector<LyapunovResult> lyapunov_spectra(
     const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
     const LyapunovRun& run, const Sampling<double>& tangent_sampling, int threads = 0) {

@@ -18,6 +18,7 @@ namespace holdfast {
 /// Comparing packs gives one truth value a lane.
 template <class Number, class Architecture>
 struct MaskOf<xsimd::batch<Number, Architecture>> {
+  /// One truth value a lane.
   using type = xsimd::batch_bool<Number, Architecture>;
 };
 
@@ -59,21 +60,26 @@ inline std::uint64_t spread_to_bytes(std::uint64_t bits) {
 }  // namespace detail
 }  // namespace simd
 
+/// The lanes of a pack, at most eight.
 template <class Number, class Architecture>
 struct Lanes<xsimd::batch<Number, Architecture>> {
-  using Pack = xsimd::batch<Number, Architecture>;
-  using Value = Number;
-  static constexpr std::size_t count = Pack::size;
+  using Pack = xsimd::batch<Number, Architecture>;  ///< the pack itself
+  using Value = Number;                             ///< what one lane holds
+  static constexpr std::size_t count = Pack::size;  ///< how many numbers a register holds
   static_assert(count <= 8, "a mask is spread to one 64-bit word");
 
+  /// `count` neighbours, at any address that suits a `Value`.
   static Pack load(const Value* values) { return Pack::load_unaligned(values); }
+  /// Writes `count` neighbours, at any address that suits a `Value`.
   static void store(const Pack& pack, Value* values) { pack.store_unaligned(values); }
 
+  /// One byte a lane: 1 where the mask is set, else 0.
   static void store_flags(const typename Pack::batch_bool_type& mask, std::uint8_t* flags) {
     const std::uint64_t bytes = simd::detail::spread_to_bytes(simd::detail::lane_bits(mask));
     std::memcpy(flags, &bytes, count);
   }
 
+  /// Those of two neighbouring masks, 2 `count` bytes.
   static void store_flags(const typename Pack::batch_bool_type& first,
                           const typename Pack::batch_bool_type& second, std::uint8_t* flags) {
     if constexpr (2 * count <= 8) {
@@ -96,10 +102,10 @@ namespace Eigen {
 template <class Number, class Architecture>
 struct NumTraits<xsimd::batch<Number, Architecture>>
     : GenericNumTraits<xsimd::batch<Number, Architecture>> {
-  using Real = xsimd::batch<Number, Architecture>;
-  using NonInteger = Real;
-  using Nested = Real;
-  using Literal = Number;
+  using Real = xsimd::batch<Number, Architecture>;  ///< a pack is real: its own real part
+  using NonInteger = Real;                          ///< of quotients and roots
+  using Nested = Real;                              ///< a pack is kept by value in expressions
+  using Literal = Number;                           ///< of constants, the same in every lane
 };
 
 }  // namespace Eigen

@@ -14,9 +14,9 @@ namespace holdfast {
 /// and a sampling; each (P, D) then costs 2 (Degree + 1) multiply-adds.
 template <class Scalar, int Degree>
 struct AffinePolynomial {
-  Polynomial<Scalar, Degree> base;
-  Polynomial<Scalar, Degree> proportional;
-  Polynomial<Scalar, Degree> differential;
+  Polynomial<Scalar, Degree> base;          ///< without control, constant coefficient first
+  Polynomial<Scalar, Degree> proportional;  ///< ∂p/∂P, per N/m of P
+  Polynomial<Scalar, Degree> differential;  ///< ∂p/∂D, per N s/m of D
 
   /// The polynomial at one pair of gains, constant coefficient first.
   Polynomial<Scalar, Degree> at(const PdGains<Scalar>& gains) const {

@@ -20,8 +20,8 @@ namespace holdfast {
 
 /// A range of excitation frequencies, Hz.
 struct FrequencyBand {
-  double lower;
-  double upper;
+  double lower;  ///< Hz, > 0
+  double upper;  ///< Hz, > lower, ≤ 1/(2τ)
 };
 
 /// @throws InvalidParameter unless 0 < lower < upper ≤ 1/(2τ), so that the samples show the
@@ -34,14 +34,14 @@ inline void validate(const FrequencyBand& band, double sampling_period) {
 
 /// The squared amplitude ratio to no control at one frequency, as a function of D.
 struct RatioAtFrequency {
-  double frequency;  ///< Hz
-  RatioOfQuadratics<double> squared;
+  double frequency;                   ///< Hz
+  RatioOfQuadratics<double> squared;  ///< N(D)/M(D), D in N s/m, at the P of the band
 };
 
 /// A frequency at which the amplitude ratio is largest.
 struct WorstFrequency {
   double frequency;  ///< Hz
-  double ratio;
+  double ratio;  ///< |Z₁| over that without control; ∞ where a root of the loop is e^{2πifτ}
 };
 
 /// The amplitude ratio to no control over a band of frequencies at a fixed P.
@@ -53,6 +53,12 @@ struct WorstFrequency {
 /// the grid are then refined by golden-section search.
 class AmplitudeBand {
  public:
+  /// Solves for the steady response at each frequency of the grid, 401 and those about the zeros.
+  /// @param plant              that of the loop
+  /// @param loop               of `sampled_loop`
+  /// @param hold               how the excitation enters a sample
+  /// @param proportional_gain  P (N/m), finite
+  /// @param band               within its range (`validate`), which is not checked here
   AmplitudeBand(const TwoDof<double>& plant, const SampledLoop<double>& loop, ForceHold hold,
                 double proportional_gain, const FrequencyBand& band)
       : plant_(plant),

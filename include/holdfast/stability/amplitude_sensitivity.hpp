@@ -16,9 +16,9 @@ namespace holdfast {
 
 /// How the least amplitude ratio over D at a fixed P, and its D, answer to the loop.
 struct AmplitudeSensitivity {
-  LeastAmplitudeOutcome outcome;  ///< of the least amplitude; NaN below where it has no D
-  LoopSensitivity ratio;
-  LoopSensitivity differential_gain;
+  LeastAmplitudeOutcome outcome;      ///< of the least amplitude; NaN below where it has no D
+  LoopSensitivity ratio;              ///< of the least amplitude over that without control
+  LoopSensitivity differential_gain;  ///< of the D (N s/m) that has it
 };
 
 namespace detail {
@@ -127,6 +127,8 @@ inline RatioEntries ratio_entries(
 /// At a stationary D the ratio moves as at a held D (its slope by D is zero) and D follows the root
 /// of the slope's numerator, a quadratic in D. At the edge D follows the boundary
 /// (`boundary_gain_sensitivity`) and takes the ratio with it.
+/// @param plant              m, k and c of both masses, within their ranges
+/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param frequency          f (Hz), > 0; held, so that a P tuned to it moves with k₂ and m₂ only
 ///                           (`with_tuned_gain`)
 /// @param proportional_gain  P (N/m), finite

@@ -14,9 +14,11 @@ template <class Scalar>
 class ArcCrossing {
  public:
   /// @param curve  must outlive this object
+  /// @param arc    one of `curve.arcs()`; copied
   ArcCrossing(const RootPairCurve<Scalar>& curve, const MonotoneArc<Scalar>& arc)
       : curve_(&curve), arc_(arc), rising_(rises(curve, arc)) {}
 
+  /// The arc as it was given; its ends may lie at Y = 0 and Y = ∞.
   const MonotoneArc<Scalar>& arc() const { return arc_; }
 
   /// True where P grows with Y.

@@ -45,6 +45,8 @@ std::complex<Scalar> unit_circle_minus_one(const Scalar& angle) {
 
 /// Gains of the sampled loop with a root pair e^{±iθ}, 0 < θ < π.
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param angle       θ (rad), 0 < θ < π
+/// @return nothing where no finite gains have that pair
 template <class Scalar>
 std::optional<PdGains<Scalar>> complex_pair_gains(const AffinePolynomial<Scalar, 5>& polynomial,
                                                   const Scalar& angle) {
@@ -90,6 +92,7 @@ Interval<Scalar> traced_squares(const BoundaryCurves<Scalar, Degree>& curves) {
 /// and s = 0 are absent for the two-mass plant, whose force moves no static equilibrium.
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1, or
 /// `characteristic_polynomial(plant)`, in s
+/// @param range       P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar, int Degree>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(

@@ -20,11 +20,11 @@ namespace holdfast {
 ///     constant + P · proportional + D · differential = 0
 template <class Scalar>
 struct BoundaryLine {
-  BoundaryCurve curve;
-  Scalar angle;  ///< θ = 0 or π (rad); ω = 0 (rad/s) for the continuous loop
-  Scalar constant;
-  Scalar proportional;
-  Scalar differential;
+  BoundaryCurve curve;  ///< `plus_one`, `minus_one` or `zero`
+  Scalar angle;         ///< θ = 0 or π (rad); ω = 0 (rad/s) for the continuous loop
+  Scalar constant;      ///< the polynomial without control at the root's place
+  Scalar proportional;  ///< its change per N/m of P; 0 where P does not move the root
+  Scalar differential;  ///< its change per N s/m of D; 0 where D does not move the root
 
   /// Velocity feedback is idle there: the line is P = const.
   bool is_vertical() const { return differential == Scalar(0); }
@@ -49,6 +49,7 @@ struct BoundaryLine {
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
+  /// True for the sampled loop (degree 5), false for the continuous one (degree 4).
   static constexpr bool sampled = Degree == 5;
 
   /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
@@ -64,9 +65,13 @@ class BoundaryCurves {
   /// The polynomial in the variable whose stable half-plane is Re < 0.
   const AffinePolynomial<Scalar, Degree>& polynomial() const { return polynomial_; }
 
+  /// The curve of root pairs, parametrised by Y.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
+  /// Those lines that a gain moves, λ = +1 (s = 0) before λ = −1: none, one or two.
   const std::vector<BoundaryLine<Scalar>>& lines() const { return lines_; }
 
+  /// What a point of `pairs()` is called: `complex_pair`, or `imaginary_pair` in the continuous
+  /// loop.
   BoundaryCurve pair_kind() const {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
   }

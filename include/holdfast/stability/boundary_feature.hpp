@@ -17,17 +17,17 @@ enum class BoundaryFeatureKind {
 /// A root, or pair, on the boundary of stability.
 template <class Scalar>
 struct BoundaryRoot {
-  BoundaryCurve curve;
-  Scalar angle;  ///< θ (rad) 0 … π, or ω (rad/s) for the continuous loop
+  BoundaryCurve curve;  ///< on which it lies
+  Scalar angle;         ///< θ (rad) 0 … π, or ω (rad/s) for the continuous loop
 };
 
 /// One special point of the boundary. The two roots are the same but for crossings and ends.
 template <class Scalar>
 struct BoundaryFeature {
-  BoundaryFeatureKind kind;
-  BoundaryRoot<Scalar> first;
-  BoundaryRoot<Scalar> second;
-  PdGains<Scalar> gains;
+  BoundaryFeatureKind kind;     ///< tells what the two roots are
+  BoundaryRoot<Scalar> first;   ///< the pair, of two pairs the slower one; of two lines λ = +1
+  BoundaryRoot<Scalar> second;  ///< the line, or the faster pair; of two lines λ = −1
+  PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
   Scalar residual;  ///< larger |p(x)| of the two roots, over the sum of the moduli of its terms
 };
 

@@ -163,6 +163,7 @@ class FeatureFinder {
 /// polynomial of degree four in Y, with itself from a cubic (`double_pairs`).
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
 /// `characteristic_polynomial(plant)`, in s (degree 4)
+/// @param window      P (N/m) and D (N s/m), its edges included
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>
 std::vector<BoundaryFeature<Scalar>> boundary_features(

@@ -17,15 +17,15 @@ enum class BoundaryCurve {
 /// One point of the boundary in the gain plane.
 template <class Scalar>
 struct BoundaryPoint {
-  BoundaryCurve curve;
+  BoundaryCurve curve;  ///< which root crosses
   Scalar angle;  ///< θ (rad) of the sampled loop's root, 0 … π; ω (rad/s) for the continuous loop
-  PdGains<Scalar> gains;
+  PdGains<Scalar> gains;  ///< P (N/m), finite; D (N s/m), ∓∞ at the ends of a vertical line
 };
 
 /// A range of proportional gains, N/m.
 struct ProportionalRange {
-  double lower;
-  double upper;
+  double lower;  ///< P (N/m), finite
+  double upper;  ///< P (N/m), finite, > lower
 };
 
 /// @throws InvalidParameter unless range.lower < range.upper, both finite

@@ -17,10 +17,12 @@ struct GainGrid {
   Axis proportional;  ///< P (N/m)
   Axis differential;  ///< D (N s/m)
 
+  /// The gains of a cell, each index from 0 to one less than the count of its axis.
   PdGains<double> at(std::int64_t p_index, std::int64_t d_index) const {
     return {proportional.at(p_index), differential.at(d_index)};
   }
 
+  /// Number of cells, values of P times values of D.
   std::int64_t cells() const { return proportional.count * differential.count; }
 };
 

@@ -15,13 +15,16 @@ namespace holdfast {
 template <int Degree>
 class ChartPolynomials {
  public:
+  /// From the polynomial in powers of λ − 1 to the one that the chart is computed from; linear.
   using Map = std::function<Polynomial<double, Degree>(const Polynomial<double, 5>&)>;
 
   /// Polynomials along a row, one coefficient after the other: columns × (Degree + 1).
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Degree + 1>;
 
-  /// @param map  a linear map applied to every polynomial in powers of λ − 1: `in_half_plane`,
+  /// @param chart  copied
+  /// @param map    a linear map applied to every polynomial in powers of λ − 1: `in_half_plane`,
   /// `with_root_at_zero`, …
+  /// @throws InvalidParameter where the chart is not admissible
   ChartPolynomials(const LoopChart& chart, Map map) : chart_(chart), map_(std::move(map)) {
     validate(chart);
     if (is_gain(chart.slow.parameter) && is_gain(chart.fast.parameter)) {
@@ -31,7 +34,9 @@ class ChartPolynomials {
     }
   }
 
+  /// Cells of a row: values of the fast parameter.
   std::int64_t columns() const { return chart_.fast.values.count; }
+  /// The two axes and the loop that they vary.
   const LoopChart& chart() const { return chart_; }
 
   /// The polynomial of all cells where both axes are gains.

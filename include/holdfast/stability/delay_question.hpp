@@ -28,12 +28,12 @@ enum class DelayCriterion {
 struct MaxDelayQuestion {
   double frequency;          ///< f (Hz), > 0
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
-  DelayCriterion criterion = DelayCriterion::attenuates;
-  ForceHold hold = ForceHold::sampled;
-  double delay_fraction = 0.0;    ///< δ/τ, 0 … 1, kept while τ varies
-  double shortest_period = 1e-5;  ///< s; the search starts there, or at 1/(1000 f) if less
-  double longest_period = 1.0;    ///< s; where it gives up
-  double search_ratio = 1.001;    ///< > 1: infeasible windows narrower than this may be missed
+  DelayCriterion criterion = DelayCriterion::attenuates;  ///< what counts as feasible
+  ForceHold hold = ForceHold::sampled;  ///< how the excitation enters; of `attenuates` only
+  double delay_fraction = 0.0;          ///< δ/τ, 0 … 1, kept while τ varies
+  double shortest_period = 1e-5;        ///< s; the search starts there, or at 1/(1000 f) if less
+  double longest_period = 1.0;          ///< s; where it gives up
+  double search_ratio = 1.001;  ///< > 1: infeasible windows narrower than this may be missed
 
   /// ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
@@ -82,6 +82,8 @@ inline bool shows_vibration(const MaxDelayQuestion& question, double sampling_pe
 /// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
 /// those that stabilise and, to attenuate, those of them with an amplitude below that of no
 /// control.
+/// @param plant            within its ranges, which are not checked here
+/// @param question         within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
 inline std::vector<Interval<double>> feasible_differential_gains(const TwoDof<double>& plant,
                                                                  const MaxDelayQuestion& question,
@@ -98,6 +100,8 @@ inline std::vector<Interval<double>> feasible_differential_gains(const TwoDof<do
 ///
 /// The stabilising gains are known as exact intervals (`stable_differential_gains`) and the least
 /// amplitude over them in closed form (`SteadyResponse`), so nothing is scanned over D.
+/// @param plant            within its ranges, which are not checked here
+/// @param question         within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
 inline std::optional<double> feasible_differential_gain(const TwoDof<double>& plant,
                                                         const MaxDelayQuestion& question,

@@ -74,6 +74,7 @@ template <class Scalar, int Degree>
 class DominantFactor {
  public:
   static_assert(Degree == 5 || Degree == 6, "the sampled loop has 5 roots, or 6 with λ = 0 added");
+  /// The number that one lane holds.
   using Value = typename Lanes<Scalar>::Value;
 
   /// @param centre  μ = λ − centre: 1, or 0 where the roots crowd at λ = 0

@@ -16,9 +16,9 @@ namespace holdfast {
 /// Gains with two different root pairs on the imaginary axis: the curve of root pairs meets itself.
 template <class Scalar>
 struct DoublePair {
-  PdGains<Scalar> gains;
-  Scalar lower_square;  ///< Y of the slower pair
-  Scalar upper_square;  ///< Y of the faster pair
+  PdGains<Scalar> gains;  ///< P (N/m) and D (N s/m) that have both pairs
+  Scalar lower_square;    ///< Y of the slower pair
+  Scalar upper_square;    ///< Y of the faster pair
 };
 
 namespace detail {

@@ -22,9 +22,12 @@ namespace holdfast {
 template <class Scalar>
 class BoundaryBranch {
  public:
+  /// An arc, of a curve that must outlive the branch.
   explicit BoundaryBranch(const ArcCrossing<Scalar>& arc) : arc_(arc) {}
+  /// A line that is not vertical.
   explicit BoundaryBranch(const BoundaryLine<Scalar>& line) : line_(line) {}
 
+  /// True where the branch has a D at P (N/m): within the arc; a line has one everywhere.
   bool passes(const Scalar& proportional_gain) const {
     return !arc_ || arc_->arc().passes(proportional_gain);
   }
@@ -57,6 +60,8 @@ struct GainSlab {
 template <class Scalar, int Degree>
 class GainSlabs {
  public:
+  /// @param curves  must outlive this object
+  /// @param window  P (N/m) and D (N s/m), within its ranges (`validate`), not checked here
   GainSlabs(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
       : curves_(curves), window_(window) {
     for (const auto& arc : curves_.pairs().arcs()) {

@@ -8,8 +8,8 @@ namespace holdfast {
 
 /// A range of differential gains, N s/m.
 struct DifferentialRange {
-  double lower;
-  double upper;
+  double lower;  ///< D (N s/m), finite
+  double upper;  ///< D (N s/m), finite, > lower
 };
 
 /// A rectangle of the gain plane, its edges included.
@@ -17,7 +17,9 @@ struct GainWindow {
   ProportionalRange proportional;  ///< P (N/m)
   DifferentialRange differential;  ///< D (N s/m)
 
+  /// Extent in P (N/m).
   double width() const { return proportional.upper - proportional.lower; }
+  /// Extent in D (N s/m).
   double height() const { return differential.upper - differential.lower; }
 
   /// N²s/m².

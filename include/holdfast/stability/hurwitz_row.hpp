@@ -19,6 +19,7 @@ namespace holdfast {
 /// row) and `lienard_chipart_stable`: 17 multiply-adds and 5 comparisons for the sampled loop. No
 /// product overflows as long as the coefficients lie within 1e±75.
 /// @tparam Scalar        a SIMD pack, or double
+/// @param columns        number of cells, ≥ 0
 /// @param polynomial_at  (column, Number{}) → Polynomial<Number, Degree> of the cells from that
 /// column on, for Number = Scalar and double; in a variable whose stable half-plane is Re < 0
 /// A copy: writing bytes through `stable` might otherwise change what it refers to, for all that
@@ -55,7 +56,10 @@ Vector<Scalar, Size> affine(const Vector<Scalar, Size>& c, const Scalar& x,
 ///
 /// They are scaled by one factor so that no product overflows. Where the values span so many
 /// decades that the smallest would underflow, each polynomial is scaled by itself.
-/// @param values  x of each cell, ascending; at least one
+/// @param constant  the polynomial at x = 0, in a variable whose stable half-plane is Re < 0
+/// @param slope     its change per unit of x
+/// @param values    x of each cell, ascending; at least one
+/// @param stable    as many entries as `values`: 1 stable, 0 not
 template <class Scalar, int Size>
 void hurwitz_row(const Vector<double, Size>& constant, const Vector<double, Size>& slope,
                  const std::vector<double>& values, std::uint8_t* stable) {

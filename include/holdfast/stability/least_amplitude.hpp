@@ -28,8 +28,8 @@ enum class LeastAmplitudeOutcome {
 
 /// The sampled loop in which an amplitude is to be least.
 struct AmplitudeQuestion {
-  Sampling<double> sampling;
-  ForceHold hold = ForceHold::sampled;
+  Sampling<double> sampling;            ///< τ (s) > 0, δ (s) 0 … τ
+  ForceHold hold = ForceHold::sampled;  ///< how the excitation enters a sample
   /// A D is admissible if the spectral radius stays below this, 0 < … ≤ 1; 1 asks for stability,
   /// less for a transient that decays at least like largest_radiusʲ.
   double largest_radius = 1.0;
@@ -37,9 +37,9 @@ struct AmplitudeQuestion {
 
 /// The D of least steady amplitude at one frequency and one P.
 struct LeastAmplitude {
-  LeastAmplitudeOutcome outcome;
-  double differential_gain;      ///< D (N s/m)
-  double ratio_to_uncontrolled;  ///< the amplitude of z₁ it leaves over that without control
+  LeastAmplitudeOutcome outcome;  ///< where D lies, or why there is none
+  double differential_gain;       ///< D (N s/m)
+  double ratio_to_uncontrolled;   ///< the amplitude of z₁ it leaves over that without control
   double attenuation;  ///< −20 log₁₀ of that ratio (dB), positive where control helps
 };
 
@@ -54,6 +54,8 @@ inline void validate(const AmplitudeQuestion& question) {
 ///
 /// The admissible D are exact intervals, the amplitude over them is a quotient of two quadratics
 /// (`SteadyResponse::best_differential_gain`): nothing is scanned.
+/// @param plant              m, k and c of both masses, within their ranges
+/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite; Eq. (6) tunes it to f
 /// @throws InvalidParameter outside the admissible ranges

@@ -24,12 +24,12 @@ enum class LeastRadiusOutcome {
 
 /// The differential gain at which the sampled loop forgets fastest, at a fixed P.
 struct LeastRadius {
-  LeastRadiusOutcome outcome;
-  double differential_gain;   ///< D (N s/m), amid `interval`
-  double radius;              ///< the least ρ = max |λ|; stable ⇔ below 1
-  double margin;              ///< 1 − radius without cancellation
-  double lower_bound;         ///< no D whatever has a radius below this; ≤ radius
-  Interval<double> interval;  ///< the D (N s/m) with that radius to 1e−12
+  LeastRadiusOutcome outcome;  ///< whether one D has the radius, many, all, or none is known to
+  double differential_gain;    ///< D (N s/m), amid `interval`
+  double radius;               ///< the least ρ = max |λ|; stable ⇔ below 1
+  double margin;               ///< 1 − radius without cancellation
+  double lower_bound;          ///< no D whatever has a radius below this; ≤ radius
+  Interval<double> interval;   ///< the D (N s/m) with that radius to 1e−12
 };
 
 namespace detail {

@@ -26,11 +26,11 @@ enum class LeastRadiusGainsOutcome {
 
 /// The pair of gains at which the sampled loop forgets fastest.
 struct LeastRadiusGains {
-  LeastRadiusGainsOutcome outcome;
-  PdGains<double> gains;  ///< P (N/m), D (N s/m)
-  double radius;          ///< ρ = max |λ| there
-  double margin;          ///< 1 − radius without cancellation
-  double lower_bound;     ///< no gains whatever have a radius below this; ≤ radius
+  LeastRadiusGainsOutcome outcome;  ///< whether `radius` is known to be the least
+  PdGains<double> gains;            ///< P (N/m), D (N s/m)
+  double radius;                    ///< ρ = max |λ| there
+  double margin;                    ///< 1 − radius without cancellation
+  double lower_bound;               ///< no gains whatever have a radius below this; ≤ radius
 };
 
 namespace detail {

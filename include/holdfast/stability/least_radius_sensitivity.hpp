@@ -27,9 +27,9 @@ enum class LeastRadiusKind {
 
 /// How the least radius over D and its D answer to the loop.
 struct LeastRadiusSensitivity {
-  LeastRadiusKind kind;
-  LoopSensitivity radius;
-  LoopSensitivity differential_gain;
+  LeastRadiusKind kind;               ///< what is active at the minimum
+  LoopSensitivity radius;             ///< of min ρ over D; of `fixed`, of ρ at the held D
+  LoopSensitivity differential_gain;  ///< of the D (N s/m) that has it; of `fixed` NaN
 };
 
 namespace detail {
@@ -201,7 +201,9 @@ class ActiveRoots {
 ///
 /// Two equations hold at the minimum, by what is active there (`LeastRadiusKind`); differentiated,
 /// they give both. By D itself the entries are 0.
-/// @param gains  P and the D of `least_radius`, finite
+/// @param plant     m, k and c of both masses, within their ranges
+/// @param sampling  τ (s) > 0, δ (s) 0 … τ
+/// @param gains     P and the D of `least_radius`, finite
 /// @throws InvalidParameter outside the admissible ranges
 inline LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<double>& plant,
                                                        const Sampling<double>& sampling,

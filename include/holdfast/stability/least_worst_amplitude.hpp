@@ -23,12 +23,12 @@ enum class LeastWorstOutcome {
 
 /// One D, at a fixed P, for all frequencies of a band.
 struct LeastWorstAmplitude {
-  LeastWorstOutcome outcome;
-  double differential_gain;  ///< D (N s/m); at the edge of the admissible ones a limit
-  double worst_ratio;        ///< the largest amplitude ratio to no control over the band at this D
-  double worst_frequency;    ///< Hz, where
-  double lower_bound;        ///< no admissible D has a smaller worst ratio than this
-  double attenuation;        ///< −20 log₁₀ of `worst_ratio` (dB)
+  LeastWorstOutcome outcome;  ///< whether a D is admissible, and whether the two bounds agree
+  double differential_gain;   ///< D (N s/m); at the edge of the admissible ones a limit
+  double worst_ratio;         ///< the largest amplitude ratio to no control over the band at this D
+  double worst_frequency;     ///< Hz, where
+  double lower_bound;         ///< no admissible D has a smaller worst ratio than this
+  double attenuation;         ///< −20 log₁₀ of `worst_ratio` (dB)
 };
 
 namespace detail {
@@ -98,6 +98,8 @@ class WorstOfFrequencies {
 /// exactly and bounds the answer from below; the worst frequency of the whole band at that D
 /// bounds it from above and is added. Both bounds are returned: their gap is the error, up to what
 /// the search over frequencies misses (`AmplitudeBand`; peaks are resolved to 1e−9 of the band).
+/// @param plant              m, k and c of both masses, within their ranges
+/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param proportional_gain  P (N/m), finite
 /// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
 /// @throws InvalidParameter outside the admissible ranges

@@ -10,12 +10,14 @@ namespace holdfast {
 
 /// An axis of a chart: a parameter of the loop and its values.
 struct LoopAxis {
-  LoopParameter parameter;
-  Axis values;
+  LoopParameter parameter;  ///< the one that varies
+  Axis values;              ///< in the SI unit of the parameter
 };
 
 /// A chart of the sampled loop over any two of its parameters; the others are those of the point.
 struct LoopChart {
+  /// The loop in which a cell replaces two values; where τ is replaced and δ is not, δ is scaled
+  /// with it.
   LoopPoint point;
   LoopAxis slow;  ///< one value a row
   LoopAxis fast;  ///< one value a column
@@ -31,6 +33,9 @@ struct LoopChart {
   LoopPoint cell(std::int64_t row_index, std::int64_t column) const {
     LoopPoint result = row(row_index);
     set(result, fast.parameter, fast.values.at(column));
+    // A delay that the chart gives does not scale with the period that it gives as well.
+    if (slow.parameter == LoopParameter::processing_delay)
+      set(result, slow.parameter, slow.values.at(row_index));
     return result;
   }
 };
@@ -54,8 +59,8 @@ inline void validate(const LoopChart& chart) {
 /// A polynomial that is affine in one gain x: constant + x · slope.
 template <int Degree>
 struct AffineLine {
-  Polynomial<double, Degree> constant;
-  Polynomial<double, Degree> slope;
+  Polynomial<double, Degree> constant;  ///< at x = 0, constant coefficient first
+  Polynomial<double, Degree> slope;     ///< per unit of x, N/m of P or N s/m of D
 };
 
 /// The characteristic polynomial along one of the gains, the other being that of the point.

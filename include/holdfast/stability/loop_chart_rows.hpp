@@ -65,6 +65,7 @@ class StabilityChartRows {
 template <class Scalar, int Degree>
 class RadiusChartRows {
  public:
+  /// Rows that one call of `fill` takes, one a lane of two packs.
   static constexpr auto most_rows =
       static_cast<std::int64_t>(RadiusRows<Scalar, Degree>::most_rows);
 

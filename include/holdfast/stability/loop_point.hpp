@@ -8,9 +8,9 @@ namespace holdfast {
 
 /// Everything that decides the stability of a sampled loop.
 struct LoopPoint {
-  TwoDof<double> plant;
-  Sampling<double> sampling;
-  PdGains<double> gains;
+  TwoDof<double> plant;       ///< m (kg), k (N/m) and c (N s/m) of both masses
+  Sampling<double> sampling;  ///< τ (s) and δ (s)
+  PdGains<double> gains;      ///< P (N/m) and D (N s/m)
 };
 
 /// The one number of a loop that an axis of a chart varies.

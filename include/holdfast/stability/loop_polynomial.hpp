@@ -26,8 +26,8 @@ namespace holdfast {
 /// are carried as their offset from the centre for the same reason.
 template <class Scalar>
 struct LoopPolynomial {
-  Scalar centre;  ///< 1 or 0
-  AffinePolynomial<Scalar, 5> polynomial;
+  Scalar centre;                           ///< 1 or 0
+  AffinePolynomial<Scalar, 5> polynomial;  ///< monic, in powers of λ − centre
 
   /// The size of the roots' distances from the centre, for tolerances.
   Scalar scale() const {
@@ -105,6 +105,7 @@ LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
 
 /// The open intervals of D (N s/m) at which every root of the sampled loop has |λ| < radius; radius
 /// 1 gives `stable_differential_gains`.
+/// @param loop               of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             > 0
 template <class Scalar>

@@ -56,9 +56,9 @@ LoopRate rate_by_delay(const Plant<double>& plant, const SampledLoop<double>& lo
 
 /// Derivatives of a plant's A, b and c by one of its parameters.
 struct PlantRate {
-  Matrix<double, 4> state_matrix;
-  Vector<double, 4> control_input;
-  Vector<double, 4> excitation_input;
+  Matrix<double, 4> state_matrix;      ///< A′, 4 × 4, per unit of the parameter
+  Vector<double, 4> control_input;     ///< b′, 4 × 1
+  Vector<double, 4> excitation_input;  ///< c′, 4 × 1
 };
 
 /// By parameter number `direction` of a plant whose members carry their derivatives.
@@ -110,6 +110,7 @@ LoopRate rate_by_plant(const Plant<double>& plant, const PlantRate& rate,
 }
 
 /// The loop whose matrices carry their derivatives, for the kernels that take any number type.
+/// @param loop   the values of the matrices; τ and δ carry no derivatives
 /// @param rates  one for each direction
 template <int Directions>
 SampledLoop<Rated<Directions>> rated_loop(const SampledLoop<double>& loop,

@@ -38,7 +38,7 @@ enum class MarginEndOutcome {
 
 /// One end of the stable stretch of a quantity about its value.
 struct MarginEnd {
-  MarginEndOutcome outcome = MarginEndOutcome::undefined;
+  MarginEndOutcome outcome = MarginEndOutcome::undefined;      ///< what is met in this direction
   double position = std::numeric_limits<double>::quiet_NaN();  ///< the quantity there
   /// From the value; ∞ where there is no boundary, and of `beyond_search` how far was looked.
   double distance = std::numeric_limits<double>::quiet_NaN();
@@ -49,13 +49,13 @@ struct MarginEnd {
 
 /// The stable stretch about a value: down and up from it.
 struct TwoSidedMargin {
-  MarginEnd below;
-  MarginEnd above;
+  MarginEnd below;  ///< towards smaller values
+  MarginEnd above;  ///< towards larger values
 };
 
 /// What the loop can bear before it loses its stability, one quantity moving at a time.
 struct StabilityMargins {
-  MarginOutcome outcome;
+  MarginOutcome outcome;             ///< whether the loop is stable as it is
   double unit_circle;                ///< 1 − ρ, not positive where the loop is not stable
   TwoSidedMargin differential_gain;  ///< D (N s/m)
   TwoSidedMargin proportional_gain;  ///< P (N/m)
@@ -223,7 +223,10 @@ inline void validate(const MarginSearch& search) {
 /// (`first_exit`), and the crossing of the unit circle is then found by a bracketing root finder on
 /// ρ − 1. Towards τ = 0 the continuous loop decides; towards τ = ∞ stability may be certain
 /// (`SlowSamplingBound`).
-/// @param gains  P (N/m) and D (N s/m), finite
+/// @param plant     m, k and c of both masses, within their ranges
+/// @param sampling  τ (s) > 0, δ (s) 0 … τ
+/// @param gains     P (N/m) and D (N s/m), finite
+/// @param search    of the walks along τ and δ; D and P need none
 /// @throws InvalidParameter for a plant, sampling, gains or search outside their ranges
 inline StabilityMargins stability_margins(const TwoDof<double>& plant,
                                           const Sampling<double>& sampling,

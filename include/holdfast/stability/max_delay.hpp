@@ -36,10 +36,11 @@ enum class MaxDelayLimit {
 
 /// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
 struct MaxDelay {
-  MaxDelayOutcome outcome;
+  MaxDelayOutcome outcome;   ///< how the search ended
   double sampling_period;    ///< τ* (s)
   double differential_gain;  ///< D (N s/m) at τ*: of least amplitude, or amid the stable interval;
-                             ///< a limit of gains that serve, not one to use without a margin
+                             ///< a limit of gains that serve, not one to use without a margin;
+                             ///< NaN where the outcome is `never`
   MaxDelayLimit limit;  ///< what is lacking beyond τ*, or at once where the outcome is `never`
 };
 

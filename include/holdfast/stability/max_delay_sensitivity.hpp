@@ -45,7 +45,9 @@ inline Entries reserve_gradient(const TwoDof<double>& plant, const MaxDelayQuest
 ///     ∂τ*/∂x = −G_x/(G_τ + φ G_δ),   ∂τ*/∂φ = −τ* G_δ/(G_τ + φ G_δ)
 ///
 /// Where τ* = 1/(2f) no parameter moves it.
-/// @param answer  of `max_sampling_period` to the same question
+/// @param plant     m, k and c of both masses, within their ranges
+/// @param question  the one that `answer` belongs to
+/// @param answer    of `max_sampling_period` to the same question
 /// @return zeros where `answer` is not `found`; NaN where the least radius at τ* has no sensitivity
 /// (`LeastRadiusKind::fixed`)
 /// @throws InvalidParameter outside the admissible ranges

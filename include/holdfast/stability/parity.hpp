@@ -54,8 +54,8 @@ Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& uni
 /// ≤ 2.
 template <class Scalar>
 struct ParityParts {
-  Vector<Scalar, 3> even;
-  Vector<Scalar, 3> odd;
+  Vector<Scalar, 3> even;  ///< a_e: coefficients of Y⁰, Y¹, Y²
+  Vector<Scalar, 3> odd;   ///< a_o: likewise, of degree ≤ 1 in Y where a has degree 4
 
   /// @param a     degree 4 or 5, constant coefficient first
   /// @param unit  the modulus of w in which y is measured

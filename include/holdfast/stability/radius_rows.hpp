@@ -19,7 +19,9 @@ namespace holdfast {
 template <class Scalar, int Degree>
 class RadiusRows {
  public:
+  /// Packs of rows that go side by side.
   static constexpr std::size_t packs = 2;
+  /// Rows of a full batch, one a lane.
   static constexpr std::size_t most_rows = packs * Lanes<Scalar>::count;
 
   /// @param centre  of the polynomials, see `DominantFactor`
@@ -29,6 +31,7 @@ class RadiusRows {
 
   /// Writes ρ of `rows` rows of `columns` cells, one row after the other.
   /// @param rows           1 … most_rows; lanes beyond them are computed and dropped
+  /// @param columns        cells of a row
   /// @param polynomial_at  (pack, column) → Polynomial<Scalar, Degree> of that pack of rows: monic,
   /// in powers of μ = λ − centre, with a root λ = 0 (see `DominantFactor`)
   /// @param radius         rows × columns

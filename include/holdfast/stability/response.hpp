@@ -32,9 +32,10 @@ struct ResponsePhasors {
 /// A quotient of two quadratics in D, coefficients constant first.
 template <class Scalar>
 struct RatioOfQuadratics {
-  Vector<Scalar, 3> numerator;
-  Vector<Scalar, 3> denominator;
+  Vector<Scalar, 3> numerator;    ///< N
+  Vector<Scalar, 3> denominator;  ///< M
 
+  /// The quotient at D = x; infinite or NaN where M vanishes.
   Scalar at(const Scalar& x) const { return evaluate(numerator, x) / evaluate(denominator, x); }
 
   /// N′M − N M′, a quadratic: its roots are where the quotient is stationary.
@@ -61,10 +62,11 @@ struct RatioOfQuadratics {
 template <class Scalar>
 class SteadyResponse {
  public:
-  using Complex = std::complex<Scalar>;
+  using Complex = std::complex<Scalar>;  ///< the type of the phasors
 
-  /// @param angular_frequency  ω (rad/s), > 0
+  /// @param loop               of `sampled_loop`
   /// @param input              `held_harmonic` or `exact_harmonic` of the same loop and ω
+  /// @param angular_frequency  ω (rad/s), > 0
   SteadyResponse(const SampledLoop<Scalar>& loop, const HarmonicInput<Scalar>& input,
                  const Scalar& angular_frequency) {
     // (λ − 1) I − (A_d − I): both parts small and accurate where sampling is fast.
@@ -84,6 +86,7 @@ class SteadyResponse {
     numerator_slope_ = phasors_.numerator_slope();
   }
 
+  /// The responses to unit forces, from which everything else follows.
   const ResponsePhasors<Scalar>& phasors() const { return phasors_; }
 
   /// |Z₁| / F_m in m/N at the given gains.
@@ -113,7 +116,8 @@ class SteadyResponse {
 
   /// The open intervals of D, stable or not, in which the amplitude stays below `ratio` times that
   /// of no control: where N − ratio² M < 0.
-  /// @param ratio  > 0
+  /// @param proportional_gain  P (N/m), finite
+  /// @param ratio              > 0
   std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain,
                                                          const Scalar& ratio = Scalar(1)) const {
     const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
@@ -122,7 +126,9 @@ class SteadyResponse {
 
   /// A differential gain and the amplitude ratio that it gives.
   struct Best {
+    /// D (N s/m); NaN where no interval offers a finite D.
     Scalar differential_gain = std::numeric_limits<Scalar>::quiet_NaN();
+    /// |Z₁| over that without control; infinite without a D.
     Scalar ratio_to_uncontrolled = std::numeric_limits<Scalar>::infinity();
   };
 

@@ -31,7 +31,10 @@ HarmonicInput<double> input_rate_by_period(const Plant<double>& plant,
 
 /// How the exact harmonic input moves with a parameter of the plant: the exponential of
 /// `exact_harmonic` beside its derivative, of twice the size.
-/// @param rate  derivatives of A, b and c by the parameter
+/// @param plant              with the parameter at its value
+/// @param rate               derivatives of A, b and c by the parameter
+/// @param sampling_period    τ (s), > 0
+/// @param angular_frequency  ω (rad/s)
 template <template <class> class Plant>
 HarmonicInput<double> exact_input_rate_by_plant(const Plant<double>& plant, const PlantRate& rate,
                                                 double sampling_period, double angular_frequency) {
@@ -56,8 +59,11 @@ HarmonicInput<double> exact_input_rate_by_plant(const Plant<double>& plant, cons
 /// for both columns Q = [Γ₀ + Γ₁/λ, g] and their responses Z.
 class ResponseRates {
  public:
-  using Complex = std::complex<double>;
+  using Complex = std::complex<double>;  ///< the type of the phasors
 
+  /// @param loop               of `sampled_loop`
+  /// @param input              of the same loop and ω, held or exact
+  /// @param angular_frequency  ω (rad/s), > 0
   ResponseRates(const SampledLoop<double>& loop, const HarmonicInput<double>& input,
                 double angular_frequency)
       : loop_(loop), angle_(angular_frequency * loop.sampling.period) {
@@ -70,8 +76,12 @@ class ResponseRates {
     response_ = factors_.solve(sources(loop.present_force, loop.previous_force, input));
   }
 
+  /// The responses themselves, those of `SteadyResponse`.
   ResponsePhasors<double> phasors() const { return phasors_of(response_); }
 
+  /// The derivatives of the phasors along a parameter.
+  /// @param rate         of the loop's matrices, per unit of the parameter
+  /// @param input_rate   of the harmonic input, likewise
   /// @param lambda_rate  of λ = e^{iωτ}: iωλ by τ, 0 by the plant's parameters and by δ
   ResponsePhasors<double> along(const LoopRate& rate, const HarmonicInput<double>& input_rate,
                                 const Complex& lambda_rate) const {
@@ -81,6 +91,7 @@ class ResponseRates {
     return phasors_of(factors_.solve(right));
   }
 
+  /// λ = e^{iωτ}.
   const Complex& lambda() const { return lambda_; }
 
  private:
@@ -105,8 +116,8 @@ class ResponseRates {
 
 /// The complex amplitude of z₁ over that without control and its rate, from the phasors and theirs.
 struct AmplitudeRatio {
-  std::complex<double> value;
-  std::complex<double> rate;
+  std::complex<double> value;  ///< Z₁(P, D)/Z₁(0, 0)
+  std::complex<double> rate;   ///< its derivative, per unit of the parameter
 };
 
 /// Z₁(P, D)/Z₁(0, 0) = (f₁ + D n)/(f₁ (1 − P t₁ − D t₂)), n = t₁ f₂ − t₂ f₁, differentiated.

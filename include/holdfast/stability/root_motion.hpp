@@ -20,7 +20,7 @@ namespace holdfast {
 /// At a multiple root the rates are infinite or not a number.
 template <int Directions>
 struct MovingRoot {
-  using Complex = std::complex<double>;
+  using Complex = std::complex<double>;  ///< the type of a root
 
   Complex offset;                     ///< μ = λ − centre
   double centre = 1.0;                ///< 1, or 0 where the roots crowd there (`LoopPolynomial`)
@@ -28,6 +28,7 @@ struct MovingRoot {
   Complex rate_by_proportional_gain;  ///< ∂λ/∂P (m/N)
   Complex rate_by_differential_gain;  ///< ∂λ/∂D (m/(N s))
 
+  /// λ; where sampling is fast `offset` holds it with more digits.
   Complex value() const { return centre + offset; }
 
   /// |λ| − centre without cancellation.
@@ -50,7 +51,7 @@ struct MovingRoot {
   double logarithmic_rate(const Complex& rate) const { return (rate / value()).real(); }
 };
 
-/// The value and the derivatives of a polynomial in powers of μ that carries them.
+/// The polynomial in powers of μ alone, without the derivatives that it carries.
 template <int Directions, int Degree>
 Polynomial<double, Degree> values_of(const Polynomial<Rated<Directions>, Degree>& rated) {
   Polynomial<double, Degree> values;
@@ -69,6 +70,8 @@ Polynomial<double, Degree> rate_of(const Polynomial<Rated<Directions>, Degree>& 
 
 /// All roots with their rates.
 /// @param polynomial  of a `rated_loop`, in powers of μ = λ − centre
+/// @param gains       P (N/m) and D (N s/m), finite
+/// @param centre      1, or 0 for a polynomial in powers of λ
 template <int Directions>
 std::vector<MovingRoot<Directions>> moving_roots(
     const AffinePolynomial<Rated<Directions>, 5>& polynomial, const PdGains<double>& gains,

@@ -18,9 +18,9 @@ namespace holdfast {
 /// first coefficients that do not both vanish; at a pole the denominator is 0).
 template <class Scalar>
 struct ArcEnd {
-  Scalar square;
-  Scalar numerator;
-  Scalar denominator;
+  Scalar square;       ///< Y, 0 … ∞
+  Scalar numerator;    ///< of P; where P stays finite at a pole, over |Y − pole|
+  Scalar denominator;  ///< Δ; likewise
 
   /// Sign tells on which side of a proportional gain the curve is, without dividing at a pole.
   Scalar residual(const Scalar& proportional_gain) const {
@@ -88,14 +88,18 @@ class RootPairCurve {
             evaluate(differential_numerator_, square) / denominator};
   }
 
-  /// Numerator of P, of D, and their common denominator Δ, degree 4 in Y.
+  /// Numerator of P, degree 4 in Y.
   const Polynomial<Scalar, 4>& proportional_numerator() const { return proportional_numerator_; }
+  /// Numerator of D, degree 4 in Y.
   const Polynomial<Scalar, 4>& differential_numerator() const { return differential_numerator_; }
+  /// Δ, the denominator of both, degree 4 in Y.
   const Polynomial<Scalar, 4>& denominator() const { return denominator_; }
 
   /// n − P Δ with n the numerator of P: zero where the curve takes P; its slope by Y, and Δ.
   struct Residual {
-    Scalar value, slope, denominator;
+    Scalar value,     ///< n − P Δ
+        slope,        ///< its derivative by Y at a fixed P
+        denominator;  ///< Δ
   };
 
   /// At Y and the proportional gain P (N/m).
@@ -110,9 +114,11 @@ class RootPairCurve {
     return {value, slope, denominator};
   }
 
-  /// Even and odd parts of the three parts of the polynomial, w in `unit()`.
+  /// Even and odd part of the polynomial without control, w in `unit()`.
   const ParityParts<Scalar>& base() const { return base_; }
+  /// Those of its change per N/m of P.
   const ParityParts<Scalar>& proportional() const { return proportional_; }
+  /// Those of its change per N s/m of D.
   const ParityParts<Scalar>& differential() const { return differential_; }
 
   /// Y > 0 at which the curve leaves to infinity, ascending.
@@ -240,6 +246,7 @@ class RootPairCurve {
   Polynomial<Scalar, 4> denominator_, proportional_numerator_, differential_numerator_;
 };
 
+/// The curve's type does not tell the degree of the polynomial that it was made from.
 template <class Scalar, int Degree>
 RootPairCurve(const AffinePolynomial<Scalar, Degree>&) -> RootPairCurve<Scalar>;
 

@@ -28,8 +28,8 @@ struct HurwitzConditions {
 
   /// One named condition, for reading: "a0", "H2", …; the condition is value > 0.
   struct Condition {
-    std::string name;
-    Scalar value;
+    std::string name;  ///< "a0" … "a5", "H2" … "H4"
+    Scalar value;      ///< of the coefficient or determinant
   };
 
   /// All conditions by name, a₀ … a_n and then H₂ … H_{n−1}.

@@ -24,17 +24,22 @@ struct RowCrossing {
 template <class Scalar>
 class CrossingList {
  public:
-  using Crossing = RowCrossing<Scalar>;
-  static constexpr std::size_t capacity = 16;
+  using Crossing = RowCrossing<Scalar>;        ///< what the list holds
+  static constexpr std::size_t capacity = 16;  ///< 11 arcs and 2 lines at most, and a few to spare
 
+  /// The crossing of least D.
   const Crossing* begin() const { return crossings_.data(); }
+  /// One past the crossing of largest D.
   const Crossing* end() const { return crossings_.data() + size_; }
+  /// Number of crossings of the row, 0 … capacity.
   std::size_t size() const { return size_; }
+  /// Crossing number `index` from the least D, 0 ≤ index < size(), unchecked.
   const Crossing& operator[](std::size_t index) const { return crossings_[index]; }
 
+  /// Leaves no crossing, ready for the next row.
   void clear() { size_ = 0; }
 
-  /// Keeps the order; a crossing at infinity is none.
+  /// Keeps the order; a crossing at infinity is none, and one beyond the capacity is dropped.
   void insert(const Crossing& crossing) {
     if (!std::isfinite(crossing.differential) || size_ == capacity) return;
     std::size_t place = size_++;
@@ -64,6 +69,7 @@ class RowCrossings {
     for (const MonotoneArc<Scalar>& arc : curve_.arcs()) branches_.push_back({arc});
   }
 
+  /// The curve of root pairs that the rows cross.
   const RootPairCurve<Scalar>& curve() const { return curve_; }
 
   /// The crossings at the proportional gain P (N/m), finite.

@@ -19,22 +19,26 @@ namespace holdfast {
 class SamplingPath {
  public:
   /// τ varies, δ = delay_fraction · τ.
+  /// @param plant           within its ranges, which are not checked here
   /// @param delay_fraction  0 … 1
   static SamplingPath of_period(const TwoDof<double>& plant, double delay_fraction) {
     return {plant, 0.0, delay_fraction};
   }
 
   /// δ varies from 0 to τ.
+  /// @param plant   within its ranges, which are not checked here
   /// @param period  τ (s), > 0
   static SamplingPath of_delay(const TwoDof<double>& plant, double period) {
     return {plant, period, 0.0};
   }
 
+  /// The sampling at a position (s): τ, or δ at the fixed period.
   Sampling<double> at(double position) const {
     if (fixed_period_ > 0.0) return {fixed_period_, position};
     return {position, delay_fraction_ * position};
   }
 
+  /// The plant under the sampling at a position (s); costs two matrix exponentials.
   SampledLoop<double> loop_at(double position) const { return sampled_loop(plant_, at(position)); }
 
   /// How the loop's matrices move along the path, per second of it.
@@ -87,6 +91,7 @@ class SamplingPath {
     return {roots_at(loop, gains), {MovingPoint{1.0 - product, -slope, 0.0, false, -product}}};
   }
 
+  /// True on a path of τ, false on one of δ.
   bool varies_period() const { return !(fixed_period_ > 0.0); }
 
  private:

@@ -54,7 +54,11 @@ inline LoopSensitivity sensitivity_of(const Vector<double, loop_parameters>& ent
 
 /// ∂ ln|y| / ∂ ln|x|: by how many per cent the quantity y changes when a parameter x changes by
 /// one. 0 for a parameter that is 0.
-/// @param value  y, not 0
+/// @param sensitivity  ∂y/∂x
+/// @param plant        that at which the derivatives were taken
+/// @param sampling     τ (s) and δ (s) there
+/// @param gains        P (N/m) and D (N s/m) there
+/// @param value        y, not 0
 inline LoopSensitivity logarithmic(const LoopSensitivity& sensitivity, const TwoDof<double>& plant,
                                    const Sampling<double>& sampling, const PdGains<double>& gains,
                                    double value) {
@@ -66,7 +70,8 @@ inline LoopSensitivity logarithmic(const LoopSensitivity& sensitivity, const Two
 }
 
 /// The sensitivity when P follows k₂ and m₂ by Eq. 6, P = k₂ − m₂ ω², instead of being held.
-/// @param frequency  f = ω / 2π (Hz) to which P is tuned, > 0
+/// @param sensitivity  with P held
+/// @param frequency    f = ω / 2π (Hz) to which P is tuned, > 0
 inline LoopSensitivity with_tuned_gain(LoopSensitivity sensitivity, double frequency) {
   const double omega = 2.0 * pi<double> * frequency;
   sensitivity.absorber_stiffness += sensitivity.proportional_gain;
@@ -166,8 +171,11 @@ enum class BoundaryGain { proportional, differential };
 /// with ∂p/∂x from the kernel of p itself on numbers that carry derivatives, so that no step size
 /// enters. Infinite where the boundary turns back (∂|λ|/∂D = 0). Where two boundary curves meet it
 /// is that of one of them. By δ it is one-sided at δ = 0 and at δ = τ.
-/// @param gains   on the boundary, finite
-/// @param radius  of the boundary, > 0; 1 is that of stability
+/// @param plant     m, k and c of both masses, within their ranges
+/// @param sampling  τ (s) > 0, δ (s) 0 … τ
+/// @param gains     on the boundary, finite
+/// @param gain      the one whose sensitivity is returned
+/// @param radius    of the boundary, > 0; 1 is that of stability
 /// @throws InvalidParameter outside the admissible ranges
 inline LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>& plant,
                                                  const Sampling<double>& sampling,

@@ -31,6 +31,8 @@ namespace holdfast {
 /// constant force between the masses does not move the conductor.
 class SlowSamplingBound {
  public:
+  /// @param plant           within its ranges, which are not checked here
+  /// @param gains           P (N/m) and D (N s/m), finite
   /// @param delay_fraction  φ, 0 … 1, kept while τ varies
   SlowSamplingBound(const TwoDof<double>& plant, const PdGains<double>& gains,
                     double delay_fraction)

@@ -88,7 +88,8 @@ std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
 }
 
 /// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m), continuous loop.
-/// @param polynomial  `characteristic_polynomial(plant)`, in s
+/// @param polynomial         `characteristic_polynomial(plant)`, in s
+/// @param proportional_gain  P (N/m), finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_differential_gains(
     const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& proportional_gain) {
@@ -97,7 +98,8 @@ std::vector<Interval<Scalar>> stable_differential_gains(
 }
 
 /// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m), sampled loop.
-/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param polynomial         `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param proportional_gain  P (N/m), finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_differential_gains(
     const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& proportional_gain) {
@@ -106,7 +108,8 @@ std::vector<Interval<Scalar>> stable_differential_gains(
 }
 
 /// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), continuous loop.
-/// @param polynomial  `characteristic_polynomial(plant)`, in s
+/// @param polynomial         `characteristic_polynomial(plant)`, in s
+/// @param differential_gain  D (N s/m), finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_proportional_gains(
     const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& differential_gain) {
@@ -115,7 +118,8 @@ std::vector<Interval<Scalar>> stable_proportional_gains(
 }
 
 /// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), sampled loop.
-/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param polynomial         `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param differential_gain  D (N s/m), finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_proportional_gains(
     const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& differential_gain) {

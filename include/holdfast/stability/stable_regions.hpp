@@ -177,6 +177,7 @@ class RegionBuilder {
 /// window's; a neck narrower than 1e−9 of its height does not connect.
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
 /// `characteristic_polynomial(plant)`, in s (degree 4)
+/// @param window      P (N/m) and D (N s/m), its edges included
 /// @return stable regions first, the larger first
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>

@@ -20,7 +20,7 @@
 /// Time integration of the library's continuous models by CVODE, SUNDIALS 6 and 7.
 ///
 /// The one part of the library, with ceres/, that needs a package besides Eigen. SUNDIALS itself
-/// owns the namespace ::sundials, hence this name.
+/// owns the global namespace `sundials`, hence this name.
 namespace holdfast::cvode {
 
 /// How an integration ended; each case is a family of CVODE's return flags.
@@ -82,15 +82,16 @@ inline std::string name_of_flag(int flag) {
 
 /// What the integration cost.
 struct IntegrationCost {
-  long steps = 0;
-  long rate_evaluations = 0;
-  long jacobian_evaluations = 0;
+  long steps = 0;                 ///< of the integrator, not of the instants asked for
+  long rate_evaluations = 0;      ///< calls of the right-hand side
+  long jacobian_evaluations = 0;  ///< 0 for a system without a banded Jacobian
 };
 
 /// Local error per step and the limit of steps between two outputs.
 struct Tolerances {
   double relative = 1e-6;  ///< > 0
   double absolute = 1e-9;  ///< > 0, in the units of the states (m, m/s)
+  /// > 0, from one instant asked for to the next; more end as `too_much_work`.
   long largest_number_of_steps = 2000000;
 };
 
@@ -261,7 +262,9 @@ inline void Session::use_fixed_point() {
 template <class System>
 class Integrator : public detail::Session {
  public:
-  /// @param initial_state  states() numbers, in SI units
+  /// @param system         must outlive this
+  /// @param initial_state  states() numbers, in SI units, at t = 0
+  /// @param tolerances     local error per step, and the limit of steps
   /// @throws InvalidParameter for another number of them, or tolerances that are not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
              const Tolerances& tolerances);
@@ -278,6 +281,7 @@ class Integrator : public detail::Session {
   /// That instant (s).
   double time() const { return time_; }
 
+  /// Of the whole integration so far.
   IntegrationCost cost() const {
     IntegrationCost cost;
     cost.steps = count(&CVodeGetNumSteps);

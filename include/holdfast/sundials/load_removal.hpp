@@ -11,7 +11,7 @@ namespace holdfast::cvode {
 
 /// How the vibration after the removal of a load was found.
 enum class LoadRemovalOutcome {
-  completed,
+  completed,           ///< the record reaches to the end of the duration
   no_equilibrium,      ///< the loaded cable has none that Newton's method finds
   slack,               ///< a bar lost its tension: the cable model ends there
   integration_failed,  ///< CVODE gave up; its words are in the result
@@ -19,21 +19,22 @@ enum class LoadRemovalOutcome {
 
 /// The vibration at the absorber's place after a force is removed at t = 0.
 struct LoadRemoval {
-  LoadRemovalOutcome outcome;
-  std::string words;  ///< CVODE's own words, where it gave up
-  double last_time;   ///< s, of the record's end, or where the cable went slack or CVODE gave up
+  LoadRemovalOutcome outcome;  ///< whether the record is whole, else why not
+  std::string words;           ///< CVODE's own words, where it gave up
+  double last_time;  ///< s, of the record's end, or where the cable went slack or CVODE gave up
   double initial_displacement;  ///< m, under the force, from the equilibrium with the weight
   DecayRecord record;           ///< at t = 0, interval, 2 interval, …
-  IntegrationCost cost;
+  IntegrationCost cost;         ///< zeros where there is no equilibrium
 };
 
 /// Removes `force` (N) from the cable at rest and follows it.
-/// @param cable     `CableElements` or `CondensedCable`
-/// @param force     N, downward positive
-/// @param duration  s, > 0; the record ends at the last multiple of the interval not after it
-/// @param interval  s between the record's instants, > 0
+/// @param cable       `CableElements` or `CondensedCable`
+/// @param force       N, downward positive
+/// @param duration    s, > 0; the record ends at the last multiple of the interval not after it
+/// @param interval    s between the record's instants, > 0
+/// @param tolerances  local error per step, and the limit of steps in an interval
+/// @param at_each     called with no arguments before each instant; what it throws ends the run
 /// @throws InvalidParameter outside these ranges
-/// @param at_each    called with no arguments before each instant; what it throws ends the run
 template <class Cable, class AtEach>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
                          const Tolerances& tolerances, AtEach&& at_each) {

@@ -19,13 +19,13 @@ namespace holdfast::cvode {
 
 /// A motion whose backlash switches between the samples, found by numerical integration.
 struct SwitchingReference {
-  IntegrationOutcome outcome;
-  std::string words;  ///< why it was not completed, in CVODE's own words where it gave up
+  IntegrationOutcome outcome;  ///< `completed`, or why the states end before
+  std::string words;           ///< why it was not completed, in CVODE's own words where it gave up
   /// [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s) at t_j = j τ, j = 0, 1, …; all that are asked for where it
   /// was completed.
   std::vector<Vector<double, 4>> states;
   std::vector<ContactSwitch> switches;  ///< in order of time; before the first one it is engaged
-  IntegrationCost cost;
+  IntegrationCost cost;                 ///< of all smooth pieces together; no Jacobian is evaluated
 };
 
 namespace detail {
@@ -387,6 +387,7 @@ inline void SwitchingMotion::enter(ContactMode mode) {
 ///
 /// Source: Filippov 1988, Differential Equations with Discontinuous Righthand Sides, for the
 /// sticking of Kollár 2022, Eqs. (7)–(8), taken to continuous time.
+/// @param loop           with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
 /// @param samples        ≥ 1
 /// @param tolerances     local error per step, at best about 1e-13 relative

@@ -95,6 +95,7 @@ class HybridTrack {
 ///
 /// Work: that of HybridMotion, and about 30 operations a sample. The loop over samples allocates
 /// nothing.
+/// @param loop           as it is built
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @param duration       s, ≥ 0
 /// @param pause          called every 2¹⁴ samples; may throw to end the motion

@@ -14,9 +14,12 @@ namespace holdfast {
 
 /// Looks at no sample. Others are derived from it and hide what they do.
 struct IgnoreSwitching {
+  /// Called at every sample with the numbers of the motions in the lanes, the sample's index and
+  /// the lanes that transmit.
   template <class LaneMask>
   void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
                   const LaneMask& /*engaged*/) const {}
+  /// Called every some hundred samples; may throw in a derived one.
   void pause() const {}
 };
 
@@ -30,7 +33,8 @@ struct IgnoreSwitching {
 /// the same but for rounding. Memory: some 50 bytes a motion beside the results. Work: see
 /// `detail::MetricTrack`; before that a motion costs a few matrix exponentials, unless the one
 /// before it among those of equal numbers of samples has the same plant and sampling.
-/// @param motions   `count` of them
+/// @param motions   each with an admissible loop and a finite state
+/// @param count     number of motions, ≥ 0
 /// @param duration  s, ≥ 0
 /// @param results   as many, in the order of the motions
 /// @param observer  called at every sample j with the numbers of the motions in the lanes, j, and

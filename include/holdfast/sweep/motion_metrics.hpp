@@ -25,7 +25,7 @@ enum class MotionEnd {
 /// and `reversals_per_s`, which are NaN, and `first_peak`, which stays what it was. Of one whose
 /// changes of contact accumulate everything is NaN but the samples up to there.
 struct MotionMetrics {
-  MotionEnd end;
+  MotionEnd end;         ///< decides which of the numbers below are finite
   std::int64_t samples;  ///< taken; of a motion that diverged, those with a finite state
   double first_peak;     ///< |z₁| (m) at its first strict local extremum at j ≥ 1, NaN if none
   double steady_peak;    ///< max |z₁| (m) of the steady samples
@@ -44,6 +44,7 @@ struct MotionMetrics {
 template <class Scalar>
 class FirstExtremum {
  public:
+  /// Takes the next value; an extremum is known at the value after it.
   void observe(const Scalar& value) {
     using std::abs;
     const Mask<Scalar> turns = ((previous_ > before_) & (value < previous_)) |
@@ -53,6 +54,7 @@ class FirstExtremum {
     previous_ = value;
   }
 
+  /// The lanes in which there is one by now.
   Mask<Scalar> found() const { return size_ == size_; }
   /// NaN while there is none.
   const Scalar& size() const { return size_; }
@@ -68,6 +70,7 @@ class FirstExtremum {
 template <class Scalar>
 class LoadExtent {
  public:
+  /// Takes u (N) and Δz (m) of the next sample.
   void observe(const Scalar& force, const Scalar& relative_displacement) {
     using std::abs;
     using std::max;
@@ -97,7 +100,10 @@ struct SteadySums {
   Scalar engaged = Scalar(0);        ///< samples at which the drive transmits
   Scalar reversals = Scalar(0);      ///< of Δż
 
-  /// @param reverses  whether Δż changed its sign since the sample before
+  /// @param displacement  z₁ (m)
+  /// @param force         u (N)
+  /// @param transmits     whether the drive does
+  /// @param reverses      whether Δż changed its sign since the sample before
   void observe(const Scalar& displacement, const Scalar& force, const Mask<Scalar>& transmits,
                const Mask<Scalar>& reverses) {
     using std::abs;
@@ -111,6 +117,7 @@ struct SteadySums {
   }
 
   /// Begins anew in the lanes of the mask, at the sample about to be observed.
+  /// @param lanes     those whose sums go back to zero
   /// @param reverses  of that sample: its reversal began before and does not count
   void restart(const Mask<Scalar>& lanes, const Mask<Scalar>& reverses) {
     const Scalar zero(0);

@@ -11,7 +11,7 @@ namespace holdfast {
 
 /// One motion of a sweep: its loop and where it begins.
 struct SweepMotion {
-  ForcedLoop<double> loop;
+  ForcedLoop<double> loop;          ///< its own, every parameter of which may differ
   Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 };
 

@@ -12,6 +12,7 @@ namespace holdfast {
 template <class Scalar>
 class TurningForcing {
  public:
+  /// @param table  to be turned to each multiple of its `block` before that sample is advanced
   explicit TurningForcing(const TurningTable<Scalar>& table) : table_(&table) {}
 
   /// The addition (4 × 1) of the present sampling period; goes on to the next one.
