@@ -16,6 +16,7 @@ struct Example {
 /// Those of the whole program bear its name.
 constexpr Example examples[] = {
     {"holdfast", "report --output report", "everything about the built-in case on one page"},
+    {"holdfast", "answers", "in words: does control help, which D, how slow, how much play?"},
     {"holdfast", "case --init my-cable.toml", "a commented case to start from"},
     {"holdfast", "stability --set control.sampling_period=0.01", "stable gains, 10 ms computer"},
     {"holdfast", "max-delay --frequency 5:50:10", "how slow may the computer be?"},
@@ -70,10 +71,13 @@ constexpr Example examples[] = {
      "map.csv",
      "delay against play"},
     {"sweep", "--axis backlash.width=0:0.003:31 --metric verdict", "one metric"},
+    {"answers", "", "of the built-in case"},
+    {"answers", "--case my-cable.toml --details", "with what they rest on"},
     {"report", "--output report", "the built-in case"},
     {"report", "--case my-cable.toml --output my-report", "a case of yours"},
     {"completion", "bash > holdfast.bash", "to be sourced by bash"},
     {"manual", "> holdfast.1", "then: man ./holdfast.1"},
+    {"bill-of-materials", "> holdfast.cdx.json", "beside the package"},
 };
 
 std::string command_of(const Example& example) {

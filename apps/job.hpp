@@ -87,6 +87,7 @@ void add_modes(CLI::App& program);
 void add_decay(CLI::App& program);
 void add_peaks(CLI::App& program);
 void add_fit(CLI::App& program);
+void add_answers(CLI::App& program);
 void add_report(CLI::App& program);
 
 namespace question {
@@ -97,7 +98,7 @@ inline constexpr const char* delay = "How slow may the computer be?";
 inline constexpr const char* motion = "How does it move?";
 inline constexpr const char* attractor = "What is this irregular motion?";
 inline constexpr const char* map = "For which delays, backlashes, frequencies does it still help?";
-inline constexpr const char* all = "All of it on one page";
+inline constexpr const char* all = "All of it at once";
 inline constexpr const char* program = "The program itself";
 }  // namespace question
 

@@ -3,11 +3,11 @@
 #include <memory>
 #include <system_error>
 
+#include "build_record.hpp"
 #include "completion.hpp"
 #include "errors.hpp"
 #include "examples.hpp"
 #include "exit.hpp"
-#include "holdfast/core/version.hpp"
 #include "job.hpp"
 #include "manual.hpp"
 #include "output.hpp"
@@ -33,6 +33,11 @@ void add_texts(CLI::App& program) {
   completion->group(question::program)->final_callback([&program, shell] {
     print(*shell == "zsh" ? zsh_completion(program) : bash_completion(program));
   });
+  program
+      .add_subcommand("bill-of-materials",
+                      "What the program was built with, for machines: CycloneDX as JSON")
+      ->group(question::program)
+      ->final_callback([] { print(bill_of_materials()); });
   program.add_subcommand("manual", "The manual page, for man to read")
       ->group(question::program)
       ->final_callback([&program] { print(manual_page(program, examples_of("holdfast"))); });
@@ -64,25 +69,40 @@ void add_jobs(CLI::App& program) {
   add_section(program);
   add_lyapunov(program);
   add_sweep(program);
+  add_answers(program);
   add_report(program);
   add_texts(program);
+}
+
+/// The job whose name begins with the word, else the one whose name is most like it.
+std::string nearest_job(const CLI::App& program, const std::string& word) {
+  std::string nearest;
+  for (const CLI::App* job : program.get_subcommands(nullptr)) {
+    const std::string& name = job->get_name();
+    if (name.rfind(word, 0) == 0) return name;
+    if (nearest.empty() || edit_distance(name, word) < edit_distance(nearest, word)) nearest = name;
+  }
+  return nearest;
 }
 
 /// The first word is the job; CLI11 would only say that something was not expected.
 void check_job_name(const CLI::App& program, const std::vector<std::string>& arguments) {
   if (arguments.empty()) throw WrongInput("which job? holdfast --help lists them");
-  if (arguments.front().rfind('-', 0) == 0) return;
-  std::string nearest;
-  for (const CLI::App* job : program.get_subcommands(nullptr)) {
-    const std::string& name = job->get_name();
-    if (name == arguments.front()) return;
-    if (nearest.empty() ||
-        edit_distance(name, arguments.front()) < edit_distance(nearest, arguments.front())) {
-      nearest = name;
-    }
-  }
-  throw WrongInput("unknown job " + arguments.front() + "; did you mean " + nearest +
+  const std::string& word = arguments.front();
+  const auto jobs = program.get_subcommands(nullptr);
+  const bool is_job = std::any_of(jobs.begin(), jobs.end(),
+                                  [&](const CLI::App* job) { return job->get_name() == word; });
+  if (is_job || word.rfind('-', 0) == 0) return;
+  throw WrongInput("unknown job " + word + "; did you mean " + nearest_job(program, word) +
                    "? (holdfast --help lists the jobs)");
+}
+
+/// `help` and `help JOB` are asked of other programs; here they are `--help` and `JOB --help`.
+std::vector<std::string> with_help_as_option(std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments.front() != "help") return arguments;
+  arguments.erase(arguments.begin());
+  arguments.emplace_back("--help");
+  return arguments;
 }
 
 std::string nearest_option(const CLI::App& job, const std::string& word) {
@@ -110,16 +130,17 @@ std::string unexpected_text(const CLI::App& job) {
 }  // namespace
 
 void do_job(const std::vector<std::string>& arguments) {
+  const std::vector<std::string> words = with_help_as_option(arguments);
   CLI::App program("holdfast: suspended cables under digital vibration control", "holdfast");
-  program.set_version_flag("--version", "holdfast " + std::string(version_string));
+  program.set_version_flag("-v,--version", version_text());
   program.formatter(std::make_shared<ExamplesFirst>());
   program.require_subcommand(1);
   program.get_formatter()->column_width(20);
   program.get_formatter()->label("SUBCOMMAND", "JOB");
   add_jobs(program);
-  check_job_name(program, arguments);
+  check_job_name(program, words);
   try {
-    program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ExtrasError& outcome) {
     const std::vector<CLI::App*> jobs = program.get_subcommands();
     throw WrongInput(jobs.empty() ? one_line(outcome.what()) : unexpected_text(*jobs.front()));

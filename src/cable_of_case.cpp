@@ -129,6 +129,11 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
   return {moving.front(), moving[wanted - 1]};
 }
 
+std::string borrowed_cable_warning(const Case& the_case) {
+  if (!the_case.plant_given || the_case.conductor_given) return "";
+  return "the case gives [plant] and no [conductor]: the cable is that of the built-in case";
+}
+
 std::string deep_cable_warning(const Case& the_case) {
   const double ratio = the_case.conductor.sag / the_case.conductor.span;
   if (ratio <= 0.125) return "";

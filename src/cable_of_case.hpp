@@ -46,6 +46,10 @@ CableElements elements_of(const Case& the_case, int elements, AbsorberReading re
 /// absorber's place by a tenth of their largest displacement or more, the first and the sixth.
 std::pair<double, double> default_frequencies(const Case& the_case);
 
+/// What the user of a job about the cable has to know where the case gives a plant alone: whose
+/// cable it is. Empty otherwise.
+std::string borrowed_cable_warning(const Case& the_case);
+
 /// What the user has to know of a sag above an eighth of the span: Eq. 1 and Irvine's modes are
 /// those of shallow cables. Empty otherwise.
 std::string deep_cable_warning(const Case& the_case);

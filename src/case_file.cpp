@@ -74,6 +74,9 @@ bool is_case_table(std::string_view name) {
 }
 
 std::string unknown_key(std::string_view name) {
+  if (name.size() >= 7 && name.substr(name.size() - 7) == "tension")
+    return "unknown key: a tension H is given by the sag that it leaves, "
+           "conductor.sag = mass_per_length gravity span^2 / (8 H)";
   const CaseKey& nearest = nearest_case_key(name);
   return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
 }
@@ -152,12 +155,42 @@ std::vector<std::array<double, 3>> harmonics_of(const CaseKey& key, const toml::
   return harmonics;
 }
 
+bool is_digit(char character) { return std::isdigit(static_cast<unsigned char>(character)) != 0; }
+
+bool has_decimal_comma(std::string_view text) {
+  for (std::size_t k = 1; k + 1 < text.size(); ++k)
+    if (text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1])) return true;
+  return false;
+}
+
+/// A line's value, without what follows a #.
+std::string_view value_of_line(std::string_view text, std::size_t line) {
+  const auto lines = split(text, '\n');
+  const std::string_view all = line >= 1 && line <= lines.size() ? lines[line - 1] : "";
+  const std::string_view uncommented = all.substr(0, all.find('#'));
+  const std::size_t equals = uncommented.find('=');
+  return equals == std::string_view::npos ? "" : trimmed(uncommented.substr(equals + 1));
+}
+
+/// What is probably wrong with a value that no TOML can be read from; empty where there is no
+/// guess.
+std::string guess_of_value(std::string_view value) {
+  if (value.empty() || value.front() == '[' || value.front() == '"') return "";
+  if (has_decimal_comma(value)) return "; a number has a decimal point, not a comma: 0.5";
+  const std::size_t blank = value.find_first_of(" \t");
+  const bool number_first = parse_number(value.substr(0, blank)).has_value();
+  if (number_first && blank != std::string_view::npos)
+    return "; a number stands alone, in the unit that `holdfast case --check` gives for its key";
+  return "";
+}
+
 toml::table parse_file(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw WrongInput(name + ":" + std::to_string(error.source().begin.line) + ": " +
-                     std::string(error.description()));
+    const std::size_t line = error.source().begin.line;
+    throw WrongInput(name + ":" + std::to_string(line) + ": " + std::string(error.description()) +
+                     guess_of_value(value_of_line(text, line)));
   }
 }
 
@@ -209,8 +242,9 @@ toml::table parse_override_value(const CaseKey& key, std::string_view value,
     const bool is_text = key.file != nullptr || is_bare_word(value);
     if (is_text) return toml::table{{"value", std::string(value)}};
   }
-  throw WrongInput(place + ": admissible is " + key.admissible() +
-                   (key.number != nullptr ? ", a plain number such as 0.01" : ""));
+  const std::string guess = guess_of_value(value);
+  const std::string form = key.number != nullptr ? ", a plain number such as 0.01" : "";
+  throw WrongInput(place + ": admissible is " + key.admissible() + (guess.empty() ? form : guess));
 }
 
 void CaseReader::read_override(const std::string& text) {

@@ -1,6 +1,8 @@
 #include "case_keys.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 
 #include "errors.hpp"
@@ -35,10 +37,60 @@ std::string harmonics_in_words() {
   return "[[amplitude, frequency, phase], ...]: " + parts + " (may be left out)";
 }
 
+/// Symbols of the equations and other words that a key goes by.
+struct OtherName {
+  std::string_view word;
+  std::string_view key;
+};
+
+constexpr std::array<OtherName, 26> other_names = {{
+    {"m1", "plant.conductor_mass"},
+    {"k1", "plant.conductor_stiffness"},
+    {"c1", "plant.conductor_damping"},
+    {"m2", "plant.absorber_mass"},
+    {"k2", "plant.absorber_stiffness"},
+    {"c2", "plant.absorber_damping"},
+    {"p", "control.proportional_gain"},
+    {"kp", "control.proportional_gain"},
+    {"d", "control.differential_gain"},
+    {"kd", "control.differential_gain"},
+    {"tau", "control.sampling_period"},
+    {"dt", "control.sampling_period"},
+    {"delta", "control.processing_delay"},
+    {"delay", "control.processing_delay"},
+    {"r0", "backlash.width"},
+    {"play", "backlash.width"},
+    {"gap", "backlash.width"},
+    {"f", "excitation.frequency"},
+    {"fm", "excitation.amplitude"},
+    {"force", "excitation.amplitude"},
+    {"l", "conductor.span"},
+    {"length", "conductor.span"},
+    {"e", "conductor.youngs_modulus"},
+    {"zeta", "conductor.damping_ratio"},
+    {"f1", "reduction.first_frequency"},
+    {"f2", "reduction.second_frequency"},
+}};
+
+std::string_view after_table(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+/// The key that goes by another name; null where none does.
+const CaseKey* key_by_other_name(std::string_view name) {
+  std::string word(after_table(name));
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const auto found = std::find_if(other_names.begin(), other_names.end(),
+                                  [&](const OtherName& other) { return other.word == word; });
+  return found == other_names.end() ? nullptr : find_case_key(found->key);
+}
+
 std::size_t distance_to(std::string_view name, const CaseKey& key) {
   // A key given without its table, or in the wrong one, is near as well.
   const std::size_t dot = name.rfind('.');
-  const std::string_view last = dot == std::string_view::npos ? name : name.substr(dot + 1);
+  const std::string_view last = after_table(name);
   const std::size_t elsewhere = dot == std::string_view::npos ? 1 : 2;
   return std::min(edit_distance(name, key.name), edit_distance(last, key.short_name()) + elsewhere);
 }
@@ -107,6 +159,7 @@ const CaseKey* find_case_key(std::string_view name) {
 }
 
 const CaseKey& nearest_case_key(std::string_view name) {
+  if (const CaseKey* key = key_by_other_name(name)) return *key;
   const Keys& keys = case_keys();
   return *std::min_element(keys.begin(), keys.end(), [&](const CaseKey& a, const CaseKey& b) {
     return distance_to(name, a) < distance_to(name, b);

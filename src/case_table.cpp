@@ -39,6 +39,11 @@ void add_force(Derivations& derived, const Case& the_case, const TwoDof<double>&
   derived.push_back({"force_amplitude", excitation.amplitude, "N",
                      "of the harmonic force, from [excitation] or [wind]"});
   derived.push_back({"force_frequency", excitation.frequency, "Hz", "of the same"});
+  const case_tables::Excitation& given = the_case.excitation;
+  if (given.noise_rms > 0.0)
+    derived.push_back({"noise_period",
+                       given.noise_lines / (given.noise_highest - given.noise_lowest), "s",
+                       "after it the noise repeats: lines over bandwidth"});
   derived.push_back({"static_displacement", excitation.amplitude / plant.conductor_stiffness, "m",
                      "the force over the conductor's stiffness, F/k1"});
 }

@@ -132,42 +132,4 @@ std::string misfit_warning(const AbsorberDampingFit& found) {
          format_number(std::round(found.history_misfit * 100.0)) + " % of the start";
 }
 
-namespace {
-
-/// The keys of [plant] that the user gave, as they stand in messages: "absorber_damping, …".
-std::vector<const CaseKey*> given_of_plant(const Case& the_case) {
-  std::vector<const CaseKey*> given;
-  for (const CaseKey& key : case_keys())
-    if (key.table() == "plant" && the_case.places.count(key.name) > 0) given.push_back(&key);
-  return given;
-}
-
-void take_plant(Case& the_case, const TwoDof<double>& reduced) {
-  the_case.plant = {reduced.conductor_mass, reduced.conductor_stiffness, reduced.conductor_damping,
-                    reduced.absorber_mass,  reduced.absorber_stiffness,  reduced.absorber_damping};
-}
-
-std::string partial_plant_text(const std::vector<const CaseKey*>& given) {
-  if (given.empty()) return "";
-  std::string names;
-  for (const CaseKey* key : given) names += (names.empty() ? "" : ", ") + key->name;
-  return names + " given; the rest of the plant is reduced from the conductor";
-}
-
-}  // namespace
-
-std::string settle_plant(Case& the_case) {
-  if (!plant_is_reduced(the_case)) return "";
-  const std::vector<const CaseKey*> given = given_of_plant(the_case);
-  Case as_given = the_case;
-  take_plant(the_case, plant_without_absorber_damping(the_case));
-  for (const CaseKey* key : given) *key->number(the_case) = *key->number(as_given);
-  std::string warning = partial_plant_text(given);
-  if (the_case.places.count("plant.absorber_damping") > 0) return warning;
-  const AbsorberDampingFit found = fit_absorber_damping(the_case, plant_of(the_case));
-  the_case.plant.absorber_damping = found.fit.minima.front().plant.absorber_damping;
-  const std::string misfit = misfit_warning(found);
-  return warning.empty() || misfit.empty() ? warning + misfit : warning + "; " + misfit;
-}
-
 }  // namespace holdfast::program

@@ -39,10 +39,4 @@ AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<doubl
 /// cannot meet its first peak and period. Empty otherwise.
 std::string misfit_warning(const AbsorberDampingFit& found);
 
-/// Completes a case whose plant is not wholly given: reduces it from the conductor, sets the keys
-/// of [plant] that are given over it, and fits c2 where that is not one of them.
-/// @return what the user has to know of it, or an empty text
-/// Throws NoAnswer where there is no such plant, or a package is missing.
-std::string settle_plant(Case& the_case);
-
 }  // namespace holdfast::program

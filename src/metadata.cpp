@@ -2,6 +2,7 @@
 
 #include <cctype>
 
+#include "build_record.hpp"
 #include "case_file.hpp"
 
 #ifndef HOLDFAST_VERSION
@@ -51,10 +52,12 @@ Json origin(const JobContext& context) {
       options[name] = Json::array({options[name], text});
     }
   }
-  return {{"version", HOLDFAST_VERSION},
-          {"job", context.job},
-          {"options", options},
-          {"case", case_to_json(context.case_data)}};
+  Json built_with = Json::object();
+  for (const Dependency& dependency : dependencies())
+    built_with[dependency.name] = dependency.version;
+  return {{"version", HOLDFAST_VERSION}, {"compiler", compiler_text()},
+          {"built_with", built_with},    {"job", context.job},
+          {"options", options},          {"case", case_to_json(context.case_data)}};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "damping_fit.hpp"
+#include "settled_plant.hpp"
 
 namespace holdfast::program {
 namespace {

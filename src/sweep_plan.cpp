@@ -9,11 +9,11 @@
 #include "cable_of_case.hpp"
 #include "case_file.hpp"
 #include "checksum.hpp"
-#include "damping_fit.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "key_axis.hpp"
+#include "settled_plant.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {

@@ -3,11 +3,14 @@
 #include <limits>
 #include <optional>
 
+#include "exit.hpp"
 #include "holdfast/attractor/hybrid_verdict.hpp"
 #include "holdfast/attractor/motion_verdict.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
+#include "progress.hpp"
 #include "table.hpp"
+#include "text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -54,6 +57,13 @@ Judged judged(const Case& the_case, std::int64_t largest_period, Switching switc
   return {found.verdict, found.evidence};
 }
 
+/// The verdict for a reader who does not count columns: "periodic(100), 0.1 s: …".
+void say(const Verdict& verdict, double period, const JobContext& context) {
+  if (!progress_wanted(context)) return;
+  const std::string seconds = verdict.period > 0 ? ", " + format_rounded(period) + " s" : "";
+  report_error(motion_kind_text(verdict) + seconds + ": " + verdict.rests_on);
+}
+
 }  // namespace
 
 void write_verdict(const JobContext& context, std::int64_t largest_period, Switching switching) {
@@ -73,6 +83,7 @@ void write_verdict(const JobContext& context, std::int64_t largest_period, Switc
       evidence.lines ? evidence.lines->division : 0,
       known(evidence.lines, [](const auto& lines) { return lines.continuous; }), verdict.rests_on);
   table.commit();
+  say(verdict, period, context);
 }
 
 }  // namespace holdfast::program

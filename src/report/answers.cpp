@@ -43,28 +43,30 @@ std::string range_of(double value) {
   return text + ":" + text + ":1";
 }
 
-/// Largest |z₁| of the steady motion with control and without it, and how often the drive
-/// transmits.
+/// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
 struct Vibration {
   double controlled, free;
-  double engaged;  ///< share of the samples
+  double engaged;  ///< share of the samples at which the drive transmits
+  double force;    ///< N, the largest that the computer asks for
 
   double ratio() const { return controlled / free; }
   bool is_reduced() const { return controlled < free; }
 };
 
-std::vector<Vibration> vibrations_of(const std::vector<Case>& cases) {
+std::vector<Vibration> vibrations_of(const std::vector<Case>& cases,
+                                     Switching switching = Switching::sampled) {
   const double duration = duration_of(cases.front());
   std::vector<CellMotion> motions, free;
   motions.reserve(cases.size());
-  for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, {}, duration));
+  for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
   free.push_back(without_control(motions.front()));
   const std::vector<MotionMetrics> with = metrics_of(motions, duration);
   const double without = metrics_of(free, duration).front().steady_peak;
   std::vector<Vibration> vibrations;
   vibrations.reserve(with.size());
   for (const MotionMetrics& metrics : with)
-    vibrations.push_back({metrics.steady_peak, without, metrics.engaged_fraction});
+    vibrations.push_back(
+        {metrics.steady_peak, without, metrics.engaged_fraction, metrics.force_peak});
   return vibrations;
 }
 
@@ -87,6 +89,30 @@ std::string instability_text(const Case& the_case) {
          rounded(radius, 5) + "): nothing but the play bounds the motion.";
 }
 
+std::string force_text(const Vibration& vibration) {
+  return " The computer asks the drive for up to " + rounded(vibration.force, 3) + " N.";
+}
+
+/// What is left where the drive switches when it happens and not at samples.
+std::string exact_switching_text(const Case& the_case) {
+  if (!(the_case.backlash.width > 0.0)) return "";
+  const Vibration exact = vibrations_of({the_case}, Switching::exact).front();
+  if (!std::isfinite(exact.ratio())) return "";
+  return " A drive that enters and leaves its play when it happens, not at samples, leaves " +
+         percent(exact.ratio()) + ".";
+}
+
+/// The gains and the play that the user's case leaves to the built-in one.
+std::string borrowed_text(const Case& the_case) {
+  if (!the_case.plant_given && !the_case.conductor_given) return "";
+  std::string names;
+  for (const char* key : {"control.proportional_gain", "control.differential_gain",
+                          "control.sampling_period", width_key})
+    if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
+  if (names.empty()) return "";
+  return " Your case does not give " + names + ": the built-in value stands in.";
+}
+
 Answer does_it_help(const Case& the_case, const Vibration& vibration) {
   Answer answer{
       "Does control help here?",
@@ -102,7 +128,9 @@ Answer does_it_help(const Case& the_case, const Vibration& vibration) {
     answer.answer = "No: with these gains the motion grows without end.";
   } else {
     answer.answer = help_text(vibration) + instability_text(the_case);
+    answer.detail += force_text(vibration) + exact_switching_text(the_case);
   }
+  answer.detail += borrowed_text(the_case);
   return answer;
 }
 
@@ -137,6 +165,16 @@ std::string gain_of_case_text(const Case& the_case) {
          " N/m; tuned to its frequency (Eq. 6) P is " + rounded(tuned, 4) + " N/m.";
 }
 
+/// What a gain leaves with the play that the case has.
+std::string in_play_text(const Case& the_case, double differential_gain) {
+  if (!(the_case.backlash.width > 0.0)) return "";
+  const Vibration vibration =
+      vibrations_of({case_with(the_case, "control.differential_gain", differential_gain)}).front();
+  if (!std::isfinite(vibration.ratio())) return "";
+  return " With the case's play of " + millimetres(the_case.backlash.width) + " it leaves " +
+         percent(vibration.ratio()) + "." + force_text(vibration);
+}
+
 Answer which_gain(const Case& the_case) {
   const ForcedLoop<double> loop = forced_loop_of(the_case);
   const double duration = duration_of(the_case);
@@ -155,7 +193,8 @@ Answer which_gain(const Case& the_case) {
                     percent(best.ratio_to_uncontrolled) + " of the amplitude without control.";
     answer.detail = "Of the gains that let the motion settle in " + rounded(0.5 * duration, 3) +
                     " s the one of least steady amplitude. " +
-                    margins_text(the_case, {loop.gains.proportional, best.differential_gain});
+                    margins_text(the_case, {loop.gains.proportional, best.differential_gain}) +
+                    in_play_text(the_case, best.differential_gain);
   }
   answer.detail += gain_of_case_text(the_case);
   return answer;

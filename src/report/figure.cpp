@@ -1,12 +1,15 @@
 #include "figure.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "report/figure_text.hpp"
 #include "text.hpp"
 
 namespace holdfast::program {
 namespace {
+
+constexpr std::array<LengthUnit, 3> length_units = {{{"mm", 1e3}, {"µm", 1e6}, {"nm", 1e9}}};
 
 using Arguments = std::vector<std::string>;
 
@@ -27,6 +30,18 @@ const Arguments ideal_drive = {"--set", "control.sampling_period=0.0001",
                                "--set", "backlash.width=0"};
 
 }  // namespace
+
+LengthUnit length_unit_for(double length) {
+  const auto fits = [length](const LengthUnit& unit) { return length * unit.per_metre >= 0.1; };
+  const auto found = std::find_if(length_units.begin(), length_units.end(), fits);
+  if (found != length_units.end()) return *found;
+  return length > 0.0 ? length_units.back() : length_units.front();  // the latter: nothing moves
+}
+
+LengthUnit length_unit_named(const std::string& name) {
+  return *std::find_if(length_units.begin(), length_units.end(),
+                       [&](const LengthUnit& unit) { return unit.name == name; });
+}
 
 std::vector<std::string> loop_settings(const std::string& sampling_period,
                                        const std::string& backlash_width) {
@@ -147,17 +162,18 @@ Figure history_figure(const std::string& name, const std::string& title, const s
   figure.tables = {{name + "-no-control", joined(joined(span, settings), {"--no-control"})},
                    {name + "-ideal", joined(joined(span, settings), ideal_drive)},
                    {name + "-loop", joined(span, settings)}};
-  figure.plot = axes("time {/:Italic t} (s)", "displacement {/:Italic z}_1 (mm)") + "set xrange [" +
-                from + ":" + to +
+  figure.plot = axes("time {/:Italic t} (s)", "displacement {/:Italic z}_1 (@unit@)") +
+                "set xrange [" + from + ":" + to +
                 "]\n"
                 "plot @" +
                 name +
-                "-no-control@ using 1:($2*1e3) with lines ls 1 title 'no control', \\\n"
+                "-no-control@ using 1:($2*@length@) with lines ls 1 title 'no control', \\\n"
                 "  @" +
                 name +
-                "-ideal@ using 1:($2*1e3) with lines ls 2 title 'ideal control', \\\n"
+                "-ideal@ using 1:($2*@length@) with lines ls 2 title 'ideal control', \\\n"
                 "  @" +
-                name + "-loop@ using 1:($2*1e3) with lines ls 3 title 'with delay and backlash'\n";
+                name +
+                "-loop@ using 1:($2*@length@) with lines ls 3 title 'with delay and backlash'\n";
   return figure;
 }
 
@@ -193,6 +209,24 @@ Figure contact_figure(const std::string& name, const std::string& title, const s
   return figure;
 }
 
+Figure own_contact_figure(const std::string& name, const std::string& title,
+                          const std::string& caption, const std::string& from,
+                          const std::string& to) {
+  Figure figure{name, title, caption, {}, "", 320.0};
+  figure.tables = {{name, {"simulate", "--duration", to, "--from", from}}};
+  figure.plot =
+      axes("time {/:Italic t} (s)", "relative velocity {/:Italic v}_2 − {/:Italic v}_1 (m/s)") +
+      "set xrange [" + from + ":" + to +
+      "]\nset border 11\nset ytics nomirror\nset y2range [-0.5:1.5]\n"
+      "set y2tics ('inside' 0, 'outside' 1)\nset y2label 'backlash'\n"
+      "plot @" +
+      name +
+      "@ using 1:($5-$3) with lines ls 1 title 'v_2 − v_1', \\\n"
+      "  '' using 1:($7 == 1 ? 0 : 1) axes x1y2 with steps ls 2 title 'in the backlash or not "
+      "(right)'\n";
+  return figure;
+}
+
 Figure phase_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const std::string& duration, const std::vector<std::string>& settings) {
   const Arguments steady = {"simulate", "--duration", duration, "--from", "30"};
@@ -201,17 +235,16 @@ Figure phase_figure(const std::string& name, const std::string& title, const std
   figure.tables = {{name + "-no-control", joined(joined(cycle, {"--no-control"}), ideal_drive)},
                    {name + "-ideal", joined(cycle, ideal_drive)},
                    {name + "-loop", joined(steady, settings)}};
-  figure.plot = axes("displacement {/:Italic z}_1 (mm)", "velocity {/:Italic v}_1 (m/s)") +
-                ""
-                "plot @" +
-                name +
-                "-no-control@ using ($2*1e3):3 with lines ls 1 title 'no control', \\\n"
-                "  @" +
-                name +
-                "-loop@ using ($2*1e3):3 with lines lw 0.8 lc rgb '#009e73' title 'with delay and "
-                "backlash', \\\n"
-                "  @" +
-                name + "-ideal@ using ($2*1e3):3 with lines ls 2 title 'ideal control'\n";
+  figure.plot =
+      axes("displacement {/:Italic z}_1 (@unit@)", "velocity {/:Italic v}_1 (m/s)") + "plot @" +
+      name +
+      "-no-control@ using ($2*@length@):3 with lines ls 1 title 'no control', \\\n"
+      "  @" +
+      name +
+      "-loop@ using ($2*@length@):3 with lines lw 0.8 lc rgb '#009e73' title 'with delay and "
+      "backlash', \\\n"
+      "  @" +
+      name + "-ideal@ using ($2*@length@):3 with lines ls 2 title 'ideal control'\n";
   return figure;
 }
 
@@ -252,18 +285,19 @@ Figure filling_figure(const std::string& name, const std::string& title, const s
 }
 
 Figure exponent_figure(const std::string& name, const std::string& title,
-                       const std::string& caption, const std::string& lowest,
+                       const std::string& caption, const std::string& tangent,
+                       const std::string& from, const std::string& range,
                        const std::vector<std::string>& settings) {
   Figure figure{name, title, caption, {}, "", 320.0};
   figure.tables = {
       {name,
-       joined({"lyapunov", "--duration", "10", "--history", "--tangent", "printed"}, settings)}};
-  figure.plot = axes("time {/:Italic t} (s)", "exponent {/:Italic λ} per sample") +
-                "set xrange [0:10]\nset yrange [" + lowest + ":" + lowest +
-                "*-0.5]\n"
+       joined({"lyapunov", "--duration", "10", "--history", "--tangent", tangent}, settings)}};
+  figure.plot = axes("time {/:Italic t} (s)", "exponent {/:Italic λ} per sample") + "set xrange [" +
+                from + ":10]\nset yrange [" + range +
+                "]\n"
                 "plot for [i=1:3] @" +
-                name +
-                "@ every 5 using 1:(column(i+1)) with lines ls i "
+                name + "@ every 5 using ($1 >= " + from +
+                " ? $1 : NaN):(column(i+1)) with lines ls i "
                 "title sprintf('λ_%d', i), 0 with lines lc rgb '#888888' dt 3 notitle\n";
   return figure;
 }

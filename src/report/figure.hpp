@@ -17,9 +17,24 @@ struct Figure {
   std::string title;    ///< heading
   std::string caption;  ///< says what is drawn, so that the picture can be understood alone
   std::vector<TableRequest> tables;
-  std::string plot;       ///< gnuplot commands; a table's file is @NAME@
-  double height = 360.0;  ///< of the picture, in points; its width is 640
+  /// gnuplot commands; a table's file is @NAME@, the unit of small lengths (@unit@), of which a
+  /// metre has @length@.
+  std::string plot;
+  double height = 360.0;           ///< of the picture, in points; its width is 640
+  std::string length_unit = "mm";  ///< of length_unit_for()
 };
+
+/// A unit of length and how many of it a metre has.
+struct LengthUnit {
+  const char* name;
+  double per_metre;
+};
+
+/// The unit in which a length (m) is between 0.1 and 100 or so: mm, µm or nm.
+LengthUnit length_unit_for(double length);
+
+/// That of this name.
+LengthUnit length_unit_named(const std::string& name);
 
 /// `--set` pairs for a sampling period (s) and a backlash (m).
 std::vector<std::string> loop_settings(const std::string& sampling_period,
@@ -65,6 +80,10 @@ Figure kick_figure(const std::string& name, const std::string& title, const std:
 Figure contact_figure(const std::string& name, const std::string& title, const std::string& caption,
                       const std::string& from, const std::string& to,
                       const std::vector<std::string>& settings);
+/// The same for a motion of any size: whether the drive is in its backlash has an axis of its own.
+Figure own_contact_figure(const std::string& name, const std::string& title,
+                          const std::string& caption, const std::string& from,
+                          const std::string& to);
 Figure phase_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const std::string& duration, const std::vector<std::string>& settings);
 Figure spectrum_figure(const std::string& name, const std::string& title,
@@ -73,8 +92,12 @@ Figure deviation_figure(const std::string& name, const std::string& title,
                         const std::string& caption, const std::vector<std::string>& settings);
 Figure filling_figure(const std::string& name, const std::string& title, const std::string& caption,
                       const std::string& duration, const std::vector<std::string>& settings);
+/// @param tangent  of the job lyapunov: "printed" or "consistent"
+/// @param from     s, where the picture begins
+/// @param range    of the ordinate, "-0.06:0.03"
 Figure exponent_figure(const std::string& name, const std::string& title,
-                       const std::string& caption, const std::string& lowest,
+                       const std::string& caption, const std::string& tangent,
+                       const std::string& from, const std::string& range,
                        const std::vector<std::string>& settings);
 
 /// @param published  the paper's exponents, λ₁ first

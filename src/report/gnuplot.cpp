@@ -37,10 +37,10 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// Runs gnuplot in a folder; its messages go to a file. Gives its exit status, or −1 if it could
-/// not start.
-int run_gnuplot(const std::filesystem::path& folder, const std::string& argument,
-                const std::filesystem::path& messages) {
+/// Runs gnuplot in a folder: commands, then a script or an option. Its messages go to a file. Gives
+/// its exit status, or −1 if it could not start.
+int run_gnuplot(const std::filesystem::path& folder, const std::string& commands,
+                const std::string& argument, const std::filesystem::path& messages) {
   const std::string place = folder.string();
   const std::string message_file = messages.string();
   const pid_t child = fork();
@@ -52,7 +52,8 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& argument
     dup2(null_input, STDIN_FILENO);
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
-    execlp("gnuplot", "gnuplot", argument.c_str(), static_cast<char*>(nullptr));
+    execlp("gnuplot", "gnuplot", "-e", commands.c_str(), argument.c_str(),
+           static_cast<char*>(nullptr));
     _exit(127);
   }
   int status = 0;
@@ -70,18 +71,21 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-bool gnuplot_available() { return run_gnuplot(".", "--version", "/dev/null") == 0; }
+bool gnuplot_available() { return run_gnuplot(".", "", "--version", "/dev/null") == 0; }
 
 std::string gnuplot_script(const Figure& figure) {
   std::string plot = figure.plot;
   for (const TableRequest& table : figure.tables) {
     replace_all(plot, "@" + table.name + "@", "'data/" + table.name + ".csv' skip 1");
   }
+  const LengthUnit unit = length_unit_named(figure.length_unit);
+  replace_all(plot, "@unit@", unit.name);
+  replace_all(plot, "@length@", format_number(unit.per_metre));
   return "set terminal svg size 640," + format_number(figure.height) +
          " dynamic enhanced standalone font 'Helvetica,Arial,sans-serif,13' background rgb "
          "'white'\n" +
-         "set output 'pictures/" + figure.name + ".svg.partial'\n" + style + plot +
-         "unset output\n";
+         "if (!exists('picture')) picture = 'pictures/" + figure.name +
+         ".svg'\nset output picture\n" + style + plot + "unset output\n";
 }
 
 void draw(const Figure& figure, const std::filesystem::path& folder) {
@@ -91,7 +95,8 @@ void draw(const Figure& figure, const std::filesystem::path& folder) {
   const std::filesystem::path messages = pictures / (figure.name + ".log.partial");
   write_file(script, gnuplot_script(figure));
   const int status =
-      run_gnuplot(folder, "pictures/" + figure.name + ".gp", std::filesystem::absolute(messages));
+      run_gnuplot(folder, "picture = 'pictures/" + figure.name + ".svg.partial'",
+                  "pictures/" + figure.name + ".gp", std::filesystem::absolute(messages));
   const std::string words = status == 0 ? "" : one_line(read_input(messages));
   std::error_code ignored;
   std::filesystem::remove(messages, ignored);

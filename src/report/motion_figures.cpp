@@ -18,10 +18,11 @@ constexpr const char* collect_shares =
     "texts = texts.'\"'.fate(k, period, share).'\" ', k)\n";
 
 // Colours of M. Okabe and K. Ito; black: no orbit found, grey: diverges, then one an attractor.
+// Those of the first attractors differ in lightness too.
 constexpr const char* basin_colours =
     "set palette maxcolors 10\n"
-    "set palette defined (-1 '#000000', 0 '#bbbbbb', 1 '#56b4e9', 2 '#e69f00', 3 '#009e73', "
-    "4 '#cc79a7', 5 '#f0e442', 6 '#0072b2', 7 '#d55e00', 8 '#666666')\n"
+    "set palette defined (-1 '#000000', 0 '#bbbbbb', 1 '#0072b2', 2 '#f0e442', 3 '#e69f00', "
+    "4 '#009e73', 5 '#cc79a7', 6 '#56b4e9', 7 '#d55e00', 8 '#666666')\n"
     "set cbrange [-1.5:8.5]\nunset colorbox\n";
 
 }  // namespace

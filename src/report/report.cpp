@@ -1,5 +1,6 @@
 #include "report.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -13,10 +14,12 @@
 #include "progress.hpp"
 #include "report/answers.hpp"
 #include "report/command_line.hpp"
+#include "report/comparison_tools.hpp"
 #include "report/figures.hpp"
 #include "report/gnuplot.hpp"
 #include "report/html.hpp"
 #include "report/switching_page.hpp"
+#include "report/switching_study.hpp"
 #include "report/switching_words.hpp"
 #include "text.hpp"
 
@@ -38,12 +41,19 @@ void make_folders(const fs::path& folder) {
   }
 }
 
+/// The unit of the case's displacements.
+std::string unit_of(const Case& the_case) {
+  const double longest = the_case.force_record ? the_case.force_record->last_time() : 20.0;
+  return length_unit_for(amplitude_without_control(the_case, std::min(20.0, longest))).name;
+}
+
 class ReportWriter {
  public:
   ReportWriter(const JobContext& context, Arguments case_arguments, const CommandRunner& run)
       : folder_(*context.output),
         case_arguments_(std::move(case_arguments)),
         run_(run),
+        length_unit_(unit_of(context.case_data)),
         can_draw_(gnuplot_available()) {}
 
   DrawnFigure make(const Figure& figure) const {
@@ -74,6 +84,7 @@ class ReportWriter {
       drawn.reason = "gnuplot is not installed (Debian package gnuplot-nox)";
       return drawn;
     }
+    drawn.figure.length_unit = length_unit_;
     draw(drawn.figure, folder_);
     drawn.svg = read_input(folder_ / "pictures" / (drawn.figure.name + ".svg"));
     return drawn;
@@ -92,6 +103,7 @@ class ReportWriter {
   fs::path folder_;
   Arguments case_arguments_;
   const CommandRunner& run_;
+  std::string length_unit_;
   bool can_draw_;
 };
 
@@ -105,6 +117,17 @@ std::vector<ShownMotion> shown_motions(const Case& the_case, bool builtin,
     shown.push_back({std::move(row), std::move(command)});
   }
   return shown;
+}
+
+/// "my-line: 21.3 Hz, τ = 5 ms, r₀ = 0.5 mm".
+std::string title_of(const JobContext& context, bool builtin) {
+  if (builtin) return "A controlled cable: the paper's figures and ours";
+  const Case& the_case = context.case_data;
+  const std::string stem = fs::path(context.case_source.name).stem().string();
+  return (stem.empty() ? "A controlled cable" : stem) + ": " +
+         rounded(effective_excitation(the_case).frequency, 4) +
+         " Hz, τ = " + rounded(1e3 * the_case.control.sampling_period, 4) +
+         " ms, r₀ = " + rounded(1e3 * the_case.backlash.width, 4) + " mm";
 }
 
 std::string introduction_of(bool builtin) {
@@ -132,6 +155,12 @@ std::string switching_part(const JobContext& context, bool builtin, const Report
   return html_of(page, drawn);
 }
 
+void say_where(const fs::path& page) {
+  OutputFile output(std::nullopt);
+  output.write("Report: " + page.string() + "\n");
+  output.commit();
+}
+
 }  // namespace
 
 void write_report(const JobContext& context, const Arguments& case_arguments,
@@ -144,7 +173,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   const std::vector<Figure> figures = builtin ? paper_figures() : case_figures(context.case_data);
 
   Page page;
-  page.title = builtin ? "A controlled cable: the paper's figures and ours" : "A controlled cable";
+  page.title = title_of(context, builtin);
   page.introduction = introduction_of(builtin);
   page.case_text = case_to_toml(context.case_data);
   if (builtin) page.comparisons = compare_with_paper();
@@ -161,6 +190,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   }
   file.write(html_of(page));
   file.commit();
+  if (!context.quiet) say_where(folder / "report.html");
   if (!gnuplot_available())
     report_error("the report has no pictures: install gnuplot (Debian package gnuplot-nox)");
 }

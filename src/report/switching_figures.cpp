@@ -66,15 +66,17 @@ std::string panel_between(double bottom, double top) {
          format_number(top) + "\n";
 }
 
+/// A length (m) in the figure's unit, for gnuplot.
+std::string in_unit(double length) { return format_number(length) + "*@length@"; }
+
 std::string amplitude_panel(const std::string& name, const SwitchingAxis& axis,
                             const ShownAmplitudes& amplitudes) {
-  const std::string top =
-      amplitudes.largest > 0.0 ? format_number(1e3 * amplitudes.largest) : std::string("*");
+  const std::string top = amplitudes.largest > 0.0 ? in_unit(amplitudes.largest) : std::string("*");
   return "set key at screen 0.55,0.985 center top vertical maxrows 2 samplen 3 width -4\n" +
          panel_between(0.45, 0.87) + "set format x ''\nset yrange [0:" + top + "]\n" +
-         axes("", "largest |{/:Italic z}_1| (mm)") + "plot " +
-         curves(name, axis, cell(MotionColumn::largest_displacement) + "*1e3", "linespoints") +
-         ", \\\n  " + format_number(1e3 * amplitudes.without_control) +
+         axes("", "largest |{/:Italic z}_1| (@unit@)") + "plot " +
+         curves(name, axis, cell(MotionColumn::largest_displacement) + "*@length@", "linespoints") +
+         ", \\\n  " + in_unit(amplitudes.without_control) +
          " with lines lc rgb '#777777' lw 1.2 dt 4 title 'without control'\n";
 }
 
@@ -83,10 +85,10 @@ std::string period_panel(const std::string& name, const SwitchingAxis& axis) {
   const std::string multiple =
       samples + " > 0 ? " + samples + "/" + cell(MotionColumn::shortest_period_samples) + " : 0.5";
   return panel_between(0.14, 0.41) +
-         "unset key\nset format x '%g'\nset logscale y\nset yrange [0.35:3<*]\n"
+         "unset key\nset format x '%g'\nset logscale y\nset yrange [0.35:*]\n"
          "set ytics ('none' 0.5, '1' 1, '3' 3, '10' 10, '30' 30, '100' 100, '1000' 1000)\n" +
          axes(axis.label, "period / shortest") + "plot " + curves(name, axis, multiple, "points") +
-         "\n";
+         ", \\\n  3 with points ps 0 notitle\n";  // the axis reaches 3 at least
 }
 
 /// Text for gnuplot between double quotes, with blanks that do not break.
@@ -211,9 +213,9 @@ std::string force_panel(const std::string& motion, const std::string& sampled) {
 }
 
 std::string displacement_panel(const std::string& motion) {
-  return axes("time {/:Italic t} (s)", "{/:Italic z}_2 − {/:Italic z}_1 (mm)") + "plot " +
-         curve_of(motion, "$5*1e3", styles[0].line, "") + ", \\\n  " +
-         curve_of(motion, "$2*1e3", styles[2].line, "") + "\n";
+  return axes("time {/:Italic t} (s)", "{/:Italic z}_2 − {/:Italic z}_1 (@unit@)") + "plot " +
+         curve_of(motion, "$5*@length@", styles[0].line, "") + ", \\\n  " +
+         curve_of(motion, "$2*@length@", styles[2].line, "") + "\n";
 }
 
 }  // namespace
@@ -222,7 +224,7 @@ Figure switching_chart(const std::string& name, const std::string& title,
                        const std::string& caption, const SwitchingAxis& axis,
                        const ShownAmplitudes& amplitudes) {
   Figure figure{name, title, caption, {{name, {"report"}}}, "", 500.0};
-  figure.plot = "set multiplot\nset lmargin at screen 0.13\nset rmargin at screen 0.97\n" +
+  figure.plot = "set multiplot\nset lmargin at screen 0.15\nset rmargin at screen 0.97\n" +
                 axis_range(axis) + own_place(axis) + amplitude_panel(name, axis, amplitudes) +
                 period_panel(name, axis) + "unset multiplot\n";
   return figure;

@@ -40,6 +40,13 @@ TEST(CaseJob, BeginsAFileThatIsTheSameCase) {
   }
 }
 
+TEST(CaseJob, TellsWhenTheNoiseRepeats) {
+  const auto table = table_of(
+      "case --set excitation.noise_rms=0.1 --set excitation.noise_lines=980 --set "
+      "excitation.noise_lowest=1 --set excitation.noise_highest=50");
+  EXPECT_EQ(number_told(table, "noise_period"), 20.0);
+}
+
 TEST(CaseJob, WritesOverNobodysWork) {
   const TemporaryFolder folder;
   const std::string file = (folder / "mine.toml").string();

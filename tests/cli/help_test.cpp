@@ -67,6 +67,15 @@ TEST(Help, AWordThatIsNotExpectedIsGuessed) {
   EXPECT_NE(refusal("case mine.toml").find("--check mine.toml"), std::string::npos);
   EXPECT_NE(refusal("simulate --set control.sampling_period=10ms").find("such as 0.01"),
             std::string::npos);
+  EXPECT_NE(refusal("lyap").find("did you mean lyapunov?"), std::string::npos)
+      << "by its beginning";
+  EXPECT_NE(refusal("stabilty").find("did you mean stability?"), std::string::npos);
+}
+
+TEST(Help, IsAskedForInOtherWaysToo) {
+  EXPECT_EQ(run_holdfast("help").output, run_holdfast("--help").output);
+  EXPECT_EQ(run_holdfast("help orbit").output, run_holdfast("orbit --help").output);
+  EXPECT_EQ(run_holdfast("-v").output, run_holdfast("--version").output);
 }
 
 /// What bash offers for the last of some words.

@@ -228,7 +228,9 @@ TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
   const Outcome outcome = run_holdfast("report --set control.sampling_period=0.005 --output '" +
                                        (folder / "mine").string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "Report: " + (folder / "mine/report.html").string() + "\n");
   const std::string page = read_text(folder / "mine/report.html");
+  expect_holds(page, {"<title>A controlled cable: 10 Hz, τ = 5 ms, r₀ = 0.5 mm</title>"});
   EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
   EXPECT_EQ(page.find("The paper and this program"), std::string::npos);
   EXPECT_NE(page.find("How much the sampled switching matters"), std::string::npos);

@@ -32,13 +32,8 @@ not_run=(
 placeholders=(
   'my-cable.toml|data/kollar2022.toml'
 )
-seconds_allowed=120
-
-failures=0
-failed() {
-  printf 'FAILED: %s\n' "$1" >&2
-  failures=$((failures + 1))
-}
+# shellcheck source=tests/docs/pages.sh
+source "$(dirname "$(readlink -f "$0")")/pages.sh"
 
 # Fills kinds, markers, texts and places with the fenced blocks of the page.
 read_blocks() {
@@ -131,33 +126,9 @@ is_output() {
     }' <(printf '%s' "$1") "$2"
 }
 
-write_marked_file() {
-  local name=${markers[$1]#file }
-  if [[ $name == */* || $name == .* ]]; then
-    failed "${places[$1]}: '$name' is not the name of a file in the folder"
-  else
-    printf '%s' "${texts[$1]}" >"$work/$name"
-  fi
-}
-
-change_marked_file() {
-  local name=${markers[$1]#change } line key
-  while IFS= read -r line; do
-    key=${line%% = *}
-    if [[ ! $key =~ ^[a-z_0-9]+$ || $(grep -c "^$key = " "$work/$name") != 1 ]]; then
-      failed "${places[$1]}: '$line' is not the change of one line of $name"
-      continue
-    fi
-    awk -v key="$key = " -v line="$line" 'index($0, key) == 1 { $0 = line } { print }' \
-      "$work/$name" >"$work/$name.new"
-    mv "$work/$name.new" "$work/$name"
-  done < <(printf '%s' "${texts[$1]}")
-}
-
-# Runs one command line; its standard output, without the CR of CSV's line ends, is added to
-# $work.output.
+# Runs one command line; its standard output is added to $work.output.
 run_command() {
-  local place=$1 line=$2 code=0 start=$SECONDS reason
+  local place=$1 line=$2 code start=$SECONDS reason
   if reason=$(reason_not_to_run "$line"); then
     printf 'not run (%s): %s\n' "$reason" "$line"
     passed_over=$((passed_over + 1)) output_known=no
@@ -168,10 +139,8 @@ run_command() {
     output_known=no
     return
   fi
-  (cd "$work" && PATH=$work.bin:$PATH timeout "$seconds_allowed" bash -o pipefail -c "$line") \
-    >"$work.raw" 2>"$work.errors" </dev/null || code=$?
-  tr -d '\r' <"$work.raw" >>"$work.output"
-  if [[ $code == 1 && $without_packages == yes ]] && grep -q 'install the package lib' "$work.errors"; then
+  run_in_work "$line" "$work.output"
+  if [[ $without_packages == yes ]] && asks_for_package; then
     printf 'not run (the build lacks a package): %s\n' "$line"
     passed_over=$((passed_over + 1)) output_known=no
     return
@@ -209,12 +178,7 @@ compare_output() {
 
 check_commands() {
   local entry index
-  rm -rf "$work" "$work.bin"
-  mkdir -p "$work" "$work.bin"
-  ln -s "$program" "$work.bin/holdfast"
-  if [[ -d $source_folder/data ]]; then
-    cp -r "$source_folder/data" "$work/data"
-  fi
+  begin_work "$source_folder"
   for entry in "${placeholders[@]}"; do
     if [[ -f $work/${entry#*|} ]]; then
       cp "$work/${entry#*|}" "$work/${entry%%|*}"
@@ -224,9 +188,9 @@ check_commands() {
   read_blocks
   for index in "${!kinds[@]}"; do
     if [[ ${markers[$index]} == 'file '* ]]; then
-      write_marked_file "$index"
+      write_marked_file "${markers[$index]#file }" "${texts[$index]}" "${places[$index]}"
     elif [[ ${markers[$index]} == 'change '* ]]; then
-      change_marked_file "$index"
+      change_marked_file "${markers[$index]#change }" "${texts[$index]}" "${places[$index]}"
     elif [[ ${kinds[$index]} == sh ]]; then
       run_block "$index"
     elif [[ ${markers[$index]} == output ]]; then

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# drift_test.sh WORK: documentation_test.sh accepts a page that is right and finds each fault of one
-# that is not. A stand-in is the program: it prints its arguments one a line, `fail` exits with 2,
-# `package` asks for a package.
+# drift_test.sh WORK: documentation_test.sh and numbers_test.sh accept a page that is right and find each
+# fault of one that is not. A stand-in is the program: it prints its arguments one a line, `fail` exits
+# with 2, `package` asks for a package.
 # shellcheck disable=SC2016  # the backquotes are those of pages
 set -euo pipefail
 check=$(dirname "$(readlink -f "$0")")/documentation_test.sh
+numbers_check=$(dirname "$(readlink -f "$0")")/numbers_test.sh
 work=$1
 rm -rf "$work"
 mkdir -p "$work/source/examples" "$work/source/docs"
@@ -29,6 +30,9 @@ expect() {
   printf '%s\n' "$4" >"$work/source/page.md"
   if [[ $mode == commands ]]; then
     "$check" commands "$work/source" "$work/scratch" page.md "$work/holdfast" ${5+"$5"} \
+      >"$work/log" 2>&1 || code=$?
+  elif [[ $mode == numbers ]]; then
+    "$numbers_check" "$work/source" "$work/scratch" "$work/holdfast" ${5+"$5"} page.md \
       >"$work/log" 2>&1 || code=$?
   else
     "$check" "$mode" "$work/source" page.md >"$work/log" 2>&1 || code=$?
@@ -98,6 +102,63 @@ expect 1 links 'a picture that is not there' '![a](missing.svg)'
 expect 1 links 'a heading that is not there' '[a](docs/other.md#another)'
 expect 1 links 'a section that is not there' '[a](docs/other.md), section 3'
 expect 1 links 'a reference that leads nowhere' '[a]: missing.md'
+
+# numbers WHAT LINE: LINE is wrong of the paragraph and the table below; right_numbers: it is right.
+paragraph="# A heading
+About 72 % of it, −3.5 mm
+or 1.8·10⁻¹¹, after 14 700 samples and four periods, half of it; P = k2 − 5 N, of 10⁻³ m².
+$(block text 'but 99 in code')"
+table="holdfast name,x,y one,72.4,-0.00346 '\"two, or so\",1.84e-11,14700' three,4,none four,4,0.001"
+numbers() { expect 1 numbers "$1" "$(guarded "$paragraph" "$table" "$2")"; }
+right_numbers() { expect 0 numbers "$1" "$(guarded "$paragraph" "$table" "$2")"; }
+guarded() { printf '%s\n\n<!-- numbers\n%s\n%s-->\n' "$1" "$2" "${3:+$3$'\n'}"; }
+expect 0 numbers 'a page without numbers' "$paragraph"
+right_numbers 'a number' '"About 72 %" = x'
+numbers 'a number that differs by more than half a unit' '"About 72 %" = 1.01 * x'
+right_numbers 'a number within what is allowed' '"About 72 %" = 1.01 * x within 2'
+numbers 'a number outside of what is allowed' '"About 72 %" = 1.05 * x within 2'
+right_numbers 'a bound' '"72 %" < x'
+numbers 'a bound that is passed' '"72 %" > x'
+numbers 'a text that does not stand there' '"about 73 %" = x'
+numbers 'a text that stands in code alone' '"99 in code" = 99'
+right_numbers 'a minus sign, a text over two lines, a factor' '"−3.5 mm or" = 1000 * y[name=one]'
+numbers 'another sign' '"−3.5 mm" = 1000 * -1 * y[name=one]'
+right_numbers 'a power of ten, a quoted field' $'"1.8·10⁻¹¹" = x[y=14700]\n"{10⁻³} m²" = y[name=four]'
+numbers 'another exponent' '"1.8·10⁻¹¹" = 10 * x[y=14700]'
+right_numbers 'a number in braces, a thousands blank, a word' \
+  $'"1.8·10⁻¹¹, after {14 700}" = y[x=1.84e-11]\n"and four periods" = x[name=four]'
+numbers 'the number in braces is another' '"{1.8·10⁻¹¹}, after 14 700" = y[x=1.84e-11]'
+right_numbers 'no number is the 2 of k2' '"P = k2 − 5 N" = 9 - x[name=four]'
+right_numbers 'sums, products, quotients' '"72 %" = 2 * x[name=three] * 10 - 40 / x[name=four] + 2'
+right_numbers 'two columns that choose, two rows that are chosen' \
+  $'"four" = x[x=4,name=three]\n"four" = x[x=4]\n"{5} N" > x[x=4]'
+numbers 'one of two rows is another' '"four" = x[name=three] * 1000 * y[x=4]'
+numbers 'a column that is missing' '"About 72 %" = z'
+numbers 'a column that chooses and is missing' '"About 72 %" = x[z=1]'
+numbers 'a row that is missing' '"About 72 %" = x[name=five]'
+numbers 'a value that is no number' '"four" = y[name=three]'
+right_numbers 'a word for a fraction, within what is allowed' '"{half}" = 0.1 * x[name=three] + 0.13 within 0.05'
+numbers 'a word for a fraction is exact' '"{half}" = 0.1 * x[name=three] + 0.13'
+numbers 'a text without a number' '"of it" = x'
+numbers 'a value that is not understood' '"About 72 %" = x ^ 2'
+numbers 'a division by zero' '"About 72 %" = x / 0'
+numbers 'a line that is not understood' 'About 72 % = x'
+expect 1 numbers 'a text above the last heading' "$(guarded "$paragraph
+## Another" "$table" '"About 72 %" = x')"
+expect 1 numbers 'a table without a row' "$(guarded "$paragraph" 'holdfast name,x' '"About 72 %" = x')"
+expect 1 numbers 'a number without a command' "$(guarded "$paragraph" '"About 72 %" = 72' '')"
+expect 1 numbers 'a command for numbers that fails' "$(guarded "$paragraph" 'holdfast fail' '"About 72 %" = x')"
+expect 1 numbers 'a command that asks for a package' \
+  "$(guarded "$paragraph" 'holdfast package' '"About 72 %" = x')"
+expect 0 numbers 'the same, of a build without it' \
+  "$(guarded "$paragraph" 'holdfast package' '"About 72 %" = x')" --without-packages
+expect 1 numbers 'numbers without an end' $'text\n<!-- numbers\nholdfast a'
+expect 0 numbers 'a file, a change of it' "$(printf '%s\n' "<!-- file my.csv -->" "$(block toml $'x\nx = 1')")
+$(guarded "# A" 'holdfast show my.csv | sed "s/x = //"' '')
+Now 1.
+$(guarded '' 'holdfast show my.csv | sed "s/x = //"' '"Now 1" = x')
+$(printf '%s\n' "<!-- change my.csv -->" "$(block toml 'x = 3')")
+$(guarded 'Then 3.' 'holdfast show my.csv | sed "s/x = //"' '"Then 3" = x')"
 
 expect 1 nonsense 'an unknown mode' 'text'
 exit $((failures > 0))

@@ -345,6 +345,28 @@ TEST(CaseFile, UnknownNamesGetTheNearestKnownOne) {
   EXPECT_TRUE(holds(override_refusal("control.width=1"), "did you mean backlash.width"));
 }
 
+TEST(CaseFile, SymbolsAndOtherWordsNameTheirKeys) {
+  for (const auto& [word, key] :
+       std::vector<std::pair<std::string, std::string>>{{"tau", "control.sampling_period"},
+                                                        {"control.D", "control.differential_gain"},
+                                                        {"r0", "backlash.width"},
+                                                        {"m1", "plant.conductor_mass"},
+                                                        {"plant.k2", "plant.absorber_stiffness"},
+                                                        {"f", "excitation.frequency"}})
+    EXPECT_TRUE(holds(override_refusal(word + "=1"), "did you mean " + key + " (")) << word;
+  EXPECT_TRUE(holds(override_refusal("conductor.tension=28e3"), "conductor.sag = "));
+}
+
+TEST(CaseFile, WhatIsWrongWithANumberIsGuessed) {
+  EXPECT_TRUE(holds(refusal("[backlash]\nwidth = 0,002\n"), "case.toml:2: "));
+  EXPECT_TRUE(holds(refusal("[backlash]\nwidth = 0,002\n"), "a decimal point, not a comma"));
+  EXPECT_TRUE(holds(override_refusal("backlash.width=0,002"), "a decimal point, not a comma"));
+  EXPECT_TRUE(holds(refusal("[backlash]\nwidth = 2 mm  # play\n"), "a number stands alone"));
+  EXPECT_TRUE(holds(override_refusal("backlash.width=2 mm"), "a number stands alone"));
+  EXPECT_FALSE(holds(refusal("[backlash]\nwidth = \n"), "a number stands alone"));
+  EXPECT_FALSE(holds(refusal("[backlash]\nlaw = [1,2\n"), "comma"));
+}
+
 TEST(CaseFile, TheFirstMistakeInTheFileIsTheOneReported) {
   EXPECT_TRUE(holds(refusal("[initial]\nz1 = \"a\"\n[control]\nsampling_period = -1\n"), ":2: "));
 }
