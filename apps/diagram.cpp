@@ -3,6 +3,7 @@
 
 #include "axis.hpp"
 #include "case_keys.hpp"
+#include "errors.hpp"
 #include "exit.hpp"
 #include "holdfast/attractor/orbit_diagram.hpp"
 #include "interrupt.hpp"
@@ -20,10 +21,21 @@ struct Options {
   Switching switching = Switching::sampled;
 };
 
+std::vector<double> values_of(const Axis& axis, const std::string& text) {
+  constexpr std::int64_t most_values = 1'000'000;
+  if (axis.count > most_values)
+    throw WrongInput("--axis " + text + ": at most " + std::to_string(most_values) +
+                     " values make a diagram");
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(axis.count));
+  for (std::int64_t k = 0; k < axis.count; ++k) values.push_back(axis.at(k));
+  return values;
+}
+
 void run(const JobContext& context, const Options& options) {
   const auto [key, axis] = parse_key_axis("--axis", options.axis);
-  std::vector<double> values;
-  for (std::int64_t k = 0; k < axis.count; ++k) values.push_back(axis.at(k));
+  case_value(context.case_data, key);  // throws where there is no such number
+  const std::vector<double> values = values_of(axis, options.axis);
   Table table(context, {{key, "", "the key's value"},
                         {"upward", "", "1: on the way up, 0: on the way back", "integer"},
                         {"z1_m", "m", "displacement of the conductor at a whole forcing period"},

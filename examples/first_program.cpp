@@ -1,6 +1,11 @@
 #include <cstdio>
 
-#include "holdfast/holdfast.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/stability/characteristic_polynomial.hpp"
+#include "holdfast/stability/response.hpp"
+#include "holdfast/stability/stable_intervals.hpp"
 
 int main() {
   using namespace holdfast;
@@ -11,6 +16,10 @@ int main() {
       tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
 
   const auto stable = stable_differential_gains(characteristic_polynomial(loop), p);
+  if (stable.empty()) {
+    std::puts("no D is stable");
+    return 1;
+  }
   const SteadyResponse<double> response(loop, held_harmonic(loop), omega);
   const PdGains<double> gains{p, -13.0};
 

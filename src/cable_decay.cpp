@@ -7,6 +7,7 @@
 
 #ifdef HOLDFAST_HAS_SUNDIALS
 #include "holdfast/cable/condensed_cable.hpp"
+#include "holdfast/cable/modes.hpp"
 #include "holdfast/sundials/load_removal.hpp"
 #endif
 
@@ -21,6 +22,19 @@ CableDecayQuestion usual_decay(const Case& the_case) {
 #ifdef HOLDFAST_HAS_SUNDIALS
 
 namespace {
+
+/// Refuses a decay of so many periods of the cable that it would take for ever, as when the
+/// frequencies of the reduction are not those of the cable at all.
+void require_followable(const Case& the_case, const CableDecayQuestion& question) {
+  constexpr double most_periods = 1e5;
+  const double lowest = irvine_modes(conductor_of(the_case), 1).front().frequency;
+  const double periods = question.duration * lowest;
+  if (periods <= most_periods) return;
+  throw NoAnswer("a decay over " + format_rounded(question.duration) + " s has " +
+                 format_rounded(periods) + " periods of the cable (" + format_rounded(lowest) +
+                 " Hz), more than are followed; its length is given, or six periods of "
+                 "reduction.first_frequency");
+}
 
 template <class Cable>
 CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
@@ -50,11 +64,13 @@ void require_sundials() {}
 
 CableDecay cable_decay(const Case& the_case, const CableDecayQuestion& question) {
   require_force_within_statics(the_case, question.force);
+  require_followable(the_case, question);
   return decay_of(elements_of(the_case, question.elements, question.reading), question);
 }
 
 CableDecay condensed_decay(const Case& the_case, const CableDecayQuestion& question) {
   require_force_within_statics(the_case, question.force);
+  require_followable(the_case, question);
   const CondensedCable<8> cable(conductor_of(the_case), the_case.absorber.position,
                                 the_case.absorber.mass, rayleigh_damping_of(the_case));
   return decay_of(cable, question);

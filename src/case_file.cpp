@@ -313,8 +313,8 @@ void CaseReader::set_word(const CaseKey& key, const toml::node& node, const std:
 
 void CaseReader::set_file(const CaseKey& key, const toml::node& node, const std::string& place) {
   const auto name = node.value_exact<std::string>();
-  // The system's names of files end at a zero.
-  const bool is_name = name && name->find('\0') == std::string::npos;
+  // The system's names of files end at a zero, and a case file is UTF-8.
+  const bool is_name = name && name->find('\0') == std::string::npos && is_utf8(*name);
   if (!is_name) throw WrongInput(place + ": must be " + key.admissible());
   *key.file(case_) = name->empty() ? "" : (folder_ / *name).string();
 }

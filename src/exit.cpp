@@ -54,7 +54,8 @@ std::string message_of(const std::exception_ptr& fault) {
 }  // namespace
 
 void report_error(const std::string& message) {
-  const std::string line = "holdfast: " + one_line(message) + "\n";
+  constexpr std::size_t longest = 1500;
+  const std::string line = "holdfast: " + shortened(one_line(message), longest) + "\n";
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
 }

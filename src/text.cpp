@@ -9,6 +9,36 @@
 namespace holdfast::program {
 namespace {
 
+/// Whether the byte is not the first of a character of UTF-8.
+bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
+/// Code points that UTF-8 writes with so many bytes begin here; below is an overlong form.
+constexpr std::array<unsigned, 5> least_code_point = {0, 0, 0x80, 0x800, 0x10000};
+
+/// Bytes that a first byte announces; 0: it is none.
+std::size_t announced_length(unsigned char first) {
+  if (first < 0x80U) return 1;
+  if ((first & 0xE0U) == 0xC0U) return 2;
+  if ((first & 0xF0U) == 0xE0U) return 3;
+  return (first & 0xF8U) == 0xF0U ? 4 : 0;
+}
+
+/// Bytes of the first character of a text that is not empty; 0 where it is not UTF-8.
+std::size_t length_of_character(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = announced_length(first);
+  if (length <= 1) return length;
+  if (text.size() < length) return 0;
+  unsigned code_point = first & (0xFFU >> (length + 1));
+  for (std::size_t k = 1; k < length; ++k) {
+    if (!is_continuation(text[k])) return 0;
+    code_point = code_point << 6U | (static_cast<unsigned char>(text[k]) & 0x3FU);
+  }
+  const bool surrogate = code_point >= 0xD800U && code_point <= 0xDFFFU;
+  const bool admissible = code_point >= least_code_point[length] && code_point <= 0x10FFFFU;
+  return admissible && !surrogate ? length : 0;
+}
+
 bool is_control(char character) {
   const auto code = static_cast<unsigned char>(character);
   return code < 0x20 || code == 0x7f;
@@ -28,6 +58,23 @@ std::string one_line(std::string_view text) {
     in_run = control;
   }
   return std::string(trimmed(line));
+}
+
+std::string shortened(std::string text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && is_continuation(text[end])) --end;
+  text.resize(end);
+  return text + "...";
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = length_of_character(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 std::string_view trimmed(std::string_view text) {

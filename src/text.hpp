@@ -10,6 +10,12 @@ namespace holdfast::program {
 /// The text on one line: every run of line ends and other control characters becomes one space.
 std::string one_line(std::string_view text);
 
+/// The text, or its beginning of so many bytes at most and "...". No character is cut apart.
+std::string shortened(std::string text, std::size_t longest);
+
+/// Whether the bytes are UTF-8 (RFC 3629).
+bool is_utf8(std::string_view text);
+
 /// The text without blanks at its two ends.
 std::string_view trimmed(std::string_view text);
 

@@ -67,6 +67,9 @@ class ReportWriter {
     } catch (const NoAnswer& reason) {
       drawn.reason = reason.what();
       return drawn;
+    } catch (const WrongInput& reason) {  // of the case, as a record that ends too soon
+      drawn.reason = reason.what();
+      return drawn;
     }
     return with_picture(std::move(drawn));
   }

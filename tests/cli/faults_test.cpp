@@ -147,5 +147,41 @@ TEST(Help, ListsJobsAndUnits) {
   EXPECT_NE(run_holdfast("--version").output.find(HOLDFAST_VERSION), std::string::npos);
 }
 
+TEST(Faults, AHugeRequestIsRefusedBeforeItIsMade) {
+  const auto refusal = [](const std::string& arguments, int exit_code) {
+    const Outcome outcome = run_holdfast(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments << "\n" << outcome.errors;
+    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+    return outcome.errors;
+  };
+  EXPECT_NE(refusal("diagram --axis nosuch.key=0:1:1000000000", 2).find("unknown key"),
+            std::string::npos);
+  EXPECT_NE(refusal("diagram --axis backlash.width=0:0.003:1000000000", 2).find("at most 1000000"),
+            std::string::npos);
+  if (!both_packages) return;
+  EXPECT_NE(
+      refusal("margins --set reduction.first_frequency=3.68e-10", 1).find("periods of the cable"),
+      std::string::npos);
+}
+
+TEST(Faults, ALongMessageIsCut) {
+  const Outcome outcome = run_holdfast("margins --set " + std::string(100000, 'x') + "=1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_LT(outcome.errors.size(), 2000U);
+}
+
+TEST(Report, OfAShortRecordShowsWhatItReachesAndSaysWhyNotTheRest) {
+  const TemporaryFolder folder;
+  const std::string record = (folder / "short.csv").string();
+  write_text(record, "time_s,force_N\n0,0\n0.2,0.3\n0.45,0\n");
+  const Outcome outcome = run_holdfast("report --set excitation.record=" + record + " --output '" +
+                                       (folder / "mine").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string page = read_text(folder / "mine/report.html");
+  EXPECT_NE(page.find("No picture: "), std::string::npos);
+  EXPECT_NE(page.find("ends at"), std::string::npos);
+  EXPECT_NE(page.find("id=\"stability\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace holdfast::tests

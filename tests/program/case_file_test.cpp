@@ -345,6 +345,12 @@ TEST(CaseFile, UnknownNamesGetTheNearestKnownOne) {
   EXPECT_TRUE(holds(override_refusal("control.width=1"), "did you mean backlash.width"));
 }
 
+TEST(CaseFile, TheNameOfAFileMustBeOneThatACaseCanHold) {
+  EXPECT_TRUE(holds(override_refusal("excitation.record=r\xEA.csv"), "must be the name of a file"));
+  EXPECT_EQ(load_case(std::nullopt, {"excitation.record=r\xC3\xA9.csv"}).excitation.record,
+            "r\xC3\xA9.csv");
+}
+
 TEST(CaseFile, SymbolsAndOtherWordsNameTheirKeys) {
   for (const auto& [word, key] :
        std::vector<std::pair<std::string, std::string>>{{"tau", "control.sampling_period"},

@@ -80,6 +80,21 @@ TEST(Text, SplitKeepsEmptyParts) {
   EXPECT_EQ(split("", ':').size(), 1u);
 }
 
+TEST(Text, Utf8IsToldFromOtherBytes) {
+  for (const char* good : {"", "abc", "\xC3\xA9", "\xE2\x82\xAC", "\xF0\x9F\x99\x82", "\x7F"})
+    EXPECT_TRUE(is_utf8(good)) << good;
+  for (const char* bad : {"r\xEA.csv", "\xC3", "\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80",
+                          "\xF4\x90\x80\x80", "\xFF", "a\xE2\x82"})
+    EXPECT_FALSE(is_utf8(bad)) << bad;
+}
+
+TEST(Text, ALongTextIsCutBetweenCharacters) {
+  EXPECT_EQ(shortened("abc", 3), "abc");
+  EXPECT_EQ(shortened("abcd", 3), "abc...");
+  EXPECT_EQ(shortened("ab\xC3\xA9", 3), "ab...");
+  EXPECT_EQ(shortened("\xC3\xA9x", 2), "\xC3\xA9...");
+}
+
 TEST(FormatRounded, GivesFiveDigitsAtMost) {
   EXPECT_EQ(format_rounded(0.6000000000000001), "0.6");
   EXPECT_EQ(format_rounded(1354.087523), "1354.1");
