@@ -1,4 +1,6 @@
+#include "cable_of_case.hpp"
 #include "cable_options.hpp"
+#include "exit.hpp"
 #include "table.hpp"
 
 namespace holdfast::program {
@@ -10,6 +12,7 @@ struct Options {
 };
 
 void run(const JobContext& context, const Options& options) {
+  report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   Table table(context,
               {{"time_s", "s", "since the force was removed"},
                {"elements_m", "m", "displacement of the absorber's place, continuous cable"},

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cable_of_case.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
 #include "input.hpp"
@@ -28,12 +27,6 @@ std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& o
     for (const std::string& text : option->results()) given.emplace_back(name, text);
   }
   return given;
-}
-
-/// Whether the job's answer is about the case's cable, whatever it is asked; a fit may have a
-/// record.
-bool is_about_cable(const CLI::App& job) {
-  return job.get_group() == question::cable && job.get_name() != "fit";
 }
 
 }  // namespace
@@ -105,8 +98,6 @@ JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_f
   context.case_data = source.load();
   source.attach_record(context.case_data);
   report_warning(wind_warning(context.case_data), common_->quiet);
-  if (is_about_cable(*options_))
-    report_warning(borrowed_cable_warning(context.case_data), common_->quiet);
   if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
   context.options = given_options(*options_);
   if (common_->output) context.output = *common_->output;

@@ -31,6 +31,7 @@ void run(const JobContext& context, const Options& options) {
     throw WrongInput("--elements = " + std::to_string(options.elements) + ": with --count = " +
                      std::to_string(options.count) + ", admissible is an even number from " +
                      std::to_string(4 * options.count) + " on");
+  report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   report_warning(deep_cable_warning(context.case_data), context.quiet);
   const Conductor<double> conductor = conductor_of(context.case_data);
   const auto irvine = irvine_modes(conductor, options.count);

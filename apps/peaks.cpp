@@ -1,7 +1,9 @@
 #include <cmath>
 
 #include "axis.hpp"
+#include "cable_of_case.hpp"
 #include "cable_options.hpp"
+#include "exit.hpp"
 #include "progress.hpp"
 #include "table.hpp"
 
@@ -14,6 +16,7 @@ struct Options {
 };
 
 void run(const JobContext& context, const Options& options) {
+  report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   const Axis forces = parse_axis("--force", options.force);
   const double duration = 2.0 / context.case_data.reduction.first_frequency;
   Table table(

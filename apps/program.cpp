@@ -74,26 +74,27 @@ void add_jobs(CLI::App& program) {
   add_texts(program);
 }
 
+std::vector<std::string> job_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* job : program.get_subcommands(nullptr)) names.push_back(job->get_name());
+  return names;
+}
+
 /// The job whose name begins with the word, else the one whose name is most like it.
-std::string nearest_job(const CLI::App& program, const std::string& word) {
-  std::string nearest;
-  for (const CLI::App* job : program.get_subcommands(nullptr)) {
-    const std::string& name = job->get_name();
-    if (name.rfind(word, 0) == 0) return name;
-    if (nearest.empty() || edit_distance(name, word) < edit_distance(nearest, word)) nearest = name;
-  }
-  return nearest;
+std::string nearest_job(const std::vector<std::string>& jobs, const std::string& word) {
+  const auto begun = std::find_if(
+      jobs.begin(), jobs.end(), [&](const std::string& name) { return name.rfind(word, 0) == 0; });
+  return begun != jobs.end() ? *begun : nearest_name(jobs, word);
 }
 
 /// The first word is the job; CLI11 would only say that something was not expected.
 void check_job_name(const CLI::App& program, const std::vector<std::string>& arguments) {
   if (arguments.empty()) throw WrongInput("which job? holdfast --help lists them");
   const std::string& word = arguments.front();
-  const auto jobs = program.get_subcommands(nullptr);
-  const bool is_job = std::any_of(jobs.begin(), jobs.end(),
-                                  [&](const CLI::App* job) { return job->get_name() == word; });
+  const std::vector<std::string> jobs = job_names(program);
+  const bool is_job = std::find(jobs.begin(), jobs.end(), word) != jobs.end();
   if (is_job || word.rfind('-', 0) == 0) return;
-  throw WrongInput("unknown job " + word + "; did you mean " + nearest_job(program, word) +
+  throw WrongInput("unknown job " + word + "; did you mean " + nearest_job(jobs, word) +
                    "? (holdfast --help lists the jobs)");
 }
 
@@ -106,12 +107,9 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> arguments)
 }
 
 std::string nearest_option(const CLI::App& job, const std::string& word) {
-  std::string nearest;
-  for (const CLI::Option* option : job.get_options()) {
-    const std::string name = option->get_name();
-    if (nearest.empty() || edit_distance(name, word) < edit_distance(nearest, word)) nearest = name;
-  }
-  return nearest;
+  std::vector<std::string> names;
+  for (const CLI::Option* option : job.get_options()) names.push_back(option->get_name());
+  return nearest_name(names, word);
 }
 
 /// What was probably meant by the first word of a command line that its job does not expect.
@@ -132,7 +130,7 @@ std::string unexpected_text(const CLI::App& job) {
 void do_job(const std::vector<std::string>& arguments) {
   const std::vector<std::string> words = with_help_as_option(arguments);
   CLI::App program("holdfast: suspended cables under digital vibration control", "holdfast");
-  program.set_version_flag("-v,--version", version_text());
+  program.set_version_flag("-v,--version", version_text);
   program.formatter(std::make_shared<ExamplesFirst>());
   program.require_subcommand(1);
   program.get_formatter()->column_width(20);

@@ -26,6 +26,7 @@ std::optional<AbsorberDampingFit> fitted_damping(const JobContext& context) {
 }
 
 void run(const JobContext& context) {
+  report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   report_warning(deep_cable_warning(context.case_data), context.quiet);
   Table table(context, {{"quantity", "", "key of the case file, or what else it is", "string"},
                         {"symbol", "", "in the equations", "string"},

@@ -24,6 +24,7 @@ double elements_displacement(const CableElements& cable, double force) {
 
 void run(const JobContext& context, const Options& options) {
   const Case& the_case = context.case_data;
+  report_warning(borrowed_cable_warning(the_case), context.quiet);
   report_warning(deep_cable_warning(the_case), context.quiet);
   const Axis forces = parse_axis("--force", options.force);
   for (const double end : {forces.at(0), forces.at(forces.count - 1)})

@@ -52,10 +52,8 @@ std::string toml_text(const toml::node& node) {
 }
 
 std::string value_text(const toml::node& node) {
-  std::string text = toml_text(node);
   constexpr std::size_t longest = 60;
-  if (text.size() > longest) text = text.substr(0, longest) + "...";
-  return text;
+  return shortened(toml_text(node), longest);
 }
 
 bool is_bare_word(std::string_view text) {
@@ -121,7 +119,7 @@ bool is_word_of(const CaseKey& key, const std::string& word) {
 std::string suggested_word(const CaseKey& key, const toml::node& node) {
   const auto word = node.value_exact<std::string>();
   if (!word || key.words.empty()) return "";
-  return "; did you mean \"" + nearest_word(key, *word) + "\"?";
+  return "; did you mean \"" + nearest_name(key.words, *word) + "\"?";
 }
 
 /// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.

@@ -167,19 +167,9 @@ const CaseKey& nearest_case_key(std::string_view name) {
 }
 
 std::string nearest_case_table(std::string_view name) {
-  const Keys& keys = case_keys();
-  return std::min_element(keys.begin(), keys.end(),
-                          [&](const CaseKey& a, const CaseKey& b) {
-                            return edit_distance(name, a.table()) < edit_distance(name, b.table());
-                          })
-      ->table();
-}
-
-const std::string& nearest_word(const CaseKey& key, std::string_view word) {
-  return *std::min_element(key.words.begin(), key.words.end(),
-                           [&](const std::string& a, const std::string& b) {
-                             return edit_distance(word, a) < edit_distance(word, b);
-                           });
+  std::vector<std::string> tables;
+  for (const CaseKey& key : case_keys()) tables.push_back(key.table());
+  return nearest_name(tables, name);
 }
 
 void require_in_force(const Case& the_case, const CaseKey& key) {

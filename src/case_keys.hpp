@@ -68,9 +68,6 @@ const CaseKey* find_case_key(std::string_view name);
 const CaseKey& nearest_case_key(std::string_view name);
 std::string nearest_case_table(std::string_view name);
 
-/// The admissible word closest to one that is not. The key must have words.
-const std::string& nearest_word(const CaseKey& key, std::string_view word);
-
 /// Throws WrongInput for a key of [wind] and a case without it, and for one that [wind] stands in
 /// place of.
 void require_in_force(const Case& the_case, const CaseKey& key);

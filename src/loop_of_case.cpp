@@ -1,5 +1,7 @@
 #include "loop_of_case.hpp"
 
+#include <limits>
+
 #include "case_keys.hpp"
 #include "errors.hpp"
 #include "holdfast/motion/band_limited_noise.hpp"
@@ -93,12 +95,16 @@ ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key
   return forced_loop_of(case_with(the_case, key, value));
 }
 
+double end_of_force(const Case& the_case) {
+  return the_case.force_record ? the_case.force_record->last_time()
+                               : std::numeric_limits<double>::infinity();
+}
+
 std::int64_t samples_of(const Case& the_case, double duration) {
-  const auto& record = the_case.force_record;
-  if (record != nullptr && duration > record->last_time()) {
+  const double end = end_of_force(the_case);
+  if (duration > end) {
     throw WrongInput("the motion lasts " + format_number(duration) +
-                     " s, but the force in excitation.record ends at " +
-                     format_number(record->last_time()) + " s");
+                     " s, but the force in excitation.record ends at " + format_number(end) + " s");
   }
   return samples_within(duration, the_case.control.sampling_period);
 }

@@ -39,6 +39,9 @@ ForcedLoop<double> uncontrolled(ForcedLoop<double> loop);
 /// samples, the paper's backlash or none, one harmonic, an ideal computer.
 bool is_of_the_paper(const Case& the_case, Switching switching);
 
+/// Seconds that the case's force lasts: to the last row of its record; infinite without one.
+double end_of_force(const Case& the_case);
+
 /// Number of samples of a motion of the case at t = 0, τ, … up to the last one not after
 /// `duration`, s. Throws WrongInput where the recorded force of the case ends before.
 std::int64_t samples_of(const Case& the_case, double duration);

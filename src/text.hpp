@@ -35,4 +35,7 @@ std::optional<double> parse_number(std::string_view text);
 /// turn one text into the other.
 std::size_t edit_distance(std::string_view from, std::string_view to);
 
+/// The first of the names that are fewest edits away from the word; there must be one.
+std::string nearest_name(const std::vector<std::string>& names, std::string_view word);
+
 }  // namespace holdfast::program

@@ -28,10 +28,7 @@ namespace {
 constexpr const char* width_key = "backlash.width";
 
 /// Seconds of a motion: 20, or as long as the case's force lasts.
-double duration_of(const Case& the_case) {
-  const double longest = the_case.force_record ? the_case.force_record->last_time() : 20.0;
-  return std::min(20.0, longest);
-}
+double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
 
 std::string millimetres(double length) { return rounded(1e3 * length, 3) + " mm"; }
 std::string milliseconds(double time) { return rounded(1e3 * time, 3) + " ms"; }
@@ -53,20 +50,24 @@ struct Vibration {
   bool is_reduced() const { return controlled < free; }
 };
 
-std::vector<Vibration> vibrations_of(const std::vector<Case>& cases,
+/// Largest |z₁| (m) of the steady motion without control.
+double free_vibration(const Case& the_case) {
+  const double duration = duration_of(the_case);
+  const CellMotion motion = cell_motion(the_case, Switching::sampled, duration);
+  return metrics_of({without_control(motion)}, duration).front().steady_peak;
+}
+
+/// @param free  free_vibration() of each of them
+std::vector<Vibration> vibrations_of(const std::vector<Case>& cases, double free,
                                      Switching switching = Switching::sampled) {
   const double duration = duration_of(cases.front());
-  std::vector<CellMotion> motions, free;
+  std::vector<CellMotion> motions;
   motions.reserve(cases.size());
   for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
-  free.push_back(without_control(motions.front()));
-  const std::vector<MotionMetrics> with = metrics_of(motions, duration);
-  const double without = metrics_of(free, duration).front().steady_peak;
   std::vector<Vibration> vibrations;
-  vibrations.reserve(with.size());
-  for (const MotionMetrics& metrics : with)
-    vibrations.push_back(
-        {metrics.steady_peak, without, metrics.engaged_fraction, metrics.force_peak});
+  vibrations.reserve(cases.size());
+  for (const MotionMetrics& metrics : metrics_of(motions, duration))
+    vibrations.push_back({metrics.steady_peak, free, metrics.engaged_fraction, metrics.force_peak});
   return vibrations;
 }
 
@@ -94,9 +95,9 @@ std::string force_text(const Vibration& vibration) {
 }
 
 /// What is left where the drive switches when it happens and not at samples.
-std::string exact_switching_text(const Case& the_case) {
+std::string exact_switching_text(const Case& the_case, double free) {
   if (!(the_case.backlash.width > 0.0)) return "";
-  const Vibration exact = vibrations_of({the_case}, Switching::exact).front();
+  const Vibration exact = vibrations_of({the_case}, free, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
   return " A drive that enters and leaves its play when it happens, not at samples, leaves " +
          percent(exact.ratio()) + ".";
@@ -128,7 +129,7 @@ Answer does_it_help(const Case& the_case, const Vibration& vibration) {
     answer.answer = "No: with these gains the motion grows without end.";
   } else {
     answer.answer = help_text(vibration) + instability_text(the_case);
-    answer.detail += force_text(vibration) + exact_switching_text(the_case);
+    answer.detail += force_text(vibration) + exact_switching_text(the_case, vibration.free);
   }
   answer.detail += borrowed_text(the_case);
   return answer;
@@ -166,16 +167,17 @@ std::string gain_of_case_text(const Case& the_case) {
 }
 
 /// What a gain leaves with the play that the case has.
-std::string in_play_text(const Case& the_case, double differential_gain) {
+std::string in_play_text(const Case& the_case, double differential_gain, double free) {
   if (!(the_case.backlash.width > 0.0)) return "";
   const Vibration vibration =
-      vibrations_of({case_with(the_case, "control.differential_gain", differential_gain)}).front();
+      vibrations_of({case_with(the_case, "control.differential_gain", differential_gain)}, free)
+          .front();
   if (!std::isfinite(vibration.ratio())) return "";
   return " With the case's play of " + millimetres(the_case.backlash.width) + " it leaves " +
          percent(vibration.ratio()) + "." + force_text(vibration);
 }
 
-Answer which_gain(const Case& the_case) {
+Answer which_gain(const Case& the_case, double free) {
   const ForcedLoop<double> loop = forced_loop_of(the_case);
   const double duration = duration_of(the_case);
   const LeastAmplitude best = BestGains(duration).of(loop);
@@ -194,7 +196,7 @@ Answer which_gain(const Case& the_case) {
     answer.detail = "Of the gains that let the motion settle in " + rounded(0.5 * duration, 3) +
                     " s the one of least steady amplitude. " +
                     margins_text(the_case, {loop.gains.proportional, best.differential_gain}) +
-                    in_play_text(the_case, best.differential_gain);
+                    in_play_text(the_case, best.differential_gain, free);
   }
   answer.detail += gain_of_case_text(the_case);
   return answer;
@@ -250,8 +252,9 @@ std::vector<Case> with_widths(const Case& the_case, const std::vector<double>& w
 }
 
 /// The first of ascending widths with which control does not reduce the vibration.
-std::optional<std::size_t> first_too_wide(const Case& the_case, const std::vector<double>& widths) {
-  const std::vector<Vibration> vibrations = vibrations_of(with_widths(the_case, widths));
+std::optional<std::size_t> first_too_wide(const Case& the_case, const std::vector<double>& widths,
+                                          double free) {
+  const std::vector<Vibration> vibrations = vibrations_of(with_widths(the_case, widths), free);
   for (std::size_t k = 0; k < widths.size(); ++k)
     if (!vibrations[k].is_reduced()) return k;
   return std::nullopt;
@@ -288,7 +291,7 @@ Answer how_much_play(const Case& the_case, const Vibration& vibration) {
     answer.answer = "Nothing vibrates: any.";
     return answer;
   }
-  const auto coarse = first_too_wide(the_case, evenly(0.0, widest, parts));
+  const auto coarse = first_too_wide(the_case, evenly(0.0, widest, parts), vibration.free);
   const std::string own = "; the case has " + millimetres(the_case.backlash.width) + ".";
   if (!coarse) {
     answer.answer = "Every play up to " + millimetres(widest) + " that was tried serves" + own;
@@ -297,7 +300,8 @@ Answer how_much_play(const Case& the_case, const Vibration& vibration) {
   } else {
     const double begin = step * static_cast<double>(*coarse - 1);
     const auto widths = evenly(begin, begin + step, finer_parts);
-    const std::size_t first = first_too_wide(the_case, widths).value_or(widths.size() - 1);
+    const std::size_t first =
+        first_too_wide(the_case, widths, vibration.free).value_or(widths.size() - 1);
     answer.answer =
         "Up to " + millimetres(widths[first > 0 ? first - 1 : 0]) + " it still helps" + own;
   }
@@ -314,9 +318,9 @@ Answer what_motion(const Case& the_case) {
 }  // namespace
 
 std::vector<Answer> answers_of(const Case& the_case) {
-  const Vibration vibration = vibrations_of({the_case}).front();
-  std::vector<Answer> answers = {does_it_help(the_case, vibration), which_gain(the_case),
-                                 how_slow(the_case)};
+  const Vibration vibration = vibrations_of({the_case}, free_vibration(the_case)).front();
+  std::vector<Answer> answers = {does_it_help(the_case, vibration),
+                                 which_gain(the_case, vibration.free), how_slow(the_case)};
   throw_if_interrupted();
   answers.push_back(how_much_play(the_case, vibration));
   answers.push_back(what_motion(the_case));

@@ -38,11 +38,6 @@ LengthUnit length_unit_for(double length) {
   return length > 0.0 ? length_units.back() : length_units.front();  // the latter: nothing moves
 }
 
-LengthUnit length_unit_named(const std::string& name) {
-  return *std::find_if(length_units.begin(), length_units.end(),
-                       [&](const LengthUnit& unit) { return unit.name == name; });
-}
-
 std::vector<std::string> loop_settings(const std::string& sampling_period,
                                        const std::string& backlash_width) {
   return {"--set", "control.sampling_period=" + sampling_period, "--set",
@@ -194,36 +189,16 @@ Figure kick_figure(const std::string& name, const std::string& title, const std:
 }
 
 Figure contact_figure(const std::string& name, const std::string& title, const std::string& caption,
-                      const std::string& from, const std::string& to,
+                      const std::string& from, const std::string& to, const ContactScale& scale,
                       const std::vector<std::string>& settings) {
   Figure figure{name, title, caption, {}, "", 320.0};
   figure.tables = {{name, joined({"simulate", "--duration", to, "--from", from}, settings)}};
   figure.plot =
       axes("time {/:Italic t} (s)", "relative velocity {/:Italic v}_2 − {/:Italic v}_1 (m/s)") +
-      "set xrange [" + from + ":" + to +
-      "]\nset yrange [-0.08:0.12]\n"
-      "plot @" +
-      name +
+      "set xrange [" + from + ":" + to + "]\n" + scale.axes + "plot @" + name +
       "@ using 1:($5-$3) with lines ls 1 title 'v_2 − v_1', \\\n"
-      "  '' using 1:($7 == 1 ? 0 : 0.1) with steps ls 2 title '0 in the backlash, 0.1 outside'\n";
-  return figure;
-}
-
-Figure own_contact_figure(const std::string& name, const std::string& title,
-                          const std::string& caption, const std::string& from,
-                          const std::string& to) {
-  Figure figure{name, title, caption, {}, "", 320.0};
-  figure.tables = {{name, {"simulate", "--duration", to, "--from", from}}};
-  figure.plot =
-      axes("time {/:Italic t} (s)", "relative velocity {/:Italic v}_2 − {/:Italic v}_1 (m/s)") +
-      "set xrange [" + from + ":" + to +
-      "]\nset border 11\nset ytics nomirror\nset y2range [-0.5:1.5]\n"
-      "set y2tics ('inside' 0, 'outside' 1)\nset y2label 'backlash'\n"
-      "plot @" +
-      name +
-      "@ using 1:($5-$3) with lines ls 1 title 'v_2 − v_1', \\\n"
-      "  '' using 1:($7 == 1 ? 0 : 1) axes x1y2 with steps ls 2 title 'in the backlash or not "
-      "(right)'\n";
+      "  '' using " +
+      scale.contact + "\n";
   return figure;
 }
 

@@ -11,6 +11,12 @@ struct TableRequest {
   std::vector<std::string> arguments;  ///< {"simulate", "--duration", "1", …}, without --output
 };
 
+/// A unit of length and how many of it a metre has.
+struct LengthUnit {
+  const char* name = "mm";
+  double per_metre = 1e3;
+};
+
 /// A picture of the report: the tables it is drawn from and the gnuplot commands that draw it.
 struct Figure {
   std::string name;     ///< "fig06a": pictures/fig06a.svg
@@ -20,21 +26,12 @@ struct Figure {
   /// gnuplot commands; a table's file is @NAME@, the unit of small lengths (@unit@), of which a
   /// metre has @length@.
   std::string plot;
-  double height = 360.0;           ///< of the picture, in points; its width is 640
-  std::string length_unit = "mm";  ///< of length_unit_for()
-};
-
-/// A unit of length and how many of it a metre has.
-struct LengthUnit {
-  const char* name;
-  double per_metre;
+  double height = 360.0;        ///< of the picture, in points; its width is 640
+  LengthUnit length_unit = {};  ///< of length_unit_for()
 };
 
 /// The unit in which a length (m) is between 0.1 and 100 or so: mm, µm or nm.
 LengthUnit length_unit_for(double length);
-
-/// That of this name.
-LengthUnit length_unit_named(const std::string& name);
 
 /// `--set` pairs for a sampling period (s) and a backlash (m).
 std::vector<std::string> loop_settings(const std::string& sampling_period,
@@ -77,13 +74,26 @@ Figure history_figure(const std::string& name, const std::string& title, const s
                       const std::vector<std::string>& settings);
 Figure kick_figure(const std::string& name, const std::string& title, const std::string& caption,
                    const std::string& kick, const std::vector<std::string>& settings);
+/// How contact_figure() shows whether the drive is in its backlash, for gnuplot.
+struct ContactScale {
+  const char* axes;     ///< settings
+  const char* contact;  ///< what follows `using`
+};
+
+/// As in the paper, whose velocities stay below 0.1 m/s.
+inline constexpr ContactScale paper_contact_scale = {
+    "set yrange [-0.08:0.12]\n",
+    "1:($7 == 1 ? 0 : 0.1) with steps ls 2 title '0 in the backlash, 0.1 outside'"};
+
+/// For a motion of any size: an axis of its own.
+inline constexpr ContactScale own_contact_scale = {
+    "set border 11\nset ytics nomirror\nset y2range [-0.5:1.5]\n"
+    "set y2tics ('inside' 0, 'outside' 1)\nset y2label 'backlash'\n",
+    "1:($7 == 1 ? 0 : 1) axes x1y2 with steps ls 2 title 'in the backlash or not (right)'"};
+
 Figure contact_figure(const std::string& name, const std::string& title, const std::string& caption,
-                      const std::string& from, const std::string& to,
+                      const std::string& from, const std::string& to, const ContactScale& scale,
                       const std::vector<std::string>& settings);
-/// The same for a motion of any size: whether the drive is in its backlash has an axis of its own.
-Figure own_contact_figure(const std::string& name, const std::string& title,
-                          const std::string& caption, const std::string& from,
-                          const std::string& to);
 Figure phase_figure(const std::string& name, const std::string& title, const std::string& caption,
                     const std::string& duration, const std::vector<std::string>& settings);
 Figure spectrum_figure(const std::string& name, const std::string& title,

@@ -80,10 +80,11 @@ void add_histories(Figures& figures) {
       "fig08a", "Fig. 8a: relative velocity and backlash",
       "Steady motion, τ = 1 ms, r₀ = 0.5 mm. The drive enters its backlash where the "
       "relative velocity changes sign.",
-      "9", "9.5", fine));
-  figures.push_back(contact_figure(
-      "fig08b", "Fig. 8b: half a period of it enlarged",
-      "In at 9.065 s, out at 9.068 s, in again at 9.069 s, out at 9.095 s.", "9.06", "9.11", fine));
+      "9", "9.5", paper_contact_scale, fine));
+  figures.push_back(
+      contact_figure("fig08b", "Fig. 8b: half a period of it enlarged",
+                     "In at 9.065 s, out at 9.068 s, in again at 9.069 s, out at 9.095 s.", "9.06",
+                     "9.11", paper_contact_scale, fine));
 }
 
 void add_phase_diagrams(Figures& figures) {
@@ -159,9 +160,9 @@ std::vector<Figure> loop_figures(const Case& the_case) {
       history_figure("history", "The first second",
                      "Conductor from its initial state. Positive is downward.", "0", "1", {}),
       history_figure("steady", "The steady motion", "As above, nine seconds later.", "9", "10", {}),
-      own_contact_figure("contact", "Relative velocity and backlash",
-                         "The drive enters its backlash where the relative velocity changes sign.",
-                         "9", "9.5"),
+      contact_figure("contact", "Relative velocity and backlash",
+                     "The drive enters its backlash where the relative velocity changes sign.", "9",
+                     "9.5", own_contact_scale, {}),
       phase_figure("phase", "Phase diagram", "Steady motion of the conductor, from 30 s on.", "40",
                    {}),
       spectrum_figure("spectrum", "Spectrum", "Amplitude of z₁ over whole forcing periods.", {}),

@@ -78,9 +78,8 @@ std::string gnuplot_script(const Figure& figure) {
   for (const TableRequest& table : figure.tables) {
     replace_all(plot, "@" + table.name + "@", "'data/" + table.name + ".csv' skip 1");
   }
-  const LengthUnit unit = length_unit_named(figure.length_unit);
-  replace_all(plot, "@unit@", unit.name);
-  replace_all(plot, "@length@", format_number(unit.per_metre));
+  replace_all(plot, "@unit@", figure.length_unit.name);
+  replace_all(plot, "@length@", format_number(figure.length_unit.per_metre));
   return "set terminal svg size 640," + format_number(figure.height) +
          " dynamic enhanced standalone font 'Helvetica,Arial,sans-serif,13' background rgb "
          "'white'\n" +

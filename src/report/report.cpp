@@ -10,6 +10,7 @@
 #include "exit.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
+#include "loop_of_case.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "report/answers.hpp"
@@ -42,9 +43,9 @@ void make_folders(const fs::path& folder) {
 }
 
 /// The unit of the case's displacements.
-std::string unit_of(const Case& the_case) {
-  const double longest = the_case.force_record ? the_case.force_record->last_time() : 20.0;
-  return length_unit_for(amplitude_without_control(the_case, std::min(20.0, longest))).name;
+LengthUnit unit_of(const Case& the_case) {
+  const double duration = std::min(20.0, end_of_force(the_case));
+  return length_unit_for(amplitude_without_control(the_case, duration));
 }
 
 class ReportWriter {
@@ -62,16 +63,8 @@ class ReportWriter {
       drawn.commands.push_back(shell_text(command_of(table.arguments, case_arguments_)) +
                                " --output data/" + table.name + ".csv");
     }
-    try {
-      for (const TableRequest& table : figure.tables) write_table(table);
-    } catch (const NoAnswer& reason) {
-      drawn.reason = reason.what();
-      return drawn;
-    } catch (const WrongInput& reason) {  // of the case, as a record that ends too soon
-      drawn.reason = reason.what();
-      return drawn;
-    }
-    return with_picture(std::move(drawn));
+    drawn.reason = write_tables(figure);
+    return drawn.reason.empty() ? with_picture(std::move(drawn)) : drawn;
   }
 
   /// A figure whose tables the report has written itself, unless there is a reason not to.
@@ -93,6 +86,18 @@ class ReportWriter {
     return drawn;
   }
 
+  /// @return why the case has no such tables, as where its record ends too soon; else nothing
+  std::string write_tables(const Figure& figure) const {
+    try {
+      for (const TableRequest& table : figure.tables) write_table(table);
+    } catch (const NoAnswer& reason) {
+      return reason.what();
+    } catch (const WrongInput& reason) {
+      return reason.what();
+    }
+    return "";
+  }
+
   void write_table(const TableRequest& table) const {
     const std::string file = (folder_ / "data" / (table.name + ".csv")).string();
     // A sweep that was interrupted has left its tiles; this report may be one of another case.
@@ -106,7 +111,7 @@ class ReportWriter {
   fs::path folder_;
   Arguments case_arguments_;
   const CommandRunner& run_;
-  std::string length_unit_;
+  LengthUnit length_unit_;
   bool can_draw_;
 };
 

@@ -24,12 +24,6 @@ double forcing_period(const Case& the_case) {
   return 1.0 / effective_excitation(the_case).frequency;
 }
 
-/// Seconds that the case's force lasts.
-double end_of_force(const Case& the_case) {
-  return the_case.force_record ? the_case.force_record->last_time()
-                               : std::numeric_limits<double>::infinity();
-}
-
 std::size_t harmonics_of(const Case& the_case) {
   return real_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
 }

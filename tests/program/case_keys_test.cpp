@@ -174,16 +174,6 @@ TEST(CaseKeys, SeedsAreAsLargeAsADoubleTellsThemApart) {
   }
 }
 
-TEST(CaseKeys, TheNearestWordIsThatOfFewestEdits) {
-  const CaseKey& law = *find_case_key("backlash.law");
-  for (const std::string& word : law.words) {
-    EXPECT_EQ(nearest_word(law, word), word);
-    EXPECT_EQ(nearest_word(law, word.substr(1)), word);
-    EXPECT_EQ(nearest_word(law, word + "s"), word);
-  }
-  EXPECT_EQ(nearest_word(law, "deadzone"), "dead_zone");
-}
-
 TEST(CaseKeys, WindReplacesAmplitudeAndFrequencyAlone) {
   for (const CaseKey& key : case_keys()) {
     const bool replaced = key.name == "excitation.amplitude" || key.name == "excitation.frequency";

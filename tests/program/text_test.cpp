@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace holdfast::program {
 namespace {
@@ -86,6 +88,17 @@ TEST(Text, Utf8IsToldFromOtherBytes) {
   for (const char* bad : {"r\xEA.csv", "\xC3", "\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80",
                           "\xF4\x90\x80\x80", "\xFF", "a\xE2\x82"})
     EXPECT_FALSE(is_utf8(bad)) << bad;
+}
+
+TEST(NearestName, IsThatOfFewestEdits) {
+  const std::vector<std::string> names = {"immediate", "play", "dead_zone", "none"};
+  for (const std::string& name : names) {
+    EXPECT_EQ(nearest_name(names, name), name);
+    EXPECT_EQ(nearest_name(names, name.substr(1)), name);
+    EXPECT_EQ(nearest_name(names, name + "s"), name);
+  }
+  EXPECT_EQ(nearest_name(names, "deadzone"), "dead_zone");
+  EXPECT_EQ(nearest_name({"b", "a"}, "c"), "b");
 }
 
 TEST(Text, ALongTextIsCutBetweenCharacters) {
