@@ -34,7 +34,8 @@ TileResult tile_of_bytes(std::string_view bytes, std::int64_t cells, std::size_t
     throw OutputError("a finished tile does not hold what the sweep needs");
   TileResult tile{cells,     std::vector<double>(values),    counts[1], counts[2],
                   counts[3], std::string(bytes.substr(size))};
-  std::memcpy(tile.values.data(), bytes.data() + sizeof(counts), values * sizeof(double));
+  if (values > 0)  // of none, data() may be null, which memcpy does not take
+    std::memcpy(tile.values.data(), bytes.data() + sizeof(counts), values * sizeof(double));
   return tile;
 }
 

@@ -144,5 +144,31 @@ TEST(ForcedLoop, EveryPartIsValidated) {
   refused([](auto& bad) { bad.backlash_width = -1e-9; });
 }
 
+TEST(ForcedLoop, NoMotionBeginsInOneThatIsNotAdmissible) {
+  const ForcedLoop<double> good = test::KollarCase().forced_loop();
+  const Vector<double, 4> rest = Vector<double, 4>::Zero();
+  const auto refuses = [](const ForcedLoop<double>& loop, const Vector<double, 4>& state) {
+    EXPECT_THROW(harmonically_forced_motion(loop, state), InvalidParameter);
+    EXPECT_THROW(periodically_forced_motion(loop, Rational{1, 100}, state), InvalidParameter);
+    const auto extended = converted<long double>(loop);
+    const Vector<long double, 4> extended_state = state.cast<long double>();
+    EXPECT_THROW(harmonically_forced_motion(extended, extended_state), InvalidParameter);
+  };
+  EXPECT_NO_THROW(harmonically_forced_motion(good, rest));
+  ForcedLoop<double> loop = good;
+  loop.plant.conductor_mass = -0.1;
+  refuses(loop, rest);
+  loop = good;
+  loop.sampling.processing_delay = 2.0 * loop.sampling.period;
+  refuses(loop, rest);
+  loop = good;
+  loop.gains.differential = std::numeric_limits<double>::quiet_NaN();
+  refuses(loop, rest);
+  loop = good;
+  loop.backlash_width = -1e-6;
+  refuses(loop, rest);
+  refuses(good, Vector<double, 4>(0.0, std::numeric_limits<double>::infinity(), 0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace holdfast

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "holdfast/attractor/orbit_catalogue.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/forced_loop.hpp"
@@ -121,8 +122,10 @@ class MotionBatch {
   /// @param count      number of motions, ≥ 0
   /// @param samples    ≥ 1
   /// @param catalogue  of orbits of the same loop
+  /// @throws InvalidParameter for less than one sample
   void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
            const OrbitCatalogue& catalogue) {
+    require_positive("number of samples", static_cast<double>(samples), "");
     // Looking costs about as much as twenty samples of all lanes.
     const std::int64_t looks_every = (63 / ratio_.denominator + 1) * ratio_.denominator;
     const std::int64_t looks = (samples + looks_every - 1) / looks_every;

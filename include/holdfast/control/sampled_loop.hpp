@@ -64,10 +64,18 @@ struct SampledLoop {
 /// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the
 /// period, every matrix of the loop is a product: A_d − I = A Φ(τ), Γ₀ = Φ(τ−δ) b, Γ₁ = e^{A(τ−δ)}
 /// Φ(δ) b, c_d = Φ(τ) c. No small matrix is the difference of large ones.
-/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+/// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`; beyond
+///                  that they are finite, nothing is asked of them
+/// @param sampling  0 ≤ δ ≤ τ; τ = 0, no time at all, gives the identity
+/// @throws InvalidParameter where the sampling is another or the state matrix is not finite
 template <class Scalar, template <class> class Plant>
 SampledLoop<Scalar> sampled_loop(const Plant<Scalar>& plant, const Sampling<Scalar>& sampling) {
   const Matrix<Scalar, 4> a = plant.state_matrix();
+  require_finite("entries of the plant's state matrix", static_cast<double>(a.sum()), "");
+  const auto period = static_cast<double>(sampling.period);
+  require_non_negative("sampling period tau", period, "s");
+  require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
+                 period);
   const Matrix<Scalar, 4> identity = Matrix<Scalar, 4>::Identity();
   const Vector<Scalar, 4> b = plant.control_input();
   const auto before = zero_order_hold<Scalar, 4, 4>(a, identity, sampling.processing_delay);

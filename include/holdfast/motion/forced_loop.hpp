@@ -63,17 +63,29 @@ inline std::optional<Rational> forcing_ratio(const ForcedLoop<double>& loop,
   return reconstruct_rational(ratio, std::min<std::int64_t>(largest_samples, 1'000'000));
 }
 
+namespace detail {
+
+template <class Scalar>
+void validate_motion(const ForcedLoop<Scalar>& loop, const Vector<Scalar, 4>& initial_state) {
+  validate(converted<double>(loop));
+  require_finite("initial state", static_cast<double>(initial_state.sum()), "");
+}
+
+}  // namespace detail
+
 /// The motion of a sampled loop whose forcing repeats every q samples.
 template <class Scalar>
 using PeriodicallyForcedMotion = SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar>>;
 
 /// The motion from an initial state [z₁, ż₁, z₂, ż₂], the forcing being exactly periodic.
-/// @param loop           admissible; the phases of the forcing come from `ratio`, not from its f
+/// @param loop           the phases of the forcing come from `ratio`, not from its f
 /// @param ratio          of forcing_ratio()
 /// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
+/// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar>
 PeriodicallyForcedMotion<Scalar> periodically_forced_motion(
     const ForcedLoop<Scalar>& loop, const Rational& ratio, const Vector<Scalar, 4>& initial_state) {
+  detail::validate_motion(loop, initial_state);
   const SampledLoop<Scalar> sampled = sampled_loop(loop.plant, loop.sampling);
   const HarmonicInput<Scalar> input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
@@ -82,9 +94,11 @@ PeriodicallyForcedMotion<Scalar> periodically_forced_motion(
 }
 
 /// The motion from an initial state [z₁, ż₁, z₂, ż₂], whatever the ratio of the frequencies.
+/// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar>
 SampledMotion<Scalar> harmonically_forced_motion(const ForcedLoop<Scalar>& loop,
                                                  const Vector<Scalar, 4>& initial_state) {
+  detail::validate_motion(loop, initial_state);
   const SampledLoop<Scalar> sampled = sampled_loop(loop.plant, loop.sampling);
   const HarmonicInput<Scalar> input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
