@@ -48,11 +48,13 @@ TEST(AffineBlocks, TogetherAreTheWholeSequence) {
     const ContactMaps<double> maps(loop, forcing_ratio(loop).value());
     Contacts contacts;
     for (int j = 0; j < 300; ++j) contacts.push_back(random.unit() < 0.5 ? 1 : 0);
-    Vector<double, 5> by_blocks = random.matrix<Vector<double, 5>>(), by_samples = by_blocks;
+    Vector<double, 5> by_samples = random.matrix<Vector<double, 5>>();
+    Vector<double, 5> by_blocks = by_samples.cwiseQuotient(maps.units());
     const auto blocks = affine_blocks(maps, contacts);
     for (const auto& block : blocks) by_blocks = block.map * by_blocks + block.addition;
     for (std::size_t j = 0; j < contacts.size(); ++j)
       by_samples = maps.step(by_samples, contacts[j] != 0, j % maps.samples_of_forcing());
+    by_blocks = by_blocks.cwiseProduct(maps.units());
     EXPECT_LE((by_blocks - by_samples).norm(), 1e-11 * (1.0 + by_samples.norm())) << period;
     EXPECT_LE(blocks.size(), contacts.size()) << period;
     if (period == 0.001) {
@@ -66,7 +68,7 @@ TEST(AffineBlocks, OfAGrowingLoopStayShort) {
   loop.gains = {-5000.0, -200.0};
   const ContactMaps<double> maps(loop, forcing_ratio(loop).value());
   const Contacts contacts(64, 1);
-  const double one = maps.map(true).cwiseAbs().maxCoeff();
+  const double one = affine_blocks(maps, {1}).front().map.cwiseAbs().maxCoeff();
   for (const auto& block : affine_blocks(maps, contacts))
     EXPECT_LE(block.map.cwiseAbs().maxCoeff(), 5.0 * one * 1e3);
 }

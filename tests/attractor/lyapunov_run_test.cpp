@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "holdfast/attractor/lyapunov.hpp"
@@ -72,6 +73,21 @@ TEST(LyapunovRun, EndsWhenTheLargestExponentIsAccurate) {
   const auto finer = run_of(which, until(1e-5, LyapunovScope::largest));
   EXPECT_EQ(finer.outcome, LyapunovOutcome::accurate);
   EXPECT_GT(finer.samples, result.samples);
+}
+
+TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {
+  EXPECT_TRUE(run_of(flickering(0.001), {200000, 2000}).sign_is_known());
+  EXPECT_FALSE(run_of(flickering(0.011), {12}).sign_is_known()) << "too short to have an error";
+  LyapunovResult result = run_of(flickering(0.011), {1200});
+  result.standard_errors[0] = 1e-3;
+  for (const double sign : {-1.0, 1.0}) {
+    result.exponents[0] = sign * 1.9e-3;
+    EXPECT_FALSE(result.sign_is_known());
+    result.exponents[0] = sign * 2.2e-3;
+    EXPECT_TRUE(result.sign_is_known());
+  }
+  result.exponents[0] = -std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(result.sign_is_known());
 }
 
 TEST(LyapunovRun, CanWaitForAllExponents) {

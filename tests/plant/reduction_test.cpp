@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -116,6 +117,34 @@ TEST(Reduction, TheConditionNumbersAreTheSumsOfTheRelativeDerivatives) {
       EXPECT_NEAR(result.solutions[root].damping_condition / damping, 1.0, 1e-5);
     }
   }
+}
+
+TEST(Reduction, IsSaidToBeIllConditionedWhereOnePercentMayBecomeAHundred) {
+  test::Random random(387);
+  int ill = 0;
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto asked = random_reduction(random, random.log_uniform(1e-6, 1e3));
+    const ReducedMasses found = reduce_to_frequencies(asked).solutions[0];
+    // Errors of 10⁻⁹ of all inputs, those that add up, small enough to be far from the edge.
+    const double error = 1e-9;
+    double worst = 0.0;
+    for (const double frequencies : {-error, error}) {
+      Asked other = asked;
+      other.conductor_stiffness *= 1.0 - frequencies;
+      other.absorber_mass *= 1.0 + frequencies;
+      other.first_frequency *= 1.0 + frequencies;
+      other.second_frequency *= 1.0 - frequencies;
+      const ReducedMasses moved = reduce_to_frequencies(other).solutions[0];
+      worst = std::max({worst, std::abs(moved.absorber_stiffness / found.absorber_stiffness - 1.0),
+                        std::abs(moved.conductor_mass / found.conductor_mass - 1.0)});
+    }
+    if (found.is_ill_conditioned()) ++ill;
+    const bool surely = worst > 110.0 * error, surely_not = worst < 50.0 * error;
+    EXPECT_TRUE(found.is_ill_conditioned() || !surely) << draw;
+    EXPECT_FALSE(found.is_ill_conditioned() && surely_not) << draw;
+  }
+  EXPECT_GT(ill, 20);
+  EXPECT_LT(ill, 180);
 }
 
 TEST(Reduction, TheLargestMassAndTheSmallestStiffnessAreTheEdgeOfExistence) {

@@ -221,7 +221,16 @@ void expect_cusps_are_told(std::uint64_t seed) {
     polynomial.base[1] += 1e-5;
     const auto near = boundary_features(polynomial, window);
     EXPECT_EQ(count(near, Kind::cusp), 0) << draw;
+    for (const auto& feature : near) EXPECT_TRUE(feature.nearly_cusp) << draw;
   }
+}
+
+TEST(BoundaryFeatures, TangentsFarFromEachOtherAreNotNearlyACusp) {
+  const auto polynomial =
+      characteristic_polynomial(sampled_loop(kollar2022_plant(), Sampling<double>{0.01}));
+  const auto features = boundary_features(polynomial, {{-1e6, 1e6}, {-1e6, 1e6}});
+  EXPECT_GT(count(features, Kind::vertical_tangent) + count(features, Kind::horizontal_tangent), 0);
+  for (const auto& feature : features) EXPECT_FALSE(feature.nearly_cusp);
 }
 
 TEST(BoundaryFeatures, ACuspIsToldFromTwoTangentsCloseTogether) {

@@ -2,12 +2,13 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "holdfast/core/balancing.hpp"
+#include "holdfast/attractor/plant_units.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/forced_loop.hpp"
@@ -21,7 +22,7 @@ using Contacts = std::vector<std::uint8_t>;
 template <class Scalar>
 struct AffineMap {
   Matrix<Scalar, 5> map;       ///< 5 × 5, of x = z̃ = [z; u_{j−1}]
-  Vector<Scalar, 5> addition;  ///< in the units of x: m, m/s, m, m/s, N
+  Vector<Scalar, 5> addition;  ///< in the units of x
 };
 
 /// The affine maps that move z̃ = [z; u_{j−1}] over one sampling period,
@@ -39,6 +40,14 @@ class ContactMaps {
 
   /// S or S*, 5 × 5.
   const Matrix<Scalar, 5>& map(bool engaged) const { return engaged ? engaged_ : backlash_; }
+
+  /// plant_units() of the loop.
+  const Vector<Scalar, 5>& units() const { return units_; }
+
+  /// A map of z̃ as one of z̃ in the units.
+  Matrix<Scalar, 5> in_units(const Matrix<Scalar, 5>& map) const {
+    return units_.cwiseInverse().asDiagonal() * map * units_.asDiagonal();
+  }
 
   /// How unequally a sample may stretch directions that it does not annihilate: the largest ratio
   /// of pivots of the plant's part of either map.
@@ -62,14 +71,15 @@ class ContactMaps {
               const Rational& ratio)
       : engaged_(sampled.engaged_map(loop.gains)),
         backlash_(sampled.backlash_map()),
+        units_(plant_units(loop.plant.state_matrix(), loop.plant.excitation_input())),
         forcing_(
             harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency()),
             loop.excitation.amplitude, ratio) {}
 
-  static Scalar spread_of(const Matrix<Scalar, 5>& map) {
+  Scalar spread_of(const Matrix<Scalar, 5>& map) const {
     using std::abs;
-    const BalancedMatrix<Scalar, 4> plant(map.template topLeftCorner<4, 4>());
-    const Eigen::FullPivLU<Matrix<Scalar, 4>> factors(plant.balanced);
+    const Matrix<Scalar, 4> plant = in_units(map).template topLeftCorner<4, 4>();
+    const Eigen::FullPivLU<Matrix<Scalar, 4>> factors(plant);
     Scalar smallest = factors.maxPivot();
     for (int i = 0; i < factors.rank(); ++i)
       smallest = std::min(smallest, Scalar(abs(factors.matrixLU()(i, i))));
@@ -78,6 +88,7 @@ class ContactMaps {
 
   Matrix<Scalar, 5> engaged_;
   Matrix<Scalar, 5> backlash_;
+  Vector<Scalar, 5> units_;
   PeriodicForcing<Scalar> forcing_;
 };
 
@@ -90,8 +101,8 @@ std::size_t samples_of_block(const ContactMaps<Scalar>& maps) {
   return static_cast<std::size_t>(std::clamp(samples, 1.0, most));
 }
 
-/// Some samples of a sequence of contacts as one affine map each, few enough for their product to
-/// lose no digits.
+/// Some samples of a sequence of contacts as one affine map each, in the units of the maps and few
+/// enough for their product to lose no digits.
 ///
 /// @param maps      of the loop
 /// @param contacts  of all samples, the first one at phase 0 of the forcing
@@ -99,6 +110,9 @@ template <class Scalar>
 std::vector<AffineMap<Scalar>> affine_blocks(const ContactMaps<Scalar>& maps,
                                              const Contacts& contacts) {
   const std::size_t most_samples = samples_of_block(maps);
+  const Vector<Scalar, 4> units = maps.units().template head<4>();
+  const std::array<Matrix<Scalar, 5>, 2> balanced = {maps.in_units(maps.map(false)),
+                                                     maps.in_units(maps.map(true))};
   const Scalar largest_growth(1e3);
   std::vector<AffineMap<Scalar>> blocks;
   blocks.reserve(contacts.size() / most_samples + 1);
@@ -112,8 +126,9 @@ std::vector<AffineMap<Scalar>> affine_blocks(const ContactMaps<Scalar>& maps,
       length = 0;
     }
     AffineMap<Scalar>& block = blocks.back();
-    block.map = maps.map(engaged) * block.map;
-    block.addition = maps.step(block.addition, engaged, phase);
+    block.map = balanced[engaged ? 1 : 0] * block.map;
+    block.addition = balanced[engaged ? 1 : 0] * block.addition;
+    block.addition.template head<4>() += maps.addition(phase).cwiseQuotient(units);
     ++length;
     if (++phase == maps.samples_of_forcing()) phase = 0;
   }

@@ -62,6 +62,20 @@ struct HybridOrbit : LoopOrbit<4> {
   }
   /// Share of the time in which the drive is engaged.
   double engaged_time_fraction() const { return time_share[0]; }
+
+  /// How near it is to switching otherwise, as a share of its own size: the smallest of the margins
+  /// in the orbit's largest displacement x, its largest velocity v and v²/x. Infinite where it
+  /// comes to no surface.
+  double border_share() const {
+    const StateExtent extent(states);
+    const double acceleration = extent.velocity * extent.velocity / extent.displacement;
+    return std::min({extent.share_of_displacement(margins.border_distance),
+                     extent.share_of_displacement(margins.shortest_travel),
+                     extent.share_of_velocity(margins.exit_velocity),
+                     extent.share_of_velocity(margins.reversal_velocity),
+                     margins.reversal_acceleration / acceleration,
+                     margins.stick_acceleration / acceleration});
+  }
   /// How often a mode begins in one period.
   std::int64_t entries(ContactMode mode) const {
     return std::count_if(switches.begin(), switches.end(),

@@ -81,6 +81,7 @@ class HybridOrbitSearch {
     }
     largest_ = largest_.cwiseMax(state().cwiseAbs());
     largest_ever_ = largest_ever_.cwiseMax(largest_);
+    extent_.include(largest_);
   }
 
   void set_reference() {
@@ -125,10 +126,13 @@ class HybridOrbitSearch {
 
   static bool is_same(const HybridOrbit& known, const HybridOrbit& other) {
     const Vector<double, 4> apart = other.states.front() - known.states.front();
-    return known.modes == other.modes && apart.norm() <= 1e-9 * known.states.front().norm();
+    return known.modes == other.modes && StateExtent(known.states).share_of(apart) <= 1e-9;
   }
 
-  double distance() const { return (state() - proposed_->orbit->states.front()).norm(); }
+  const Vector<double, 4>& proposed_state() const { return proposed_->orbit->states.front(); }
+
+  /// Of the motion from the proposed orbit, as a share of the motion's extent.
+  double distance() const { return extent_.share_of<double, 4>(state() - proposed_state()); }
 
   /// Asked at every coincidence, looks at those at which the motion began the proposed orbit.
   bool has_come() {
@@ -139,9 +143,8 @@ class HybridOrbitSearch {
     if (passed == 0 || passed % period != 0) return false;
     const double before = distance_;
     distance_ = distance();
-    const double rounding = 1e-12 * proposed_->orbit->states.front().norm();
-    const bool nearer =
-        before <= 1e-6 * largest_ever_.maxCoeff() && distance_ <= std::max(before, rounding);
+    const double nearest = std::max(before, 1e-12 * extent_.share_of(proposed_state()));
+    const bool nearer = before <= 1e-6 && distance_ <= nearest;
     const bool same_modes = std::equal(modes.begin(), modes.end(), modes_.end() - period);
     periods_on_orbit_ = nearer && same_modes ? periods_on_orbit_ + 1 : 0;
     return periods_on_orbit_ >= 2;
@@ -169,6 +172,7 @@ class HybridOrbitSearch {
   std::int64_t reference_taken_ = 0;
   Vector<double, 4> largest_ = Vector<double, 4>::Zero();
   Vector<double, 4> largest_ever_ = Vector<double, 4>::Zero();
+  StateExtent extent_;  // of the motion
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
   std::optional<Candidate> proposed_;  // certified but for the motion's coming to it

@@ -123,8 +123,10 @@ inline std::int64_t quiet_sample(const HybridTurn& turn, ContactMode mode, doubl
 }
 
 /// Whether an orbit comes so near to grazing that rounding may decide how it switches.
-inline bool touches_surface(const HybridOrbit& orbit) {
-  const SurfaceRounding rounding = surface_rounding(orbit, orbit.closure_error);
+/// @param closure  z_N − z₀
+inline bool touches_surface(const HybridOrbit& orbit, const Vector<double, 4>& closure) {
+  const StateExtent extent(orbit.states);
+  const SurfaceRounding rounding = surface_rounding(extent, extent.share_of(closure));
   const SwitchingMargins& margins = orbit.margins;
   return margins.border_distance <= rounding.displacement ||
          std::min(margins.exit_velocity, margins.reversal_velocity) <= rounding.velocity;
@@ -157,7 +159,7 @@ class HybridOrbitSolver {
     const auto solution = map.fixed_point(moved(near, section), gap_opens);
     if (!solution) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
     const Point first = moved(*solution, samples - section);
-    Candidate candidate = measured(first, samples, near.state.norm());
+    Candidate candidate = measured(first, samples, StateExtent(turn.states));
     HybridOrbit& orbit = *candidate.orbit;
     if (orbit.period_samples() < samples) map = {motion_, orbit.period_samples()};
     orbit.multipliers = map.multipliers(*solution, gap_opens);
@@ -182,23 +184,24 @@ class HybridOrbitSolver {
   }
 
   /// Three periods from a point: they must switch alike.
-  /// @param size  of the states among which the orbit was sought; its own may be rounding
-  Candidate measured(const Point& first, std::int64_t samples, double size) {
+  /// @param extent  of the states among which the orbit was sought; its own may be rounding
+  Candidate measured(const Point& first, std::int64_t samples, const StateExtent& extent) {
     motion_.go_to(first);
     HybridMeasures<Contact> measures(motion_.motion());
     HybridTurn turn = turn_of(motion_, samples, measures);
-    const std::int64_t shortest = shortest_period(turn, 1e-10 * size);
-    if (shortest < samples) return measured(first, shortest, size);
+    const std::int64_t shortest = shortest_period(turn, extent);
+    if (shortest < samples) return measured(first, shortest, extent);
     bool alike = !motion_.motion().counts().accumulates;
     const Vector<double, 4> end = motion_.motion().state();
     for (int more = 0; more < 2; ++more)
       alike =
           turn_of(motion_, samples, measures).switches_like(turn, 1e-6 * sampling_period_) && alike;
     HybridOrbit orbit = orbit_of(std::move(turn), measures);
-    orbit.closure_error = (end - orbit.states.front()).norm();
-    const auto outcome = touches_surface(orbit) ? CandidateOutcome::on_surface
-                         : alike                ? CandidateOutcome::verified
-                                                : CandidateOutcome::other_contacts;
+    const Vector<double, 4> closure = end - orbit.states.front();
+    orbit.closure_error = closure.norm();
+    const auto outcome = touches_surface(orbit, closure) ? CandidateOutcome::on_surface
+                         : alike                         ? CandidateOutcome::verified
+                                                         : CandidateOutcome::other_contacts;
     return {outcome, std::move(orbit), first};
   }
 
@@ -217,13 +220,13 @@ class HybridOrbitSolver {
   }
 
   /// The shortest period of which a turn is a whole number of repetitions.
-  std::int64_t shortest_period(const HybridTurn& turn, double tolerance) const {
+  std::int64_t shortest_period(const HybridTurn& turn, const StateExtent& extent) const {
     const auto samples = static_cast<std::int64_t>(turn.states.size());
     for (std::int64_t period = ratio_.denominator; period < samples; period += ratio_.denominator) {
       if (samples % period != 0) continue;
       const Vector<double, 4> apart =
           turn.states[static_cast<std::size_t>(period)] - turn.states.front();
-      if (apart.norm() > tolerance) continue;
+      if (extent.share_of(apart) > 1e-10) continue;
       if (std::equal(turn.modes.begin() + period, turn.modes.end(), turn.modes.begin()))
         return period;
     }

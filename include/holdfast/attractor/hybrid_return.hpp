@@ -13,7 +13,9 @@
 
 #include "holdfast/attractor/hybrid_tangent.hpp"
 #include "holdfast/attractor/multipliers.hpp"
+#include "holdfast/attractor/plant_units.hpp"
 #include "holdfast/attractor/repeating_motion.hpp"
+#include "holdfast/attractor/state_extent.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/hybrid_motion.hpp"
 
@@ -30,7 +32,10 @@ class HybridReturn {
   /// @param motion   any motion of the loop
   /// @param samples  N
   HybridReturn(const RepeatingMotion<Contact>& motion, std::int64_t samples)
-      : motion_(motion), samples_(samples) {}
+      : motion_(motion), samples_(samples) {
+    const auto& dynamics = motion_.motion().dynamics(0);
+    units_ << plant_units(dynamics.state, dynamics.force), 1.0, 1.0;
+  }
 
   /// A fixed point near a point, by Newton's method, (I − M) δX = X_N − X_0, until no more is
   /// gained.
@@ -40,25 +45,29 @@ class HybridReturn {
   /// @return nothing where 1 is a multiplier, or where X_N − X_0 does not become rounding
   std::optional<Point> fixed_point(Point near, bool gap_opens) {
     constexpr int most_iterations = 30, most_failures = 3;
-    const double size = near.state.norm();
+    StateExtent extent;  // of all that was tried
     double least = std::numeric_limits<double>::infinity();
     std::optional<Point> best;
     for (int count = 0, failures = 0; count < most_iterations && failures < most_failures;
          ++count) {
       Matrix<double, 7> map = Matrix<double, 7>::Identity();
-      const Point end = follow(near, [&](const auto& tangent) { map = tangent.map() * map; });
+      const Point end = follow(near, [&](const auto& tangent) {
+        map = in_units(tangent.map()) * map;
+        extent.include(motion_.motion().state());
+      });
       const Vector<double, 7> open = detail::difference(near, end);
       if (end.contact.mode() != near.contact.mode() || !open.allFinite()) return std::nullopt;
-      const double distance = open.head<4>().norm() + std::abs(open[5]);
+      const Vector<double, 4> gap(open[gap_row], 0.0, 0.0, 0.0);
+      const double distance = std::max(extent.share_of(open), extent.share_of(gap));
       failures = distance < 0.5 * least ? 0 : failures + 1;
       if (distance < least) best = near;
       least = std::min(least, distance);
       if (distance == 0.0) break;
-      const auto correction = correction_of(map, open, gap_opens);
+      const auto correction = correction_of(map, open.cwiseQuotient(units_), gap_opens);
       if (!correction) return std::nullopt;
-      near = detail::shifted(near, *correction);
+      near = detail::shifted(near, correction->cwiseProduct(units_));
     }
-    return least <= 1e-10 * size ? best : std::nullopt;
+    return least <= 1e-10 ? best : std::nullopt;
   }
 
   /// The multipliers of a fixed point, largest first; at least five.
@@ -82,7 +91,7 @@ class HybridReturn {
         blocks.emplace_back(Matrix<double, 7>::Identity());
         maps = 0;
       }
-      blocks.back() = tangent.map() * blocks.back();
+      blocks.back() = in_units(tangent.map()) * blocks.back();
       ++maps;
       rank = tangent.rank_of_product();
       const int mode = motion_.motion().contact().mode();
@@ -97,6 +106,10 @@ class HybridReturn {
 
  private:
   static constexpr int gap_row = 5;
+
+  Matrix<double, 7> in_units(const Matrix<double, 7>& map) const {
+    return units_.cwiseInverse().asDiagonal() * map * units_.asDiagonal();
+  }
 
   /// Follows the motion over N samples and shows its tangent after each. @return X_N
   template <class Visit>
@@ -170,6 +183,7 @@ class HybridReturn {
 
   RepeatingMotion<Contact> motion_;
   std::int64_t samples_;
+  Vector<double, 7> units_;  // of X
 };
 
 }  // namespace holdfast

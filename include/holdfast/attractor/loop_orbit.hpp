@@ -7,10 +7,15 @@
 #include <vector>
 
 #include "holdfast/attractor/multipliers.hpp"
+#include "holdfast/attractor/state_extent.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
+
+/// The share of its own size (PeriodicOrbit::border_share(), HybridOrbit::border_share()) below
+/// which an orbit is near a switching surface: a change of the loop in its fourth digit may end it.
+inline constexpr double near_border = 1e-4;
 
 /// What the periodic motions of the sampled loop have in common, wherever their contact switches.
 /// @tparam Size  of a state: 4 for z_j, 5 for z̃_j = [z_j; u_{j−1}]
@@ -55,17 +60,12 @@ struct SurfaceRounding {
   double velocity;      ///< m/s
 };
 
-/// @param state_error  of the states, SI numbers of m and m/s
-template <int Size>
-SurfaceRounding surface_rounding(const LoopOrbit<Size>& orbit, double state_error) {
-  double displacement = 0.0, velocity = 0.0;
-  for (const auto& state : orbit.states) {
-    displacement = std::max({displacement, std::abs(state[0]), std::abs(state[2])});
-    velocity = std::max({velocity, std::abs(state[1]), std::abs(state[3])});
-  }
-  const double rounding = 256.0 * std::numeric_limits<double>::epsilon();
-  const double error = 64.0 * state_error;
-  return {rounding * displacement + error, rounding * velocity + error};
+/// @param extent  of the orbit's states
+/// @param error   of the states, as a share of the extent
+inline SurfaceRounding surface_rounding(const StateExtent& extent, double error) {
+  const double share = 256.0 * std::numeric_limits<double>::epsilon() + 64.0 * error;
+  const auto part = [share](double whole) { return whole > 0.0 ? share * whole : 0.0; };
+  return {part(extent.displacement), part(extent.velocity)};
 }
 
 }  // namespace detail

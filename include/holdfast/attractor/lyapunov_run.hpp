@@ -10,6 +10,7 @@
 #include "holdfast/attractor/contact_spectrum.hpp"
 #include "holdfast/attractor/contact_words.hpp"
 #include "holdfast/attractor/lyapunov_spectrum.hpp"
+#include "holdfast/attractor/verdict.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
@@ -49,6 +50,14 @@ struct LyapunovResult {
   /// By batch means, the larger of those from the batches and from pairs of them; 0 for −∞.
   Vector<double, 5> standard_errors;
   std::int64_t samples;  ///< averaged over
+
+  /// Whether the 95 % interval of λ₁ leaves out zero: whether it is known if neighbours separate.
+  bool sign_is_known() const {
+    if (exponents[0] == -std::numeric_limits<double>::infinity()) return true;
+    if (!std::isfinite(exponents[0]) || !std::isfinite(standard_errors[0])) return false;
+    const ExponentEvidence evidence = exponent_evidence(exponents[0], standard_errors[0]);
+    return evidence.positive() || evidence.negative();
+  }
 };
 
 /// Fewest complete batches on which a run may end early.

@@ -19,23 +19,15 @@ namespace detail {
 /// Whether `other`, begun `shift` samples later and its states multiplied by `sign`, is `orbit`.
 template <class Orbit>
 bool same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign,
-                 double tolerance) {
+                 const StateExtent& extent) {
   const std::size_t samples = orbit.states.size();
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   for (std::size_t j = 0; j < samples; j += step) {
     const Vector<double, 4> apart = orbit.states[j].template head<4>() -
                                     sign * other.states[(j + shift) % samples].template head<4>();
-    if (!(apart.cwiseAbs().maxCoeff() <= tolerance)) return false;
+    if (!(extent.share_of(apart) <= 1e-9)) return false;
   }
   return true;
-}
-
-template <class Orbit>
-double largest_entry(const Orbit& orbit) {
-  double largest = 0.0;
-  for (const auto& state : orbit.states)
-    largest = std::max(largest, state.template head<4>().cwiseAbs().maxCoeff());
-  return largest;
 }
 
 }  // namespace detail
@@ -46,10 +38,10 @@ double largest_entry(const Orbit& orbit) {
 template <class Orbit>
 bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
   if (orbit.states.size() != other.states.size()) return false;
-  const double tolerance = 1e-9 * detail::largest_entry(orbit);
+  const StateExtent extent(orbit.states);
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   for (std::size_t shift = 0; shift < orbit.states.size(); shift += step) {
-    if (detail::same_course(orbit, other, shift, 1.0, tolerance)) return true;
+    if (detail::same_course(orbit, other, shift, 1.0, extent)) return true;
   }
   return false;
 }
@@ -63,9 +55,9 @@ bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   const bool forced = orbit.ratio.numerator != 0;
   if (orbit.states.size() != other.states.size() || (forced && step % 2 != 0)) return false;
-  const double tolerance = 1e-9 * detail::largest_entry(orbit);
+  const StateExtent extent(orbit.states);
   for (std::size_t shift = forced ? step / 2 : 0; shift < orbit.states.size(); shift += step) {
-    if (detail::same_course(orbit, other, shift, -1.0, tolerance)) return true;
+    if (detail::same_course(orbit, other, shift, -1.0, extent)) return true;
   }
   return false;
 }

@@ -53,12 +53,8 @@ class OrbitFollower {
       : path_(path),
         orbit_(orbit),
         has_backlash_(width > 0.0),
-        pattern_(switching_pattern(orbit.states, Backlash<double>(width, orbit.memory))) {
-    for (const auto& state : orbit.states) {
-      displacement_ = std::max({displacement_, std::abs(state[0]), std::abs(state[2])});
-      velocity_ = std::max({velocity_, std::abs(state[1]), std::abs(state[3])});
-    }
-  }
+        pattern_(switching_pattern(orbit.states, Backlash<double>(width, orbit.memory))),
+        extent_(orbit.states) {}
 
   FollowedOrbit at(double parameter) {
     ++solutions_;
@@ -84,8 +80,8 @@ class OrbitFollower {
   /// The smallest of the distances, each as a share of the orbit's own size; negative past the end.
   double margin(const FollowedOrbit& followed) const {
     if (!followed.solved) return -1.0;
-    return std::min({followed.borders.displacement.distance / displacement_,
-                     followed.borders.velocity.distance / velocity_,
+    return std::min({followed.borders.displacement.distance / extent_.displacement,
+                     followed.borders.velocity.distance / extent_.velocity,
                      -followed.multiplier.log_modulus});
   }
 
@@ -94,8 +90,8 @@ class OrbitFollower {
     result.parameter = parameter;
     result.multiplier = followed.multiplier;
     result.solutions = solutions_;
-    const double by_displacement = followed.borders.displacement.distance / displacement_;
-    const double by_velocity = followed.borders.velocity.distance / velocity_;
+    const double by_displacement = followed.borders.displacement.distance / extent_.displacement;
+    const double by_velocity = followed.borders.velocity.distance / extent_.velocity;
     const bool by_multiplier = !followed.solved || -followed.multiplier.log_modulus <=
                                                        std::min(by_displacement, by_velocity);
     result.outcome =
@@ -134,8 +130,7 @@ class OrbitFollower {
   const PeriodicOrbit& orbit_;
   bool has_backlash_;
   SwitchingPattern pattern_;
-  double displacement_ = 0.0;
-  double velocity_ = 0.0;
+  StateExtent extent_;
   int solutions_ = 0;
 };
 

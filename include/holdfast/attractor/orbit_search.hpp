@@ -61,11 +61,11 @@ namespace detail {
 inline std::size_t shortest_period(const PeriodicOrbit& orbit) {
   const auto samples = orbit.contacts.size();
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
-  const double size = orbit.states.front().template head<4>().cwiseAbs().maxCoeff();
+  const StateExtent extent(orbit.states);
   for (std::size_t period = step; period < samples; period += step) {
     if (samples % period != 0) continue;
-    const Vector<double, 4> apart = (orbit.states[period] - orbit.states.front()).head<4>();
-    if (apart.cwiseAbs().maxCoeff() > 1e-10 * size) continue;
+    const Vector<double, 5> apart = orbit.states[period] - orbit.states.front();
+    if (extent.share_of(apart) > 1e-10) continue;
     if (std::equal(orbit.contacts.begin() + static_cast<std::ptrdiff_t>(period),
                    orbit.contacts.end(), orbit.contacts.begin()))
       return period;
@@ -120,6 +120,7 @@ class OrbitSearch {
     }
     largest_ = largest_.cwiseMax(motion_.state().cwiseAbs());
     largest_ever_ = largest_ever_.cwiseMax(largest_);
+    extent_.include(largest_);
   }
 
   bool left_numbers() const { return !(motion_.state().cwiseAbs().maxCoeff() < 1e100); }
@@ -183,14 +184,16 @@ class OrbitSearch {
     return finish(OrbitOutcome::certified, shortest(orbit));
   }
 
-  double distance_from(const PeriodicOrbit& orbit) const {
-    return (motion_.state() - orbit.states.front().template head<4>()).norm();
+  /// As a share of the motion's extent.
+  double distance_from(const Vector<double, 4>& state) const {
+    return extent_.share_of<double, 4>(motion_.state() - state);
   }
 
   /// Whether the motion lies on the orbit but for what is still settling, keeps to its contacts for
   /// one more period and ends nearer to it.
   bool follows(const PeriodicOrbit& orbit) {
-    const double before = distance_from(orbit);
+    const Vector<double, 4> first = orbit.states.front().template head<4>();
+    const double before = distance_from(first);
     const auto period = orbit.contacts.size();
     bool same_contacts = true;
     for (std::size_t j = 0; j < period; ++j) {
@@ -199,10 +202,8 @@ class OrbitSearch {
       motion_.advance();
       same_contacts = same_contacts && engaged == (orbit.contacts[j] != 0);
     }
-    const bool on_orbit = before <= 1e-6 * largest_ever_.maxCoeff();
-    const double rounding = 1e-12 * orbit.states.front().template head<4>().norm();
-    if (on_orbit && same_contacts && distance_from(orbit) <= std::max(before, rounding))
-      return true;
+    const double nearest = std::max(before, 1e-12 * extent_.share_of(first));
+    if (before <= 1e-6 && same_contacts && distance_from(first) <= nearest) return true;
     set_reference();
     return false;
   }
@@ -238,6 +239,7 @@ class OrbitSearch {
   std::int64_t reference_taken_ = 0;
   Vector<double, 4> largest_ = Vector<double, 4>::Zero();
   Vector<double, 4> largest_ever_ = Vector<double, 4>::Zero();
+  StateExtent extent_;  // of the motion
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
   Vector<double, 6> weights_;

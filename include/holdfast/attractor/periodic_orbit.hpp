@@ -32,6 +32,14 @@ struct PeriodicOrbit : LoopOrbit<5> {
     const auto engaged = std::count(contacts.begin(), contacts.end(), std::uint8_t{1});
     return static_cast<double>(engaged) / static_cast<double>(contacts.size());
   }
+
+  /// Its distance from the nearest switching surface as a share of its own size; infinite where it
+  /// comes to none.
+  double border_share() const {
+    const StateExtent extent(states);
+    return std::min(extent.share_of_displacement(borders.displacement.distance),
+                    extent.share_of_velocity(borders.velocity.distance));
+  }
 };
 
 /// Whether a sequence of contacts belongs to an orbit.
@@ -51,9 +59,9 @@ struct OrbitCandidate {
 namespace detail {
 
 /// Whether the orbit comes so near to a surface that rounding may decide.
-/// @param state_error  of the states, from their closure
+/// @param state_error  of the states, as a share of their extent
 inline bool touches_surface(const PeriodicOrbit& orbit, double state_error) {
-  const SurfaceRounding rounding = surface_rounding(orbit, state_error);
+  const SurfaceRounding rounding = surface_rounding(StateExtent(orbit.states), state_error);
   return std::abs(orbit.borders.displacement.distance) <= rounding.displacement ||
          std::abs(orbit.borders.velocity.distance) <= rounding.velocity;
 }

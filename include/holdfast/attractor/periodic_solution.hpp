@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "holdfast/attractor/contact_maps.hpp"
+#include "holdfast/attractor/state_extent.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -57,7 +58,8 @@ template <class Scalar>
 struct PeriodicSolution {
   std::vector<Vector<Scalar, 5>> states;  ///< z̃_j = [z_j; u_{j−1}], one for each sample
   Scalar closure_error;  ///< ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀
-  Scalar state_error;  ///< what that means for z₀ itself, ‖(I − M)⁻¹ (z̃_N − z̃₀)‖
+  /// What that means for z₀ itself, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
+  double state_error;
 };
 
 namespace detail {
@@ -82,7 +84,7 @@ Vector<Scalar, 5> follow_contacts(const ContactMaps<Scalar>& maps, const Contact
 /// and what is left open after one period is divided out once more.
 /// @param maps      of the loop
 /// @param contacts  N samples, N a multiple of the forcing's q, the first one at phase 0
-/// @param ends      relation_of_ends() of the sequence's maps
+/// @param ends      relation_of_ends() of the sequence's affine_blocks()
 /// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
 ///         periodic solution, or a continuum of them
 template <class Scalar>
@@ -95,15 +97,18 @@ std::optional<PeriodicSolution<Scalar>> periodic_solution(const ContactMaps<Scal
   if (!(smallest_pivot > rounding * closed.maxPivot())) return std::nullopt;
   PeriodicSolution<Scalar> solution;
   solution.states.resize(contacts.size());
-  solution.states.front() = closed.solve(ends.addition);
-  Vector<Scalar, 5> open;
+  const auto first_state_from = [&](const Vector<Scalar, 5>& addition) -> Vector<Scalar, 5> {
+    return maps.units().cwiseProduct(closed.solve(addition));
+  };
+  solution.states.front() = first_state_from(ends.addition);
+  Vector<Scalar, 5> open, correction;
   for (int refinement = 0; refinement < 3; ++refinement) {
     open = detail::follow_contacts(maps, contacts, solution.states) - solution.states.front();
-    if (refinement < 2) solution.states.front() += closed.solve(ends.last * open);
+    correction = first_state_from(ends.last * open.cwiseQuotient(maps.units()));
+    if (refinement < 2) solution.states.front() += correction;
   }
   solution.closure_error = open.template head<4>().norm();
-  const Vector<Scalar, 5> correction = closed.solve(ends.last * open);
-  solution.state_error = correction.template head<4>().norm();
+  solution.state_error = StateExtent(solution.states).share_of(correction);
   return solution;
 }
 

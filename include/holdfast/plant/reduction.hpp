@@ -53,6 +53,13 @@ struct ReducedMasses {
   double stiffness_condition;
   double mass_condition;     ///< the same of m₁, Σ |∂ ln m₁/∂ ln p|
   double damping_condition;  ///< the same of c₁ by Eq. (3), besides the 1 that ζ counts
+
+  /// An error of 1 % of the inputs may be one of 100 % of k₂ or m₁, as it is near the double
+  /// solution, where the conditions have no bound. False without solution.
+  bool is_ill_conditioned() const {
+    constexpr double largest_condition = 100.0;
+    return stiffness_condition > largest_condition || mass_condition > largest_condition;
+  }
 };
 
 /// How many two-mass plants have the natural frequencies asked for.

@@ -29,6 +29,9 @@ struct BoundaryFeature {
   BoundaryRoot<Scalar> second;  ///< the line, or the faster pair; of two lines λ = −1
   PdGains<Scalar> gains;        ///< P (N/m) and D (N s/m), finite
   Scalar residual;  ///< larger |p(x)| of the two roots, over the sum of the moduli of its terms
+  /// Of a tangent: one of the other kind lies so near that the two are nearly a cusp, where a small
+  /// change of the loop swaps them, and stable intervals appear or vanish.
+  bool nearly_cusp = false;
 };
 
 }  // namespace holdfast

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Units of z̃ = [z; u_{j−1}] that belong to a plant: 1 m, ω · 1 m and k · 1 m, where a displacement
+/// z₁ of 1 m is pulled back with the acceleration ω² and the force k.
+///
+/// What is solved for in them is the same whatever units of mass and time the plant is given in,
+/// and no coordinate is larger than another for its unit alone. They are rounded down to powers of
+/// two, so that changing to them rounds nothing.
+/// @param state_matrix      A, 4 × 4
+/// @param excitation_input  c, 4 × 1
+/// @return of [z₁, ż₁, z₂, ż₂, u]; 1 where the plant does not tell
+template <class Scalar>
+Vector<Scalar, 5> plant_units(const Matrix<Scalar, 4>& state_matrix,
+                              const Vector<Scalar, 4>& excitation_input) {
+  using std::abs;
+  using std::ilogb;
+  using std::isfinite;
+  using std::ldexp;
+  using std::sqrt;
+  const auto unit = [](const Scalar& size) {
+    return size > Scalar(0) && isfinite(size) ? ldexp(Scalar(1), ilogb(size)) : Scalar(1);
+  };
+  const Scalar acceleration = abs(state_matrix(1, 0));
+  const Scalar velocity = unit(sqrt(acceleration));
+  return {Scalar(1), velocity, Scalar(1), velocity, unit(acceleration / abs(excitation_input[1]))};
+}
+
+}  // namespace holdfast
