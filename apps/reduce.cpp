@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "cable_of_case.hpp"
+#include "conditioning.hpp"
 #include "damping_fit.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
@@ -28,6 +29,7 @@ std::optional<AbsorberDampingFit> fitted_damping(const JobContext& context) {
 void run(const JobContext& context) {
   report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   report_warning(deep_cable_warning(context.case_data), context.quiet);
+  report_warning(sensitive_reduction_warning(context.case_data), context.quiet);
   Table table(context, {{"quantity", "", "key of the case file, or what else it is", "string"},
                         {"symbol", "", "in the equations", "string"},
                         {"value", "", "in the unit beside it"},

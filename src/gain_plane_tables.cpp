@@ -3,6 +3,7 @@
 #include <string>
 
 #include "boundary_names.hpp"
+#include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
 #include "holdfast/stability/boundary.hpp"
@@ -49,6 +50,15 @@ AffinePolynomial<Precise, 5> precise_sampled_polynomial(const Case& the_case) {
   const Sampling<double> sampling = sampling_of(the_case);
   return characteristic_polynomial(sampled_loop(
       precise_plant(the_case), Sampling<Precise>{sampling.period, sampling.processing_delay}));
+}
+
+/// Of D, as wide as a window may be (N s/m).
+constexpr DifferentialRange every_gain{-1e150, 1e150};
+
+std::vector<BoundaryFeature<Precise>> precise_features(const Case& the_case,
+                                                       const GainWindow& window, bool continuous) {
+  return continuous ? boundary_features(precise_continuous_polynomial(the_case), window)
+                    : boundary_features(precise_sampled_polynomial(the_case), window);
 }
 
 /// One of the two gains, as the program writes and says it.
@@ -112,6 +122,8 @@ const char* angle_description(bool continuous) {
 
 void write_boundary(const JobContext& context, const ProportionalRange& gains, bool continuous) {
   const Case& the_case = context.case_data;
+  report_warning(near_cusp_warning(precise_features(the_case, {gains, every_gain}, continuous)),
+                 context.quiet);
   const auto points = continuous
                           ? stability_boundary(characteristic_polynomial(plant_of(the_case)), gains)
                           : stability_boundary(characteristic_polynomial(loop_of(the_case)), gains);
@@ -128,9 +140,7 @@ void write_boundary(const JobContext& context, const ProportionalRange& gains, b
 
 void write_boundary_features(const JobContext& context, const GainWindow& window, bool continuous) {
   const Case& the_case = context.case_data;
-  const auto features = continuous
-                            ? boundary_features(precise_continuous_polynomial(the_case), window)
-                            : boundary_features(precise_sampled_polynomial(the_case), window);
+  const auto features = precise_features(the_case, window, continuous);
   const std::string unit = angle_unit(continuous), description = angle_description(continuous);
   Table table(context, {{"feature", "", "what is special about the point", "string"},
                         {"first_curve", "", "a curve through it", "string"},
@@ -139,6 +149,7 @@ void write_boundary_features(const JobContext& context, const GainWindow& window
                         {"second_angle_rad", unit, description + " on the second curve"},
                         {"proportional_gain", "N/m", "P"},
                         {"differential_gain", "N.s/m", "D"}});
+  report_warning(near_cusp_warning(features), context.quiet);
   for (const BoundaryFeature<Precise>& feature : features) {
     table.row(word_for(feature.kind), name_of(feature.first.curve),
               static_cast<double>(feature.first.angle), name_of(feature.second.curve),

@@ -2,7 +2,9 @@
 
 #include <optional>
 
+#include "conditioning.hpp"
 #include "errors.hpp"
+#include "exit.hpp"
 #include "holdfast/attractor/hybrid_orbit_search.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
@@ -46,6 +48,7 @@ HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
     if (found.outcome != OrbitOutcome::certified) {
       throw NoAnswer(reason_for(failure_of(found, ratio, cycles_per_sample(loop), largest_period)));
     }
+    report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
     return *found.orbit;
   });
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
 #include "holdfast/attractor/hybrid_lyapunov.hpp"
@@ -114,6 +115,7 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& question
                                              : built_exponents(context, question, run);
   if (question.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
+  report_warning(open_sign_warning(result), context.quiet);
   for (int i = 0; i < (question.largest ? 1 : 5); ++i)
     table.row(i + 1, result.exponents[i], result.exponents[i] / period, result.standard_errors[i]);
   table.commit();

@@ -5,7 +5,9 @@
 
 #include "axis.hpp"
 #include "case_keys.hpp"
+#include "conditioning.hpp"
 #include "errors.hpp"
+#include "exit.hpp"
 #include "holdfast/attractor/orbit_continuation.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
@@ -115,6 +117,7 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
         reason_for(failure_of(found, forcing_ratio(loop),
                               loop.excitation.frequency * loop.sampling.period, largest_period)));
   }
+  report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
   return std::move(*found.orbit);
 }
 

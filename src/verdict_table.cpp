@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "conditioning.hpp"
 #include "exit.hpp"
 #include "holdfast/attractor/hybrid_verdict.hpp"
 #include "holdfast/attractor/motion_verdict.hpp"
@@ -44,17 +45,25 @@ double known(const std::optional<Part>& part, const Read& read) {
 struct Judged {
   Verdict verdict;
   MotionEvidence evidence;
+  std::string warning;
 };
+
+/// @tparam Search  OrbitResult or HybridSearch
+template <class Search>
+std::string warning_of(const Search& search) {
+  const bool certified = search.outcome == OrbitOutcome::certified;
+  return certified ? near_border_warning(search.orbit->border_share()) : "";
+}
 
 Judged judged(const Case& the_case, std::int64_t largest_period, Switching switching) {
   const Vector<double, 4> state = initial_state_of(the_case);
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
   if (is_of_the_paper(the_case, switching)) {
     const MotionVerdict found = classify_motion(forced_loop_of(the_case), state, limits);
-    return {found.verdict, found.evidence};
+    return {found.verdict, found.evidence, warning_of(found.search)};
   }
   const HybridVerdict found = classify_motion(real_loop_of(the_case, switching), state, limits);
-  return {found.verdict, found.evidence};
+  return {found.verdict, found.evidence, warning_of(found.search)};
 }
 
 /// The verdict for a reader who does not count columns: "periodic(100), 0.1 s: …".
@@ -68,7 +77,8 @@ void say(const Verdict& verdict, double period, const JobContext& context) {
 
 void write_verdict(const JobContext& context, std::int64_t largest_period, Switching switching) {
   Table table(context, verdict_columns());
-  const auto [verdict, evidence] = judged(context.case_data, largest_period, switching);
+  const auto [verdict, evidence, warning] = judged(context.case_data, largest_period, switching);
+  report_warning(warning, context.quiet);
   const double period = verdict.period > 0 ? static_cast<double>(verdict.period) *
                                                  context.case_data.control.sampling_period
                                            : std::numeric_limits<double>::quiet_NaN();
