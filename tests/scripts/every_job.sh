@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Runs every job of the program once with a small question, most often under a tool that watches it:
+#
+#   every_job.sh [--threads | --without-packages | --short] [WRAPPER ...] PROGRAM
+#
+#   --threads           only the jobs that use threads
+#   --without-packages  leaves out what SUNDIALS, Ceres Solver and netCDF are needed for
+#   --short             leaves out the report
+#
+# Fails where a job does, and where the program has a job that is not asked anything here.
+set -euo pipefail
+
+only=all
+case ${1-} in
+  --threads) only=threads && shift ;;
+  --without-packages) only=plain && shift ;;
+  --short) only=short && shift ;;
+esac
+command=("$@")
+program=$(realpath "${command[-1]}")
+command[-1]=$program
+
+# Kind, then the words: t threads, p needs a package, l takes long, a any other.
+questions='
+t stability --p -600:0:7 --d -20:0:5 --radius
+t stability --axis plant.absorber_mass=0.1:0.2:3 --axis control.differential_gain=-9:0:3
+a stability --continuous --p -600:0:3 --d -20:0:3
+a boundary --p -600:0
+a boundary --regions
+a boundary --features
+a boundary --stable-interval
+a response --p -600:0:3 --d -20:0:3
+a max-delay
+a design
+a design --frequency 5:10:2
+a design --band 9:11
+a margins
+a sensitivity
+a simulate --duration 0.5
+a simulate --duration 0.2 --switching exact
+a simulate --duration 0.2 --set backlash.law=play
+a simulate --duration 0.2 --set backlash.law=dead_zone --set backlash.contact_stiffness=1000
+a spectrum --duration 2
+a deviation --duration 0.5 --offset 1e-5
+a coverage --durations 1,2
+a section --duration 1 --from 0.2
+a diagram --axis backlash.width=0.0001:0.001:3
+a lyapunov --duration 0.5
+a lyapunov --duration 0.2 --switching exact
+a orbit --certificate
+a orbit --switching exact
+a verdict
+t basins --axis initial.z1=-0.005:0.005:5 --axis initial.z2=-0.005:0.005:5 --threads 3
+t sweep --axis backlash.width=0:0.001:5 --axis control.sampling_period=0.001,0.002 --duration 0.5 --threads 3 --output sweep.csv
+p sweep --axis backlash.width=0:0.001:5 --duration 0.5 --threads 2 --output sweep.nc
+a statics --force -1:1:3 --elements 8
+a modes --count 2 --elements 8
+p decay --duration 0.1 --elements 8
+p peaks --force 1:1:1 --elements 8
+p reduce
+p fit --data decay.csv
+a case
+a case --check case.toml
+a answers
+l report --output report
+a manual
+a completion bash
+a bill-of-materials
+'
+
+asked() { awk 'NF { print $2 }' <<<"$questions" | sort -u; }
+known() { "$program" --help | awk '/:$/ { jobs = $0 !~ /^(Usage|Options|Examples)/ } jobs && /^  [a-z]/ { print $1 }' | sort -u; }
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+data=$(dirname "$0")/../../data
+cp "$data/kollar2022-decay.csv" "$work/decay.csv"
+cp "$data/kollar2022.toml" "$work/case.toml"
+
+missing=$(comm -13 <(asked) <(known) | tr '\n' ' ')
+if [ -n "$missing" ]; then
+  echo "no question for: $missing" >&2
+  exit 1
+fi
+
+failures=0 count=0
+while read -r kind words; do
+  case $only:$kind in
+    *: | threads:[apl] | plain:p | short:l) continue ;;
+  esac
+  read -ra arguments <<<"$words"
+  count=$((count + 1))
+  if ! (cd "$work" && "${command[@]}" "${arguments[@]}" >out 2>err </dev/null); then
+    printf 'FAILED: %s\n' "$words"
+    head -40 "$work/err"
+    failures=$((failures + 1))
+  fi
+done <<<"$questions"
+printf '%d questions, %d failures\n' "$count" "$failures"
+[ "$failures" -eq 0 ]
