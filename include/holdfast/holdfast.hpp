@@ -89,6 +89,7 @@
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/series.hpp"
 #include "holdfast/core/student_quantile.hpp"
+#include "holdfast/core/trusted_digits.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/core/version.hpp"
 #include "holdfast/motion/affine_expansion.hpp"

@@ -40,16 +40,19 @@ struct CableMode {
 /// one bisection serves every λ² > 0: the crossovers λ² = (2nπ)², where y = nπ, the taut string
 /// and the inextensible cable. Source: H. M. Irvine, T. K. Caughey, The linear theory of free
 /// vibrations of a suspended cable, Proc. R. Soc. A 341 (1974).
-inline double symmetric_frequency(int n, double irvine_parameter) {
-  const auto residual = [irvine_parameter](double y) {
-    return std::sin(y) - (y - 4.0 / irvine_parameter * y * y * y) * std::cos(y);
+/// @tparam Scalar  a floating-point type
+template <class Scalar>
+Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {
+  const auto residual = [irvine_parameter](const Scalar& y) {
+    return std::sin(y) - (y - Scalar(4) / irvine_parameter * y * y * y) * std::cos(y);
   };
-  double below = (n - 0.5) * pi<double>, above = (n + 0.5) * pi<double>;
+  const Scalar half(0.5);
+  Scalar below = (Scalar(n) - half) * pi<Scalar>, above = (Scalar(n) + half) * pi<Scalar>;
   const bool rising = n % 2 == 0;  // sin(below) = −1 for even n
   while (true) {
-    const double middle = 0.5 * (below + above);
-    if (middle <= below || middle >= above) return 2.0 * middle;
-    const bool left_of_root = (residual(middle) < 0.0) == rising;
+    const Scalar middle = half * (below + above);
+    if (middle <= below || middle >= above) return Scalar(2) * middle;
+    const bool left_of_root = (residual(middle) < Scalar(0)) == rising;
     (left_of_root ? below : above) = middle;
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <type_traits>
 
 namespace holdfast {
 
@@ -19,5 +20,16 @@ using Matrix = Eigen::Matrix<Scalar, Rows, Columns>;
 /// π to the precision of the number type (30 digits are given).
 template <class Scalar>
 inline constexpr Scalar pi = Scalar(3.14159265358979323846264338328L);
+
+/// π as a number of any type that is made from a `double`, duals and packs among them; of a
+/// floating-point type to its own precision.
+template <class Scalar>
+Scalar pi_of() {
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    return pi<Scalar>;
+  } else {
+    return Scalar(pi<double>);
+  }
+}
 
 }  // namespace holdfast

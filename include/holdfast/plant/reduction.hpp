@@ -84,7 +84,7 @@ struct ReductionResult {
 template <class Scalar>
 Scalar largest_absorber_mass(const FrequencyReduction<Scalar>& asked) {
   const Scalar room = (Scalar(1) / asked.first_frequency - Scalar(1) / asked.second_frequency) /
-                      Scalar(2 * pi<double>);
+                      (Scalar(2) * pi_of<Scalar>());
   return asked.conductor_stiffness * room * room;
 }
 
@@ -105,8 +105,8 @@ Scalar reduction_discriminant(const FrequencyReduction<Scalar>& asked) {
 template <class Scalar>
 Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool larger) {
   using std::sqrt;
-  const Scalar first = Scalar(2 * pi<double>) * asked.first_frequency;
-  const Scalar second = Scalar(2 * pi<double>) * asked.second_frequency;
+  const Scalar first = Scalar(2) * pi_of<Scalar>() * asked.first_frequency;
+  const Scalar second = Scalar(2) * pi_of<Scalar>() * asked.second_frequency;
   const Scalar scale = asked.absorber_mass * first * second;
   const Scalar excess =
       scale / (Scalar(2) * asked.conductor_stiffness) * reduction_discriminant(asked);
@@ -118,8 +118,8 @@ Scalar absorber_stiffness_root(const FrequencyReduction<Scalar>& asked, bool lar
 template <class Scalar>
 Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
                               const Scalar& absorber_stiffness) {
-  const Scalar product =
-      Scalar(4 * pi<double> * pi<double>) * asked.first_frequency * asked.second_frequency;
+  const Scalar turn = Scalar(2) * pi_of<Scalar>();
+  const Scalar product = turn * turn * asked.first_frequency * asked.second_frequency;
   return asked.conductor_stiffness * absorber_stiffness / (asked.absorber_mass * product * product);
 }
 

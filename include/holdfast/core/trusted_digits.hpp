@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Most decimal digits that a `double` has, and the answer where nothing tells two results apart.
+inline constexpr double most_trusted_digits = 17.0;
+
+/// Whether `long double` is wider than `double` here. Where it is not (Microsoft's compiler, macOS
+/// on ARM), a comparison with it shows nothing and gives `most_trusted_digits`.
+inline constexpr bool long_double_is_wider =
+    std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits;
+
+namespace detail {
+
+/// −log₁₀(difference/scale) within 0 … 17, of a finite difference ≥ 0.
+inline double digits_of(long double difference, long double scale) {
+  if (difference == 0.0L) return most_trusted_digits;
+  const auto digits = static_cast<double>(-std::log10(difference / scale));
+  return std::min(std::max(digits, 0.0), most_trusted_digits);
+}
+
+}  // namespace detail
+
+/// Decimal digits in which a result agrees with the same computation in a wider number type:
+///
+///     d = −log₁₀(|value − reference|/scale),   0 ≤ d ≤ 17
+///
+/// 17 where both are equal, both NaN, or the same infinity; 0 where one alone is not finite, where
+/// the difference is as large as the scale, and where the scale is 0 but the two differ.
+///
+///     trusted_digits(3.14, 3.14159265L, 1.0L)   // 2.8
+///
+/// @param value      computed in double
+/// @param reference  of the same inputs, computed in the wider type
+/// @param scale      finite, ≥ 0, what counts as large: of a quantity that passes through zero its
+/// largest
+///                   size, not the one it happens to have
+inline double trusted_digits(double value, long double reference, long double scale) {
+  const long double wide = value;
+  if (wide == reference || (std::isnan(wide) && std::isnan(reference))) return most_trusted_digits;
+  if (!std::isfinite(wide) || !std::isfinite(reference)) return 0.0;
+  return detail::digits_of(std::abs(wide - reference), scale);
+}
+
+/// The same relative to the reference itself: a reference of 0 is met exactly or not at all.
+inline double trusted_digits(double value, long double reference) {
+  return trusted_digits(value, reference, std::abs(reference));
+}
+
+/// Digits of a vector or matrix as a whole, −log₁₀(‖value − reference‖/‖reference‖) of the
+/// Euclidean norm of all entries, with the same limits; 0 where an entry is not finite. Entries of
+/// different units are to be scaled before.
+/// @param value      any shape
+/// @param reference  of the same shape
+template <class Value, class Reference>
+double trusted_digits(const Eigen::MatrixBase<Value>& value,
+                      const Eigen::MatrixBase<Reference>& reference) {
+  const auto wide = value.template cast<long double>().eval();
+  const auto same = reference.template cast<long double>().eval();
+  if (!wide.allFinite() || !same.allFinite()) return 0.0;
+  return detail::digits_of((wide - same).norm(), same.norm());
+}
+
+}  // namespace holdfast
