@@ -1,5 +1,6 @@
 #include "holdfast/attractor/deviation.hpp"
 #include "job.hpp"
+#include "motion_digits.hpp"
 #include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
@@ -30,6 +31,9 @@ void run(const JobContext& context, const Options& options) {
     require_completed(outcome, first.time());
     require_resolved(first, context.quiet);
   });
+  tell_trust(
+      context, table,
+      trusted_digits_of_deviation(context.case_data, options.switching, options.offset, samples));
   table.commit();
 }
 

@@ -6,6 +6,7 @@
 #include "errors.hpp"
 #include "exit.hpp"
 #include "job.hpp"
+#include "motion_digits.hpp"
 #include "reduction_table.hpp"
 #include "table.hpp"
 
@@ -36,6 +37,7 @@ void run(const JobContext& context) {
                         {"unit", "", "SI", "string"}});
   for (const Quantity& row : reduction_table(context.case_data, fitted_damping(context)))
     table.row(row.name, row.symbol, row.value, row.unit);
+  tell_trust(context, table, trusted_digits_of_reduction(context.case_data));
   table.commit();
 }
 

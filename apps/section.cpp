@@ -7,6 +7,7 @@
 #include "interrupt.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
+#include "motion_digits.hpp"
 #include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
@@ -57,6 +58,8 @@ void run(const JobContext& context, const Options& options) {
                       motion.time());
     require_resolved(motion, context.quiet);
   });
+  tell_trust(context, table,
+             trusted_digits_of_motion(context.case_data, options.switching, samples, options.from));
   table.commit();
 }
 

@@ -4,6 +4,7 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
 #include "motion_columns.hpp"
+#include "motion_digits.hpp"
 #include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
@@ -31,6 +32,15 @@ ContactMode mode_of(const MotionSample<double>& sample) {
   return sample.engaged ? ContactMode::engaged : ContactMode::gap;
 }
 
+/// What looks after the digits of the motion; nothing where it is not one of the paper's model.
+std::optional<MotionDigits> digits_beside(const Case& the_case, const Options& options,
+                                          const std::optional<Kick>& kick) {
+  if (!is_of_the_paper(the_case, options.switching)) return std::nullopt;
+  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  return MotionDigits(options.no_control ? uncontrolled(loop) : loop, initial_state_of(the_case),
+                      kick, options.from);
+}
+
 void run(const JobContext& context, const Options& options) {
   const std::optional<Kick> kick = kick_of(options);
   if (options.from > options.duration)
@@ -38,15 +48,18 @@ void run(const JobContext& context, const Options& options) {
   if (kick && kick->time > options.duration) throw WrongInput("--kick acts after --duration");
   const std::int64_t samples = samples_of(context.case_data, options.duration);
   Table table(context, motion_columns(options.switching));
+  auto digits = digits_beside(context.case_data, options, kick);
   const MotionChoice choice{options.switching, !options.no_control};
   with_motion_of(context.case_data, choice, [&](auto motion) {
     run_to_completion(motion, samples, kick, [&](const auto& sample) {
+      if (digits) (*digits)(sample);
       if (!not_before(sample.time, options.from)) return;
       write_motion_row(table, options.switching,
                        {sample.time, sample.state, sample.control_force, mode_of(sample)});
     });
     require_resolved(motion, context.quiet);
   });
+  if (digits) tell_trust(context, table, digits->result());
   table.commit();
 }
 

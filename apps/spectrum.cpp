@@ -3,6 +3,7 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
+#include "motion_digits.hpp"
 #include "motion_of_case.hpp"
 #include "motion_options.hpp"
 #include "motion_run.hpp"
@@ -18,8 +19,14 @@ struct Options {
   Switching switching = Switching::sampled;
 };
 
+/// A motion's z1 without its transient.
+struct SteadyRecord {
+  std::vector<double> displacement;
+  TrustedDigits trusted;  // of the samples
+};
+
 /// z1 of the samples after the discarded time, cut to whole forcing and sampling periods.
-std::vector<double> steady_record(const JobContext& context, const Options& options) {
+SteadyRecord steady_record(const JobContext& context, const Options& options) {
   const double period = context.case_data.control.sampling_period;
   const double discard = options.discard.value_or(options.duration / 2.0);
   if (!(discard < options.duration)) throw WrongInput("--discard leaves nothing of --duration");
@@ -36,7 +43,8 @@ std::vector<double> steady_record(const JobContext& context, const Options& opti
     });
     require_resolved(motion, context.quiet);
   });
-  return record;
+  const double from = static_cast<double>(samples - kept) * period;
+  return {record, trusted_digits_of_motion(context.case_data, options.switching, samples, from)};
 }
 
 void run(const JobContext& context, const Options& options) {
@@ -44,9 +52,11 @@ void run(const JobContext& context, const Options& options) {
               {{"frequency_Hz", "Hz", "frequency of the line"},
                {"amplitude_m", "m", "amplitude of z1: a sine of amplitude a on a line shows a"}});
   const auto window = options.window == "hann" ? SpectralWindow::hann : SpectralWindow::rectangular;
-  const auto lines = amplitude_spectrum(steady_record(context, options),
-                                        context.case_data.control.sampling_period, window);
+  const SteadyRecord record = steady_record(context, options);
+  const auto lines =
+      amplitude_spectrum(record.displacement, context.case_data.control.sampling_period, window);
   for (const SpectralLine& line : lines) table.row(line.frequency, line.amplitude);
+  tell_trust(context, table, record.trusted);
   table.commit();
 }
 

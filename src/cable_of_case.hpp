@@ -29,6 +29,9 @@ void require_reading_range(const Case& the_case);
 /// k1 (N/m) from Eq. 1 with the case's reading. Throws what require_reading_range() throws.
 double conductor_stiffness_of(const Case& the_case);
 
+/// What the case asks of a reduction: k1 as it is read, m2 and the two natural frequencies.
+FrequencyReduction<double> reduction_question_of(const Case& the_case);
+
 /// m1 and k2 from that k1, the absorber's mass and the two frequencies of [reduction].
 ReductionResult reduction_of(const Case& the_case);
 

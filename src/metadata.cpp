@@ -60,14 +60,22 @@ Json origin(const JobContext& context) {
           {"options", options},          {"case", case_to_json(context.case_data)}};
 }
 
+void append_trust(Json& json, const TrustedDigits& trusted) {
+  if (!is_worth_telling(trusted)) return;
+  json["trusted_digits"] = trusted.digits;
+  if (trusted.until) json["trusted_until_s"] = *trusted.until;
+  if (!trusted.least.empty()) json["least_trusted"] = trusted.least;
+}
+
 }  // namespace
 
 Json table_metadata(const JobContext& context, const std::vector<Column>& columns,
-                    const std::string& file_name) {
+                    const std::string& file_name, const TrustedDigits& trusted) {
   Json described = Json::array();
   for (const Column& column : columns) described.push_back(column_metadata(column));
   Json note = Json::object();
   note["holdfast"] = origin(context);
+  append_trust(note["holdfast"], trusted);
   Json json;
   json["@context"] = "http://www.w3.org/ns/csvw";
   json["url"] = url_of(file_name);

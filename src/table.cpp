@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "errors.hpp"
+#include "exit.hpp"
 #include "metadata.hpp"
 
 namespace holdfast::program {
@@ -23,11 +24,11 @@ const std::optional<std::filesystem::path>& csv_target(
 }  // namespace
 
 Table::Table(const JobContext& context, const std::vector<Column>& columns)
-    : output_(csv_target(context.output)), writer_(output_, columns) {
-  if (!output_.is_file()) return;
-  const std::filesystem::path& target = output_.target();
-  metadata_ = std::make_unique<OutputFile>(metadata_path(target));
-  metadata_->write(json_text(table_metadata(context, columns, target.filename().string())));
+    : output_(csv_target(context.output)),
+      writer_(output_, columns),
+      context_(context),
+      columns_(columns) {
+  if (output_.is_file()) metadata_ = std::make_unique<OutputFile>(metadata_path(output_.target()));
 }
 
 void Table::commit() {
@@ -37,6 +38,8 @@ void Table::commit() {
     output_.commit();
     return;
   }
+  const std::string name = output_.target().filename().string();
+  metadata_->write(json_text(table_metadata(context_, columns_, name, trusted_)));
   // The table last: whoever sees it finds its metadata.
   metadata_->commit();
   try {
@@ -46,6 +49,11 @@ void Table::commit() {
     std::filesystem::remove(metadata_->target(), ignored);
     throw;
   }
+}
+
+void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {
+  table.trust(trusted);
+  report_warning(trust_warning(trusted), context.quiet);
 }
 
 }  // namespace holdfast::program

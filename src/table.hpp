@@ -6,6 +6,7 @@
 #include "csv.hpp"
 #include "job_context.hpp"
 #include "output.hpp"
+#include "trusted_digits.hpp"
 
 namespace holdfast::program {
 
@@ -30,12 +31,21 @@ class Table {
   /// For rows whose width is known only when the program runs: cell() … end_row().
   CsvWriter& writer() { return writer_; }
 
+  /// What the metadata say of the table's digits; call before commit().
+  void trust(const TrustedDigits& trusted) { trusted_ = trusted; }
+
   void commit();
 
  private:
   OutputFile output_;
   CsvWriter writer_;
   std::unique_ptr<OutputFile> metadata_;  // none for standard output
+  JobContext context_;
+  std::vector<Column> columns_;
+  TrustedDigits trusted_;
 };
+
+/// Puts the digits of a table into its metadata and, where there are few, tells the user.
+void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted);
 
 }  // namespace holdfast::program

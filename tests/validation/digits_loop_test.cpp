@@ -1,0 +1,240 @@
+// How many digits of what the loop without backlash derives may be trusted: the same templates in
+// double and in long double, over the cases of Kollár 2022 (Figs. 3–5).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/stability/boundary_features.hpp"
+#include "holdfast/stability/characteristic_polynomial.hpp"
+#include "holdfast/stability/least_radius.hpp"
+#include "holdfast/stability/loop_polynomial.hpp"
+#include "holdfast/stability/margins.hpp"
+#include "holdfast/stability/max_delay.hpp"
+#include "holdfast/stability/response.hpp"
+#include "holdfast/stability/spectral_radius.hpp"
+#include "holdfast/stability/stable_intervals.hpp"
+#include "support/digits.hpp"
+
+namespace holdfast {
+namespace {
+
+using test::loop_inputs;
+using test::loop_of;
+using test::LoopInputs;
+using test::plant_inputs;
+using test::plant_of;
+using test::sampled_of;
+using test::SamplingCase;
+using test::samplings;
+
+class LoopDigits : public test::Digits {};
+
+constexpr auto lowest_differential_gain = [](const auto& v) {
+  return stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]).front().lower;
+};
+
+TEST_F(LoopDigits, OfTheMatricesOfOneSample) {
+  // Scaling and squaring of a balanced matrix, whose norm is below ten: ε times a few hundred.
+  for (const SamplingCase& which : samplings) {
+    const LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
+    const auto narrow = sampled_of(x);
+    const auto wide = sampled_of(x.cast<long double>().eval());
+    const auto input = harmonic_input(kollar2022_plant(), narrow, ForceHold::exact, 62.8);
+    const auto wide_input = harmonic_input(converted<long double>(kollar2022_plant()), wide,
+                                           ForceHold::exact, static_cast<long double>(62.8));
+    const double promised = 12.5;
+    report("A_d", which.name, trusted_digits(narrow.transition, wide.transition), promised);
+    report("A_d - I", which.name, trusted_digits(narrow.increment, wide.increment), promised);
+    report("Gamma_0", which.name, trusted_digits(narrow.present_force, wide.present_force),
+           promised);
+    report("Gamma_1", which.name, trusted_digits(narrow.previous_force, wide.previous_force),
+           promised);
+    report("c_d", which.name, trusted_digits(narrow.held_excitation, wide.held_excitation),
+           promised);
+    report("c_d of the exact hold, cosine", which.name,
+           trusted_digits(input.cosine, wide_input.cosine), promised);
+    report("c_d of the exact hold, sine", which.name, trusted_digits(input.sine, wide_input.sine),
+           promised);
+  }
+}
+
+TEST_F(LoopDigits, OfTheStabilityOfTheLoop) {
+  for (const SamplingCase& which : samplings) {
+    LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
+    if (which.period > 0.02) x[9] = -3.0;
+    compare(
+        "spectral radius", which.name,
+        [](const auto& v) { return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains)); },
+        x);
+    compare(
+        "1 - radius", which.name,
+        [](const auto& v) { return -loop_polynomial(sampled_of(v)).excess(loop_of(v).gains); }, x);
+    compare("lowest stable D", which.name, lowest_differential_gain, x);
+    compare(
+        "highest stable D", which.name,
+        [](const auto& v) {
+          return stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8])
+              .back()
+              .upper;
+        },
+        x);
+    compare(
+        "lowest stable P", which.name,
+        [](const auto& v) {
+          return stable_proportional_gains(characteristic_polynomial(sampled_of(v)), v[9])
+              .front()
+              .lower;
+        },
+        x);
+  }
+  compare(
+      "lowest stable D", "continuous (Fig. 3)",
+      [](const auto& v) {
+        return stable_differential_gains(characteristic_polynomial(plant_of(v)),
+                                         decltype(v[0] + v[0])(-557))
+            .front()
+            .lower;
+      },
+      plant_inputs());
+}
+
+template <class Scalar>
+SteadyResponse<Scalar> response_of(const Vector<Scalar, 13>& x) {
+  const auto loop = loop_of(x);
+  const auto sampled = sampled_of(x);
+  const Scalar omega = loop.excitation.angular_frequency();
+  return {sampled, harmonic_input(loop.plant, sampled, loop.hold, omega), omega};
+}
+
+TEST_F(LoopDigits, OfTheSteadyResponse) {
+  for (const SamplingCase& which : samplings) {
+    const LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
+    compare(
+        "steady amplitude", which.name,
+        [](const auto& v) { return response_of(v).amplitude_per_force(loop_of(v).gains); }, x);
+    compare(
+        "ratio to no control", which.name,
+        [](const auto& v) { return response_of(v).ratio_to_uncontrolled(loop_of(v).gains); }, x);
+    compare(
+        "D of least amplitude", which.name,
+        [](const auto& v) {
+          const auto stable =
+              stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]);
+          return response_of(v).best_differential_gain(v[8], stable).differential_gain;
+        },
+        x);
+  }
+}
+
+/// The point between two, one with and one without, at which a property changes, by bisection to
+/// the precision of the type.
+template <class Has>
+long double change_between(long double with, long double without, const Has& has) {
+  EXPECT_TRUE(has(with) && !has(without)) << "the property does not change here";
+  for (int step = 0; step < 200; ++step) {
+    const long double middle = (with + without) / 2.0L;
+    if (middle == with || middle == without) break;
+    (has(middle) ? with : without) = middle;
+  }
+  return with;
+}
+
+Vector<long double, 13> sampled_every(LoopInputs x, long double period, long double delay) {
+  Vector<long double, 13> wide = x.cast<long double>();
+  wide[6] = period;
+  wide[7] = delay;
+  return wide;
+}
+
+TEST_F(LoopDigits, OfTheMarginsOfPeriodAndDelay) {
+  // The walk in double against bisection of the spectral radius in long double: two routes.
+  const LoopInputs x = loop_inputs(0.001, 0.0, 0.0);
+  const auto margins = stability_margins(kollar2022_plant(), {0.001, 0.0}, {-557.0, -13.0});
+  const auto stable = [](const Vector<long double, 13>& v) {
+    return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains)) < 1.0L;
+  };
+  ASSERT_EQ(margins.sampling_period.above.outcome, MarginEndOutcome::boundary);
+  const double period = margins.sampling_period.above.position;
+  const long double true_period =
+      change_between(period * (1.0L - 1e-6L), period * (1.0L + 1e-6L),
+                     [&](long double t) { return stable(sampled_every(x, t, 0.0L)); });
+  report("longest stable period", "1 ms", trusted_digits(period, true_period), 11.0);
+
+  const auto at_ten = stability_margins(kollar2022_plant(), {0.01, 0.0}, {-557.0, -13.0});
+  ASSERT_EQ(at_ten.processing_delay.above.outcome, MarginEndOutcome::boundary);
+  const double delay = at_ten.processing_delay.above.position;
+  const long double true_delay =
+      change_between(delay * (1.0L - 1e-6L), delay * (1.0L + 1e-6L),
+                     [&](long double t) { return stable(sampled_every(x, 0.01L, t)); });
+  report("longest stable delay", "10 ms", trusted_digits(delay, true_delay), 11.0);
+}
+
+TEST_F(LoopDigits, OfTheLargestPeriodThatAttenuates) {
+  for (const double frequency : {10.0, 30.0}) {
+    MaxDelayQuestion question;
+    question.frequency = frequency;
+    question.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
+    const MaxDelay answer = max_sampling_period(kollar2022_plant(), question);
+    ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
+    const auto attenuates = [&](long double period) {
+      Vector<long double, 13> v =
+          sampled_every(loop_inputs(0.01, 0.0, 0.0, frequency), period, 0.0L);
+      v[8] = question.proportional_gain;
+      const auto stable = stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]);
+      return response_of(v).best_differential_gain(v[8], stable).ratio_to_uncontrolled < 1.0L;
+    };
+    const double period = answer.sampling_period;
+    report("largest period that attenuates",
+           "Fig. 5, " + std::to_string(std::lround(frequency)) + " Hz",
+           trusted_digits(period, change_between(period * (1.0L - 1e-6L), period * (1.0L + 1e-6L),
+                                                 attenuates)),
+           9.0);
+  }
+}
+
+TEST_F(LoopDigits, OfTheLeastSpectralRadius) {
+  for (const SamplingCase& which : samplings) {
+    const LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
+    const LeastRadius least = least_radius(sampled_of(x), -557.0, -5.0);
+    const auto polynomial = loop_polynomial(sampled_of(x.cast<long double>().eval()));
+    const auto reached = [&](long double radius) {
+      return !polynomial.differential_gains_within(-557.0L, radius - polynomial.centre).empty();
+    };
+    report("least spectral radius", which.name,
+           trusted_digits(least.radius, change_between(least.radius * (1.0L + 1e-6L),
+                                                       least.radius * (1.0L - 1e-6L), reached)),
+           11.0);
+  }
+}
+
+TEST_F(LoopDigits, OfTheFeaturesOfTheBoundary) {
+  // Tangents, cusps, crossings and ends, found anew in long double: as many, at the same gains. A
+  // crossing of a curve with itself and a cusp are double roots: half the digits.
+  const GainWindow window{{-900.0, 300.0}, {-60.0, 20.0}};
+  for (const SamplingCase& which : samplings) {
+    const LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
+    const auto narrow = boundary_features(characteristic_polynomial(sampled_of(x)), window);
+    const auto wide = boundary_features(
+        characteristic_polynomial(sampled_of(x.cast<long double>().eval())), window);
+    ASSERT_EQ(narrow.size(), wide.size()) << which.name;
+    double least = most_trusted_digits;
+    for (std::size_t k = 0; k < narrow.size(); ++k) {
+      ASSERT_EQ(narrow[k].kind, wide[k].kind) << which.name << " " << k;
+      const auto& found = narrow[k].gains;
+      const auto& there = wide[k].gains;
+      least = std::min(
+          least,
+          trusted_digits(Vector<double, 2>(found.proportional, 40.0 * found.differential),
+                         Vector<long double, 2>(there.proportional, 40.0L * there.differential)));
+    }
+    report("gains of boundary features (" + std::to_string(narrow.size()) + ")", which.name, least,
+           7.0);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast
