@@ -31,8 +31,7 @@ void run(const JobContext& context, const Options& options) {
     require_completed(outcome, first.time());
     require_resolved(first, context.quiet);
   });
-  tell_trust(
-      context, table,
+  table.trust(
       trusted_digits_of_deviation(context.case_data, options.switching, options.offset, samples));
   table.commit();
 }

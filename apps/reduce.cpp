@@ -37,7 +37,7 @@ void run(const JobContext& context) {
                         {"unit", "", "SI", "string"}});
   for (const Quantity& row : reduction_table(context.case_data, fitted_damping(context)))
     table.row(row.name, row.symbol, row.value, row.unit);
-  tell_trust(context, table, trusted_digits_of_reduction(context.case_data));
+  tell_trust(context, table, trusted_digits_of_reduction(reduction_question_of(context.case_data)));
   table.commit();
 }
 

@@ -1,14 +1,11 @@
 #include "motion_digits.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "cable_of_case.hpp"
 #include "holdfast/attractor/deviation.hpp"
 #include "holdfast/core/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/plant/reduction.hpp"
 #include "loop_of_case.hpp"
 
 namespace holdfast::program {
@@ -121,8 +118,7 @@ TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switch
   return {whole(least), lost ? std::optional<double>(until) : std::nullopt, ""};
 }
 
-TrustedDigits trusted_digits_of_reduction(const Case& the_case) {
-  const FrequencyReduction<double> asked = reduction_question_of(the_case);
+TrustedDigits trusted_digits_of_reduction(const FrequencyReduction<double>& asked) {
   const FrequencyReduction<Wide> wide{asked.conductor_stiffness, asked.absorber_mass,
                                       asked.first_frequency, asked.second_frequency};
   const ReductionResult found = reduce_to_frequencies(asked);

@@ -7,6 +7,7 @@
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/reduction.hpp"
 #include "trusted_digits.hpp"
 
 namespace holdfast::program {
@@ -57,8 +58,8 @@ TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching
 TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
                                           std::int64_t samples);
 
-/// Digits of what the reduction of a case says of its plant: both roots, the discriminant, the
-/// bounds. Throws what reduction_of() throws.
-TrustedDigits trusted_digits_of_reduction(const Case& the_case);
+/// Digits of what a reduction says of its plant: both roots, the discriminant, the largest absorber
+/// mass. Throws what reduce_to_frequencies() throws.
+TrustedDigits trusted_digits_of_reduction(const FrequencyReduction<double>& asked);
 
 }  // namespace holdfast::program

@@ -106,6 +106,6 @@ inline constexpr std::array<SamplingCase, 5> samplings{{{"1 ms", 0.001, 0.0},
                                                         {"10 ms (Fig. 4a)", 0.01, 0.0},
                                                         {"10 ms, delay 5 ms", 0.01, 0.005},
                                                         {"11 ms (Fig. 9)", 0.011, 0.0},
-                                                        {"29 ms (Fig. 5)", 0.029, 0.0}}};
+                                                        {"25 ms (Fig. 5)", 0.025, 0.0}}};
 
 }  // namespace holdfast::test

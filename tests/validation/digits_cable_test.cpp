@@ -16,7 +16,7 @@
 #include "holdfast/stability/spectral_radius.hpp"
 #include "support/digits.hpp"
 
-namespace holdfast {
+namespace holdfast::cable_digits {
 namespace {
 
 using test::plant_inputs;
@@ -199,4 +199,4 @@ TEST_F(CableDigits, OfThePlantAndItsDecay) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::cable_digits
