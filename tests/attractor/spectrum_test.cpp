@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -20,6 +22,34 @@ std::vector<double> tone(std::size_t size, double cycles, double amplitude, doub
     signal[n] = offset + amplitude * std::cos(2.0 * pi<double> * cycles * turn + phase);
   }
   return signal;
+}
+
+/// Amplitude of line k by the sum that defines it, in long double.
+double defined_amplitude(const std::vector<double>& signal, std::size_t k) {
+  std::complex<long double> sum = 0;
+  for (std::size_t n = 0; n < signal.size(); ++n) {
+    const std::size_t turned = k * n % signal.size();
+    const long double angle = 2.0L * pi<long double> * static_cast<long double>(turned) /
+                              static_cast<long double>(signal.size());
+    sum += static_cast<long double>(signal[n]) * std::polar(1.0L, -angle);
+  }
+  const bool single = k == 0 || 2 * k == signal.size();
+  return static_cast<double>((single ? 1.0L : 2.0L) * std::abs(sum) /
+                             static_cast<long double>(signal.size()));
+}
+
+TEST(Spectrum, IsThatOfTheSumsThatDefineIt) {
+  // The fast transform's error grows with the logarithm of the length, relative to the largest
+  // line.
+  test::Random random(29);
+  for (const std::size_t size : {2U, 3U, 64U, 97U, 100U, 231U}) {
+    std::vector<double> signal(size);
+    for (double& value : signal) value = random.uniform(-1.0, 1.0);
+    const auto lines = amplitude_spectrum(signal, 0.01, SpectralWindow::rectangular);
+    ASSERT_EQ(lines.size(), size / 2 + 1);
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      EXPECT_NEAR(lines[k].amplitude, defined_amplitude(signal, k), 1e-14) << size << " " << k;
+  }
 }
 
 TEST(Spectrum, ASineOfWholePeriodsShowsItsAmplitudeOnItsLineAlone) {
