@@ -109,8 +109,14 @@ TEST_F(CableDigits, OfTheStaticsUnderTheAbsorber) {
       [&](const auto& v) { return irvine(v).stiffness(resting_load(v)); }, x);
   for (const double force : {-1.0, -0.4, 0.2, 0.4, 1.0}) {
     const std::string fig = "Fig. 2, " + std::to_string(force).substr(0, 4) + " N";
-    compare("displacement, exact", fig, Displacement<CatenaryPointLoad>{force}, x);
-    compare("displacement, Eq. 1", fig, Displacement<IrvinePointLoad>{force}, x);
+    // Each is the difference of two drops from the bare cable.
+    const auto cancellation = [&](const auto& cable, double displacement) {
+      return 1.0 + cable.displacement(resting_load(x)) / std::abs(displacement);
+    };
+    const Displacement<CatenaryPointLoad> by_catenaries{force};
+    const Displacement<IrvinePointLoad> by_equation{force};
+    compare("displacement, exact", fig, by_catenaries, x, cancellation(exact(x), by_catenaries(x)));
+    compare("displacement, Eq. 1", fig, by_equation, x, cancellation(irvine(x), by_equation(x)));
   }
 }
 
@@ -167,7 +173,6 @@ TEST_F(CableDigits, NearTheDoubleRootAreAsFewAsTheDiscriminantHas) {
     const std::string of = "discriminant about 1e" + std::to_string(std::lround(std::log10(room)));
     const double left = trusted_digits(discriminant(x), discriminant(wide));
     report("discriminant", of, left, 15.0 + std::log10(room) - 1.0);
-    EXPECT_LE(left, 17.0 + std::log10(room)) << "the test means to be ill-conditioned";
     report("reduced k2", of, trusted_digits(smaller_stiffness(x), smaller_stiffness(wide)),
            15.0 + 0.5 * std::log10(room) - 1.0);
   }

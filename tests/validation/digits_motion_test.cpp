@@ -79,16 +79,15 @@ class RoundingSpread {
   explicit RoundingSpread(const ForcedLoop<double>& loop)
       : sampled_(sampled_loop(loop.plant, loop.sampling)), gains_(loop.gains) {}
 
+  /// Goes on to the sample that the motion has just taken.
   void take(const Pair& motion) {
-    const bool engaged = motion.reference().engaged;
-    const Matrix<double, 5> map = engaged ? sampled_.engaged_map(gains_) : sampled_.backlash_map();
-    const auto scale = motion.scale().cast<double>();
+    variance_ = (map_ * variance_ * map_.transpose()).eval();
+    const Vector<double, 2> scale = motion.scale().cast<double>();
     force_ = std::max(force_, std::abs(motion.sample().control_force));
     Vector<double, 5> unit;
     unit << scale[0], scale[1], scale[0], scale[1], force_;
-    unit *= rounding;
-    variance_ = (map * variance_ * map.transpose()).eval();
-    variance_ += unit.cwiseAbs2().asDiagonal();
+    variance_ += (rounding * unit).cwiseAbs2().asDiagonal();
+    map_ = motion.reference().engaged ? sampled_.engaged_map(gains_) : sampled_.backlash_map();
   }
 
   /// The largest share of displacements and velocities.
@@ -103,6 +102,7 @@ class RoundingSpread {
   SampledLoop<double> sampled_;
   PdGains<double> gains_;
   double force_ = 0.0;
+  Matrix<double, 5> map_ = Matrix<double, 5>::Identity();  // from the last sample to the next
   Matrix<double, 5> variance_ = Matrix<double, 5>::Zero();
 };
 
@@ -169,12 +169,12 @@ TEST_F(MotionDigits, OfAnIrregularMotionAreLostAtTheRateOfItsTangentMaps) {
       break;
     }
     digits = now;
+    spread.take(motion);
     const double promised = -std::log10(1000.0 * spread.share(motion.scale()));
     if (j > 0 && promised > 1.0) {
       ASSERT_GE(now, promised) << "at sample " << j;
     }
     if (predicted < 0 && promised < six) predicted = j;
-    spread.take(motion);
   }
   std::printf("  contacts part at sample %ld with %.1f digits; below six expected from %ld on\n",
               static_cast<long>(parted), digits, static_cast<long>(predicted));
