@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "holdfast/control/gains.hpp"
@@ -212,6 +213,21 @@ TEST_F(LoopDigits, OfTheLeastSpectralRadius) {
            trusted_digits(least.radius, change_between(least.radius * (1.0L + 1e-6L),
                                                        least.radius * (1.0L - 1e-6L), reached)),
            11.0);
+  }
+}
+
+TEST_F(LoopDigits, WhereTwoRootsMeetAreHalfAsMany) {
+  // At the D of least radius two roots often meet, and there a root answers to the square root of
+  // an error: √(1000 ε/2) is what theory promises, and D itself is not to blame, being the same.
+  for (const SamplingCase& which : samplings) {
+    LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
+    x[9] = least_radius(sampled_of(x), x[8], -5.0).differential_gain;
+    const auto radius = [](const auto& v) {
+      return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains));
+    };
+    report("spectral radius at its least", which.name,
+           trusted_digits(radius(x), radius(x.cast<long double>().eval())),
+           -0.5 * std::log10(500.0 * std::numeric_limits<double>::epsilon()));
   }
 }
 
