@@ -17,6 +17,8 @@ SampledMotion<Wide> wide_motion(const ForcedLoop<double>& loop, const Vector<dou
   return harmonically_forced_motion(converted<Wide>(loop), Vector<Wide, 4>(state.cast<Wide>()));
 }
 
+constexpr Wide largest_share = 1e-6L;  // of digits_taken_for_granted
+
 int whole(double digits) { return static_cast<int>(std::floor(digits)); }
 
 /// The fewest of several quantities and the name of the one that has them.
@@ -48,40 +50,39 @@ void take_root(Fewest& fewest, const ReducedMasses& found, const FrequencyReduct
 
 MotionDigits::MotionDigits(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state,
                            const std::optional<Kick>& kick, double from)
-    : reference_(wide_motion(loop, initial_state)),
-      kick_(kick),
-      from_(from),
-      least_(most_trusted_digits) {}
+    : reference_(wide_motion(loop, initial_state)), kick_(kick), from_(from) {}
 
 void MotionDigits::operator()(const MotionSample<double>& sample) {
-  const bool settled = lost_ && least_ < 1.0;
+  const bool settled = lost_ && largest_ >= 0.1L;  // no whole digit
   if (settled || compared_ == most_compared_samples) return;
   if (kick_ && not_before(sample.time, kick_->time)) {
     reference_.displace_conductor(kick_->displacement);
     kick_.reset();
   }
-  const double digits = digits_of(sample.state, reference_.sense().state);
-  if (not_before(sample.time, from_)) least_ = std::min(least_, digits);
-  lost_ = lost_ || digits < digits_taken_for_granted;
+  const Wide share = share_of(sample.state, reference_.sense().state);
+  if (not_before(sample.time, from_)) largest_ = std::max(largest_, share);
+  lost_ = lost_ || share > largest_share;
   if (!lost_) until_ = sample.time;
   reference_.advance();
   ++compared_;
 }
 
-double MotionDigits::digits_of(const Vector<double, 4>& state, const Vector<Wide, 4>& reference) {
+MotionDigits::Wide MotionDigits::share_of(const Vector<double, 4>& state,
+                                          const Vector<Wide, 4>& reference) {
   const Vector<Wide, 4> size = reference.cwiseAbs();
-  scale_ = scale_.cwiseMax(size.head<2>()).cwiseMax(size.tail<2>());
-  // The largest share first: one logarithm a sample.
-  Wide largest = 0.0L;
-  for (int i = 0; i < 4; ++i) {
-    const Wide difference = std::abs(static_cast<Wide>(state[i]) - reference[i]);
-    if (difference > 0.0L) largest = std::max(largest, difference / scale_[i % 2]);
+  const Vector<Wide, 4> difference = (state.cast<Wide>() - reference).cwiseAbs();
+  Wide share = 0.0L;
+  for (int i = 0; i < 2; ++i) {  // displacements, velocities
+    scale_[i] = std::max({scale_[i], size[i], size[i + 2]});
+    const Wide larger = std::max(difference[i], difference[i + 2]);
+    if (larger > 0.0L) share = std::max(share, larger / scale_[i]);
   }
-  return holdfast::trusted_digits(static_cast<double>(largest), 0.0L, 1.0L);
+  return share;
 }
 
 TrustedDigits MotionDigits::result() const {
-  return {whole(least_), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
+  const double digits = holdfast::trusted_digits(static_cast<double>(largest_), 0.0L, 1.0L);
+  return {whole(digits), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
 }
 
 TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,

@@ -35,14 +35,14 @@ class MotionDigits {
  private:
   using Wide = long double;
 
-  /// Of one sample.
-  double digits_of(const Vector<double, 4>& state, const Vector<Wide, 4>& reference);
+  /// The difference of one sample as a share of what is large.
+  Wide share_of(const Vector<double, 4>& state, const Vector<Wide, 4>& reference);
 
   SampledMotion<Wide> reference_;
   std::optional<Kick> kick_;
   double from_;
   Vector<Wide, 2> scale_ = Vector<Wide, 2>::Zero();  // largest displacement (m), velocity (m/s)
-  double least_;
+  Wide largest_ = 0.0L;                              // share
   double until_ = 0.0;
   bool lost_ = false;  // fewer digits than are taken for granted
   std::int64_t compared_ = 0;

@@ -12,6 +12,7 @@
 #include "holdfast/stability/boundary_features.hpp"
 #include "holdfast/stability/characteristic_polynomial.hpp"
 #include "holdfast/stability/least_radius.hpp"
+#include "holdfast/stability/least_radius_gains.hpp"
 #include "holdfast/stability/loop_polynomial.hpp"
 #include "holdfast/stability/margins.hpp"
 #include "holdfast/stability/max_delay.hpp"
@@ -216,12 +217,14 @@ TEST_F(LoopDigits, OfTheLeastSpectralRadius) {
   }
 }
 
-TEST_F(LoopDigits, WhereTwoRootsMeetAreHalfAsMany) {
-  // At the D of least radius two roots often meet, and there a root answers to the square root of
-  // an error: √(1000 ε/2) is what theory promises, and D itself is not to blame, being the same.
+TEST_F(LoopDigits, WhereTwoRootsMeetAreAtLeastHalfAsMany) {
+  // At the P and D of least radius roots meet, and where two do, each answers to the square root of
+  // an error: √(1000 ε/2) is what theory promises of the radius at the very same gains.
   for (const SamplingCase& which : samplings) {
     LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
-    x[9] = least_radius(sampled_of(x), x[8], -5.0).differential_gain;
+    const PdGains<double> gains = least_radius_gains(sampled_of(x)).gains;
+    x[8] = gains.proportional;
+    x[9] = gains.differential;
     const auto radius = [](const auto& v) {
       return spectral_radius(sampled_of(v).engaged_map(loop_of(v).gains));
     };
