@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -30,6 +33,50 @@ std::vector<double> two_tones(std::size_t samples) {
     series[n] = std::cos(std::sqrt(2.0) * time) + 0.5 * std::cos(std::sqrt(5.0) * time + 1.0);
   }
   return series;
+}
+
+/// K_c straight from the definition: every stretch φ_{j+1} … φ_{j+n} summed for itself, and the
+/// correlation of the sums with n by its textbook formula.
+double correlation_by_definition(const std::vector<double>& centred, double c) {
+  const std::size_t lags = centred.size() / 10;
+  double n_sum = 0, n_squares = 0, sum = 0, squares = 0, products = 0;
+  for (std::size_t n = 1; n <= lags; ++n) {
+    double displacement = 0;
+    for (std::size_t begin = 0; begin + lags <= centred.size(); ++begin) {
+      std::complex<double> stretch = 0;
+      for (std::size_t i = begin + 1; i <= begin + n; ++i)
+        stretch += centred[i - 1] * std::polar(1.0, c * static_cast<double>(i));
+      displacement += std::norm(stretch);
+    }
+    const double lag = static_cast<double>(n);
+    n_sum += lag;
+    n_squares += lag * lag;
+    sum += displacement;
+    squares += displacement * displacement;
+    products += lag * displacement;
+  }
+  const double count = static_cast<double>(lags);
+  return (count * products - n_sum * sum) /
+         std::sqrt((count * n_squares - n_sum * n_sum) * (count * squares - sum * sum));
+}
+
+TEST(ZeroOneTest, IsTheCorrelationOfItsDefinition) {
+  for (std::vector<double> series : {logistic_series(3.9, 300), two_tones(300)}) {
+    const ZeroOneResult result = zero_one_test(series, 3);
+    double mean = 0;
+    for (const double value : series) mean += value / 300;
+    for (double& value : series) value -= mean;
+    std::array<double, 3> expected{};
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      const double turns = 0.7548776662466927 * static_cast<double>(k + 1);
+      const double c = pi<double> * (0.2 + 0.6 * std::fmod(turns, 1.0));
+      expected[k] = correlation_by_definition(series, c);
+    }
+    std::sort(expected.begin(), expected.end());
+    EXPECT_NEAR(result.median, expected[1], 1e-9);
+    EXPECT_NEAR(result.lower_quartile, (expected[0] + expected[1]) / 2, 1e-9);
+    EXPECT_NEAR(result.upper_quartile, (expected[1] + expected[2]) / 2, 1e-9);
+  }
 }
 
 TEST(ZeroOneTest, IsNearOneForChaosAtEveryLength) {
