@@ -105,6 +105,27 @@ TEST(Chart, AgreesWithExtendedPrecisionOnAMillionRandomCells) {
   EXPECT_LT(differ, 20);
 }
 
+/// (s² + bs + c)(s² ± (D − d)s + e + P): at every P > −e a pair is on the axis exactly where D = d.
+TEST(Chart, ACellOnTheBoundaryIsNotStable) {
+  test::Random random(20260405);
+  for (int draw = 0; draw < 1000; ++draw) {
+    const double side = random.sign(), d = random.uniform(-10.0, 10.0);
+    const double e = random.uniform(0.1, 10.0), p = random.uniform(0.1, 10.0);
+    const Vector<double, 3> rest{random.uniform(0.1, 10.0), random.uniform(0.1, 10.0), 1.0};
+    const auto times_rest = [&rest](double constant, double linear, double square) {
+      return multiply<double, 3, 3>(rest, {constant, linear, square});
+    };
+    const AffinePolynomial<double, 4> polynomial{
+        times_rest(e, -side * d, 1.0), times_rest(1.0, 0.0, 0.0), times_rest(0.0, side, 0.0)};
+    const auto cell = [&](double differential_gain) {
+      return stability_chart(polynomial, {{p, p, 1}, {differential_gain, differential_gain, 1}})[0];
+    };
+    EXPECT_EQ(cell(d), 0) << draw;
+    EXPECT_EQ(cell(d + 1e-6 * side), 1) << draw;
+    EXPECT_EQ(cell(d - 1e-6 * side), 0) << draw;
+  }
+}
+
 TEST(Chart, OneCellAndOneColumnAreCharts) {
   const auto polynomial = half_plane_polynomial(kollar2022_plant(), {0.001});
   EXPECT_EQ(stability_chart(polynomial, {{-557, -557, 1}, {-13, -13, 1}}),
