@@ -2,6 +2,7 @@
 #include "cable_of_case.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
+#include "interrupt.hpp"
 #include "job.hpp"
 #include "table.hpp"
 #include "text.hpp"
@@ -41,6 +42,7 @@ void run(const JobContext& context, const Options& options) {
                {"linear_m", "m", "the same by the plant's spring, force/k1"},
                {"elements_m", "m", "the same by finite elements"}});
   for (std::int64_t k = 0; k < forces.count; ++k) {
+    throw_if_interrupted();
     const double force = forces.at(k);
     table.row(force, exact.displacement(force), irvine.displacement(force), force / stiffness,
               elements_displacement(cable, force));

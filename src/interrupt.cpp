@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 
 namespace holdfast::program {
 namespace {
@@ -22,12 +23,26 @@ std::atomic<int> signals_seen{0};
 std::array<Slot, 8> slots;
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may take no lock");
 
-extern "C" void holdfast_on_signal(int) {
-  if (signals_seen.fetch_add(1) == 0) return;
+/// What a computation gets to look at the flag: more than the two seconds for which the processes
+/// of a group wait for each other.
+constexpr unsigned seconds_to_end = 3;
+
+[[noreturn]] void end_at_once() {
   for (const Slot& slot : slots) {
     if (slot.state.load() == 2) unlink(slot.path);
   }
   _exit(130);
+}
+
+extern "C" void holdfast_on_signal(int) {
+  if (signals_seen.fetch_add(1) > 0) end_at_once();
+  alarm(seconds_to_end);
+}
+
+extern "C" void holdfast_on_alarm(int) {
+  constexpr std::string_view line = "holdfast: interrupted\n";
+  [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
+  end_at_once();
 }
 
 void handle(int signal_number, void (*handler)(int)) {
@@ -49,7 +64,14 @@ void install_signal_handlers() {
   handle(SIGINT, holdfast_on_signal);
   handle(SIGTERM, holdfast_on_signal);
   if (!is_ignored(SIGHUP)) handle(SIGHUP, holdfast_on_signal);  // nohup ignores it
+  handle(SIGALRM, holdfast_on_alarm);
   handle(SIGPIPE, SIG_IGN);
+  handle(SIGXFSZ, SIG_IGN);
+}
+
+void restore_signals_of_child() {
+  handle(SIGPIPE, SIG_DFL);
+  handle(SIGXFSZ, SIG_DFL);
 }
 
 bool interrupted() { return signals_seen.load(std::memory_order_relaxed) != 0; }
@@ -58,7 +80,10 @@ void throw_if_interrupted() {
   if (interrupted()) throw Interrupted();
 }
 
-void clear_interrupt() { signals_seen.store(0); }
+void clear_interrupt() {
+  alarm(0);
+  signals_seen.store(0);
+}
 
 RemovedBySignal::RemovedBySignal(const char* path) {
   if (std::strlen(path) >= path_size) return;

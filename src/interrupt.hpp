@@ -10,10 +10,15 @@ class Interrupted : public std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// From here on SIGINT, SIGTERM and SIGHUP (a closed terminal) set a flag, and a closed pipe is an
-/// error that write() reports. A second signal ends the program at once; unfinished files are
-/// removed even then.
+/// From here on SIGINT, SIGTERM and SIGHUP (a closed terminal) set a flag, and a closed pipe or a
+/// file beyond the size that the system allows is an error that write() reports. A second signal
+/// ends the program at once, and so do three seconds in which a computation has not looked at the
+/// flag, as a library's cannot; unfinished files are removed even then.
 void install_signal_handlers();
+
+/// For a child process before it becomes another program, which would keep ignoring what this one
+/// ignores.
+void restore_signals_of_child();
 
 /// Whether a signal has come. A long loop asks, or calls throw_if_interrupted().
 bool interrupted();
