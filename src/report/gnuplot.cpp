@@ -9,6 +9,7 @@
 
 #include "errors.hpp"
 #include "input.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
 #include "text.hpp"
 
@@ -52,6 +53,7 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& commands
     dup2(null_input, STDIN_FILENO);
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
+    restore_signals_of_child();
     execlp("gnuplot", "gnuplot", "-e", commands.c_str(), argument.c_str(),
            static_cast<char*>(nullptr));
     _exit(127);
@@ -62,6 +64,27 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& commands
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
+
+/// The name of a file that gnuplot writes and that goes with the object.
+class PassingFile {
+ public:
+  explicit PassingFile(const std::filesystem::path& path)
+      : path_(std::filesystem::absolute(path)), guard_(path_.c_str()) {}
+  ~PassingFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  PassingFile(PassingFile&&) = delete;
+  PassingFile& operator=(PassingFile&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  RemovedBySignal guard_;
+};
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
   OutputFile file(path);
@@ -90,20 +113,17 @@ std::string gnuplot_script(const Figure& figure) {
 void draw(const Figure& figure, const std::filesystem::path& folder) {
   const std::filesystem::path pictures = folder / "pictures";
   const std::filesystem::path script = pictures / (figure.name + ".gp");
-  const std::filesystem::path partial = pictures / (figure.name + ".svg.partial");
-  const std::filesystem::path messages = pictures / (figure.name + ".log.partial");
+  const PassingFile partial(pictures / (figure.name + ".svg.partial"));
+  const PassingFile messages(pictures / (figure.name + ".log.partial"));
   write_file(script, gnuplot_script(figure));
-  const int status =
-      run_gnuplot(folder, "picture = 'pictures/" + figure.name + ".svg.partial'",
-                  "pictures/" + figure.name + ".gp", std::filesystem::absolute(messages));
-  const std::string words = status == 0 ? "" : one_line(read_input(messages));
-  std::error_code ignored;
-  std::filesystem::remove(messages, ignored);
+  const int status = run_gnuplot(folder, "picture = 'pictures/" + figure.name + ".svg.partial'",
+                                 "pictures/" + figure.name + ".gp", messages.path());
   if (status != 0) {
-    std::filesystem::remove(partial, ignored);
-    throw OutputError("gnuplot could not draw " + figure.name + ": " + words);
+    throw_if_interrupted();  // a terminal sends its signal to gnuplot as well
+    throw OutputError("gnuplot could not draw " + figure.name + ": " +
+                      one_line(read_input(messages.path())));
   }
-  std::filesystem::rename(partial, pictures / (figure.name + ".svg"));
+  std::filesystem::rename(partial.path(), pictures / (figure.name + ".svg"));
 }
 
 }  // namespace holdfast::program
