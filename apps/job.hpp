@@ -59,8 +59,9 @@ CLI::Validator number_from(double lowest, double highest);
 /// throws.
 void do_job(const std::vector<std::string>& arguments);
 
-/// The whole program: reads the command line, does the job, gives the exit code.
-int run_program(const std::vector<std::string>& arguments);
+/// The whole program, from what main() gets: reads the command line, does the job, gives the exit
+/// code.
+int run_program(int argument_count, char** arguments);
 
 void add_case(CLI::App& program);
 void add_stability(CLI::App& program);

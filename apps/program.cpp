@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <system_error>
 
 #include "build_record.hpp"
@@ -145,13 +146,15 @@ void do_job(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& outcome) {
     // Help and version arrive as exceptions of exit code 0 and print themselves.
     if (outcome.get_exit_code() != 0) throw WrongInput(one_line(outcome.what()));
-    program.exit(outcome);
+    std::ostringstream text;
+    program.exit(outcome, text, text);
+    print(text.str());
   }
 }
 
-int run_program(const std::vector<std::string>& arguments) {
-  return run_guarded([&arguments] {
-    do_job(arguments);
+int run_program(int argument_count, char** arguments) {
+  return run_guarded([&] {
+    do_job({arguments + 1, arguments + argument_count});
     return exit_code::done;
   });
 }

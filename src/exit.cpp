@@ -5,6 +5,7 @@
 #include <exception>
 #include <holdfast/core/errors.hpp>
 #include <new>
+#include <string_view>
 #include <thread>
 
 #include "errors.hpp"
@@ -51,6 +52,19 @@ std::string message_of(const std::exception_ptr& fault) {
   }
 }
 
+/// Says what there is to say of an exception that ends the program with that code.
+void tell(const std::exception_ptr& fault, int code) {
+  const std::string message = message_of(fault);
+  const bool told = message.empty() || (code == exit_code::wrong_input && told_by_first_process());
+  if (!told) report_error(message);
+}
+
+/// For where there is no memory for the words either.
+void tell_lack_of_memory() {
+  constexpr std::string_view line = "holdfast: no memory is left\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
 }  // namespace
 
 void report_error(const std::string& message) {
@@ -87,10 +101,11 @@ int run_guarded(const std::function<int()>& work) {
   } catch (...) {
     const std::exception_ptr fault = std::current_exception();
     const int code = exit_code_of(fault);
-    const std::string message = message_of(fault);
-    const bool told =
-        message.empty() || (code == exit_code::wrong_input && told_by_first_process());
-    if (!told) report_error(message);
+    try {
+      tell(fault, code);
+    } catch (...) {
+      tell_lack_of_memory();
+    }
     return code;
   }
 }
