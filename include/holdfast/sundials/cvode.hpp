@@ -180,10 +180,22 @@ class Session {
     return false;
   }
 
+  /// SUNDIALS 6 uses its own copies of vectors and matrices without a look whether there was memory
+  /// for them. Hence as much is asked for beforehand, and given back.
+  bool lacks_memory_for_vectors(sunindextype states, sunindextype vectors) {
+    const Owned<N_Vector, FreeVector> spare(N_VNew_Serial(states * vectors, context_.get()));
+    return lacks_memory(spare != nullptr);
+  }
+  bool lacks_memory_for_matrix(sunindextype states, sunindextype reach) {
+    const Owned<SUNMatrix, FreeMatrix> spare(
+        SUNBandMatrixStorage(states, reach, reach, 2 * reach + spare_rows, context_.get()));
+    return lacks_memory(spare != nullptr);
+  }
+
   bool lacks_memory(bool made) {
     if (made) return false;
     outcome_ = IntegrationOutcome::out_of_memory;
-    words_ = "CV_MEM_FAIL";
+    words_ = "CV_MEM_FAIL: there is not enough memory";
     return true;
   }
 
@@ -192,6 +204,11 @@ class Session {
     long number = 0;
     return memory_ && get(memory_.get(), &number) == CV_SUCCESS ? number : 0;
   }
+
+  /// The history of Adams' method and what it works with; BDF has fewer.
+  static constexpr sunindextype vectors_of_integrator = 32;
+  /// Beside the copy of a banded matrix CVODE allocates some vectors.
+  static constexpr sunindextype spare_rows = 8;
 
   IntegrationOutcome outcome_ = IntegrationOutcome::completed;
   std::string words_, message_;
@@ -231,6 +248,7 @@ inline void Session::open(int method, CVRhsFn rate, const Eigen::VectorXd& initi
   if (lacks_memory(state_ != nullptr)) return;
   Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), initial_state.size()) =
       initial_state;
+  if (lacks_memory_for_vectors(initial_state.size(), vectors_of_integrator)) return;
   memory_.reset(CVodeCreate(method, context_.get()));
   if (lacks_memory(memory_ != nullptr)) return;
   listen_to_messages();
@@ -359,6 +377,7 @@ void Integrator<System>::use_banded_newton() {
   if (lacks_memory(matrix_ != nullptr)) return;
   linear_solver_.reset(SUNLinSol_Band(state_.get(), matrix_.get(), context_.get()));
   if (lacks_memory(linear_solver_ != nullptr)) return;
+  if (lacks_memory_for_matrix(system_.states(), reach)) return;
   check(CVodeSetLinearSolver(memory_.get(), linear_solver_.get(), matrix_.get()));
   check(CVodeSetJacFn(memory_.get(), &Integrator::jacobian));
 }
