@@ -9,6 +9,7 @@
 #include "errors.hpp"
 #include "exit.hpp"
 #include "fit_question.hpp"
+#include "input.hpp"
 #include "job.hpp"
 #include "loop_of_case.hpp"
 #include "table.hpp"
@@ -82,6 +83,7 @@ std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const Option
 
 void run(const JobContext& context, const Options& options) {
   fit::DecayQuestion question = question_of(options);
+  if (options.data) require_not_overwritten(*options.data, context.output);
   Table table(
       context,
       {{"quantity", "", "key of the case file; residual: root mean square", "string"},

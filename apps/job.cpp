@@ -7,6 +7,7 @@
 #include "input.hpp"
 #include "settled_plant.hpp"
 #include "text.hpp"
+#include "worker_threads.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -27,6 +28,12 @@ std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& o
     for (const std::string& text : option->results()) given.emplace_back(name, text);
   }
   return given;
+}
+
+/// More threads than cores gain nothing, and oneTBB warns of them on standard error.
+int at_most_cores(int threads) {
+  const auto cores = static_cast<int>(own_cores().cores.size());
+  return cores > 0 ? std::min(threads, cores) : threads;
 }
 
 }  // namespace
@@ -97,13 +104,15 @@ JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_f
   }
   context.case_data = source.load();
   source.attach_record(context.case_data);
+  if (common_->output) context.output = *common_->output;
+  if (file) require_not_overwritten(*file, context.output);
+  require_not_overwritten(context.case_data.excitation.record, context.output);
   report_warning(wind_warning(context.case_data), common_->quiet);
   if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
   context.options = given_options(*options_);
-  if (common_->output) context.output = *common_->output;
   context.quiet = common_->quiet;
   context.progress = common_->progress;
-  context.threads = common_->threads;
+  context.threads = at_most_cores(common_->threads);
   return context;
 }
 

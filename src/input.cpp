@@ -34,4 +34,15 @@ std::string read_input(const std::filesystem::path& file) {
   return text;
 }
 
+void require_not_overwritten(const std::filesystem::path& input,
+                             const std::optional<std::filesystem::path>& output) {
+  std::error_code ignored;
+  const bool same = output && *output != "-" &&
+                    std::filesystem::is_regular_file(*output, ignored) &&
+                    std::filesystem::equivalent(input, *output, ignored);
+  if (same)
+    throw WrongInput("--output " + output->string() +
+                     ": the job reads this file, and its result would take the place of it");
+}
+
 }  // namespace holdfast::program
