@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "errors.hpp"
 #include "holdfast/stability/characteristic_polynomial.hpp"
 #include "holdfast/stability/loop_chart_rows.hpp"
 #include "holdfast/stability/mobius_zhukovsky.hpp"
@@ -15,11 +16,22 @@
 namespace holdfast::program {
 namespace {
 
+/// Values in a row of a chart. Whole rows are held in memory, and between two of them a signal is
+/// looked for, hence not any number of them.
+std::size_t row_length(std::int64_t columns) {
+  constexpr std::int64_t most = 1000000;
+  if (columns > most)
+    throw WrongInput("a row of the chart would have " + std::to_string(columns) +
+                     " values: at most " + std::to_string(most) +
+                     " along the second axis, any number along the first");
+  return static_cast<std::size_t>(columns);
+}
+
 /// The values of a block of rows: flags, then as many columns of numbers as the chart has.
 class Block {
  public:
   Block(std::int64_t columns, std::size_t number_columns)
-      : columns_(static_cast<std::size_t>(columns)),
+      : columns_(row_length(columns)),
         flags_(columns_ * static_cast<std::size_t>(rows_of_block(columns))),
         numbers_(number_columns, std::vector<double>(flags_.size())) {}
 
