@@ -36,7 +36,7 @@ class OptionText {
     const auto value = parse_number(trimmed(part));
     if (!value) refuse("\"" + std::string(part) + "\" is not a number");
     if (!std::isfinite(*value)) refuse("\"" + std::string(part) + "\" is not finite");
-    return *value;
+    return *value + 0.0;  // a negative zero is zero
   }
 
   Range range(std::string_view lower, std::string_view upper) const {

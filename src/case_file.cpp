@@ -298,7 +298,7 @@ void CaseReader::set_number(const CaseKey& key, const toml::node& node, const st
     throw WrongInput(place + ": must be finite; admissible is " + key.admissible());
   }
   if (!key.range.contains(value)) throw WrongInput(place + ": admissible is " + key.admissible());
-  *key.number(case_) = value;
+  *key.number(case_) = value + 0.0;  // a negative zero is zero
   if (key.tuned != nullptr) *key.tuned(case_) = false;
 }
 

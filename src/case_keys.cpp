@@ -186,7 +186,7 @@ void set_case_value(Case& the_case, std::string_view name, double value) {
                      key.admissible());
   }
   require_in_force(the_case, key);
-  *key.number(the_case) = value;
+  *key.number(the_case) = value + 0.0;  // a negative zero is zero
   if (key.tuned != nullptr) *key.tuned(the_case) = false;
 }
 
