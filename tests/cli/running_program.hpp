@@ -6,10 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "support/temporary_folder.hpp"
@@ -37,8 +39,12 @@ inline std::vector<std::string> words_of(const std::string& text) {
 /// itself. It is killed when the object goes.
 class RunningProgram {
  public:
-  explicit RunningProgram(const std::vector<std::string>& words) {
+  /// @param surroundings  commands of a shell that becomes the program: `ulimit -v 50000`
+  explicit RunningProgram(const std::vector<std::string>& words,
+                          const std::string& surroundings = "") {
     std::vector<std::string> command = {HOLDFAST_PROGRAM};
+    if (!surroundings.empty())
+      command = {"/bin/sh", "-c", surroundings + "\nexec \"$@\"", "sh", HOLDFAST_PROGRAM};
     command.insert(command.end(), words.begin(), words.end());
     std::vector<char*> arguments;
     for (std::string& word : command) arguments.push_back(word.data());
@@ -72,6 +78,23 @@ class RunningProgram {
 
   void send(int signal_number) const { kill(process_, signal_number); }
 
+  /// Whether it would not die of the signal any more, as at the very beginning.
+  bool handles(int signal_number) const {
+    return (status("SigCgt:", 16) >> (signal_number - 1) & 1U) != 0;
+  }
+
+  /// Largest resident memory so far, of the program alone; 0 once it has ended.
+  std::size_t peak_memory_so_far_kib() const { return status("VmHWM:", 10); }
+
+  /// Until it has ended, or so long; then it is killed.
+  Ending wait_at_most(std::chrono::seconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (runs() && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (runs()) send(SIGKILL);
+    return wait();
+  }
+
   Ending wait() {
     int status = 0;
     struct rusage used = {};
@@ -83,6 +106,14 @@ class RunningProgram {
   }
 
  private:
+  /// What the kernel tells of the process; 0 where it tells nothing any more.
+  std::size_t status(const std::string& name, int base) const {
+    std::istringstream lines(read_text("/proc/" + std::to_string(process_) + "/status"));
+    for (std::string line; std::getline(lines, line);)
+      if (line.rfind(name, 0) == 0) return std::stoull(line.substr(name.size()), nullptr, base);
+    return 0;
+  }
+
   static void redirect(posix_spawn_file_actions_t& files, int descriptor, const std::string& path) {
     posix_spawn_file_actions_addopen(&files, descriptor, path.c_str(), O_RDWR | O_CREAT, 0600);
   }
