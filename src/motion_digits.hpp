@@ -13,7 +13,7 @@
 namespace holdfast::program {
 
 /// Most samples of a motion that are computed twice; beyond, the first ones stand for the rest.
-inline constexpr std::int64_t most_compared_samples = 1'000'000;
+inline constexpr std::int64_t most_compared_samples = 100'000;
 
 /// Observer of a motion of the paper's model that runs the same motion beside it in long double.
 /// Displacements and velocities of both masses are compared relative to the largest so far, so that
