@@ -48,14 +48,25 @@ HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
     if (found.outcome != OrbitOutcome::certified) {
       throw NoAnswer(reason_for(failure_of(found, ratio, cycles_per_sample(loop), largest_period)));
     }
-    report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
     return *found.orbit;
   });
 }
 
+namespace {
+
+/// The certified orbit, and a warning where it is near a border.
+HybridOrbit orbit_to_write(const JobContext& context, const RealLoop& loop,
+                           std::int64_t largest_period) {
+  HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  report_warning(near_border_warning(orbit.border_share()), context.quiet);
+  return orbit;
+}
+
+}  // namespace
+
 void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const HybridOrbit orbit = orbit_to_write(context, loop, largest_period);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.margins.border_distance,
             orbit.engaged_fraction());
@@ -65,7 +76,7 @@ void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t l
 void write_certificate(const JobContext& context, const RealLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, certificate_columns());
-  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const HybridOrbit orbit = orbit_to_write(context, loop, largest_period);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.largest_displacement);
   write_margins(rows, orbit.margins);
@@ -77,7 +88,7 @@ void write_certificate(const JobContext& context, const RealLoop& loop,
 void write_orbit_trace(const JobContext& context, const RealLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, motion_columns(loop.switching));
-  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const HybridOrbit orbit = orbit_to_write(context, loop, largest_period);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;

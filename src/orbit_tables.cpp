@@ -117,13 +117,23 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
         reason_for(failure_of(found, forcing_ratio(loop),
                               loop.excitation.frequency * loop.sampling.period, largest_period)));
   }
-  report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
   return std::move(*found.orbit);
 }
 
+namespace {
+
+/// The certified orbit, and a warning where it is near a border.
+PeriodicOrbit orbit_to_write(const JobContext& context, std::int64_t largest_period) {
+  PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  report_warning(near_border_warning(orbit.border_share()), context.quiet);
+  return orbit;
+}
+
+}  // namespace
+
 void write_orbit(const JobContext& context, std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.borders.displacement.distance,
             orbit.engaged_fraction());
@@ -133,7 +143,7 @@ void write_orbit(const JobContext& context, std::int64_t largest_period) {
 void write_certificate(const JobContext& context, std::int64_t largest_period) {
   Table table(context, certificate_columns());
   const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.amplitude());
   write_border(rows, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
@@ -148,7 +158,7 @@ void write_certificate(const JobContext& context, std::int64_t largest_period) {
 
 void write_orbit_trace(const JobContext& context, std::int64_t largest_period) {
   Table table(context, motion_columns());
-  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;
@@ -175,7 +185,7 @@ void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
                         {"sample", "", "of the orbit; -1 without a collision", "integer"},
                         {"largest_multiplier", "", "modulus there"},
                         {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
-  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
   const auto path = [&, name = key](double position) {
     return forced_loop_with(context.case_data, name, position);
   };

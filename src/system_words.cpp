@@ -12,7 +12,7 @@ std::string system_words(int error) { return std::generic_category().message(err
 void refuse_to_write(const std::filesystem::path& path, int error) {
   const std::string message = "cannot write " + path.string() + ": " + system_words(error);
   const bool machine = error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE ||
-                       error == ENFILE || error == ENOMEM;
+                       error == ENFILE || error == ENOMEM || error == EFBIG;
   if (machine) throw OutputError(message);
   throw WrongInput(message);
 }

@@ -80,7 +80,9 @@ void require_tiles_of_plan(const fs::path& folder, std::int64_t tiles, const Til
 void write_plan(const fs::path& folder, const TilePlan& plan) {
   const fs::path file = folder / plan_file_name;
   const int error = write_whole_file(file, tile_plan_text(plan));
-  if (error != 0) refuse_to_write(file, error);
+  if (error == 0) return;
+  remove_work_folder(folder);
+  refuse_to_write(file, error);
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"verdict",
      "verdict --set excitation.frequency=9.99999 --max-period 100000000"
      " --set backlash.width=0.003"},
-    {"orbit", "orbit --follow backlash.width=0:0.01 --set control.sampling_period=0.010003"},
+    {"orbit",
+     "orbit --follow backlash.width=0:0.01 --set control.sampling_period=0.010003 --quiet"},
     {"basins --axis initial.z1=0:0.001:3 --axis initial.v2=0:0.1:3",
      "basins --axis initial.z1=0:0.001:3000 --axis initial.v2=0:0.1:3000 --max-period 1000"},
     {"diagram --axis backlash.width=0:0.001:3 --transient 1 --strobes 10",

@@ -172,7 +172,7 @@ TEST(Lyapunov, StopsAtTheErrorAskedForAndLeavesOutTheStart) {
 }
 
 TEST(Lyapunov, AnnihilatedDirectionIsMinusInfinity) {
-  const CsvTable table = table_of("lyapunov --duration 5");
+  const CsvTable table = table_of("lyapunov --duration 5 --quiet");
   ASSERT_EQ(table.rows(), 5U);
   EXPECT_EQ(table.text(4, "per_sample"), "-inf");
   EXPECT_EQ(table.text(4, "per_second"), "-inf");

@@ -139,8 +139,8 @@ void expect_cell_is_what_the_jobs_say(const CsvTable& sweep, std::size_t row,
                                       const std::string& common, double duration) {
   const std::string settings = common + settings_of(sweep, row);
   expect_motion_metrics(sweep, row, settings, duration);
-  const CsvTable exponent =
-      table_of("lyapunov --largest --duration " + std::to_string(duration) + " " + settings);
+  const CsvTable exponent = table_of("lyapunov --quiet --largest --duration " +
+                                     std::to_string(duration) + " " + settings);
   EXPECT_NEAR(sweep.number(row, "largest_exponent"), exponent.number(0, "per_sample"), 1e-12)
       << settings;
   EXPECT_EQ(sweep.number(row, "period_samples"), certified_period(settings)) << settings;
