@@ -106,14 +106,14 @@ MetricValues metrics_of_motion(const std::string& settings, double duration) {
 
 /// 0 where the job `orbit` finds none.
 double certified_period(const std::string& settings) {
-  const Outcome orbit = run_holdfast("orbit " + settings);
+  const Outcome orbit = run_holdfast("orbit --quiet " + settings);
   if (orbit.exit_code == 1) return 0.0;
   return program::parse_csv(orbit.output, "orbit").number(0, "period_samples");
 }
 
 /// The verdict's first word, without its period and explanations.
 std::string kind_word(const std::string& settings) {
-  const std::string text = table_of("verdict " + settings).text(0, "verdict");
+  const std::string text = table_of("verdict --quiet " + settings).text(0, "verdict");
   return text.substr(0, text.find_first_of("(,"));
 }
 
