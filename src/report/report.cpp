@@ -175,9 +175,9 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
                   const CommandRunner& run) {
   const bool builtin = is_builtin(context.case_data);
   const fs::path folder = *context.output;
+  const ReportWriter writer(context, case_arguments, run);  // refuses loops that are too stiff
   make_folders(folder);
   OutputFile file(folder / "report.html");
-  const ReportWriter writer(context, case_arguments, run);
   const std::vector<Figure> figures = builtin ? paper_figures() : case_figures(context.case_data);
 
   Page page;

@@ -325,8 +325,10 @@ HostileInput hostile_override(Random& random) {
     const std::string key = some_key(random);
     std::string text =
         key + "=" + (happens(random, 0.8) ? hostile_number(random) : hostile_word(random));
-    // A cable that hardly damps is integrated for seconds before its absorber's damping is found.
-    if (key.rfind("conductor.", 0) == 0) input.may_take_long = true;
+    // A stiff cable, or one that hardly damps, is integrated for seconds before the damping of its
+    // absorber is found.
+    for (const char* table : {"conductor.", "absorber.", "reduction."})
+      if (key.rfind(table, 0) == 0) input.may_take_long = true;
     if (happens(random, 0.1)) text = damaged(random, text);
     input.words.insert(input.words.end(), {"--set", as_argument(text)});
   }

@@ -64,9 +64,9 @@ struct SampledLoop {
 /// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the
 /// period, every matrix of the loop is a product: A_d − I = A Φ(τ), Γ₀ = Φ(τ−δ) b, Γ₁ = e^{A(τ−δ)}
 /// Φ(δ) b, c_d = Φ(τ) c. No small matrix is the difference of large ones.
-/// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`; beyond
-///                  that they are finite, nothing is asked of them
+/// @param plant     beyond that its state matrix is finite, nothing is asked of it
 /// @param sampling  0 ≤ δ ≤ τ; τ = 0, no time at all, gives the identity
+/// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`
 /// @throws InvalidParameter where the sampling is another or the state matrix is not finite
 template <class Scalar, template <class> class Plant>
 SampledLoop<Scalar> sampled_loop(const Plant<Scalar>& plant, const Sampling<Scalar>& sampling) {
