@@ -50,6 +50,33 @@ TEST(MaxDelay, AttenuatingAsksForMoreThanStability) {
   }
 }
 
+TEST(MaxDelay, NamesWhatALongerPeriodLacks) {
+  const auto plant = kollar2022_plant();
+  const auto answer = [&](double frequency, DelayCriterion criterion) {
+    return max_sampling_period(plant, tuned_to(frequency, criterion));
+  };
+  for (const double frequency : {10.0, 15.0, 20.0, 30.0, 40.0}) {
+    const MaxDelay stable = answer(frequency, DelayCriterion::stable);
+    const MaxDelay attenuates = answer(frequency, DelayCriterion::attenuates);
+    EXPECT_EQ(stable.limit, MaxDelayLimit::stability) << frequency;
+    // Stable gains are left beyond τ* where stability asks for less.
+    const bool stable_gains_left = attenuates.sampling_period < 0.99 * stable.sampling_period;
+    EXPECT_EQ(stable_gains_left, frequency < 16.0) << frequency;
+    EXPECT_EQ(attenuates.limit,
+              stable_gains_left ? MaxDelayLimit::attenuation : MaxDelayLimit::stability)
+        << frequency;
+  }
+  EXPECT_EQ(answer(5.0, DelayCriterion::stable).limit, MaxDelayLimit::none);
+}
+
+TEST(MaxDelay, SamplesThatNoLongerShowTheVibrationAreTheLastLimit) {
+  auto question = tuned_to(10.0, DelayCriterion::attenuates);
+  question.proportional_gain = 0.0;
+  const MaxDelay answer = max_sampling_period(kollar2022_plant(), question);
+  EXPECT_EQ(answer.limit, MaxDelayLimit::nyquist);
+  EXPECT_NEAR(answer.sampling_period, 0.05, 1e-12);
+}
+
 TEST(MaxDelay, TheGainThatItNamesServes) {
   const auto plant = kollar2022_plant();
   const auto question = tuned_to(10.0, DelayCriterion::attenuates);
