@@ -182,6 +182,8 @@ TEST(LoadRemoval, BadInputIsRefused) {
     EXPECT_THROW(load_removal(cable, 0.2, bad, 0.1), InvalidParameter);
     EXPECT_THROW(load_removal(cable, 0.2, 1.0, bad), InvalidParameter);
   }
+  // More instants than whole numbers of a double.
+  EXPECT_THROW(load_removal(cable, 0.2, 1e10, 1e-10), InvalidParameter);
 }
 
 }  // namespace

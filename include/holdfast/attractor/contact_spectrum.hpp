@@ -303,7 +303,7 @@ class ContactSpectrum {
   /// Divides what is left of a batch into equal blocks.
   void plan() {
     const auto words_left = (sums_.steps_left() - samples_) / ContactWords::length;
-    const auto left = static_cast<double>(words_left);
+    const double left = std::max(1.0, static_cast<double>(words_left));
     const double most = std::min(allowed_, static_cast<double>(most_words));
     planned_ = std::max(1, static_cast<int>(std::ceil(left / std::ceil(left / most))));
   }

@@ -155,7 +155,8 @@ class HybridReturn {
     if (counting.size() > 4) return 1;
     const HybridMotion<Contact>& motion = motion_.motion();
     const double decay = std::abs(motion.dynamics(0).state.trace());
-    return std::clamp(static_cast<int>(4.0 / (decay * motion.loop().sampling.period)), 1, 16);
+    const double maps = 4.0 / (decay * motion.loop().sampling.period);  // infinite without damping
+    return static_cast<int>(std::clamp(maps, 1.0, 16.0));
   }
 
   static std::vector<Matrix<double, 5>> restricted(const std::vector<Matrix<double, 7>>& blocks,

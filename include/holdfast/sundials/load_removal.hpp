@@ -34,13 +34,14 @@ struct LoadRemoval {
 /// @param interval    s between the record's instants, > 0
 /// @param tolerances  local error per step, and the limit of steps in an interval
 /// @param at_each     called with no arguments before each instant; what it throws ends the run
-/// @throws InvalidParameter outside these ranges
+/// @throws InvalidParameter outside these ranges, and for 2⁵³ instants or more
 template <class Cable, class AtEach>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
                          const Tolerances& tolerances, AtEach&& at_each) {
   require_finite("force", force, "N");
   require_positive("interval", interval, "s");
   require_positive("duration", duration, "s");
+  require_within("number of instants", duration / interval, "", 0.0, 9.0e15);
   LoadRemoval result{LoadRemovalOutcome::completed, "", 0.0, 0.0, {}, {}};
   const auto start = cable.held_by(force);
   if (start.outcome != EquilibriumOutcome::converged) {
