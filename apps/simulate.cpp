@@ -32,15 +32,6 @@ ContactMode mode_of(const MotionSample<double>& sample) {
   return sample.engaged ? ContactMode::engaged : ContactMode::gap;
 }
 
-/// What looks after the digits of the motion; nothing where it is not one of the paper's model.
-std::optional<MotionDigits> digits_beside(const Case& the_case, const Options& options,
-                                          const std::optional<Kick>& kick) {
-  if (!is_of_the_paper(the_case, options.switching)) return std::nullopt;
-  const ForcedLoop<double> loop = forced_loop_of(the_case);
-  return MotionDigits(options.no_control ? uncontrolled(loop) : loop, initial_state_of(the_case),
-                      kick, options.from);
-}
-
 void run(const JobContext& context, const Options& options) {
   const std::optional<Kick> kick = kick_of(options);
   if (options.from > options.duration)
@@ -48,8 +39,8 @@ void run(const JobContext& context, const Options& options) {
   if (kick && kick->time > options.duration) throw WrongInput("--kick acts after --duration");
   const std::int64_t samples = samples_of(context.case_data, options.duration);
   Table table(context, motion_columns(options.switching));
-  auto digits = digits_beside(context.case_data, options, kick);
   const MotionChoice choice{options.switching, !options.no_control};
+  auto digits = digits_beside(context.case_data, choice, kick, options.from);
   with_motion_of(context.case_data, choice, [&](auto motion) {
     run_to_completion(motion, samples, kick, [&](const auto& sample) {
       if (digits) (*digits)(sample);

@@ -35,16 +35,18 @@ SteadyRecord steady_record(const JobContext& context, const Options& options) {
       whole_period_samples(samples - samples_within(discard, period),
                            excitation_of(context.case_data).frequency, period);
   if (kept < 2) throw WrongInput("--duration and --discard leave fewer than two samples");
+  const double from = static_cast<double>(samples - kept) * period;
+  auto digits = digits_beside(context.case_data, {options.switching}, {}, from);
   std::vector<double> record;
   record.reserve(static_cast<std::size_t>(kept));
   with_motion_of(context.case_data, {options.switching}, [&](auto motion) {
     run_to_completion(motion, samples, {}, [&](const MotionSample<double>& sample) {
+      if (digits) (*digits)(sample);
       if (sample.index >= samples - kept) record.push_back(sample.state[0]);
     });
     require_resolved(motion, context.quiet);
   });
-  const double from = static_cast<double>(samples - kept) * period;
-  return {record, trusted_digits_of_motion(context.case_data, options.switching, samples, from)};
+  return {record, digits ? digits->result() : TrustedDigits{}};
 }
 
 void run(const JobContext& context, const Options& options) {

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
 #include "holdfast/attractor/hybrid_orbit_search.hpp"
@@ -52,21 +51,10 @@ HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
   });
 }
 
-namespace {
-
-/// The certified orbit, and a warning where it is near a border.
-HybridOrbit orbit_to_write(const JobContext& context, const RealLoop& loop,
-                           std::int64_t largest_period) {
-  HybridOrbit orbit = certified_orbit(context, loop, largest_period);
-  report_warning(near_border_warning(orbit.border_share()), context.quiet);
-  return orbit;
-}
-
-}  // namespace
-
 void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const HybridOrbit orbit = orbit_to_write(context, loop, largest_period);
+  const HybridOrbit orbit =
+      warned_of_border(certified_orbit(context, loop, largest_period), context.quiet);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.margins.border_distance,
             orbit.engaged_fraction());
@@ -76,7 +64,8 @@ void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t l
 void write_certificate(const JobContext& context, const RealLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, certificate_columns());
-  const HybridOrbit orbit = orbit_to_write(context, loop, largest_period);
+  const HybridOrbit orbit =
+      warned_of_border(certified_orbit(context, loop, largest_period), context.quiet);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.largest_displacement);
   write_margins(rows, orbit.margins);
@@ -88,7 +77,8 @@ void write_certificate(const JobContext& context, const RealLoop& loop,
 void write_orbit_trace(const JobContext& context, const RealLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, motion_columns(loop.switching));
-  const HybridOrbit orbit = orbit_to_write(context, loop, largest_period);
+  const HybridOrbit orbit =
+      warned_of_border(certified_orbit(context, loop, largest_period), context.quiet);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;

@@ -85,13 +85,21 @@ TrustedDigits MotionDigits::result() const {
   return {whole(digits), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
 }
 
+std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
+                                          const std::optional<Kick>& kick, double from) {
+  if (!is_of_the_paper(the_case, choice.switching)) return std::nullopt;
+  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  return MotionDigits(choice.controlled ? loop : uncontrolled(loop), initial_state_of(the_case),
+                      kick, from);
+}
+
 TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
                                        std::int64_t samples, double from) {
-  if (!is_of_the_paper(the_case, switching)) return {};
-  MotionDigits digits(forced_loop_of(the_case), initial_state_of(the_case), std::nullopt, from);
+  auto digits = digits_beside(the_case, {switching}, {}, from);
+  if (!digits) return {};
   auto motion = motion_of(the_case);
-  run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, digits);
-  return digits.result();
+  run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
+  return digits->result();
 }
 
 TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,

@@ -5,9 +5,9 @@
 
 #include "case.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/reduction.hpp"
+#include "motion_of_case.hpp"
 #include "trusted_digits.hpp"
 
 namespace holdfast::program {
@@ -48,8 +48,14 @@ class MotionDigits {
   std::int64_t compared_ = 0;
 };
 
-/// Digits of `samples` samples of the case's motion, from `from` (s) on: 17 where the case is not
-/// one of the paper's model, of which alone there is a motion in long double.
+/// What looks after the digits of the case's motion while it runs, of the samples from `from` (s)
+/// on; nothing where the motion is not of the paper's model, of which alone there is one in long
+/// double.
+std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
+                                          const std::optional<Kick>& kick, double from);
+
+/// Digits of the first `samples` samples of that motion, which is run here; 17 where there is
+/// nothing that looks after them.
 TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
                                        std::int64_t samples, double from);
 

@@ -5,9 +5,7 @@
 
 #include "axis.hpp"
 #include "case_keys.hpp"
-#include "conditioning.hpp"
 #include "errors.hpp"
-#include "exit.hpp"
 #include "holdfast/attractor/orbit_continuation.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
@@ -120,20 +118,10 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
   return std::move(*found.orbit);
 }
 
-namespace {
-
-/// The certified orbit, and a warning where it is near a border.
-PeriodicOrbit orbit_to_write(const JobContext& context, std::int64_t largest_period) {
-  PeriodicOrbit orbit = certified_orbit(context, largest_period);
-  report_warning(near_border_warning(orbit.border_share()), context.quiet);
-  return orbit;
-}
-
-}  // namespace
-
 void write_orbit(const JobContext& context, std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
+  const PeriodicOrbit orbit =
+      warned_of_border(certified_orbit(context, largest_period), context.quiet);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.borders.displacement.distance,
             orbit.engaged_fraction());
@@ -143,7 +131,8 @@ void write_orbit(const JobContext& context, std::int64_t largest_period) {
 void write_certificate(const JobContext& context, std::int64_t largest_period) {
   Table table(context, certificate_columns());
   const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
+  const PeriodicOrbit orbit =
+      warned_of_border(certified_orbit(context, largest_period), context.quiet);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.amplitude());
   write_border(rows, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
@@ -158,7 +147,8 @@ void write_certificate(const JobContext& context, std::int64_t largest_period) {
 
 void write_orbit_trace(const JobContext& context, std::int64_t largest_period) {
   Table table(context, motion_columns());
-  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
+  const PeriodicOrbit orbit =
+      warned_of_border(certified_orbit(context, largest_period), context.quiet);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;
@@ -185,7 +175,8 @@ void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
                         {"sample", "", "of the orbit; -1 without a collision", "integer"},
                         {"largest_multiplier", "", "modulus there"},
                         {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
-  const PeriodicOrbit orbit = orbit_to_write(context, largest_period);
+  const PeriodicOrbit orbit =
+      warned_of_border(certified_orbit(context, largest_period), context.quiet);
   const auto path = [&, name = key](double position) {
     return forced_loop_with(context.case_data, name, position);
   };
