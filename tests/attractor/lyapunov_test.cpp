@@ -154,6 +154,15 @@ TEST(Lyapunov, TheZeroMapAnnihilatesEverything) {
   EXPECT_EQ(spectrum.exponents()[1], -infinity);
 }
 
+TEST(Lyapunov, ADirectionThatVanishesInSpiteOfTheRankIsMinusInfinity) {
+  LyapunovSpectrum<double, 2> spectrum;
+  Matrix2 map = Matrix2::Zero();
+  map(0, 0) = 2.0;
+  spectrum.push(map, 2);  // a rank that is told wrong
+  EXPECT_DOUBLE_EQ(spectrum.exponents()[0], std::log(2.0));
+  EXPECT_EQ(spectrum.exponents()[1], -infinity);
+}
+
 TEST(Lyapunov, RankCountsIndependentRows) {
   Matrix2 flat;
   flat << 1, 2, 2, 4;

@@ -154,5 +154,15 @@ TEST(OrbitContinuation, RefusesAPathThatChangesTheCoincidences) {
   EXPECT_THROW(follow_orbit(path, orbit_of(loop), 0.01, 0.011), InvalidParameter);
 }
 
+TEST(OrbitContinuation, RefusesAPathThatTakesTheBacklashAway) {
+  const ForcedLoop<double> loop = followed_loop(0.01, 0.002);
+  const auto path = [&](double width) {
+    ForcedLoop<double> other = loop;
+    other.backlash_width = width == 0.002 ? width : 0.0;
+    return other;
+  };
+  EXPECT_THROW(follow_orbit(path, orbit_of(loop), 0.002, 0.003), InvalidParameter);
+}
+
 }  // namespace
 }  // namespace holdfast

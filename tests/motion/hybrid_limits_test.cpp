@@ -343,6 +343,8 @@ TEST(HybridMotion, WhatIsNotAdmissibleIsRefused) {
   refused([](DigitalLoop& bad) { bad.force.harmonics[0].frequency = -1.0; });
   refused([](DigitalLoop& bad) { bad.limits.velocity_quantum = -1.0; });
   refused([](DigitalLoop& bad) { bad.jitter.half_width = 0.001; });
+  // A rate of the force times the sampling period beyond 10⁶ would be endless work.
+  refused([](DigitalLoop& bad) { bad.force.harmonics[0].frequency = 1e9; });
   EXPECT_THROW(kollar_motion(kollar_digital(0.001), -1.0), InvalidParameter);
 }
 

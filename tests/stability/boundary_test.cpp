@@ -62,6 +62,24 @@ TEST(Boundary, EveryPointOfTheContinuousLoopHasItsRootOnTheImaginaryAxis) {
   EXPECT_GT(seen, 50);
 }
 
+TEST(Boundary, ALineThatTheDifferentialGainDoesNotMoveIsVertical) {
+  // (s² + 3s + 5)(s² + s + 10) with a control that pushes against the ground: P adds to the
+  // constant term and D to the one of s, so that s = 0 at P = −50 whatever D is.
+  AffinePolynomial<double, 4> grounded{{50, 35, 18, 4, 1}, {1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}};
+  std::vector<double> ends;
+  for (const auto& point : stability_boundary(grounded, range)) {
+    if (point.curve != BoundaryCurve::zero) continue;
+    EXPECT_EQ(point.angle, 0.0);
+    EXPECT_NEAR(point.gains.proportional, -50.0, 1e-12);
+    EXPECT_EQ(grounded.at({point.gains.proportional, 7.0})[0], 0.0);
+    ends.push_back(point.gains.differential);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(ends, (std::vector<double>{-infinity, infinity}));
+  for (const auto& point : stability_boundary(grounded, {0.0, 300.0}))
+    EXPECT_EQ(point.curve, BoundaryCurve::imaginary_pair);
+}
+
 TEST(Boundary, PointsLieInTheRangeInAscendingAngle) {
   const auto loop = sampled_loop(plant(), Sampling<Precise>{0.01L});
   Precise previous = 0;

@@ -103,6 +103,19 @@ TEST(AmplitudeSensitivity, IsTheSlopeOfTheLeastAmplitude) {
   }
 }
 
+TEST(AmplitudeSensitivity, ThereIsNoneWhereNoGainIsAdmitted) {
+  const auto plant = kollar2022_plant();
+  const AmplitudeQuestion fast{{0.001, 0.0}, ForceHold::sampled, 1.0};
+  const auto unstable = amplitude_sensitivity(plant, fast, 10.0, 1e5);
+  EXPECT_EQ(unstable.outcome, LeastAmplitudeOutcome::none);
+  EXPECT_TRUE(std::isnan(unstable.ratio.conductor_mass));
+  EXPECT_TRUE(std::isnan(unstable.differential_gain.sampling_period));
+  const auto aliased =
+      amplitude_sensitivity(plant, {{0.06, 0.0}, ForceHold::sampled, 1.0}, 10.0, -557.0);
+  EXPECT_EQ(aliased.outcome, LeastAmplitudeOutcome::aliased);
+  EXPECT_TRUE(std::isnan(aliased.ratio.absorber_stiffness));
+}
+
 TEST(MaxDelaySensitivity, IsTheSlopeOfTheLargestPeriod) {
   for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
     for (const double fraction : {0.0, 0.4}) {

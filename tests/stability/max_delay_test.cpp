@@ -77,6 +77,16 @@ TEST(MaxDelay, SamplesThatNoLongerShowTheVibrationAreTheLastLimit) {
   EXPECT_NEAR(answer.sampling_period, 0.05, 1e-12);
 }
 
+TEST(MaxDelay, NoGainServesWhereTheSamplesDoNotShowTheVibration) {
+  const auto plant = kollar2022_plant();
+  auto question = tuned_to(10.0, DelayCriterion::attenuates);
+  question.proportional_gain = 0.0;
+  EXPECT_FALSE(feasible_differential_gains(plant, question, 0.049).empty());
+  EXPECT_TRUE(feasible_differential_gains(plant, question, 0.051).empty());
+  EXPECT_TRUE(feasible_differential_gain(plant, question, 0.049));
+  EXPECT_FALSE(feasible_differential_gain(plant, question, 0.051));
+}
+
 TEST(MaxDelay, TheGainThatItNamesServes) {
   const auto plant = kollar2022_plant();
   const auto question = tuned_to(10.0, DelayCriterion::attenuates);

@@ -183,6 +183,12 @@ TEST(Integrator, ARateThatBreaksDownOnTheWayIsAnOutcomeToo) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(Integrator, AStateOfAnotherSizeThanTheSystemsIsRefused) {
+  const Oscillator system;
+  EXPECT_THROW(Integrator<Oscillator>(system, Eigen::Vector3d(1.0, 0.0, 0.0), {1e-6, 1e-9}),
+               InvalidParameter);
+}
+
 TEST(Integrator, TolerancesThatAreNotPositiveAreRefused) {
   const Oscillator system;
   const double nan = std::numeric_limits<double>::quiet_NaN();
