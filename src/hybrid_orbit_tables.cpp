@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
 #include "holdfast/attractor/hybrid_orbit_search.hpp"
@@ -47,14 +48,14 @@ HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
     if (found.outcome != OrbitOutcome::certified) {
       throw NoAnswer(reason_for(failure_of(found, ratio, cycles_per_sample(loop), largest_period)));
     }
+    report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
     return *found.orbit;
   });
 }
 
 void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const HybridOrbit orbit =
-      warned_of_border(certified_orbit(context, loop, largest_period), context.quiet);
+  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.margins.border_distance,
             orbit.engaged_fraction());
@@ -64,8 +65,7 @@ void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t l
 void write_certificate(const JobContext& context, const RealLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, certificate_columns());
-  const HybridOrbit orbit =
-      warned_of_border(certified_orbit(context, loop, largest_period), context.quiet);
+  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.largest_displacement);
   write_margins(rows, orbit.margins);
@@ -77,8 +77,7 @@ void write_certificate(const JobContext& context, const RealLoop& loop,
 void write_orbit_trace(const JobContext& context, const RealLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, motion_columns(loop.switching));
-  const HybridOrbit orbit =
-      warned_of_border(certified_orbit(context, loop, largest_period), context.quiet);
+  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;

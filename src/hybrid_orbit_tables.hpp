@@ -10,7 +10,7 @@ namespace holdfast::program {
 
 /// The tables of orbit_tables.hpp for a loop as it is built.
 
-/// The periodic orbit that the motion comes to.
+/// The periodic orbit that the motion comes to. Warns where a switching surface is near.
 /// Throws NoAnswer, saying why, where there is none, or none with a certificate.
 HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
                             std::int64_t largest_period);

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "conditioning.hpp"
 #include "csv.hpp"
-#include "exit.hpp"
 #include "holdfast/attractor/multipliers.hpp"
 #include "table.hpp"
 
@@ -43,14 +41,6 @@ void write_orbit_rows(QuantityRows& rows, const Orbit& orbit, double amplitude) 
   rows.row("amplitude", amplitude, "m");
   rows.row("engaged_fraction", orbit.engaged_fraction());
   rows.row("closure_error", orbit.closure_error, "m");
-}
-
-/// The orbit; warns where it is near a switching surface.
-/// @tparam Orbit  PeriodicOrbit or HybridOrbit
-template <class Orbit>
-Orbit warned_of_border(Orbit orbit, bool quiet) {
-  report_warning(near_border_warning(orbit.border_share()), quiet);
-  return orbit;
 }
 
 /// Modulus, angle and exponent per sample of each multiplier of `samples` samples.

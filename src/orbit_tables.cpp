@@ -5,7 +5,9 @@
 
 #include "axis.hpp"
 #include "case_keys.hpp"
+#include "conditioning.hpp"
 #include "errors.hpp"
+#include "exit.hpp"
 #include "holdfast/attractor/orbit_continuation.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
@@ -115,13 +117,13 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
         reason_for(failure_of(found, forcing_ratio(loop),
                               loop.excitation.frequency * loop.sampling.period, largest_period)));
   }
+  report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
   return std::move(*found.orbit);
 }
 
 void write_orbit(const JobContext& context, std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const PeriodicOrbit orbit =
-      warned_of_border(certified_orbit(context, largest_period), context.quiet);
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.borders.displacement.distance,
             orbit.engaged_fraction());
@@ -131,8 +133,7 @@ void write_orbit(const JobContext& context, std::int64_t largest_period) {
 void write_certificate(const JobContext& context, std::int64_t largest_period) {
   Table table(context, certificate_columns());
   const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-  const PeriodicOrbit orbit =
-      warned_of_border(certified_orbit(context, largest_period), context.quiet);
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.amplitude());
   write_border(rows, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
@@ -147,8 +148,7 @@ void write_certificate(const JobContext& context, std::int64_t largest_period) {
 
 void write_orbit_trace(const JobContext& context, std::int64_t largest_period) {
   Table table(context, motion_columns());
-  const PeriodicOrbit orbit =
-      warned_of_border(certified_orbit(context, largest_period), context.quiet);
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;
@@ -175,8 +175,7 @@ void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
                         {"sample", "", "of the orbit; -1 without a collision", "integer"},
                         {"largest_multiplier", "", "modulus there"},
                         {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
-  const PeriodicOrbit orbit =
-      warned_of_border(certified_orbit(context, largest_period), context.quiet);
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   const auto path = [&, name = key](double position) {
     return forced_loop_with(context.case_data, name, position);
   };

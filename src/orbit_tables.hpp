@@ -8,7 +8,7 @@
 
 namespace holdfast::program {
 
-/// The periodic orbit that the case's motion comes to.
+/// The periodic orbit that the case's motion comes to. Warns where a switching surface is near.
 /// Throws NoAnswer, saying why, where there is none, or none with a certificate.
 PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_period);
 

@@ -119,6 +119,7 @@ FoundPeriod found_period(const Orbit& orbit) {
 
 FoundPeriod searched_period(const StudiedLoop& studied) {
   JobContext context;
+  context.quiet = true;
   context.case_data = studied.the_case;
   context.case_data.excitation.hold = studied.reading.hold_word();
   if (is_of_the_paper(studied.the_case, studied.reading.switching))

@@ -305,7 +305,7 @@ class ContactSpectrum {
     const auto words_left = (sums_.steps_left() - samples_) / ContactWords::length;
     const double left = std::max(1.0, static_cast<double>(words_left));
     const double most = std::min(allowed_, static_cast<double>(most_words));
-    planned_ = std::max(1, static_cast<int>(std::ceil(left / std::ceil(left / most))));
+    planned_ = static_cast<int>(std::ceil(left / std::ceil(left / most)));
   }
 
   std::shared_ptr<const ContactWords> words_;
