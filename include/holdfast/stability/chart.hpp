@@ -48,15 +48,16 @@ class StabilityRows {
   /// @param proportional_gain  P (N/m), finite
   /// @param stable             as many entries as the row has cells
   void fill(double proportional_gain, std::uint8_t* stable) {
-    row_ = polynomial_.base + proportional_gain * polynomial_.proportional;
+    const Polynomial<double, Degree> row =
+        polynomial_.base + proportional_gain * polynomial_.proportional;
     std::int64_t first = 0;
     for (const RowCrossing<double>& crossing : crossings_.at(proportional_gain)) {
       const auto [before, after] = cells_about(crossing, first);
-      fill_gap(first, before, stable);
+      fill_gap(row, first, before, stable);
       std::fill(stable + before, stable + after, std::uint8_t{0});
       first = after;
     }
-    fill_gap(first, differential_.count, stable);
+    fill_gap(row, first, differential_.count, stable);
   }
 
  private:
@@ -69,17 +70,17 @@ class StabilityRows {
   }
 
   /// No boundary passes between these cells: the middle one stands for all.
-  void fill_gap(std::int64_t first, std::int64_t last, std::uint8_t* stable) const {
+  void fill_gap(const Polynomial<double, Degree>& row, std::int64_t first, std::int64_t last,
+                std::uint8_t* stable) const {
     if (first >= last) return;
     const double d = differential_.at(first + (last - first) / 2);
-    const bool inside = is_hurwitz<double, Degree + 1>(row_ + d * polynomial_.differential);
+    const bool inside = is_hurwitz<double, Degree + 1>(row + d * polynomial_.differential);
     std::fill(stable + first, stable + last, static_cast<std::uint8_t>(inside));
   }
 
   AffinePolynomial<double, Degree> polynomial_;
   Axis differential_;
   RowCrossings<double, Degree> crossings_;
-  Polynomial<double, Degree> row_;
 };
 
 /// Stable (1) or not (0) for every cell of the grid, P slowest.
