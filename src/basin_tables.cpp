@@ -6,6 +6,8 @@
 
 #include "axis.hpp"
 #include "case_keys.hpp"
+#include "compiled_once/hybrid_orbit.hpp"
+#include "compiled_once/periodic_orbit.hpp"
 #include "errors.hpp"
 #include "grid_table.hpp"
 #include "holdfast/attractor/basins.hpp"

@@ -5,11 +5,8 @@
 #include <limits>
 #include <memory>
 
-#include "holdfast/attractor/hybrid_lyapunov.hpp"
-#include "holdfast/attractor/hybrid_orbit_search.hpp"
-#include "holdfast/attractor/hybrid_verdict.hpp"
+#include "compiled_once/verdict.hpp"
 #include "holdfast/attractor/lyapunov_run.hpp"
-#include "holdfast/attractor/motion_verdict.hpp"
 #include "holdfast/sweep/hybrid_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "interrupt.hpp"

@@ -2,10 +2,10 @@
 
 #include <optional>
 
+#include "compiled_once/hybrid_orbit.hpp"
 #include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
-#include "holdfast/attractor/hybrid_orbit_search.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
 #include "motion_columns.hpp"

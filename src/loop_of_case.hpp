@@ -4,6 +4,7 @@
 #include <string>
 
 #include "case.hpp"
+#include "compiled_once/sampled_loop.hpp"
 #include "holdfast/control/harmonic_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/excitation.hpp"

@@ -2,10 +2,10 @@
 
 #include <memory>
 
+#include "compiled_once/hybrid_lyapunov.hpp"
 #include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"
-#include "holdfast/attractor/hybrid_lyapunov.hpp"
 #include "holdfast/attractor/lyapunov.hpp"
 #include "holdfast/attractor/lyapunov_run.hpp"
 #include "interrupt.hpp"

@@ -5,6 +5,7 @@
 
 #include "axis.hpp"
 #include "case_keys.hpp"
+#include "compiled_once/periodic_orbit.hpp"
 #include "conditioning.hpp"
 #include "errors.hpp"
 #include "exit.hpp"

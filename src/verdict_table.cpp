@@ -3,10 +3,9 @@
 #include <limits>
 #include <optional>
 
+#include "compiled_once/verdict.hpp"
 #include "conditioning.hpp"
 #include "exit.hpp"
-#include "holdfast/attractor/hybrid_verdict.hpp"
-#include "holdfast/attractor/motion_verdict.hpp"
 #include "interrupt.hpp"
 #include "loop_of_case.hpp"
 #include "progress.hpp"

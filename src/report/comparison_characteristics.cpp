@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
+#include "compiled_once/periodic_orbit.hpp"
 #include "holdfast/attractor/coverage.hpp"
 #include "holdfast/attractor/deviation.hpp"
 #include "holdfast/attractor/lyapunov.hpp"
-#include "holdfast/attractor/orbit_search.hpp"
 #include "holdfast/attractor/spectrum.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"

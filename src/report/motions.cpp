@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "case_keys.hpp"
-#include "holdfast/attractor/motion_verdict.hpp"
+#include "compiled_once/verdict.hpp"
 #include "holdfast/attractor/orbit_catalogue.hpp"
 #include "loop_of_case.hpp"
 #include "orbit_certificate.hpp"
