@@ -4,9 +4,10 @@ namespace holdfast {
 
 template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
 
-namespace detail {
+}  // namespace holdfast
+
+namespace holdfast::detail {
 
 template Matrix<double, 6> balanced_exponential(const Matrix<double, 6>&);
 
-}  // namespace detail
-}  // namespace holdfast
+}  // namespace holdfast::detail

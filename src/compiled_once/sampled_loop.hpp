@@ -10,10 +10,11 @@ namespace holdfast {
 
 extern template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
 
-namespace detail {
+}  // namespace holdfast
+
+namespace holdfast::detail {
 
 /// That of the harmonic force.
 extern template Matrix<double, 6> balanced_exponential(const Matrix<double, 6>&);
 
-}  // namespace detail
-}  // namespace holdfast
+}  // namespace holdfast::detail
