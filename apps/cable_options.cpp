@@ -1,9 +1,9 @@
 #include "cable_options.hpp"
 
-#include "errors.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "holdfast/plant/free_decay.hpp"
-#include "loop_of_case.hpp"
-#include "text.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
 
 namespace holdfast::program {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "cable_decay.hpp"
 #include "job.hpp"
+#include "jobs/cable/cable_decay.hpp"
 
 namespace holdfast::program {
 

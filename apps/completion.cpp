@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "case_keys.hpp"
-#include "text.hpp"
+#include "case/case_keys.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "errors.hpp"
-#include "exit.hpp"
-#include "input.hpp"
-#include "settled_plant.hpp"
-#include "text.hpp"
-#include "worker_threads.hpp"
+#include "case/model/settled_plant.hpp"
+#include "io/file/input.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+#include "process/worker_threads.hpp"
 
 namespace holdfast::program {
 namespace {

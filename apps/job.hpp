@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "job_context.hpp"
+#include "process/job_context.hpp"
 
 namespace holdfast::program {
 

@@ -2,10 +2,10 @@
 
 #include <string_view>
 
-#include "case_file.hpp"
-#include "case_keys.hpp"
+#include "case/case_file.hpp"
+#include "case/case_keys.hpp"
 #include "holdfast/core/version.hpp"
-#include "text.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -4,15 +4,15 @@
 #include <sstream>
 #include <system_error>
 
-#include "build_record.hpp"
 #include "completion.hpp"
-#include "errors.hpp"
 #include "examples.hpp"
-#include "exit.hpp"
+#include "io/file/build_record.hpp"
+#include "io/file/output.hpp"
+#include "io/text/text.hpp"
 #include "job.hpp"
 #include "manual.hpp"
-#include "output.hpp"
-#include "text.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
 
 namespace holdfast::program {
 namespace {

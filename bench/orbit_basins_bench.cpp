@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "holdfast/attractor/capture.hpp"
-#include "holdfast/attractor/orbit_recheck.hpp"
+#include "holdfast/orbit/orbit_verification.hpp"
+#include "holdfast/orbit/region_of_attraction.hpp"
 #include "holdfast/simd/basins.hpp"
 #include "medians.hpp"
 

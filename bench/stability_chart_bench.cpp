@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "holdfast/simd/charts.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "medians.hpp"
 #include "processor.hpp"
 

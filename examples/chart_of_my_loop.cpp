@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/chart.hpp"
-#include "holdfast/stability/mobius_zhukovsky.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/math/poly/mobius_zhukovsky.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/chart/chart.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 int main() {
   using namespace holdfast;

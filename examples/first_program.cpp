@@ -2,10 +2,10 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/response.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/response/response.hpp"
 
 int main() {
   using namespace holdfast;

@@ -1,8 +1,8 @@
 // The motion looks irregular. Is it?
 #include <cstdio>
 
-#include "holdfast/attractor/hybrid_verdict.hpp"
-#include "holdfast/attractor/motion_verdict.hpp"
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
 
 using namespace holdfast;
 

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "holdfast/attractor/lyapunov_spectrum.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 using namespace holdfast;
 

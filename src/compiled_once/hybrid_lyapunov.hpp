@@ -1,6 +1,6 @@
 #pragma once
 
-#include "holdfast/attractor/hybrid_lyapunov.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/motion/real_loop.hpp"
 
 // Compiled in hybrid_lyapunov.cpp for all files of the program, for every contact that a loop may

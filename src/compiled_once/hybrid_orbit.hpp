@@ -1,7 +1,7 @@
 #pragma once
 
-#include "holdfast/attractor/hybrid_orbit_search.hpp"
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 
 // Compiled in hybrid_orbit.cpp for all files of the program, for every contact that a loop may
 // have.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "holdfast/attractor/multipliers.hpp"
-#include "holdfast/attractor/orbit_search.hpp"
+#include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
 
 // Several files of the program search for orbits; it is compiled in periodic_orbit.cpp for all.
 

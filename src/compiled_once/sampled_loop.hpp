@@ -1,8 +1,8 @@
 #pragma once
 
-#include "holdfast/control/harmonic_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 // The exponentials of a loop: compiled in sampled_loop.cpp for all files of the program.
 

@@ -3,8 +3,8 @@
 #include "compiled_once/hybrid_lyapunov.hpp"
 #include "compiled_once/hybrid_orbit.hpp"
 #include "compiled_once/periodic_orbit.hpp"
-#include "holdfast/attractor/hybrid_verdict.hpp"
-#include "holdfast/attractor/motion_verdict.hpp"
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
 
 // Compiled in verdict.cpp for all files of the program.
 

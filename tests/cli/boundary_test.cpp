@@ -5,8 +5,8 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "csv.hpp"
-#include "text.hpp"
+#include "io/text/csv.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::tests {
 namespace {

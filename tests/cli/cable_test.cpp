@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "cable_decay.hpp"
 #include "cli/program.hpp"
-#include "csv.hpp"
+#include "io/text/csv.hpp"
+#include "jobs/cable/cable_decay.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "text.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "cli/program.hpp"
-#include "csv.hpp"
+#include "io/text/csv.hpp"
 
 namespace holdfast::tests {
 namespace {

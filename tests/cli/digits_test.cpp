@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "holdfast/core/trusted_digits.hpp"
+#include "holdfast/math/stats/trusted_digits.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace holdfast::tests {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "case_keys.hpp"
+#include "case/case_keys.hpp"
 #include "cli/program.hpp"
 
 namespace holdfast::tests {

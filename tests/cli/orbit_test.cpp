@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "csv.hpp"
+#include "io/text/csv.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "csv.hpp"
+#include "io/text/csv.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace holdfast::tests {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "cable_decay.hpp"
 #include "cli/program.hpp"
-#include "csv.hpp"
+#include "io/text/csv.hpp"
+#include "jobs/cable/cable_decay.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/program.hpp"
-#include "csv.hpp"
+#include "io/text/csv.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace holdfast::tests {

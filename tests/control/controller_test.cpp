@@ -8,10 +8,10 @@
 #include <limits>
 #include <string>
 
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/motion/stepper.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {

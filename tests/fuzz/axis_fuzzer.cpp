@@ -5,9 +5,9 @@
 #include <string>
 #include <variant>
 
-#include "axis.hpp"
-#include "errors.hpp"
-#include "require.hpp"
+#include "case/axes/axis.hpp"
+#include "fuzz/require.hpp"
+#include "process/errors.hpp"
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <string>
 
-#include "case_file.hpp"
-#include "errors.hpp"
-#include "require.hpp"
+#include "case/case_file.hpp"
+#include "fuzz/require.hpp"
+#include "process/errors.hpp"
 
 /// Any text as a case file: it is refused in one line, or what it says can be written and read
 /// again.

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "csv.hpp"
-#include "decay_file.hpp"
-#include "errors.hpp"
-#include "require.hpp"
+#include "fuzz/require.hpp"
+#include "io/text/csv.hpp"
+#include "io/text/decay_file.hpp"
+#include "process/errors.hpp"
 
 namespace {
 

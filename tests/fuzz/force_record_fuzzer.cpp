@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <string>
 
-#include "errors.hpp"
-#include "force_record_file.hpp"
+#include "case/force_record_file.hpp"
+#include "fuzz/require.hpp"
 #include "holdfast/core/errors.hpp"
-#include "holdfast/motion/recorded_force.hpp"
-#include "require.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
+#include "process/errors.hpp"
 
 namespace {
 

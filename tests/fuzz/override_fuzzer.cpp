@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "case_file.hpp"
-#include "errors.hpp"
-#include "require.hpp"
-#include "text.hpp"
+#include "case/case_file.hpp"
+#include "fuzz/require.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
 
 /// Texts between zeros, which no argument of a program can hold, as --set options in their order.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,14 +7,14 @@
 #include <string>
 #include <string_view>
 
-#include "checksum.hpp"
-#include "errors.hpp"
-#include "require.hpp"
-#include "tile_file.hpp"
-#include "tile_plan_file.hpp"
-#include "tile_result.hpp"
-#include "whole_file.hpp"
-#include "work_folder.hpp"
+#include "fuzz/require.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/text/checksum.hpp"
+#include "process/errors.hpp"
+#include "sweep/tiles/tile_file.hpp"
+#include "sweep/tiles/tile_plan_file.hpp"
+#include "sweep/tiles/tile_result.hpp"
+#include "sweep/tiles/work_folder.hpp"
 
 namespace {
 

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "case_keys.hpp"
-#include "cli/stopped_sweep.hpp"
+#include "case/case_keys.hpp"
+#include "cli/sweep/stopped_sweep.hpp"
 #include "hostile/hostile_scene.hpp"
 #include "hostile/hostile_texts.hpp"
 

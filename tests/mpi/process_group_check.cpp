@@ -7,12 +7,12 @@
 #include <sstream>
 #include <thread>
 
-#include "errors.hpp"
-#include "exit.hpp"
-#include "interrupt.hpp"
-#include "mpi_launch.hpp"
-#include "process_group.hpp"
-#include "worker_threads.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+#include "process/group/mpi_launch.hpp"
+#include "process/group/process_group.hpp"
+#include "process/interrupt.hpp"
+#include "process/worker_threads.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "holdfast/backlash/contact_law.hpp"
+#include "holdfast/contact/contact_law.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "property/loop_case.hpp"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "holdfast/backlash/contact_law.hpp"
-#include "holdfast/core/balancing.hpp"
+#include "holdfast/contact/contact_law.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "property/loop_case.hpp"
 

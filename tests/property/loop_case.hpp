@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/control/harmonic_input.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "support/property.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"

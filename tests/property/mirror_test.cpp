@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/real_loop.hpp"
-#include "holdfast/motion/recorded_force.hpp"
 #include "property/loop_case.hpp"
 
 namespace holdfast {

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/core/balancing.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
 #include "property/loop_case.hpp"
 
 namespace holdfast {

@@ -11,12 +11,12 @@
 #include <limits>
 #include <vector>
 
-#include "holdfast/core/balancing.hpp"
-#include "holdfast/stability/boundary.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/response.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/boundary.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/response/response.hpp"
 #include "property/units_case.hpp"
 
 namespace holdfast {

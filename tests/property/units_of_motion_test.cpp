@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "holdfast/attractor/lyapunov.hpp"
-#include "holdfast/backlash/contact_law.hpp"
+#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/contact/contact_law.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "property/units_case.hpp"
 

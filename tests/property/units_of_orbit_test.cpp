@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "holdfast/attractor/orbit_search.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
 #include "property/units_case.hpp"
 
 namespace holdfast {

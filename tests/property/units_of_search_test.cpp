@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "holdfast/stability/max_delay.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
 #include "property/units_case.hpp"
 
 namespace holdfast {

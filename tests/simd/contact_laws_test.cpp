@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "holdfast/backlash/contact_law.hpp"
+#include "holdfast/contact/contact_law.hpp"
 #include "holdfast/simd/pack.hpp"
 #include "support/random.hpp"
 

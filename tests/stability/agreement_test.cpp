@@ -10,13 +10,13 @@
 #include <limits>
 #include <string>
 
-#include "holdfast/stability/boundary.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/mobius_zhukovsky.hpp"
-#include "holdfast/stability/routh_hurwitz.hpp"
-#include "holdfast/stability/schur_cohn.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/math/poly/mobius_zhukovsky.hpp"
+#include "holdfast/math/poly/routh_hurwitz.hpp"
+#include "holdfast/math/poly/schur_cohn.hpp"
+#include "holdfast/stability/boundary/boundary.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {

@@ -8,8 +8,8 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/sensitivity.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/sensitivity/sensitivity.hpp"
 
 namespace holdfast {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
-#include "holdfast/core/trusted_digits.hpp"
+#include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::test {
 

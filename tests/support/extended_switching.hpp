@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "holdfast/motion/contact_mode.hpp"
+#include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 
 namespace holdfast::test {

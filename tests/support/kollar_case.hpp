@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "holdfast/backlash/hysteresis.hpp"
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/observers.hpp"
-#include "holdfast/motion/stepper.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::test {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/core/polynomial.hpp"
-#include "holdfast/stability/affine_polynomial.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/stability/polynomial/affine_polynomial.hpp"
 #include "support/random.hpp"
 
 namespace holdfast::test {

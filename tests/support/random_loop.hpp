@@ -7,9 +7,9 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/core/polynomial.hpp"
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random.hpp"
 
 namespace holdfast::test {

@@ -11,9 +11,9 @@
 #include "holdfast/cable/irvine_statics.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/control/gains.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/reduction.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
 #include "support/digits.hpp"
 
 namespace holdfast::cable_digits {

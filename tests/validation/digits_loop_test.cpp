@@ -9,16 +9,16 @@
 #include <string>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/stability/boundary_features.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/least_radius.hpp"
-#include "holdfast/stability/least_radius_gains.hpp"
-#include "holdfast/stability/loop_polynomial.hpp"
-#include "holdfast/stability/margins.hpp"
-#include "holdfast/stability/max_delay.hpp"
-#include "holdfast/stability/response.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/boundary_features.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
+#include "holdfast/stability/design/minimum_radius.hpp"
+#include "holdfast/stability/design/minimum_radius_gains.hpp"
+#include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+#include "holdfast/stability/response/response.hpp"
 #include "support/digits.hpp"
 
 namespace holdfast::loop_digits {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/attractor/lyapunov_spectrum.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "holdfast/cable/chain_modes.hpp"
-#include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/cable/statics.hpp"
+#include "holdfast/cable/stiffness_reading.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
+#include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/reduction.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 namespace {

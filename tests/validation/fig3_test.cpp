@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/boundary.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/boundary.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/characteristic_polynomial.hpp"
-#include "holdfast/stability/spectral_radius.hpp"
-#include "holdfast/stability/stable_intervals.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
 namespace {

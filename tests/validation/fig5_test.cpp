@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/plant/two_dof.hpp"
-#include "holdfast/stability/max_delay.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
 
 namespace holdfast {
 namespace {

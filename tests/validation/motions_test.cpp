@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "holdfast/attractor/orbit_recheck.hpp"
-#include "holdfast/attractor/orbit_search.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/orbit/orbit_verification.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 namespace {

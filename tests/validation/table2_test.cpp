@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "holdfast/attractor/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {

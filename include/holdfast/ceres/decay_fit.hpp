@@ -14,11 +14,11 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/ceres/decay_question.hpp"
 #include "holdfast/ceres/decay_residuals.hpp"
 #include "holdfast/core/errors.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/math/signal/decay_measures.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 /// Fits of the plant to records by Ceres Solver. Needs a package besides Eigen.
 namespace holdfast::fit {

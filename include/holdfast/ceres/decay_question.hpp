@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 /// What is asked of a fit to a decay record and what it answers; this header needs no Ceres.
 namespace holdfast::fit {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/ceres/decay_question.hpp"
+#include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/free_decay.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 /// What a plant misses of a decay record, as Ceres Solver asks for it.
 namespace holdfast::fit::detail {

@@ -4,7 +4,7 @@
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 

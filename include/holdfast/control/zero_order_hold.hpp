@@ -1,9 +1,7 @@
 #pragma once
 
-#include <unsupported/Eigen/MatrixFunctions>
-
-#include "holdfast/core/balancing.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/exponential.hpp"
 
 namespace holdfast {
 
@@ -16,20 +14,6 @@ struct HeldStep {
   Matrix<Scalar, States> transition;     ///< e^{Ah}, States × States
   Matrix<Scalar, States, Inputs> input;  ///< ∫₀ʰ e^{As} ds B, States × Inputs
 };
-
-namespace detail {
-
-/// e^M by scaling and squaring of the balanced matrix.
-///
-/// Displacements and velocities differ by the size of a frequency, so that the norm of M exceeds
-/// its eigenvalues by that factor; the squarings that the norm asks for would cost as many digits.
-template <class Scalar, int Size>
-Matrix<Scalar, Size> balanced_exponential(const Matrix<Scalar, Size>& matrix) {
-  const BalancedMatrix<Scalar, Size> similar(matrix);
-  return similar.restored(similar.balanced.exp());
-}
-
-}  // namespace detail
 
 /// Zero-order hold by one augmented matrix exponential (Van Loan's construction):
 ///

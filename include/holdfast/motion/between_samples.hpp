@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/excitation.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/stepper.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast {
 

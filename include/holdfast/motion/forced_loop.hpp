@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <optional>
 
-#include "holdfast/backlash/hysteresis.hpp"
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/rational.hpp"
-#include "holdfast/motion/excitation.hpp"
-#include "holdfast/motion/forcing.hpp"
-#include "holdfast/motion/stepper.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/excitation/forcing.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/stepper.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast {
 

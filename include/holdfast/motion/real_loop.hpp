@@ -5,15 +5,15 @@
 #include <optional>
 #include <utility>
 
-#include "holdfast/backlash/contact_law.hpp"
+#include "holdfast/contact/contact_law.hpp"
+#include "holdfast/contact/exact_backlash.hpp"
+#include "holdfast/contact/exact_dead_zone.hpp"
+#include "holdfast/contact/sampled_law.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/exact_backlash.hpp"
-#include "holdfast/motion/exact_dead_zone.hpp"
+#include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/hybrid_motion.hpp"
-#include "holdfast/motion/sampled_contact_motion.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 

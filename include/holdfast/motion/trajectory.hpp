@@ -6,7 +6,7 @@
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/stepper.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "holdfast/core/types.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "holdfast/cable/decay_measures.hpp"
-#include "holdfast/core/exponential.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/math/linalg/exponential.hpp"
+#include "holdfast/math/signal/decay_measures.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "holdfast/attractor/basins.hpp"
+#include "holdfast/phase_space/basins.hpp"
 #include "holdfast/simd/pack.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "holdfast/simd/pack.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
-#include "holdfast/stability/loop_chart_rows.hpp"
+#include "holdfast/stability/chart/loop_chart_rows.hpp"
 
 namespace holdfast::simd {
 

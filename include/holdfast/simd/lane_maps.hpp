@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "holdfast/attractor/contact_words.hpp"
+#include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/simd/pack.hpp"
 
 namespace holdfast {

@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "holdfast/attractor/contact_words.hpp"
-#include "holdfast/attractor/lyapunov_run.hpp"
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/chaos/itinerary_blocks.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/forcing.hpp"
 #include "holdfast/simd/lyapunov_group.hpp"
 #include "holdfast/simd/motion_family.hpp"
 #include "holdfast/simd/pack.hpp"

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
-#include "holdfast/attractor/contact_spectrum.hpp"
-#include "holdfast/attractor/contact_words.hpp"
-#include "holdfast/attractor/lyapunov_run.hpp"
+#include "holdfast/chaos/block_spectrum.hpp"
+#include "holdfast/chaos/itinerary_blocks.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/simd/lane_maps.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "holdfast/backlash/hysteresis.hpp"
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/forcing.hpp"
-#include "holdfast/motion/stepper.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/simd/pack.hpp"
 
 namespace holdfast::simd::detail {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "holdfast/cable/decay_measures.hpp"
 #include "holdfast/cable/elements.hpp"
+#include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/sundials/cvode.hpp"
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/contact_mode.hpp"
-#include "holdfast/motion/excitation.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/sundials/cvode.hpp"
 

@@ -7,19 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/backlash/hysteresis.hpp"
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/excitation.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/sweep/metric_lanes.hpp"
 #include "holdfast/sweep/metric_track.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
+#include "holdfast/sweep/phasor_forcing.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
-#include "holdfast/sweep/turning_forcing.hpp"
 
 namespace holdfast::detail {
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <limits>
 
-#include "holdfast/backlash/hysteresis.hpp"
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/stepper.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
-#include "holdfast/sweep/turning_forcing.hpp"
+#include "holdfast/sweep/phasor_forcing.hpp"
 
 namespace holdfast::detail {
 

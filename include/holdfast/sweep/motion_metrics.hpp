@@ -14,7 +14,7 @@ namespace holdfast {
 enum class MotionEnd {
   completed,    ///< all its samples were taken
   diverged,     ///< the state left the range of the number type
-  accumulates,  ///< its changes of contact do (motion/hybrid_motion.hpp): it cannot be followed
+  accumulates,  ///< its changes of contact do (motion/event_motion.hpp): it cannot be followed
 };
 
 /// What a sweep keeps of one motion of the sampled loop with backlash.
@@ -130,7 +130,7 @@ struct SteadySums {
 };
 
 /// Whether a velocity that was not zero changed its sign or became zero: the reversal by which the
-/// drive enters its gap (backlash/hysteresis.hpp).
+/// drive enters its gap (contact/hysteresis.hpp).
 template <class Scalar>
 Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
   const Scalar zero(0);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "holdfast/control/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"

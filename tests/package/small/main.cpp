@@ -2,7 +2,7 @@
 #include <string>
 
 #include "holdfast/core/version.hpp"
-#include "holdfast/plant/two_dof.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 int main() {
   const auto matrix = holdfast::kollar2022_plant().state_matrix();

@@ -1,0 +1,124 @@
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/model/cable_of_case.hpp"
+#include "case/model/fit_question.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "io/file/input.hpp"
+#include "io/text/decay_file.hpp"
+#include "io/text/table.hpp"
+#include "io/text/text.hpp"
+#include "job.hpp"
+#include "jobs/cable/damping_fit.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct Options {
+  std::optional<std::string> data;
+  std::string parameters = "absorber_damping";
+  std::optional<std::string> target;
+  bool plain = false;
+};
+
+fit::DecayQuestion question_of(const Options& options) {
+  fit::DecayQuestion question =
+      fit_question(options.parameters, options.target.value_or("history"));
+  question.robust = !options.plain;
+  question.fit_initial_displacement = options.data.has_value();
+  return question;
+}
+
+/// Quantities of the deepest minimum bear their key's name; those of the next, `_minimum_2` behind.
+void write_minimum(Table& table, const fit::DecayQuestion& question,
+                   const fit::DecayMinimum& minimum, std::size_t rank) {
+  const std::string behind = rank == 1 ? "" : "_minimum_" + std::to_string(rank);
+  const double none = std::nan("");
+  for (std::size_t k = 0; k < question.free.size(); ++k) {
+    const FitParameter& what = description_of(question.free[k]);
+    table.row(what.name + behind, parameter_of(minimum.plant, question.free[k]),
+              minimum.standard_errors[k], what.unit);
+  }
+  const bool history = question.target == fit::DecayTarget::time_history;
+  if (history) table.row("initial_displacement" + behind, minimum.initial_displacement, none, "m");
+  table.row("residual" + behind, minimum.residual, none, history ? "m" : "");
+}
+
+/// Where a fit starts: the case's plant, or what its conductor reduces to with c2 still open.
+TwoDof<double> start_of(const Case& the_case) {
+  return plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
+}
+
+/// That the plant does not follow the record, where it misses it by three tenths of its start.
+std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& record) {
+  const double share = best.residual / std::abs(record.displacements.front());
+  if (share < 0.3) return "";
+  return "the two-mass plant misses the record by " + format_number(std::round(share * 100.0)) +
+         " % of its start: released at rest at its first row, it moves otherwise";
+}
+
+/// All minima; where nothing but the case is given, those of `reduce`.
+std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const Options& options,
+                                         fit::DecayQuestion& question) {
+  const TwoDof<double> plant = start_of(context.case_data);
+  require_starts(question, plant);
+  const bool damping_alone = question.free == std::vector{fit::PlantParameter::absorber_damping};
+  if (damping_alone && !options.data && !options.target && !options.plain) {
+    const AbsorberDampingFit found = fit_absorber_damping(context.case_data, plant);
+    question.target = found.target;
+    report_warning(misfit_warning(found), context.quiet);
+    return found.fit.minima;
+  }
+  const DecayRecord record =
+      options.data ? read_decay_file(*options.data) : record_for_fit(context.case_data);
+  const auto minima = fit_record(record, plant, question).minima;
+  if (!fit::is_measured(question.target))
+    report_warning(course_warning(minima.front(), record), context.quiet);
+  return minima;
+}
+
+void run(const JobContext& context, const Options& options) {
+  fit::DecayQuestion question = question_of(options);
+  if (options.data) require_not_overwritten(*options.data, context.output);
+  Table table(
+      context,
+      {{"quantity", "", "key of the case file; residual: root mean square", "string"},
+       {"value", "", "in the unit beside it"},
+       {"standard_error", "",
+        "same unit: from the scatter about the history; of measures, from their misfit or 1 "
+        "% of each"},
+       {"unit", "", "SI; none: relative", "string"}});
+  const auto minima = minima_of(context, options, question);
+  for (std::size_t k = 0; k < minima.size(); ++k) write_minimum(table, question, minima[k], k + 1);
+  table.commit();
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program) {
+  const Job job(program, "fit", question::cable,
+                "Damping of the absorber (or more) from a decay record");
+  const auto options = std::make_shared<Options>();
+  job->add_option("--data", options->data,
+                  "CSV file with columns time_s,displacement_m, the first row at rest; without it "
+                  "the continuous cable of the case")
+      ->type_name("FILE");
+  job.add_text("--parameters", options->parameters, "Keys of [plant] to be fitted, between commas");
+  job->add_option("--target", options->target,
+                  "What is met: history, peak (first peak and period), measures (and logarithmic "
+                  "decrement); default: history, but for absorber_damping alone without --data "
+                  "peak where the plant meets it to a tenth")
+      ->check(CLI::IsMember({"history", "peak", "measures"}))
+      ->type_name("");
+  job->add_flag("--plain", options->plain, "Least squares, without the robust loss");
+  job->final_callback([job, options] {
+    require_ceres();
+    run(job.context(PlantNeed::none), *options);
+  });
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,75 @@
+#include "holdfast/stability/margins/margins.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "io/text/table.hpp"
+#include "io/text/text.hpp"
+#include "job.hpp"
+#include "jobs/charts/boundary_names.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+const char* word_for(MarginEndOutcome outcome) {
+  switch (outcome) {
+    case MarginEndOutcome::undefined:
+      return "undefined";
+    case MarginEndOutcome::boundary:
+      return "boundary";
+    case MarginEndOutcome::none:
+      return "none";
+    case MarginEndOutcome::beyond_search:
+      return "beyond_search";
+  }
+  return "";
+}
+
+/// Writes the two ends of one quantity's stable stretch.
+void write(Table& table, const char* quantity, const char* unit, double value,
+           const TwoSidedMargin& margin) {
+  const auto row = [&](const char* side, const MarginEnd& end) {
+    const bool crosses = end.outcome == MarginEndOutcome::boundary;
+    table.row(quantity, unit, value, side, word_for(end.outcome), end.position, end.distance,
+              crosses ? name_of(end.curve) : "", end.frequency);
+  };
+  row("below", margin.below);
+  row("above", margin.above);
+}
+
+void run(const JobContext& context) {
+  const TwoDof<double> plant = plant_of(context.case_data);
+  const Sampling<double> sampling = sampling_of(context.case_data);
+  const PdGains<double> gains = gains_of(context.case_data);
+  const StabilityMargins margins = stability_margins(plant, sampling, gains);
+  if (margins.outcome == MarginOutcome::not_stable)
+    throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
+                   format_rounded(1.0 - margins.unit_circle));
+  Table table(
+      context,
+      {{"quantity", "", "what alone is moved; the delay keeps its share of the period", "string"},
+       {"unit", "", "of value, position and distance", "string"},
+       {"value", "", "in the case"},
+       {"side", "", "below or above the value", "string"},
+       {"outcome", "",
+        "boundary: a root reaches the unit circle; none: stable to the end of the range; "
+        "beyond_search: stable as far as was looked",
+        "string"},
+       {"position", "", "the quantity there"},
+       {"distance", "", "from the value; inf without a boundary"},
+       {"curve", "", "which root crosses", "string"},
+       {"frequency_Hz", "Hz", "of the motion at the boundary; nan without one"}});
+  write(table, "differential_gain", "N.s/m", gains.differential, margins.differential_gain);
+  write(table, "proportional_gain", "N/m", gains.proportional, margins.proportional_gain);
+  write(table, "sampling_period", "s", sampling.period, margins.sampling_period);
+  write(table, "processing_delay", "s", sampling.processing_delay, margins.processing_delay);
+  table.commit();
+}
+
+}  // namespace
+
+void add_margins(CLI::App& program) {
+  const Job job(program, "margins", question::gains,
+                "How far D, P, the sampling period and the delay are from instability");
+  job->final_callback([job] { run(job.context()); });
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,18 @@
+#pragma once
+
+/// Lyapunov exponents, chaos indicators, classification.
+
+#include "holdfast/chaos/block_spectrum.hpp"
+#include "holdfast/chaos/chaos_indicators.hpp"
+#include "holdfast/chaos/classification.hpp"
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
+#include "holdfast/chaos/itinerary_blocks.hpp"
+#include "holdfast/chaos/leading_exponent.hpp"
+#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/chaos/recurrence.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/switching_complexity.hpp"
+#include "holdfast/chaos/zero_one_test.hpp"

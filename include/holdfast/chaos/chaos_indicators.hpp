@@ -1,0 +1,265 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/chaos/classification.hpp"
+#include "holdfast/chaos/leading_exponent.hpp"
+#include "holdfast/chaos/recurrence.hpp"
+#include "holdfast/chaos/switching_complexity.hpp"
+#include "holdfast/chaos/zero_one_test.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/signal/spectrum.hpp"
+#include "holdfast/math/signal/spectrum_lines.hpp"
+
+namespace holdfast {
+
+/// How much of a motion to look at, and how closely. The defaults fit motions of up to a few
+/// thousand samples a period.
+struct EvidencePlan {
+  std::int64_t transient = 5000;  ///< samples left out first, 0 … 10⁷
+  std::int64_t samples = 20160;  ///< samples looked at, 2000 … 100 000; divisible by 2, 3, 5, 7 so
+                                 ///< that many periods fit whole
+  double repeat_tolerance = 1e-9;  ///< of a repeat, relative to the extent
+  std::int64_t repeats = 3;  ///< how often a period has to repeat in half of the samples, ≥ 1
+  double recurrence_radius = 0.05;        ///< relative to the extent
+  std::int64_t recurrence_states = 1000;  ///< the last so many for closest return and recurrence,
+                                          ///< 2 … 5000
+  double base_frequency = 1.0;       ///< cycles per sample whose divisions the lines are asked for
+  int largest_division = 128;        ///< of the base frequency
+  std::int64_t zero_one_stride = 1;  ///< every so many samples for the 0–1 test, 1 … samples/500
+  double divergence_growth = 1e30;   ///< growth of the state over its size in the first 100 samples
+                                     ///< that counts as divergence
+  bool forcing_incommensurate = false;  ///< see MotionEvidence
+};
+
+/// @throws InvalidParameter for a member outside its range
+inline void validate(const EvidencePlan& plan) {
+  require_within("transient", static_cast<double>(plan.transient), "samples", 0.0, 1e7);
+  require_within("number of samples", static_cast<double>(plan.samples), "", 2000.0, 1e5);
+  require_within("recurrence states", static_cast<double>(plan.recurrence_states), "", 2.0, 5000.0);
+  const double most_stride = static_cast<double>(plan.samples) / 500.0;
+  require_within("stride of the 0-1 test", static_cast<double>(plan.zero_one_stride), "samples",
+                 1.0, most_stride);
+  require_within("growth that counts as divergence", plan.divergence_growth, "", 1e3, 1e200);
+}
+
+/// Stands for a tangent map that is not known: no exponents are found.
+struct NoTangent {};
+
+/// Stands for a system without contacts.
+struct NoContact {};
+
+namespace detail {
+
+/// Notes when a state has grown beyond all measure.
+template <int Size>
+class DivergenceGuard {
+ public:
+  DivergenceGuard(double growth, const Vector<double, Size>& initial)
+      : growth_(growth), largest_(initial.cwiseAbs()), reference_(largest_.maxCoeff()) {}
+
+  /// True where the state is not finite or has left the bounds.
+  bool leaves(const Vector<double, Size>& state) {
+    if (!state.allFinite()) return true;
+    largest_ = largest_.cwiseMax(state.cwiseAbs());
+    const double size = largest_.maxCoeff();
+    if (++seen_ <= 100) reference_ = size;
+    return reference_ > 0.0 && size / growth_ > reference_;
+  }
+
+  /// Largest |x_i| so far, coordinate by coordinate.
+  const Vector<double, Size>& largest() const { return largest_; }
+
+ private:
+  double growth_;
+  Vector<double, Size> largest_;
+  double reference_;
+  int seen_ = 0;
+};
+
+/// What a run has collected.
+template <int Size>
+struct CollectedMotion {
+  std::optional<std::int64_t> diverged_at;
+  std::vector<Vector<double, Size>> states;
+  std::vector<double> observed;
+  std::vector<bool> contacts;
+  Vector<double, Size> largest;  // |x_i| since the start
+  std::optional<ExponentEvidence> largest_exponent;
+};
+
+/// Runs transient and samples.
+template <int Size, class Advance, class Observable, class Tangent, class Contact>
+class MotionCollector {
+  static constexpr bool has_tangent = !std::is_same_v<Tangent, NoTangent>;
+  static constexpr bool has_contact = !std::is_same_v<Contact, NoContact>;
+
+ public:
+  MotionCollector(const Vector<double, Size>& initial, Advance& advance, Observable& observable,
+                  Tangent& tangent, Contact& contact, const EvidencePlan& plan)
+      : state_(initial),
+        advance_(advance),
+        observable_(observable),
+        tangent_(tangent),
+        contact_(contact),
+        plan_(plan),
+        guard_(plan.divergence_growth, initial),
+        exponent_(plan.samples) {}
+
+  CollectedMotion<Size> run() {
+    settle();
+    if (!motion_.diverged_at) observe();
+    return std::move(motion_);
+  }
+
+ private:
+  /// One step; false where the motion has diverged.
+  bool step() {
+    previous_ = state_;
+    advance_(state_);
+    ++index_;
+    if (!guard_.leaves(state_)) return true;
+    motion_.diverged_at = index_;
+    return false;
+  }
+
+  void settle() {
+    while (index_ < plan_.transient && step()) {
+      if constexpr (has_tangent) exponent_.settle(tangent_(previous_));
+    }
+  }
+
+  void observe() {
+    const auto count = static_cast<std::size_t>(plan_.samples);
+    motion_.states.reserve(count);
+    motion_.observed.reserve(count);
+    if constexpr (has_contact) motion_.contacts.reserve(count);
+    for (std::size_t taken = 0; taken < count; ++taken) {
+      motion_.states.push_back(state_);
+      motion_.observed.push_back(observable_(state_));
+      if (!step()) return;
+      if constexpr (has_tangent) exponent_.push(tangent_(previous_));
+      if constexpr (has_contact) motion_.contacts.push_back(contact_());
+    }
+    motion_.largest = guard_.largest();
+    if constexpr (has_tangent) motion_.largest_exponent = exponent_.evidence();
+  }
+
+  Vector<double, Size> state_;
+  Vector<double, Size> previous_ = state_;
+  Advance& advance_;
+  Observable& observable_;
+  Tangent& tangent_;
+  Contact& contact_;
+  const EvidencePlan& plan_;
+  DivergenceGuard<Size> guard_;
+  SettledExponent<Size> exponent_;
+  std::int64_t index_ = 0;
+  CollectedMotion<Size> motion_;
+};
+
+inline double extent_of(const std::vector<double>& series, std::size_t from, std::size_t to) {
+  const auto begin = series.begin();
+  const auto [low, high] = std::minmax_element(begin + static_cast<std::ptrdiff_t>(from),
+                                               begin + static_cast<std::ptrdiff_t>(to));
+  return *high - *low;
+}
+
+/// Extent of the last quarter over that of the first; nothing for a series that rests in the first.
+inline std::optional<double> extent_growth(const std::vector<double>& series) {
+  const std::size_t size = series.size(), quarter = size / 4;
+  const double first = extent_of(series, 0, quarter);
+  if (!(first > 0.0)) return std::nullopt;
+  return extent_of(series, size - quarter, size) / first;
+}
+
+inline SpectralEvidence spectral_evidence(const std::vector<double>& series,
+                                          const EvidencePlan& plan) {
+  const std::size_t size = series.size();
+  const auto whole = amplitude_spectrum(series, 1.0, SpectralWindow::rectangular);
+  const auto narrow = amplitude_spectrum(series, 1.0, SpectralWindow::hann);
+  const SubharmonicQuestion question{plan.base_frequency, plan.largest_division};
+  return {subharmonic_shares(whole, size, question).division, question.share,
+          lines_holding(whole, size, 0.99), continuous_share(narrow, size)};
+}
+
+inline std::vector<double> every(const std::vector<double>& series, std::int64_t stride) {
+  std::vector<double> thinned;
+  for (std::size_t n = 0; n < series.size(); n += static_cast<std::size_t>(stride))
+    thinned.push_back(series[n]);
+  return thinned;
+}
+
+/// What the collected series show.
+template <int Size>
+MotionEvidence weighed(const CollectedMotion<Size>& motion, const EvidencePlan& plan) {
+  MotionEvidence evidence;
+  evidence.forcing_incommensurate = plan.forcing_incommensurate;
+  evidence.largest_exponent = motion.largest_exponent;
+  const RepeatSearch repeat = repeats_after<Size>(
+      motion.states, plan.repeat_tolerance, static_cast<std::size_t>(plan.repeats), motion.largest);
+  evidence.repeat =
+      RepeatEvidence{static_cast<std::int64_t>(repeat.lag),
+                     static_cast<std::int64_t>(repeat.largest_lag), plan.repeat_tolerance};
+  const auto kept = std::min(plan.recurrence_states, static_cast<std::int64_t>(plan.samples));
+  const std::vector<Vector<double, Size>> last(motion.states.end() - kept, motion.states.end());
+  evidence.closest_return = closest_return<Size>(last);
+  evidence.recurrence = recurrence_shares<Size>(last, plan.recurrence_radius);
+  evidence.zero_one = zero_one_test(every(motion.observed, plan.zero_one_stride)).median;
+  evidence.lines = spectral_evidence(motion.observed, plan);
+  evidence.extent_growth = extent_growth(motion.observed);
+  if (!motion.contacts.empty()) evidence.switching = switching_complexity(motion.contacts);
+  return evidence;
+}
+
+}  // namespace detail
+
+/// Runs a discrete system and gathers the evidence that `judge` weighs.
+///
+///     auto logistic = [](Vector<double, 1>& x) { x[0] = 4 * x[0] * (1 - x[0]); };
+///     auto value = [](const Vector<double, 1>& x) { return x[0]; };
+///     auto slope = [](const Vector<double, 1>& x) { return Matrix<double, 1>(4 - 8 * x[0]); };
+///     judge(gather_evidence<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
+///
+/// Each callable may keep a state of its own, as a forcing does its index. A step first calls
+/// `advance(state)`, which replaces the state by the next one, then `tangent(before)` and
+/// `contact()`, both of the step just taken. The basis of the exponents turns through the whole
+/// transient before their means begin.
+///
+/// A motion diverges when its state is not finite or has grown by `divergence_growth` over the
+/// largest coordinate of its first 100 samples; nothing else is then looked at. Bounded work:
+/// transient + samples steps, the 0–1 test, one search for repetition (at worst samples²/12
+/// distances), two spectra, and recurrence_states² distances.
+/// @param initial     the state at sample 0
+/// @param advance     void(Vector<double, Size>&)
+/// @param observable  double(const Vector<double, Size>&), the number that spectrum and 0–1 test
+///                    see
+/// @param plan        how much of the motion to look at, and how closely
+/// @param tangent     Matrix<double, Size>(const Vector<double, Size>&), or NoTangent
+/// @param contact     bool(), true where the drive transmits, or NoContact
+/// @throws InvalidParameter for a plan out of its ranges or an initial state that is not finite
+template <int Size, class Advance, class Observable, class Tangent = NoTangent,
+          class Contact = NoContact>
+MotionEvidence gather_evidence(const Vector<double, Size>& initial, Advance advance,
+                               Observable observable, const EvidencePlan& plan = {},
+                               Tangent tangent = {}, Contact contact = {}) {
+  validate(plan);
+  for (int i = 0; i < Size; ++i) require_finite("initial state", initial[i], "");
+  detail::MotionCollector<Size, Advance, Observable, Tangent, Contact> collector(
+      initial, advance, observable, tangent, contact, plan);
+  const detail::CollectedMotion<Size> motion = collector.run();
+  if (!motion.diverged_at) return detail::weighed<Size>(motion, plan);
+  MotionEvidence evidence;
+  evidence.forcing_incommensurate = plan.forcing_incommensurate;
+  evidence.diverged_at = motion.diverged_at;
+  return evidence;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,314 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "holdfast/chaos/recurrence.hpp"
+#include "holdfast/chaos/switching_complexity.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/math/stats/student_quantile.hpp"
+
+namespace holdfast {
+
+/// What a motion of a discrete system is.
+enum class MotionKind {
+  periodic,               ///< the same after N samples
+  quasi_periodic,         ///< two or more frequencies without a common period, neighbours stay near
+  irregular_contracting,  ///< neighbours come together, yet no repetition was found
+  chaotic,                ///< bounded, and neighbours separate exponentially
+  diverges,               ///< leaves every bound
+  undecided,              ///< the evidence is missing or contradicts itself
+};
+
+/// The largest Lyapunov exponent and its 95 % interval, value ± half_width.
+struct ExponentEvidence {
+  double value;                ///< −∞ where every direction is annihilated
+  double half_width;           ///< ≥ 0
+  std::string per = "sample";  ///< the step that the exponent is of
+
+  /// The whole interval is above zero.
+  bool positive() const { return value - half_width > 0.0; }
+  /// The whole interval is below zero.
+  bool negative() const { return value + half_width < 0.0; }
+};
+
+/// Evidence from an exponent and its standard error by batch means.
+///
+/// The half width is Student's 95 % quantile for the fewest batches that a series of more than 64
+/// steps has (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for
+/// the rounding of logarithms, below which no exponent is told from zero.
+/// @param value           the exponent, natural logarithm per step
+/// @param standard_error  ≥ 0, not NaN
+/// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see SettledExponent
+/// @throws InvalidParameter for another standard error or end effect
+inline ExponentEvidence exponent_evidence(double value, double standard_error,
+                                          double end_effect = 0.0) {
+  require_non_negative("standard error of the exponent", standard_error, "");
+  require_non_negative("end effect of the exponent", end_effect, "");
+  constexpr double rounding = 1e-12;
+  return {value, std::fmax(student_quantile(0.95, 31) * standard_error, end_effect) + rounding};
+}
+
+/// A search for a repetition of the states, of three periods and more.
+struct RepeatEvidence {
+  std::int64_t lag;          ///< smallest lag that repeats (samples), 0 for none
+  std::int64_t largest_lag;  ///< how far was looked (samples)
+  double tolerance;          ///< of a repeat, relative to the extent
+};
+
+/// The lines of the spectrum of an observable.
+struct SpectralEvidence {
+  int division;  ///< the smallest m for which the multiples of f/m hold the power, or 0
+  double share;  ///< the share of the power that was asked for
+  std::size_t lines_holding;  ///< how many lines hold 99 % of the power
+  double continuous;          ///< share of the power between the lines
+};
+
+/// What is known of a motion; what was not looked at stays empty.
+struct MotionEvidence {
+  std::optional<std::int64_t> diverged_at;       ///< sample at which the motion had left all bounds
+  std::optional<std::int64_t> certified_period;  ///< of an orbit that was proved (samples)
+  std::optional<RepeatEvidence> repeat;          ///< of the states
+  std::optional<ExponentEvidence> largest_exponent;  ///< natural logarithm per step
+  std::optional<double> zero_one;                    ///< median K of the 0–1 test
+  std::optional<SpectralEvidence> lines;             ///< of the observable
+  std::optional<double> extent_growth;  ///< extent of the last quarter over that of the first
+  std::optional<ClosestReturn> closest_return;   ///< among the last states
+  std::optional<RecurrenceShares> recurrence;    ///< of the same states, at a given radius
+  std::optional<SwitchingComplexity> switching;  ///< of the contacts, where they are known
+  std::optional<double> forcing_periods;         ///< that the series covers
+  bool forcing_incommensurate = false;  ///< f τ is no fraction with a denominator in reach: no
+                                        ///< motion that answers the forcing repeats
+};
+
+/// A kind, and the numbers that it rests on.
+struct Verdict {
+  MotionKind kind = MotionKind::undecided;  ///< what the motion is
+  std::int64_t period = 0;                  ///< samples; 0 unless periodic
+  std::string rests_on;                     ///< one or two English sentences
+};
+
+/// `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, `diverges`, `undecided`.
+inline std::string motion_kind_text(MotionKind kind, std::int64_t period = 0) {
+  switch (kind) {
+    case MotionKind::periodic:
+      return "periodic(" + std::to_string(period) + ")";
+    case MotionKind::quasi_periodic:
+      return "quasi-periodic";
+    case MotionKind::irregular_contracting:
+      return "irregular, exponent <= 0";
+    case MotionKind::chaotic:
+      return "chaotic";
+    case MotionKind::diverges:
+      return "diverges";
+    case MotionKind::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+/// The text of a verdict's kind, with its period where it is periodic.
+inline std::string motion_kind_text(const Verdict& verdict) {
+  return motion_kind_text(verdict.kind, verdict.period);
+}
+
+/// From this K of the 0–1 test on a series counts as chaotic …
+inline constexpr double zero_one_high = 0.8;
+/// … and up to this one as regular; between them it says nothing.
+inline constexpr double zero_one_low = 0.2;
+/// Up to this share of the power between the lines a spectrum counts as one of lines alone.
+inline constexpr double lines_only_share = 1e-3;
+/// Fewer periods of the forcing than this tell nothing of a forced motion.
+inline constexpr double fewest_forcing_periods = 20.0;
+/// An extent that changes by more than this factor (or its inverse) from the first to the last
+/// quarter of the series belongs to no steady motion.
+inline constexpr double steady_growth = 2.0;
+
+namespace detail {
+
+/// The evidence in words, number by number.
+class EvidenceWords {
+ public:
+  explicit EvidenceWords(const MotionEvidence& evidence) : evidence_(evidence) {}
+
+  std::string exponent() const {
+    if (!evidence_.largest_exponent) return "no exponent is known";
+    const ExponentEvidence& found = *evidence_.largest_exponent;
+    std::ostringstream text;
+    text << "largest exponent " << found.value << " +- " << found.half_width << " per " << found.per
+         << " (95 %)";
+    return text.str();
+  }
+  std::string zero_one() const {
+    if (!evidence_.zero_one) return "no 0-1 test was made";
+    return "0-1 test K = " + number(*evidence_.zero_one);
+  }
+  std::string repeat() const {
+    if (!evidence_.repeat) return "no repetition was looked for";
+    const RepeatEvidence& found = *evidence_.repeat;
+    if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
+    return "no repetition to " + number(found.tolerance) + " of the extent within " +
+           std::to_string(found.largest_lag) + " samples";
+  }
+  std::string lines() const {
+    if (!evidence_.lines) return "no spectrum was looked at";
+    const SpectralEvidence& found = *evidence_.lines;
+    std::string text = number(100.0 * found.continuous) + " % of the power between the lines, " +
+                       std::to_string(found.lines_holding) + " lines hold 99 %";
+    if (found.division > 0) {
+      text += ", multiples of f/" + std::to_string(found.division) + " hold " +
+              number(100.0 * found.share) + " %";
+    }
+    return text;
+  }
+  std::string growth() const {
+    return "the extent of the last quarter is " + number(*evidence_.extent_growth) +
+           " times that of the first";
+  }
+  std::string switching() const {
+    if (!evidence_.switching) return "";
+    return "; contacts carry " + number(evidence_.switching->entropy) + " bit per sample";
+  }
+  std::string all() const {
+    return exponent() + "; " + zero_one() + "; " + repeat() + "; " + lines();
+  }
+
+  static std::string number(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+ private:
+  const MotionEvidence& evidence_;
+};
+
+inline bool is_low(const std::optional<double>& zero_one) {
+  return zero_one && *zero_one <= zero_one_low;
+}
+inline bool is_high(const std::optional<double>& zero_one) {
+  return zero_one && *zero_one >= zero_one_high;
+}
+inline bool is_steady(const MotionEvidence& evidence) {
+  return !evidence.extent_growth || (*evidence.extent_growth <= steady_growth &&
+                                     *evidence.extent_growth * steady_growth >= 1.0);
+}
+inline bool searched_in_vain(const MotionEvidence& evidence) {
+  return evidence.repeat && evidence.repeat->lag == 0;
+}
+/// Nothing but separate lines; false where no spectrum is known.
+inline bool lines_alone(const MotionEvidence& evidence) {
+  return evidence.lines && evidence.lines->continuous <= lines_only_share;
+}
+/// The power lies on the multiples of one frequency; false where no spectrum is known.
+inline bool one_base(const MotionEvidence& evidence) {
+  return evidence.lines && evidence.lines->division > 0;
+}
+
+inline Verdict undecided(const std::string& why, const EvidenceWords& words) {
+  return {MotionKind::undecided, 0, why + ": " + words.all() + "."};
+}
+
+inline Verdict judge_repeating(const MotionEvidence& evidence, const EvidenceWords& words) {
+  if (evidence.largest_exponent && evidence.largest_exponent->positive())
+    return undecided("The motion repeats although its neighbours leave it", words);
+  return {MotionKind::periodic, evidence.repeat->lag,
+          "Recurrence, no certificate: the second half of the series " + words.repeat() +
+              ", three times and more, to " + EvidenceWords::number(evidence.repeat->tolerance) +
+              " of its extent."};
+}
+
+inline Verdict judge_separating(const MotionEvidence& evidence, const EvidenceWords& words) {
+  if (!is_high(evidence.zero_one))
+    return undecided("Neighbours separate, but the 0-1 test does not show chaos", words);
+  if (lines_alone(evidence) || one_base(evidence))
+    return undecided("Neighbours separate, but the spectrum is one of lines", words);
+  return {MotionKind::chaotic, 0,
+          "Neighbours separate exponentially in a bounded motion: " + words.all() + "."};
+}
+
+inline Verdict judge_neutral(const MotionEvidence& evidence, const EvidenceWords& words) {
+  if (!is_low(evidence.zero_one) || !searched_in_vain(evidence))
+    return undecided("The exponent is not told from zero, and the rest does not decide", words);
+  if (!lines_alone(evidence) || one_base(evidence))
+    return undecided("The exponent is not told from zero, and the lines show no second frequency",
+                     words);
+  return {
+      MotionKind::quasi_periodic, 0,
+      "The exponent is zero within its error and the spectrum has lines without a common base: " +
+          words.all() + "."};
+}
+
+inline Verdict judge_contracting(const MotionEvidence& evidence, const EvidenceWords& words) {
+  const bool floor = evidence.lines && !lines_alone(evidence);
+  if (evidence.forcing_incommensurate && is_low(evidence.zero_one) && !floor) {
+    return {MotionKind::quasi_periodic, 0,
+            "The state follows its forcing, whose period and the sampling period have no common "
+            "multiple: " +
+                words.all() + "."};
+  }
+  if (!searched_in_vain(evidence))
+    return undecided("Neighbours come together, but no repetition was looked for", words);
+  if (one_base(evidence) || (is_low(evidence.zero_one) && lines_alone(evidence)))
+    return undecided("A regular series that does not repeat, slowly settling or of a long period",
+                     words);
+  return {MotionKind::irregular_contracting, 0,
+          "Neighbours come together, yet the motion does not repeat; its period may be longer, or "
+          "the contacts never settle: " +
+              words.all() + words.switching() + "."};
+}
+
+}  // namespace detail
+
+/// Weighs the evidence. The first rule that applies decides:
+///
+///  1. left all bounds → diverges;
+///  2. a certified orbit → periodic; else a record of fewer than `fewest_forcing_periods` →
+///     undecided;
+///  3. repeats to a tolerance, three times and more → periodic, resting on recurrence; undecided
+///     where the largest exponent is above zero: then an unstable orbit or round-off repeats;
+///  4. no exponent, or an extent that still changes by `steady_growth` → undecided;
+///  5. exponent above zero by its 95 % interval: chaotic if K ≥ `zero_one_high` and the spectrum,
+///     if known, is not one of lines alone; else undecided;
+///  6. exponent not told from zero: quasi-periodic if K ≤ `zero_one_low`, a repetition was looked
+///     for in vain, and the spectrum has lines alone with no common base; else undecided;
+///  7. exponent below zero: where forcing and sampling are incommensurate and K ≤ `zero_one_low`
+///     and the spectrum, if known, has lines alone → quasi-periodic. Else, if a repetition was
+///     looked for in vain → irregular, exponent <= 0: a piecewise affine loop can go on switching
+///     without a pattern while its neighbours come together. Undecided where the series is regular
+///     all the same (lines of one base, or K ≤ `zero_one_low` and lines alone): it may still be
+///     settling, or its period may be longer than the search.
+///
+/// No statistic claims chaos alone: it takes a positive exponent and a high K that nothing
+/// contradicts. The verdict is on the series that the evidence is of.
+inline Verdict judge(const MotionEvidence& evidence) {
+  const detail::EvidenceWords words(evidence);
+  if (evidence.diverged_at) {
+    return {
+        MotionKind::diverges, 0,
+        "The motion has left all bounds by sample " + std::to_string(*evidence.diverged_at) + "."};
+  }
+  if (evidence.certified_period) {
+    return {MotionKind::periodic, *evidence.certified_period,
+            "Certified orbit of " + std::to_string(*evidence.certified_period) + " samples."};
+  }
+  if (evidence.forcing_periods && *evidence.forcing_periods < fewest_forcing_periods) {
+    return detail::undecided("The record covers only " +
+                                 detail::EvidenceWords::number(*evidence.forcing_periods) +
+                                 " periods of the forcing",
+                             words);
+  }
+  if (evidence.repeat && evidence.repeat->lag > 0) return detail::judge_repeating(evidence, words);
+  if (!evidence.largest_exponent) return detail::undecided("No exponent is known", words);
+  if (!detail::is_steady(evidence))
+    return detail::undecided("The motion is not steady, " + words.growth(), words);
+  if (evidence.largest_exponent->positive()) return detail::judge_separating(evidence, words);
+  if (evidence.largest_exponent->negative()) return detail::judge_contracting(evidence, words);
+  return detail::judge_neutral(evidence, words);
+}
+
+}  // namespace holdfast

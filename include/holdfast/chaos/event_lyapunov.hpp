@@ -1,0 +1,163 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+#include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/variational_flow.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// An orthogonal basis in which no map of a loop has an invariant or an annihilated direction along
+/// an axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
+inline Matrix<double, 7> oblique_basis() {
+  Vector<double, 7> normal;
+  for (int i = 0; i < 7; ++i) normal[i] = std::sqrt(i + 1.0);
+  return Matrix<double, 7>::Identity() - normal * normal.transpose() * (2.0 / normal.squaredNorm());
+}
+
+}  // namespace detail
+
+/// A motion and the Lyapunov spectrum that it has had so far.
+///
+/// It stands in for the motion in run_trajectory, so that a history may be kept beside it:
+///
+///     HybridLyapunov lyapunov(motion);
+///     run_trajectory(lyapunov, samples, kick, [&](const MotionSample<double>& sample) {
+///       … lyapunov.spectrum().exponents() …      // of the samples before this one
+///     });
+///
+/// The tangent is that of HybridTangent, orthogonalised at every sample. Of its seven exponents
+///  - one is −∞ once the drive has been engaged for an instant: where its gap lies is a function of
+///    the state from then on;
+///  - one is −∞ unless the controller takes differences of displacements: else it does not use the
+///    displacement that it read before;
+///  - one is −∞ without processing delay: u_{j−1} is without effect from t_j on;
+///  - after a stick phase, in which Δż = 0 and the drive knows its place, no more are finite than
+///    three and the commands (and readings) that have been decided but act later, at whichever
+///    instant of it these are fewest: without processing delay one less, with one up to two less.
+///
+/// With a delay and a difference together six may be finite; one less if this is made before the
+/// first sample of all, when nothing has been read that could be varied. A gap that is never left
+/// is neutral, an exponent of 0: the motions differ in where it lies.
+///
+/// An exact −∞ is told by the structural rank (structural_rank.hpp) of the product of all maps, not
+/// by a pivot: a product of maps with different kernels annihilates its directions in exact
+/// arithmetic, but shows it only up to a rounding that the maps in between magnify. Once
+/// annihilated, a direction stays so.
+/// Work per sample: that of the tangent, and some 1500 multiply-adds for the QR.
+template <class Contact>
+class HybridLyapunov {
+ public:
+  /// @param motion  goes on from where it stands; must outlive this
+  explicit HybridLyapunov(HybridMotion<Contact>& motion)
+      : motion_(&motion), tangent_(motion), spectrum_(detail::oblique_basis()) {}
+
+  /// Takes the sample; once before each `advance()`.
+  HybridSample sense() { return motion_->sense(); }
+
+  /// Moves on to the next sample, and the tangent vectors with it.
+  void advance() {
+    tangent_.begin_sample(*motion_);
+    motion_->advance(tangent_);
+    spectrum_.push(tangent_.map(), tangent_.rank_of_product());
+  }
+
+  /// Adds a displacement (m) to z₁, which leaves the tangent vectors as they are; call before
+  /// `sense()`.
+  void displace_conductor(double displacement) { motion_->displace_conductor(displacement); }
+  /// t_j (s) of the present sample.
+  double time() const { return motion_->time(); }
+  /// z_j (m, m/s, m, m/s).
+  const Vector<double, 4>& state() const { return motion_->state(); }
+
+  /// Natural logarithm per sample, over the samples since the last restart.
+  const LyapunovSpectrum<double, 7>& spectrum() const { return spectrum_; }
+  /// Forgets all but the tangent vectors.
+  void restart() { spectrum_.restart(); }
+
+ private:
+  HybridMotion<Contact>* motion_;
+  HybridTangent<Contact> tangent_;
+  LyapunovSpectrum<double, 7> spectrum_;
+};
+
+namespace detail {
+
+/// The five leading exponents of a spectrum.
+inline LyapunovResult leading_exponents(LyapunovOutcome outcome,
+                                        const LyapunovSpectrum<double, 7>& spectrum,
+                                        const LyapunovRun& run) {
+  LyapunovResult result{outcome, spectrum.exponents().head<5>(),
+                        spectrum.cautious_standard_errors().head<5>(), spectrum.steps()};
+  if (run.scope == LyapunovScope::largest) {
+    result.exponents.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
+    result.standard_errors.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return result;
+}
+
+/// Takes up to `samples` samples. @return whether the motion kept within the range of the numbers
+template <class Motion, class Ends>
+bool run_until(Motion& motion, std::int64_t samples, const std::function<void()>& pause,
+               const Ends& ends) {
+  constexpr std::int64_t samples_between_pauses = 1 << 12;
+  for (std::int64_t taken = 0; taken < samples; ++taken) {
+    if (pause && taken % samples_between_pauses == 0) pause();
+    motion.sense();
+    if (!std::isfinite(motion.state().sum())) return false;
+    motion.advance();
+    if (ends()) break;
+  }
+  return true;
+}
+
+}  // namespace detail
+
+/// The five leading Lyapunov exponents of a motion that may switch between its samples, from where
+/// it stands, natural logarithm per sample.
+///
+///     const LyapunovResult result = run_hybrid_lyapunov(motion, {1000000, 1000, 1e-5});
+///
+/// The outcome is `diverged` where the state left the range of the numbers, as in run_lyapunov. A
+/// motion whose `counts()` say that its changes of contact accumulate has no exponents to be
+/// trusted from there on.
+/// @param motion  left after the last sample taken
+/// @param run     how long, and with what accuracy, is averaged
+/// @param pause   called every 2¹² samples; may throw to end the run
+/// @throws InvalidParameter where `run` is not admissible
+template <class Contact>
+LyapunovResult run_hybrid_lyapunov(HybridMotion<Contact>& motion, const LyapunovRun& run,
+                                   const std::function<void()>& pause = {}) {
+  validate(run);
+  HybridLyapunov<Contact> lyapunov(motion);
+  const bool settled = detail::run_until(lyapunov, run.discard, pause, [] { return false; });
+  lyapunov.restart();
+  if (!settled)
+    return detail::leading_exponents(LyapunovOutcome::diverged, lyapunov.spectrum(), run);
+
+  std::size_t judged = 0;
+  bool accurate = false;
+  const bool stayed = detail::run_until(lyapunov, run.most_samples, pause, [&] {
+    const LyapunovSpectrum<double, 7>& spectrum = lyapunov.spectrum();
+    const std::size_t batches = spectrum.complete_batches();
+    if (batches == judged || batches < batches_to_judge || run.standard_error == 0) return false;
+    judged = batches;
+    accurate = accurate_enough(spectrum.cautious_standard_errors().head<5>(), run);
+    return accurate;
+  });
+  const auto outcome = !stayed    ? LyapunovOutcome::diverged
+                       : accurate ? LyapunovOutcome::accurate
+                                  : LyapunovOutcome::sample_limit;
+  return detail::leading_exponents(outcome, lyapunov.spectrum(), run);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/stats/batch_sums.hpp"
+
+namespace holdfast {
+
+/// Lyapunov spectrum of a sequence of tangent maps, by QR at every step.
+///
+///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
+///
+/// A tangent map of rank r < Size annihilates Size − r directions: those exponents are exactly −∞,
+/// and no logarithm of round-off is taken. The rank is that to working precision: a direction that
+/// one step contracts by more than about 10¹⁵ against the others counts as annihilated. Source:
+/// Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning; G.
+/// Benettin et al., Meccanica 15 (1980).
+template <class Scalar, int Size>
+class LyapunovSpectrum {
+ public:
+  /// What was added up over the steps so far, and where it stands.
+  struct State {
+    Matrix<Scalar, Size> basis;      ///< Q_n
+    BatchSums<Scalar, Size> sums;    ///< of ln |R_ii|
+    Vector<Scalar, Size> remainder;  ///< what belongs to the sums, but to none of their batches
+    int finite = Size;               ///< number of exponents that are not −∞
+  };
+
+  /// @param initial_basis  Q₀, orthogonal; the exponents are those of the space that its leading
+  ///                       columns reach, so that maps with an invariant coordinate axis need
+  ///                       another than the identity
+  explicit LyapunovSpectrum(
+      const Matrix<Scalar, Size>& initial_basis = Matrix<Scalar, Size>::Identity())
+      : state_{initial_basis, BatchSums<Scalar, Size>(), Vector<Scalar, Size>::Zero(), Size} {}
+
+  /// Goes on from steps that were taken otherwise.
+  explicit LyapunovSpectrum(const State& state) : state_(state) {}
+
+  /// Rank of a map to working precision; find it once where the same map is pushed many times.
+  static int rank_of(const Matrix<Scalar, Size>& tangent) {
+    return static_cast<int>(Eigen::FullPivLU<Matrix<Scalar, Size>>(tangent).rank());
+  }
+
+  /// Takes one step with the tangent map `tangent` of known rank.
+  void push(const Matrix<Scalar, Size>& tangent, int rank) {
+    const Matrix<Scalar, Size> stretched = tangent * state_.basis;
+    const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
+    state_.basis = qr.householderQ();
+    state_.finite = std::min(state_.finite, rank);
+    Vector<Scalar, Size> logarithms = Vector<Scalar, Size>::Zero();
+    for (int i = 0; i < state_.finite; ++i) {
+      const Scalar stretch = std::abs(qr.matrixQR()(i, i));
+      if (stretch == Scalar(0)) {
+        state_.finite = i;
+        break;
+      }
+      logarithms[i] = std::log(stretch);
+    }
+    state_.sums.add(logarithms, 1);
+  }
+
+  /// The same, the map's rank found first.
+  void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
+
+  /// λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞ where exact, NaN
+  /// before the first step.
+  Vector<Scalar, Size> exponents() const {
+    const Scalar steps_taken(static_cast<double>(steps()));
+    return with((state_.sums.totals() + state_.remainder) / steps_taken,
+                -std::numeric_limits<Scalar>::infinity());
+  }
+
+  /// Standard errors by batch means; 0 for an exact −∞, NaN while there are too few steps.
+  Vector<Scalar, Size> standard_errors() const {
+    return with(state_.sums.standard_errors(), Scalar(0));
+  }
+
+  /// Standard errors that do not trust the batches to be longer than the correlation: the larger of
+  /// those from the batches and, where there are eight or more, from pairs of them.
+  Vector<Scalar, Size> cautious_standard_errors() const {
+    if (state_.sums.complete_batches() < 8) return standard_errors();
+    const Vector<Scalar, Size> single = state_.sums.standard_errors(1);
+    return with(single.cwiseMax(state_.sums.standard_errors(2)), Scalar(0));
+  }
+
+  /// n, the number of maps since the start or the last restart.
+  std::int64_t steps() const { return state_.sums.steps(); }
+  /// Number of batches complete, for the standard errors.
+  std::size_t complete_batches() const { return state_.sums.complete_batches(); }
+
+  /// Forgets all but the directions of the tangent vectors and how many of them are annihilated:
+  /// the exponents are those of the steps from here on.
+  void restart() {
+    state_.sums = BatchSums<Scalar, Size>();
+    state_.remainder.setZero();
+  }
+
+ private:
+  Vector<Scalar, Size> with(const Vector<Scalar, Size>& values, Scalar where_annihilated) const {
+    Vector<Scalar, Size> result = values;
+    result.tail(Size - state_.finite).setConstant(where_annihilated);
+    return result;
+  }
+
+  State state_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,14 @@
+#pragma once
+
+/// The drive's backlash: laws at samples and between them.
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/contact/contact_law.hpp"
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/contact/dead_zone.hpp"
+#include "holdfast/contact/exact_backlash.hpp"
+#include "holdfast/contact/exact_dead_zone.hpp"
+#include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/contact/immediate_backlash.hpp"
+#include "holdfast/contact/play.hpp"
+#include "holdfast/contact/sampled_law.hpp"

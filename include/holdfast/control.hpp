@@ -1,0 +1,11 @@
+#pragma once
+
+/// The sampled-data loop: gains, hold, delay, quantisation, clock.
+
+#include "holdfast/control/controller.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/quantiser.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/control/sampling_clock.hpp"
+#include "holdfast/control/zero_order_hold.hpp"

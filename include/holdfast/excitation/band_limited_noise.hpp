@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic.hpp"
+
+namespace holdfast {
+
+/// A force of flat spectrum between two frequencies.
+struct NoiseBand {
+  double rms;              ///< σ, root of the mean square (N), ≥ 0
+  double lowest;           ///< f_a (Hz), ≥ 0
+  double highest;          ///< f_b (Hz), > f_a
+  int lines = 1000;        ///< n, harmonics that make it up, ≥ 1
+  std::uint64_t seed = 1;  ///< of the phases
+};
+
+/// @throws InvalidParameter unless σ ≥ 0, 0 ≤ f_a < f_b and n ≥ 1, all finite
+inline void validate(const NoiseBand& band) {
+  require_non_negative("noise rms", band.rms, "N");
+  require_non_negative("noise lowest frequency", band.lowest, "Hz");
+  if (!(std::isfinite(band.highest) && band.highest > band.lowest)) {
+    throw InvalidParameter("noise highest frequency", band.highest, "Hz",
+                           "finite and above the lowest frequency");
+  }
+  if (band.lines < 1) throw InvalidParameter("noise lines", band.lines, "", ">= 1");
+}
+
+/// Band-limited noise as a sum of equally strong harmonics of random phase, in the middle of n
+/// equal parts of the band:
+///
+///     F(t) = Σ_{i=0}^{n−1} σ √(2/n) cos(2π f_i t + φ_i),
+///     f_i = f_a + (i + ½) Δ,   Δ = (f_b − f_a)/n,   φ_i independent, uniform in [0, 2π)
+///
+/// Its one-sided power density, in the mean over each of the n parts, is σ²/(f_b − f_a); outside of
+/// the band it is zero. Over the phases F(t) has mean 0 and variance σ² at every t and tends to a
+/// Gaussian as n grows. Every single F has the mean square σ² over a long time, and |F| ≤ √(2n) σ.
+///
+/// Repetition: in T = n/(f_b − f_a) seconds all harmonics turn by the same angle 2π (f_a T + ½)
+/// beyond whole cycles, so that the envelope of F repeats every T. F(t + T) = F(t) where f_a T + ½
+/// is whole, F(t + T) = −F(t) where f_a T is. For n ≥ 2 the least period of F is q T where
+/// f_a T + ½ = p/q in lowest terms; where f_a T is irrational there is none. A motion no longer
+/// than T meets no repetition: take n ≥ (f_b − f_a) times its duration.
+///
+/// φ_i is 2π times the upper 53 bits of output i of `std::mt19937_64`, read as a binary fraction:
+/// the same for the same seed with every standard library.
+///
+/// Source: Shinozuka and Deodatis 1991, Applied Mechanics Reviews 44, simulation of stochastic
+/// processes by spectral representation.
+/// @return n harmonics, the lowest frequency first
+/// @throws InvalidParameter as `validate`
+inline std::vector<Harmonic> band_limited_noise(const NoiseBand& band) {
+  validate(band);
+  const double amplitude = std::sqrt(2.0 / band.lines) * band.rms;
+  std::mt19937_64 engine(band.seed);
+  std::vector<Harmonic> harmonics;
+  harmonics.reserve(static_cast<std::size_t>(band.lines));
+  for (int line = 0; line < band.lines; ++line) {
+    const double share = (line + 0.5) / band.lines;
+    const double cycles = static_cast<double>(engine() >> 11U) * 0x1.0p-53;
+    harmonics.push_back(
+        {amplitude, band.lowest + share * (band.highest - band.lowest), 2.0 * pi<double> * cycles});
+  }
+  return harmonics;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/excitation/multi_harmonic_force.hpp"
+#include "holdfast/excitation/phasor_table.hpp"
+#include "holdfast/math/roots/series.hpp"
+
+namespace holdfast {
+
+/// Bounds of |F|, |Ḟ|, |F̈| (N, N/s, N/s²) over all times.
+struct ForceBounds {
+  double value,     ///< of |F| (N)
+      rate,         ///< of |Ḟ| (N/s)
+      second_rate;  ///< of |F̈| (N/s²)
+};
+
+/// An instant of every sampling period.
+struct PeriodInstant {
+  double after;  ///< s from the sample
+  /// cos and sin of ω_l after + φ_l, by which each harmonic has turned there.
+  std::vector<ExcitationSample<double>> turned;
+};
+
+/// The excitation as one sampling period after the other sees it, held at the sample or exactly.
+class ForceOverSamples {
+ public:
+  /// @param force            F(t), admissible
+  /// @param hold             held at its value at the sample, record included, or followed exactly
+  /// @param sampling_period  τ (s), > 0
+  ForceOverSamples(const ComposedForce& force, ForceHold hold, double sampling_period)
+      : force_(force), hold_(hold) {
+    if (hold == ForceHold::sampled) return;
+    for (const Harmonic& line : force.harmonics)
+      turning_.emplace_back(HarmonicExcitation<double>{line.amplitude, line.frequency},
+                            sampling_period);
+    phases_.resize(turning_.size());
+  }
+
+  /// Sample j at `time` (s); to be called for one sample after the other.
+  void begin_sample(std::int64_t index, double time) {
+    time_ = time;
+    if (hold_ == ForceHold::sampled) {
+      held_ = force_.at(time);
+      return;
+    }
+    const std::size_t k = static_cast<std::size_t>(index) % TurningPhase<double>::block;
+    for (std::size_t l = 0; l < turning_.size(); ++l) {
+      if (k == 0 || index != last_ + 1) turning_[l].turn_to(index - static_cast<std::int64_t>(k));
+      phases_[l] = turning_[l].at(k);
+    }
+    last_ = index;
+  }
+
+  /// F (N) some time (s) after the sample, before the next one.
+  double at(double after) const {
+    return hold_ == ForceHold::sampled ? held_ : force_.at(time_ + after);
+  }
+
+  /// What `at` needs of the instant `after` (s) past every sample: a cosine and a sine for each
+  /// harmonic.
+  PeriodInstant instant(double after) const {
+    PeriodInstant instant{after, {}};
+    for (const Harmonic& line : force_.harmonics) {
+      const double angle = line.angular_frequency() * after + line.phase;
+      instant.turned.push_back({std::cos(angle), std::sin(angle)});
+    }
+    return instant;
+  }
+
+  /// F (N) there, by two multiply-adds for each harmonic; of a clock that does not stray.
+  double at(const PeriodInstant& instant) const {
+    if (hold_ == ForceHold::sampled) return held_;
+    if (force_.record) return force_.at(time_ + instant.after);
+    double sum = 0.0;
+    for (std::size_t l = 0; l < phases_.size(); ++l)
+      sum +=
+          instant.turned[l].cosine * phases_[l].cosine - instant.turned[l].sine * phases_[l].sine;
+    return sum;
+  }
+
+  /// F held over the period (N); 0 where it is not held.
+  double held() const { return hold_ == ForceHold::sampled ? held_ : 0.0; }
+
+  /// F_l cos ω_l t_j and F_l sin ω_l t_j of every harmonic; none where the force is held.
+  const std::vector<ExcitationSample<double>>& phases() const { return phases_; }
+
+  /// Whether `held()` and `phases()` are the whole force.
+  bool is_regular() const { return hold_ == ForceHold::sampled || !force_.record; }
+
+  /// Coefficients F_k of F(t_j + after + x length) = Σ F_k x^k.
+  void expand(double after, double length, Series& coefficients) const {
+    if (hold_ == ForceHold::exact) return force_.expand(time_ + after, length, coefficients);
+    coefficients.setZero();
+    coefficients[0] = held_;
+  }
+
+  /// The first instant (s after the sample) later than `after` at which the force may jump or kink.
+  double next_break(double after) const {
+    if (hold_ == ForceHold::sampled || !force_.record)
+      return std::numeric_limits<double>::infinity();
+    const double length = force_.next_break(time_ + after) - time_;
+    return length > after ? length : std::nextafter(after, std::numeric_limits<double>::infinity());
+  }
+
+  /// Largest ω of the harmonics (rad/s), 0 where the force is held.
+  double highest_angular_frequency() const {
+    return hold_ == ForceHold::exact ? force_.highest_angular_frequency() : 0.0;
+  }
+
+  /// Bounds of the force where it is regular.
+  ForceBounds bounds() const {
+    ForceBounds bounds{0.0, 0.0, 0.0};
+    const double rate = hold_ == ForceHold::exact ? 1.0 : 0.0;
+    for (const Harmonic& line : force_.harmonics) {
+      const double omega = rate * line.angular_frequency();
+      bounds.value += line.amplitude;
+      bounds.rate += omega * line.amplitude;
+      bounds.second_rate += omega * omega * line.amplitude;
+    }
+    if (!force_.record) return bounds;
+    double largest = 0.0;
+    for (const double row : force_.record->forces()) largest = std::max(largest, std::abs(row));
+    bounds.value += largest;
+    return bounds;
+  }
+
+ private:
+  ComposedForce force_;
+  ForceHold hold_;
+  std::vector<TurningPhase<double>> turning_;
+  std::vector<ExcitationSample<double>> phases_;
+  double time_ = 0.0, held_ = 0.0;
+  std::int64_t last_ = -1;
+};
+
+}  // namespace holdfast

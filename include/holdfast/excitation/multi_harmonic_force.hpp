@@ -1,0 +1,114 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "holdfast/excitation/harmonic.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Adds lengthᵏ dᵏ/dtᵏ F cos(ω t + φ) at `time` to coefficient k, for all k:
+///
+///     (ω length)ᵏ (c, −s, −c, s, …),   c, s = F cos, F sin of ω time + φ
+template <class Coefficients>
+void add_scaled_derivatives(const Harmonic& harmonic, double time, double length,
+                            Eigen::MatrixBase<Coefficients>& coefficients) {
+  const double angle = harmonic.angle(time);
+  const double turn = harmonic.angular_frequency() * length;
+  double present = harmonic.amplitude * std::cos(angle);
+  double next = -harmonic.amplitude * std::sin(angle) * turn;
+  for (Eigen::Index k = 0; k < coefficients.size(); ++k) {
+    coefficients[k] += present;
+    const double after_next = -turn * turn * present;
+    present = next;
+    next = after_next;
+  }
+}
+
+/// Divides coefficient k by k!, for all k.
+template <class Coefficients>
+void divide_by_factorials(Eigen::MatrixBase<Coefficients>& coefficients) {
+  double inverse_factorial = 1.0;
+  for (Eigen::Index k = 2; k < coefficients.size(); ++k) {
+    // The reciprocals wait for nothing, where a division of the running value would wait for the
+    // last one.
+    inverse_factorial *= 1.0 / static_cast<double>(k);
+    coefficients[k] *= inverse_factorial;
+  }
+}
+
+}  // namespace detail
+
+/// F(t) = Σ_i F_i cos(2π f_i t + φ_i) + F_r(t): any number of harmonics, band-limited noise among
+/// them, and at most one recorded force.
+struct ComposedForce {
+  std::vector<Harmonic> harmonics;              ///< F_i, f_i, φ_i; may be empty
+  std::shared_ptr<const RecordedForce> record;  ///< F_r; null: none
+
+  /// F(t) in N, continuous from the right.
+  double at(double time) const {
+    double force = record ? record->at(time) : 0.0;
+    for (const Harmonic& harmonic : harmonics) force += harmonic.at(time);
+    return force;
+  }
+
+  /// The first instant after `time` (s) at which F may jump or kink; +∞ where there is none.
+  double next_break(double time) const {
+    return record ? record->next_break(time) : std::numeric_limits<double>::infinity();
+  }
+
+  /// The largest 2π f_i (rad/s); 0 without harmonics.
+  double highest_angular_frequency() const {
+    double highest = 0.0;
+    for (const Harmonic& harmonic : harmonics) {
+      highest = std::max(highest, harmonic.angular_frequency());
+    }
+    return highest;
+  }
+
+  /// Taylor coefficients f_k, k = 0 … size − 1, of the force just after an instant:
+  ///
+  ///     F(time + x length) = Σ_k f_k xᵏ      for 0 ≤ x length < next_break(time) − time
+  ///     f_k = lengthᵏ/k! Σ_i ω_iᵏ F_i cos(ω_i time + φ_i + k π/2), + the record's line for k ≤ 1
+  ///
+  /// For 0 ≤ x ≤ 1 the terms left out are at most Σ_i F_i (ω_i length)ˢⁱᶻᵉ/size! in sum.
+  /// Work: a cosine, a sine and 3 size multiply-adds for each harmonic, 3 size more, and for the
+  /// record a binary search.
+  /// @param time          s
+  /// @param length        s; of the order of 1/ω_i or less for the series to be of use
+  /// @param coefficients  f (N), a vector of fixed or dynamic size; all entries are written
+  template <class Coefficients>
+  void expand(double time, double length, Eigen::MatrixBase<Coefficients>& coefficients) const {
+    static_assert(Coefficients::IsVectorAtCompileTime, "the coefficients must be a vector");
+    coefficients.setZero();
+    for (const Harmonic& harmonic : harmonics) {
+      detail::add_scaled_derivatives(harmonic, time, length, coefficients);
+    }
+    detail::divide_by_factorials(coefficients);
+    if (!record) return;
+    const LinearPiece piece = record->piece(time);
+    if (coefficients.size() > 0) coefficients[0] += piece.value;
+    if (coefficients.size() > 1) coefficients[1] += piece.slope * length;
+  }
+};
+
+/// The same force as one harmonic of phase 0 and no record.
+inline ComposedForce composed_force(const HarmonicExcitation<double>& excitation) {
+  return {{Harmonic{excitation.amplitude, excitation.frequency}}, nullptr};
+}
+
+/// @throws InvalidParameter unless every harmonic is admissible; a record was checked when it was
+///         made
+inline void validate(const ComposedForce& force) {
+  for (const Harmonic& harmonic : force.harmonics) validate(harmonic);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
+
+namespace holdfast {
+
+/// The resolvent of a square matrix as polynomials: (xI − M)⁻¹ = adjugate(x) / determinant(x).
+///
+///     determinant(x) = det(xI − M) = d₀ + d₁ x + … + xᴺ
+///     adjugate(x)    = adj(xI − M) = A₀ + A₁ x + … + A_{N−1} x^{N−1}
+template <class Scalar, int Size>
+struct Resolvent {
+  Polynomial<Scalar, Size> determinant;             ///< d₀ … d_N, d_N = 1
+  std::array<Matrix<Scalar, Size>, Size> adjugate;  ///< A₀ … A_{N−1}, each N × N
+
+  /// The polynomial row · adj(xI − M) · column, of degree N − 1.
+  Polynomial<Scalar, Size - 1> between(const RowVector<Scalar, Size>& row,
+                                       const Vector<Scalar, Size>& column) const {
+    Polynomial<Scalar, Size - 1> result;
+    for (int k = 0; k < Size; ++k) {
+      result[k] = (row * adjugate[static_cast<std::size_t>(k)] * column).value();
+    }
+    return result;
+  }
+};
+
+/// Resolvent polynomials by the Faddeev–LeVerrier recurrence, N matrix products.
+///
+///     A_{N−1} = I,   d_{k} = −tr(M A_k) / (N − k),   A_{k−1} = M A_k + d_k I
+///
+/// Source: D. K. Faddeev, V. N. Faddeeva, Computational Methods of Linear Algebra, 1963, §47.
+template <class Scalar, int Size>
+Resolvent<Scalar, Size> resolvent(const Matrix<Scalar, Size>& matrix) {
+  Resolvent<Scalar, Size> result;
+  const Matrix<Scalar, Size> identity = Matrix<Scalar, Size>::Identity();
+  result.determinant[Size] = Scalar(1);
+  result.adjugate[Size - 1] = identity;
+  for (int k = Size - 1; k >= 0; --k) {
+    const Matrix<Scalar, Size> product = matrix * result.adjugate[static_cast<std::size_t>(k)];
+    result.determinant[k] = -product.trace() / Scalar(Size - k);
+    if (k > 0) {
+      result.adjugate[static_cast<std::size_t>(k - 1)] = product + result.determinant[k] * identity;
+    }
+  }
+  return result;
+}
+
+}  // namespace holdfast

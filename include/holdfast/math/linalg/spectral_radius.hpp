@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <complex>
+#include <limits>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Eigenvalues by the QR algorithm, of the balanced matrix: the algorithm's error is that of the
+/// largest entry, and a loop holds forces beside displacements.
+template <class Scalar, int Size>
+Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Size>& matrix) {
+  return Eigen::EigenSolver<Matrix<Scalar, Size>>(BalancedMatrix(matrix).balanced, false)
+      .eigenvalues();
+}
+
+}  // namespace detail
+
+/// ρ(M) = max |λ_i|, by the QR algorithm. A discrete loop is asymptotically stable ⇔ ρ < 1.
+/// NaN for a matrix that is not finite.
+template <class Scalar, int Size>
+Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
+  if (!map.allFinite()) return std::numeric_limits<Scalar>::quiet_NaN();
+  return detail::balanced_eigenvalues(map).cwiseAbs().maxCoeff();
+}
+
+/// α(M) = max Re λ_i, by the QR algorithm. A continuous loop is asymptotically stable ⇔ α < 0.
+/// NaN for a matrix that is not finite.
+template <class Scalar, int Size>
+Scalar spectral_abscissa(const Matrix<Scalar, Size>& generator) {
+  if (!generator.allFinite()) return std::numeric_limits<Scalar>::quiet_NaN();
+  return detail::balanced_eigenvalues(generator).real().maxCoeff();
+}
+
+}  // namespace holdfast

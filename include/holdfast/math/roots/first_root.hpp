@@ -1,0 +1,117 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "holdfast/math/roots/series.hpp"
+
+namespace holdfast {
+
+/// How a polynomial that begins above zero meets it.
+enum class RootOutcome {
+  none,      ///< it stays above zero up to x = 1
+  crossing,  ///< it falls through zero
+  grazing,   ///< it comes so near to zero with so small a slope that rounding decides whether it
+             ///< falls through, touches or turns before
+};
+
+/// Where a polynomial that begins above zero first meets it in [0, 1].
+struct FirstRoot {
+  RootOutcome outcome;  ///< whether it does, and how
+  double at;            ///< 0 ≤ x ≤ 1; 1 where there is none
+  int evaluations;      ///< of the polynomial and its slope
+};
+
+namespace detail {
+
+/// q(x + length s) as a polynomial in s.
+inline Series stretch_of(Series q, double x, double length) {
+  const Eigen::Index last = q.size() - 1;
+  for (Eigen::Index from = 0; from < last; ++from)
+    for (Eigen::Index k = last - 1; k >= from; --k) q[k] += x * q[k + 1];
+  double power = 1.0;
+  for (Eigen::Index k = 0; k <= last; ++k, power *= length) q[k] *= power;
+  return q;
+}
+
+/// From x to where value + slope s − bend s² / 2 comes to zero; value > 0.
+inline double safe_step(const ValueAndSlope& at, double height, double bend) {
+  const double root = std::sqrt(at.slope * at.slope + 2.0 * bend * height);
+  // Each form where nothing cancels in it.
+  const double step = at.slope > 0.0 ? (at.slope + root) / bend : 2.0 * height / (root - at.slope);
+  return std::isnan(step) ? 1.0 : step;
+}
+
+/// The first root in a stretch 0 ≤ x ≤ 1 of a polynomial, or how far it has none.
+/// @param rounding  of its values
+inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_evaluations) {
+  double bend = 0.0;
+  for (Eigen::Index k = 2; k < q.size(); ++k)
+    bend += static_cast<double>(k * (k - 1)) * std::abs(q[k]);
+  double x = 0.0;
+  for (int evaluations = 1; evaluations <= most_evaluations; ++evaluations) {
+    const ValueAndSlope here = value_and_slope(q, x);
+    if (here.value <= rounding && here.slope < 0.0) {
+      const bool touches = here.slope * here.slope <= 32.0 * bend * rounding;
+      const double beyond = touches ? 0.0 : std::max(here.value, 0.0) / -here.slope;
+      return {touches ? RootOutcome::grazing : RootOutcome::crossing, std::min(x + beyond, 1.0),
+              evaluations};
+    }
+    x += safe_step(here, std::max(here.value, rounding), bend);
+    if (x >= 1.0) return {RootOutcome::none, 1.0, evaluations};
+  }
+  return {RootOutcome::none, x, most_evaluations};
+}
+
+/// The first root of q(x), q(0) > 0.
+///
+/// Where the bound M is far too large, the terms cancelling each other, the steps are too short:
+/// then the polynomial is written anew about the place reached, over a shorter stretch.
+inline FirstRoot first_root_of_positive(const Series& q) {
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q.cwiseAbs().sum();
+  constexpr int most_evaluations = 2048, patience = 16;
+  double begin = 0.0, length = 1.0;
+  for (int evaluations = 0; evaluations < most_evaluations;) {
+    const bool whole = begin == 0.0 && length == 1.0;
+    const FirstRoot found =
+        root_in_stretch(whole ? q : stretch_of(q, begin, length), rounding, patience);
+    evaluations += found.evaluations;
+    if (found.outcome != RootOutcome::none)
+      return {found.outcome, std::min(begin + length * found.at, 1.0), evaluations};
+    begin += length * found.at;
+    const bool through = found.at == 1.0;
+    if (through && begin >= 1.0) return {RootOutcome::none, 1.0, evaluations};
+    length = std::min(through ? 2.0 * length : 0.25 * length, 1.0 - begin);
+  }
+  return {RootOutcome::grazing, begin, most_evaluations};
+}
+
+}  // namespace detail
+
+/// The first x in [0, 1] at which a polynomial that is above zero just after x = 0 comes down to
+/// it; none can be passed over.
+///
+/// With M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search goes
+/// from x to the root of that parabola, before which p has none, and so comes to the first root
+/// from the left: in quadratic convergence where p crosses, by a constant factor where it touches.
+/// Leading coefficients that are exactly zero are divided out, so that a polynomial which begins
+/// with p(0) = p′(0) = … = 0 is followed away from there; one that begins by falling below zero has
+/// its root at 0, and so has one that is below zero at 0.
+///
+/// Work: one Horner evaluation of p and p′ a step; some five for a crossing, at most 2048.
+/// @param p  one coefficient or more; where one is not finite there is no root
+inline FirstRoot first_root(const Series& p) {
+  Eigen::Index first = 0;
+  while (first < p.size() && p[first] == 0.0) ++first;
+  if (first == p.size()) return {RootOutcome::none, 1.0, 0};
+  if (p[first] < 0.0) return {RootOutcome::crossing, 0.0, 0};
+  const double size = p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  if (!std::isfinite(size)) return {RootOutcome::none, 1.0, 0};
+  const Series above = p.tail(p.size() - first);
+  const bool squares_fit = size > 1e-100 && size < 1e100;
+  return detail::first_root_of_positive(squares_fit ? above : Series(above / size));
+}
+
+}  // namespace holdfast

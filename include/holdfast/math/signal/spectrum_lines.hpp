@@ -1,0 +1,128 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/math/signal/spectrum.hpp"
+
+namespace holdfast {
+
+/// Power of each line, its share of the mean square of the signal: ½ a², a² at zero and at the
+/// Nyquist frequency.
+/// @param lines    of amplitude_spectrum()
+/// @param samples  N of the record that the lines come from, N/2 + 1 of them
+/// @throws InvalidParameter where the numbers of samples and of lines do not belong together
+inline std::vector<double> line_powers(const std::vector<SpectralLine>& lines,
+                                       std::size_t samples) {
+  if (samples < 2 || lines.size() != samples / 2 + 1) {
+    throw InvalidParameter("number of lines", static_cast<double>(lines.size()), "",
+                           "N/2 + 1 for N >= 2 samples");
+  }
+  std::vector<double> powers(lines.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const bool counted_once = k == 0 || 2 * k == samples;
+    powers[k] = (counted_once ? 1.0 : 0.5) * lines[k].amplitude * lines[k].amplitude;
+  }
+  return powers;
+}
+
+/// How much of the power of a record lies on the multiples of f/m.
+struct SubharmonicShares {
+  std::vector<double> shares;  ///< [m − 1] for m = 1 … the largest; 1 for a signal without power
+  int division = 0;            ///< the smallest m that carries the asked share, 0 where none does
+};
+
+/// What to ask of the lines.
+struct SubharmonicQuestion {
+  double base_frequency;      ///< f (Hz), > 0
+  int largest_division = 16;  ///< of m, ≥ 1
+  double share = 0.999;       ///< of the power that makes a division, 0 < share ≤ 1
+};
+
+/// Share of the power without the mean on the multiples of f/m, m = 1, 2, …
+///
+/// A line is on a multiple when it is at most half a line away. The record shall hold whole periods
+/// of f/m and a rectangular window, so that nothing leaks; a record that does not puts a part of a
+/// multiple's power elsewhere and is found wanting, not a motion of f/m. Multiples fewer than three
+/// lines apart would hold any spectrum: such m, and all larger ones, are not asked, their share is
+/// 0.
+///
+/// Frequencies above the Nyquist frequency fold: where f τ = p/q, the multiples of f appear on
+/// those of f/p = 1/(q τ), which then is the base to ask for. For a map τ = 1 and f = 1 ask for a
+/// motion of m iterations. Work: one comparison for each line and m.
+/// @throws InvalidParameter for a question out of its ranges, or lines that do not belong to N
+inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
+                                            std::size_t samples,
+                                            const SubharmonicQuestion& question) {
+  require_positive("base frequency", question.base_frequency, "Hz");
+  require_within("largest division", question.largest_division, "", 1.0, 1e5);
+  require_within("share of the power", question.share, "", 1e-9, 1.0);
+  const std::vector<double> powers = line_powers(lines, samples);
+  double total = 0.0;
+  for (std::size_t k = 1; k < powers.size(); ++k) total += powers[k];
+
+  SubharmonicShares result;
+  for (int m = 1; m <= question.largest_division; ++m) {
+    const double spacing = question.base_frequency / (m * lines[1].frequency);  // in lines
+    double on_multiples = 0.0;
+    for (std::size_t k = 1; k < powers.size() && spacing >= 3.0 - 1e-9; ++k) {
+      const double place = static_cast<double>(k) / spacing;
+      const double away = std::abs(place - std::round(place)) * spacing;
+      if (std::round(place) >= 1.0 && away <= 0.5 + 1e-9) on_multiples += powers[k];
+    }
+    result.shares.push_back(total > 0.0 ? on_multiples / total : 1.0);
+    if (result.division == 0 && result.shares.back() >= question.share) result.division = m;
+  }
+  return result;
+}
+
+/// Smallest number of lines, the mean left out, that together hold `share` of the power; 0 for a
+/// signal without power.
+/// @param lines    of amplitude_spectrum()
+/// @param samples  N of the record that the lines come from
+/// @param share    0 < share ≤ 1
+/// @throws InvalidParameter for another share, or lines that do not belong to N
+inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::size_t samples,
+                                 double share) {
+  require_within("share of the power", share, "", 1e-9, 1.0);
+  std::vector<double> powers = line_powers(lines, samples);
+  powers.front() = 0.0;
+  std::sort(powers.begin(), powers.end(), std::greater<>());
+  double total = 0.0, held = 0.0;
+  for (const double power : powers) total += power;
+  std::size_t count = 0;
+  while (count < powers.size() && held < share * total) held += powers[count++];
+  return count;
+}
+
+/// Share of the power in a floor between the lines, the continuous part of the spectrum.
+///
+///     (1 / ln 2) Σ over bands of [median power of a line in the band · lines of the band] / total
+///
+/// with bands of 32 lines. The mean and the first line, over which a Hann window spreads it, are
+/// left out. The powers of the lines of noise are spread exponentially, and their median is ln 2 of
+/// their mean; separate lines do not move a median. Ask it of a Hann window, whose lines are narrow
+/// at their feet also where no period fits the record; a rectangular one leaks a floor of its own.
+/// Lines closer than eight apart are not told from a floor.
+/// @return 0 … 1; 0 for a signal without power
+/// @throws InvalidParameter where the numbers of samples and of lines do not belong together
+inline double continuous_share(const std::vector<SpectralLine>& lines, std::size_t samples) {
+  constexpr std::size_t band = 32;
+  std::vector<double> powers = line_powers(lines, samples);
+  double total = 0.0, floor = 0.0;
+  for (std::size_t k = 2; k < powers.size(); ++k) total += powers[k];
+  for (std::size_t from = 2; from < powers.size(); from += band) {
+    const std::size_t count = std::min(band, powers.size() - from);
+    const auto begin = powers.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto middle = begin + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(begin, middle, begin + static_cast<std::ptrdiff_t>(count));
+    floor += *middle * static_cast<double>(count) / std::log(2.0);
+  }
+  return total > 0.0 ? std::min(1.0, floor / total) : 0.0;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,19 @@
+#pragma once
+
+/// Motions of the loop: sampled map and event-driven flow.
+
+#include "holdfast/motion/between_samples.hpp"
+#include "holdfast/motion/contact_tangent.hpp"
+#include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/instant.hpp"
+#include "holdfast/motion/no_event_bound.hpp"
+#include "holdfast/motion/observers.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/saltation.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/motion/subinterval_step.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "holdfast/motion/variational_flow.hpp"

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+
+namespace holdfast {
+
+/// What a HybridMotion does between two samples, to be asked for at any instant.
+///
+///     FlowTrace<Contact> trace(motion);
+///     motion.sense();
+///     trace.begin();
+///     motion.advance(trace);
+///     trace.state(0.5 * tau);
+///
+/// The motion must outlive the trace and not be moved. Work: one Taylor series (motion/
+/// affine_expansion.hpp) for each part of constant contact, and for every 1/‖A‖ of its length.
+template <class Contact>
+class FlowTrace {
+ public:
+  /// A stretch without a change of contact or command, short enough for one series.
+  struct Part {
+    double begin,           ///< s after the sample
+        length;             ///< s, ≥ 0
+    ContactMode mode;       ///< all through the stretch
+    AffineExpansion state;  ///< over the length
+  };
+
+  /// Keeps the address of the motion.
+  explicit FlowTrace(const HybridMotion<Contact>& motion) : motion_(&motion) {}
+
+  /// To be called after `sense()` and before `advance(trace)`.
+  void begin() {
+    parts_.clear();
+    state_ = motion_->state();
+    command_ = motion_->previous_command();
+  }
+
+  /// The state (4 × 1) some time (s) after the sample, up to the next one.
+  Vector<double, 4> state(double after) const {
+    const Part& part = part_at(after);
+    return part.state.state(
+        part.length > 0.0 ? std::clamp((after - part.begin) / part.length, 0.0, 1.0) : 0.0);
+  }
+
+  /// The mode there; at a change of contact the one after it.
+  ContactMode mode(double after) const { return part_at(after).mode; }
+
+  /// One after the other, without a space between them.
+  const std::vector<Part>& parts() const { return parts_; }
+
+  /// For HybridMotion::advance: a part of the period has been passed, `length` seconds from `begin`
+  /// (s after the sample) on, in the mode of that number.
+  void flowed(int mode, double begin, double length) {
+    const double rate = motion_->rate(mode);
+    double reached = begin;
+    const double end = begin + length;
+    do {
+      const double wanted = std::min(end, motion_->force().next_break(reached)) - reached;
+      const double part = std::min(wanted, 1.0 / rate);
+      Series force(terms_for(rate * part));
+      motion_->force().expand(reached, part, force);
+      parts_.push_back({reached,
+                        part,
+                        motion_->contact().word(),
+                        {motion_->dynamics(mode), state_, command_, force, part}});
+      state_ = parts_.back().state.state(1.0);
+      reached = part == end - reached ? end : reached + part;
+    } while (reached < end);
+  }
+  /// For HybridMotion::advance, at t_j + δ: from here on u_j is in force.
+  void commanded() { command_ = motion_->command(); }
+  /// For HybridMotion::advance: a change of contact, which the next part shows.
+  void switched(int, int, int, const ContactInstant&) {}
+
+ private:
+  const Part& part_at(double after) const {
+    const auto later =
+        std::upper_bound(parts_.begin(), parts_.end(), after,
+                         [](double instant, const Part& part) { return instant < part.begin; });
+    return later == parts_.begin() ? parts_.front() : *(later - 1);
+  }
+
+  const HybridMotion<Contact>* motion_;
+  std::vector<Part> parts_;
+  Vector<double, 4> state_ = Vector<double, 4>::Zero();
+  double command_ = 0.0;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/force_over_samples.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/energy.hpp"
+
+namespace holdfast {
+
+/// Tells that a guard cannot come to zero within a length h, from its values at both ends.
+///
+/// Between them g lies above the chord less M h²/8, M ≥ |g̈|. From ż = A z + w, w = drift + b u + c
+/// F,
+///
+///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈     for g = ℓᵀz + m F + const,
+///
+/// and ‖z‖ in the norm of the energy grows by no more than ‖w‖ h (plant/energy.hpp). The bound
+/// holds for every guard of a mode that has the same |ℓ| and |m|.
+class QuietBound {
+ public:
+  /// @param dynamics  A, b, c and the drift of a mode
+  /// @param plant     the one whose energy bounds the motion in that mode, admissible
+  /// @param guard     one of the mode's, of which ℓ and m count
+  /// @param force     bounds of the excitation
+  QuietBound(const AffineDynamics& dynamics, const TwoDof<double>& plant, const Guard& guard,
+             const ForceBounds& force)
+      : energy_(plant),
+        command_growth_(energy_(dynamics.command)),
+        other_growth_(energy_(dynamics.drift) + energy_(dynamics.force) * force.value) {
+    const Vector<double, 4> once = dynamics.state.transpose() * guard.state;
+    by_state_ = energy_.dual(dynamics.state.transpose() * once);
+    by_command_ = std::abs(once.dot(dynamics.command));
+    by_force_ = std::abs(once.dot(dynamics.drift)) +
+                std::abs(once.dot(dynamics.force)) * force.value +
+                std::abs(guard.state.dot(dynamics.force)) * force.rate +
+                std::abs(guard.force) * force.second_rate;
+  }
+
+  /// How far below the chord of its ends a guard may come.
+  double sag(const Vector<double, 4>& begin, double command, double length) const {
+    const double largest =
+        energy_(begin) + length * (command_growth_ * std::abs(command) + other_growth_);
+    const double bend = by_state_ * largest + by_command_ * std::abs(command) + by_force_;
+    return bend * length * length / 8.0;
+  }
+
+ private:
+  EnergyNorm energy_;
+  double command_growth_, other_growth_;
+  double by_state_, by_command_, by_force_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/control/zero_order_hold.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/excitation/multi_harmonic_force.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+
+namespace holdfast {
+
+/// The state over a part of every sampling period, t_j + begin … t_j + begin + length, in one mode:
+///
+///     z ← transition z + command u + drift + held F_j             (the force held over the sample)
+///     z ← transition z + command u + drift + Σ_l (g_c cos ω_l t_j + g_s sin ω_l t_j)   (exactly)
+struct SegmentStep {
+  Matrix<double, 4> transition;              ///< 4 × 4
+  Vector<double, 4> command;                 ///< 4 × 1 per newton of u
+  Vector<double, 4> drift;                   ///< 4 × 1
+  Vector<double, 4> held;                    ///< 4 × 1 per newton of a force that is constant
+  std::vector<HarmonicInput<double>> lines;  ///< one for each harmonic
+
+  /// @param dynamics   of the mode
+  /// @param harmonics  of the excitation, in the order of the phases that `state` is given
+  /// @param begin      s from the sample
+  /// @param length     s, ≥ 0
+  SegmentStep(const AffineDynamics& dynamics, const std::vector<Harmonic>& harmonics, double begin,
+              double length) {
+    const Matrix<double, 4> identity = Matrix<double, 4>::Identity();
+    const auto step = zero_order_hold<double, 4, 4>(dynamics.state, identity, length);
+    transition = step.transition;
+    command = step.input * dynamics.command;
+    drift = step.input * dynamics.drift;
+    held = step.input * dynamics.force;
+    for (const Harmonic& line : harmonics) {
+      const double angular = 2.0 * pi<double> * line.frequency;
+      const auto input = exact_harmonic<double>(dynamics.state, dynamics.force, length, angular);
+      lines.push_back(ahead_by(angular * begin + line.phase, input));
+    }
+  }
+
+  /// The state (4 × 1) at the end of the part.
+  /// @param before      the state at its begin, 4 × 1
+  /// @param commanded   u in force all through it (N)
+  /// @param held_force  F_j (N); looked at only where there are no phases
+  /// @param phases      of the harmonics at the sample, times their amplitudes; none: the force is
+  ///                    held
+  Vector<double, 4> state(const Vector<double, 4>& before, double commanded, double held_force,
+                          const std::vector<ExcitationSample<double>>& phases) const {
+    Vector<double, 4> after = transition * before + command * commanded + drift;
+    if (phases.empty()) return after + held * held_force;
+    for (std::size_t l = 0; l < lines.size(); ++l)
+      after += lines[l].cosine * phases[l].cosine + lines[l].sine * phases[l].sine;
+    return after;
+  }
+};
+
+}  // namespace holdfast

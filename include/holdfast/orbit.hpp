@@ -1,0 +1,21 @@
+#pragma once
+
+/// Periodic orbits, their certificates and continuation.
+
+#include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/event/event_orbit_measures.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/event/event_orbit_solver.hpp"
+#include "holdfast/orbit/event/repeating_motion.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
+#include "holdfast/orbit/itinerary_maps.hpp"
+#include "holdfast/orbit/loop_orbit.hpp"
+#include "holdfast/orbit/orbit_continuation.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/orbit/orbit_verification.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/periodic_solution.hpp"
+#include "holdfast/orbit/region_of_attraction.hpp"
+#include "holdfast/orbit/scaling.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+#include "holdfast/orbit/switching_borders.hpp"

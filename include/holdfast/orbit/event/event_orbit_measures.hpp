@@ -1,0 +1,186 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/series.hpp"
+#include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// p′(x).
+inline Series derivative_of(const Series& p) {
+  Series slope = Series::Zero(std::max<Eigen::Index>(p.size() - 1, 1));
+  for (Eigen::Index k = 1; k < p.size(); ++k) slope[k - 1] = static_cast<double>(k) * p[k];
+  return slope;
+}
+
+/// Shows every x in (0, 1] at which a series changes its sign, from the left to the right, and
+/// whether it rises there. At most as many as it has terms.
+template <class Visit>
+void for_each_sign_change(Series p, Visit&& visit) {
+  double from = 0.0;
+  for (Eigen::Index count = 0; count < p.size() && from < 1.0; ++count) {
+    Eigen::Index leading = 0;
+    while (leading < p.size() && p[leading] == 0.0) ++leading;
+    if (leading == p.size()) return;
+    const bool rises = p[leading] < 0.0;
+    const FirstRoot root = first_root(rises ? Series(-p) : p);
+    if (root.outcome == RootOutcome::none) return;
+    from += (1.0 - from) * root.at;
+    visit(from, rises);
+    p = rest_of(p, root.at);
+    p[0] = 0.0;
+  }
+}
+
+inline bool is_of_displacement(const Guard& guard) {
+  return guard.state[1] == 0.0 && guard.state[3] == 0.0 && guard.force == 0.0;
+}
+inline bool is_of_velocity(const Guard& guard) {
+  return guard.state[0] == 0.0 && guard.state[2] == 0.0 && guard.force == 0.0;
+}
+
+}  // namespace detail
+
+/// Measures what happens between the samples of a motion: the margins of its switches, the time
+/// that it spends in each mode, and its largest displacement.
+///
+///     HybridMeasures<Contact> measures(motion);
+///     motion.sense();
+///     measures.begin();
+///     motion.advance(measures);
+///
+/// The motion must outlive the measures and not be moved; its samples must follow one another.
+/// Turning points are roots of the derivatives of the same series by which the motion finds its
+/// switches, so that none is passed over.
+/// @tparam Contact  of the motion
+template <class Contact>
+class HybridMeasures {
+ public:
+  /// Measures from the motion's present sample on.
+  explicit HybridMeasures(const HybridMotion<Contact>& motion) : motion_(&motion), trace_(motion) {}
+
+  /// To be called after `sense()` and before `advance(measures)`.
+  void begin() {
+    trace_.begin();
+    seen_ = 0;
+  }
+
+  /// The least of each kind so far.
+  const SwitchingMargins& margins() const { return margins_; }
+  /// Time spent in each ContactMode, as a share of all.
+  std::array<double, 3> time_share() const {
+    const double all = time_[0] + time_[1] + time_[2];
+    return {time_[0] / all, time_[1] / all, time_[2] / all};
+  }
+  /// max |z₁(t)| (m).
+  double largest_displacement() const { return largest_displacement_; }
+
+  // The observer of HybridMotion::advance.
+
+  /// Measures a stretch of one mode; `begin` (s) counts from the sample.
+  void flowed(int mode, double begin, double length) {
+    guards_ = motion_->contact().guards();
+    time_[static_cast<std::size_t>(motion_->contact().word())] += length;
+    trace_.flowed(mode, begin, length);
+    Guards guards = guards_;
+    for (; seen_ < trace_.parts().size(); ++seen_) {
+      const AffineExpansion& part = trace_.parts()[seen_].state;
+      look_at_displacement(part);
+      for (int g = 0; g < guards.count; ++g) look_at_guard(guards, at(g), part);
+      for (Guard& guard : guards.guard) guard.zeros = 0;
+    }
+  }
+  /// From here on u_j is in force.
+  void commanded() { trace_.commanded(); }
+  /// Takes the speed or the accelerations at a guard that was reached; a switch by a jump of force
+  /// or command, guard −1, has no margin.
+  void switched(int from, int, int guard, const ContactInstant& instant) {
+    last_slope_ = {};
+    if (guard < 0) return;
+    const Guard& reached = guards_.guard[at(guard)];
+    if (detail::is_of_displacement(reached)) {
+      keep_least(margins_.exit_velocity, std::abs(velocity_row().dot(instant.state)));
+      exit_ = displacement_row().dot(instant.state);
+    } else if (detail::is_of_velocity(reached)) {
+      look_at_reversal(motion_->dynamics(from), instant);
+    }
+  }
+
+ private:
+  static constexpr std::size_t at(int index) { return static_cast<std::size_t>(index); }
+  static void keep_least(double& margin, double value) {
+    margin = std::min(margin, std::max(value, 0.0));
+  }
+
+  void look_at_displacement(const AffineExpansion& part) {
+    const auto keep = [&](double x, bool) {
+      largest_displacement_ = std::max(largest_displacement_, std::abs(part.state(x)[0]));
+    };
+    keep(0.0, false);
+    keep(1.0, false);
+    detail::for_each_sign_change(Series(part.coefficients().row(1).transpose()), keep);
+  }
+
+  double* margin_of(const Guard& guard) {
+    if (detail::is_of_displacement(guard)) return &margins_.border_distance;
+    if (detail::is_of_velocity(guard)) return &margins_.reversal_velocity;
+    return nullptr;
+  }
+
+  /// Least values of a guard at which it does not end the mode: where its slope rises through zero,
+  /// be it by a jump.
+  void look_at_guard(const Guards& guards, std::size_t g, const AffineExpansion& part) {
+    const Guard& guard = guards.guard[g];
+    double* const margin = margin_of(guard);
+    if (margin == nullptr) return;
+    Series value = (guard.state.transpose() * part.coefficients()).transpose();
+    value[0] += guard.constant;
+    const auto value_at = [&](double x) { return value_and_slope(value, x).value; };
+    if (guard.unsigned_yet) return keep_least(*margin, std::abs(value_at(1.0)));
+    Series slope = detail::derivative_of(value);
+    // Both ends of a gap have the slope of Δz, which is zero where the gap was entered.
+    const int zeros = std::max(guards.guard[0].zeros, guards.guard[1].zeros) - 1;
+    slope.head(std::clamp<Eigen::Index>(zeros, 0, slope.size())).setZero();
+    if (last_slope_[g] < 0.0 && slope[0] > 0.0) keep_least(*margin, value_at(0.0));
+    detail::for_each_sign_change(slope, [&](double x, bool rises) {
+      if (rises) keep_least(*margin, value_at(x));
+    });
+    last_slope_[g] = slope.sum();
+  }
+
+  void look_at_reversal(const AffineDynamics& dynamics, const ContactInstant& instant) {
+    if (exit_)
+      keep_least(margins_.shortest_travel,
+                 std::abs(displacement_row().dot(instant.state) - *exit_));
+    const double free = velocity_row().dot(dynamics.state * instant.state + dynamics.drift +
+                                           dynamics.force * instant.force);
+    const double driven = free + velocity_row().dot(dynamics.command) * instant.command;
+    keep_least(margins_.reversal_acceleration, std::abs(driven));
+    keep_least(margins_.stick_acceleration, std::abs(free));
+  }
+
+  const HybridMotion<Contact>* motion_;
+  FlowTrace<Contact> trace_;
+  std::size_t seen_ = 0;                // parts of the trace
+  Guards guards_;                       // of the last stretch
+  std::array<double, 2> last_slope_{};  // of the guards where the last part ended; 0: not known
+  std::optional<double> exit_;          // Δz where the last gap was left
+  SwitchingMargins margins_;
+  std::array<double, 3> time_{};
+  double largest_displacement_ = 0.0;
+};
+
+}  // namespace holdfast

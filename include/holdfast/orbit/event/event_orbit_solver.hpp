@@ -1,0 +1,241 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/event/event_orbit_measures.hpp"
+#include "holdfast/orbit/event/repeating_motion.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
+
+namespace holdfast::detail {
+
+/// One period of a motion, sample by sample.
+struct HybridTurn {
+  std::vector<Vector<double, 4>> states;
+  std::vector<ContactMode> modes_before, modes;  // of the contact before and after each sample
+  std::vector<double> forces;
+  std::vector<ContactSwitch> switches;
+
+  /// Whether another turn has the same modes and the same switches at the same times (s).
+  bool switches_like(const HybridTurn& other, double tolerance) const {
+    return modes_before == other.modes_before && modes == other.modes &&
+           std::equal(switches.begin(), switches.end(), other.switches.begin(),
+                      other.switches.end(), [&](const auto& a, const auto& b) {
+                        return a.mode == b.mode && std::abs(a.time - b.time) <= tolerance;
+                      });
+  }
+};
+
+/// Notes the switches of a motion, and lets its measures look on.
+template <class Contact>
+class TurnRecorder {
+ public:
+  TurnRecorder(const HybridMotion<Contact>& motion, HybridMeasures<Contact>& measures,
+               HybridTurn& turn)
+      : motion_(motion), measures_(measures), turn_(turn) {}
+
+  void flowed(int mode, double begin, double length) {
+    reached_ = begin + length;
+    measures_.flowed(mode, begin, length);
+  }
+  void commanded() { measures_.commanded(); }
+  void switched(int from, int to, int guard, const ContactInstant& instant) {
+    measures_.switched(from, to, guard, instant);
+    turn_.switches.push_back({sample_time() + reached_, motion_.contact().word()});
+  }
+
+  /// Takes a sample whose contact was in a mode before it.
+  void take(ContactMode before, const HybridSample& sample) {
+    turn_.states.push_back(sample.state);
+    turn_.modes_before.push_back(before);
+    turn_.modes.push_back(sample.mode);
+    turn_.forces.push_back(sample.control_force);
+    if (sample.mode != before) turn_.switches.push_back({sample_time(), sample.mode});
+    reached_ = 0.0;
+    measures_.begin();
+  }
+
+ private:
+  /// s after the first sample of the turn.
+  double sample_time() const {
+    return static_cast<double>(turn_.states.size() - 1) * motion_.loop().sampling.period;
+  }
+
+  const HybridMotion<Contact>& motion_;
+  HybridMeasures<Contact>& measures_;
+  HybridTurn& turn_;
+  double reached_ = 0.0;  // s after the sample
+};
+
+/// The next N samples of a motion.
+template <class Contact>
+HybridTurn turn_of(RepeatingMotion<Contact>& motion, std::int64_t samples,
+                   HybridMeasures<Contact>& measures) {
+  HybridTurn turn;
+  TurnRecorder<Contact> recorder(motion.motion(), measures, turn);
+  for (std::int64_t j = 0; j < samples; ++j) {
+    const ContactMode before = motion.motion().contact().word();
+    recorder.take(before, motion.sense());
+    motion.advance(recorder);
+  }
+  return turn;
+}
+
+/// Of the samples at which the contact is in a mode, that which is farthest from any switch in
+/// time; −1 where there is none.
+inline std::int64_t quiet_sample(const HybridTurn& turn, ContactMode mode, double sampling_period) {
+  const auto samples = static_cast<std::int64_t>(turn.states.size());
+  const double period = static_cast<double>(samples) * sampling_period;
+  std::int64_t best = -1;
+  double farthest = -1.0;
+  std::size_t next = 0;
+  for (std::int64_t j = 0; j < samples; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const double time = static_cast<double>(j) * sampling_period;
+    while (next < turn.switches.size() && turn.switches[next].time < time) ++next;
+    if (turn.modes_before[k] != mode || turn.modes[k] != mode) continue;
+    double distance = std::numeric_limits<double>::infinity();
+    if (!turn.switches.empty()) {
+      const bool last = next == turn.switches.size();
+      const double after = last ? turn.switches.front().time + period : turn.switches[next].time;
+      const double before =
+          next == 0 ? turn.switches.back().time - period : turn.switches[next - 1].time;
+      distance = std::min(after - time, time - before);
+    }
+    if (distance <= farthest) continue;
+    farthest = distance;
+    best = j;
+  }
+  return best;
+}
+
+/// Whether an orbit comes so near to grazing that rounding may decide how it switches.
+/// @param closure  z_N − z₀
+inline bool touches_surface(const HybridOrbit& orbit, const Vector<double, 4>& closure) {
+  const StateExtent extent(orbit.states);
+  const SurfaceRounding rounding = surface_rounding(extent, extent.share_of(closure));
+  const SwitchingMargins& margins = orbit.margins;
+  return margins.border_distance <= rounding.displacement ||
+         std::min(margins.exit_velocity, margins.reversal_velocity) <= rounding.velocity;
+}
+
+/// Solves for the orbit of N samples near a point and measures it.
+template <class Contact>
+class HybridOrbitSolver {
+ public:
+  using Point = HybridPoint<Contact>;
+
+  struct Candidate {
+    CandidateOutcome outcome;
+    std::optional<HybridOrbit> orbit;
+    std::optional<Point> point;
+  };
+
+  HybridOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
+      : motion_(motion), ratio_(ratio), sampling_period_(motion.motion().loop().sampling.period) {}
+
+  /// @param near  at a coincidence
+  Candidate solve(const Point& near, std::int64_t samples) {
+    motion_.go_to(near);
+    HybridMeasures<Contact> unused(motion_.motion());
+    const HybridTurn turn = turn_of(motion_, samples, unused);
+    const std::int64_t section = section_of(turn);
+    if (section < 0) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
+    const bool gap_opens = !turn.switches.empty();
+    HybridReturn<Contact> map(motion_, samples);
+    const auto solution = map.fixed_point(moved(near, section), gap_opens);
+    if (!solution) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
+    const Point first = moved(*solution, samples - section);
+    Candidate candidate = measured(first, samples, StateExtent(turn.states));
+    HybridOrbit& orbit = *candidate.orbit;
+    if (orbit.period_samples() < samples) map = {motion_, orbit.period_samples()};
+    orbit.multipliers = map.multipliers(*solution, gap_opens);
+    return candidate;
+  }
+
+ private:
+  /// Where a fixed point is sought: with the drive engaged if it ever is, since it has forgotten
+  /// its gap then.
+  std::int64_t section_of(const HybridTurn& turn) const {
+    const std::int64_t engaged = quiet_sample(turn, ContactMode::engaged, sampling_period_);
+    return engaged >= 0 ? engaged : quiet_sample(turn, ContactMode::gap, sampling_period_);
+  }
+
+  Point moved(const Point& from, std::int64_t samples) {
+    motion_.go_to(from);
+    for (std::int64_t j = 0; j < samples; ++j) {
+      motion_.sense();
+      motion_.advance();
+    }
+    return motion_.point();
+  }
+
+  /// Three periods from a point: they must switch alike.
+  /// @param extent  of the states among which the orbit was sought; its own may be rounding
+  Candidate measured(const Point& first, std::int64_t samples, const StateExtent& extent) {
+    motion_.go_to(first);
+    HybridMeasures<Contact> measures(motion_.motion());
+    HybridTurn turn = turn_of(motion_, samples, measures);
+    const std::int64_t shortest = shortest_period(turn, extent);
+    if (shortest < samples) return measured(first, shortest, extent);
+    bool alike = !motion_.motion().counts().accumulates;
+    const Vector<double, 4> end = motion_.motion().state();
+    for (int more = 0; more < 2; ++more)
+      alike =
+          turn_of(motion_, samples, measures).switches_like(turn, 1e-6 * sampling_period_) && alike;
+    HybridOrbit orbit = orbit_of(std::move(turn), measures);
+    const Vector<double, 4> closure = end - orbit.states.front();
+    orbit.closure_error = closure.norm();
+    const auto outcome = touches_surface(orbit, closure) ? CandidateOutcome::on_surface
+                         : alike                         ? CandidateOutcome::verified
+                                                         : CandidateOutcome::other_contacts;
+    return {outcome, std::move(orbit), first};
+  }
+
+  HybridOrbit orbit_of(HybridTurn turn, const HybridMeasures<Contact>& measures) const {
+    HybridOrbit orbit{};
+    orbit.ratio = ratio_;
+    orbit.sampling_period = sampling_period_;
+    orbit.states = std::move(turn.states);
+    orbit.modes = std::move(turn.modes);
+    orbit.forces = std::move(turn.forces);
+    orbit.switches = std::move(turn.switches);
+    orbit.margins = measures.margins();
+    orbit.time_share = measures.time_share();
+    orbit.largest_displacement = measures.largest_displacement();
+    return orbit;
+  }
+
+  /// The shortest period of which a turn is a whole number of repetitions.
+  std::int64_t shortest_period(const HybridTurn& turn, const StateExtent& extent) const {
+    const auto samples = static_cast<std::int64_t>(turn.states.size());
+    for (std::int64_t period = ratio_.denominator; period < samples; period += ratio_.denominator) {
+      if (samples % period != 0) continue;
+      const Vector<double, 4> apart =
+          turn.states[static_cast<std::size_t>(period)] - turn.states.front();
+      if (extent.share_of(apart) > 1e-10) continue;
+      if (std::equal(turn.modes.begin() + period, turn.modes.end(), turn.modes.begin()))
+        return period;
+    }
+    return samples;
+  }
+
+  RepeatingMotion<Contact> motion_;
+  Rational ratio_;
+  double sampling_period_;
+};
+
+}  // namespace holdfast::detail

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/control/controller.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+
+namespace holdfast {
+
+/// All that the coming samples of a HybridMotion depend on, where sampling and forcing coincide
+/// every q samples.
+template <class Contact>
+struct HybridPoint {
+  std::int64_t phase;       ///< samples since the last coincidence, 0 … q − 1
+  Vector<double, 4> state;  ///< z_j (m, m/s, m, m/s)
+  double previous_command;  ///< u_{j−1} (N)
+  double previous_reading;  ///< z₁ at t_{j−1} as read (m)
+  Contact contact;          ///< before sample j
+};
+
+namespace detail {
+
+template <class Contact, class = void>
+struct HasMovingGap : std::false_type {};
+template <class Contact>
+struct HasMovingGap<Contact, std::void_t<decltype(std::declval<Contact&>().shift_gap(0.0))>>
+    : std::true_type {};
+
+/// The ends of the gap are what the contact remembers.
+template <class Contact>
+bool remembers_gap(const Contact& contact) {
+  return HasMovingGap<Contact>::value && contact.word() == ContactMode::gap;
+}
+
+/// to − from as X = [z (4); u_{j−1}; the gap; z₁ as last read] of HybridTangent.
+template <class Contact>
+Vector<double, 7> difference(const HybridPoint<Contact>& from, const HybridPoint<Contact>& to) {
+  Vector<double, 7> apart;
+  apart << to.state - from.state, to.previous_command - from.previous_command, 0.0,
+      to.previous_reading - from.previous_reading;
+  if constexpr (HasMovingGap<Contact>::value) {
+    if (remembers_gap(from.contact) && remembers_gap(to.contact))
+      apart[5] = to.contact.lower() - from.contact.lower();
+  }
+  return apart;
+}
+
+template <class Contact>
+HybridPoint<Contact> shifted(HybridPoint<Contact> point, const Vector<double, 7>& by) {
+  point.state += by.head<4>();
+  point.previous_command += by[4];
+  point.previous_reading += by[6];
+  if constexpr (HasMovingGap<Contact>::value) {
+    if (remembers_gap(point.contact)) point.contact.shift_gap(by[5]);
+  }
+  return point;
+}
+
+}  // namespace detail
+
+/// A HybridMotion whose forcing repeats exactly every q samples: its index goes back to zero at
+/// each coincidence, so that no rounding of late instants lets sampling and forcing drift apart.
+template <class Contact>
+class RepeatingMotion {
+ public:
+  /// @param motion  at a coincidence of sampling and forcing where its index is a multiple of q
+  /// @param period  q ≥ 1 of forcing_ratio()
+  RepeatingMotion(const HybridMotion<Contact>& motion, std::int64_t period)
+      : motion_(motion), period_(period) {
+    turn_to(motion.index() % period);
+  }
+
+  /// Takes the present sample; once before each `advance()`.
+  HybridSample sense() { return motion_.sense(); }
+  /// Moves to the next sample.
+  void advance() { advance(IgnoreFlow()); }
+  /// The same past an observer as that of HybridMotion::advance.
+  template <class Observer>
+  void advance(Observer&& observer) {
+    motion_.advance(observer);
+    if (motion_.index() == period_) turn_to(0);
+  }
+
+  /// Where the motion stands; ask before `sense()`.
+  HybridPoint<Contact> point() const {
+    return {motion_.index(), motion_.state(), motion_.previous_command(),
+            motion_.controller().memory().previous_displacement, motion_.contact()};
+  }
+
+  /// Goes on from a point, its counts begun anew.
+  void go_to(const HybridPoint<Contact>& point) {
+    if (motion_.loop().limits.velocity == VelocitySensing::difference) {
+      // A sample taken at the last reading is how the controller comes to remember it.
+      const Vector<double, 4> read(point.previous_reading, 0.0, 0.0, 0.0);
+      motion_.restore(0, read, 0.0, point.contact);
+      motion_.sense();
+    }
+    motion_.restore(point.phase, point.state, point.previous_command, point.contact);
+    motion_.restart_counts();
+  }
+
+  /// The motion itself; its index is the phase, 0 … q − 1.
+  const HybridMotion<Contact>& motion() const { return motion_; }
+  /// q.
+  std::int64_t period() const { return period_; }
+
+ private:
+  void turn_to(std::int64_t phase) {
+    motion_.restore(phase, motion_.state(), motion_.previous_command(), motion_.contact());
+  }
+
+  HybridMotion<Contact> motion_;
+  std::int64_t period_;
+};
+
+}  // namespace holdfast

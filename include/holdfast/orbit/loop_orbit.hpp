@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+
+namespace holdfast {
+
+/// The share of its own size (PeriodicOrbit::border_share(), HybridOrbit::border_share()) below
+/// which an orbit is near a switching surface: a change of the loop in its fourth digit may end it.
+inline constexpr double near_border = 1e-4;
+
+/// What the periodic motions of the sampled loop have in common, wherever their contact switches.
+/// @tparam Size  of a state: 4 for z_j, 5 for z̃_j = [z_j; u_{j−1}]
+template <int Size>
+struct LoopOrbit {
+  Rational ratio;                            ///< f τ = p/q
+  double sampling_period;                    ///< τ (s)
+  std::vector<Vector<double, Size>> states;  ///< N of them, the first one at phase 0 of the force
+  /// Of one period, five, largest first; −∞ for an annihilated direction.
+  std::vector<Multiplier> multipliers;
+  double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
+
+  /// N.
+  std::int64_t period_samples() const { return static_cast<std::int64_t>(states.size()); }
+  /// N τ (s).
+  double period() const { return static_cast<double>(period_samples()) * sampling_period; }
+  /// N p/q, a whole number; 0 without excitation.
+  std::int64_t forcing_periods() const {
+    return period_samples() / ratio.denominator * ratio.numerator;
+  }
+  /// max |λ|; 0 where that is below the smallest number.
+  double largest_multiplier() const { return std::exp(multipliers.front().log_modulus); }
+  /// Every neighbour that switches in the same order comes nearer, in the long run; not so where
+  /// the largest modulus is told from 1 by rounding alone.
+  bool is_attracting() const {
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    return multipliers.front().log_modulus < -rounding * static_cast<double>(states.size());
+  }
+  /// Largest |z₁| (m) of the samples.
+  double amplitude() const {
+    double largest = 0.0;
+    for (const auto& state : states) largest = std::max(largest, std::abs(state[0]));
+    return largest;
+  }
+};
+
+namespace detail {
+
+/// Distances from a switching surface within which rounding may decide how an orbit switches.
+struct SurfaceRounding {
+  double displacement;  ///< m
+  double velocity;      ///< m/s
+};
+
+/// @param extent  of the orbit's states
+/// @param error   of the states, as a share of the extent
+inline SurfaceRounding surface_rounding(const StateExtent& extent, double error) {
+  const double share = 256.0 * std::numeric_limits<double>::epsilon() + 64.0 * error;
+  const auto part = [share](double whole) { return whole > 0.0 ? share * whole : 0.0; };
+  return {part(extent.displacement), part(extent.velocity)};
+}
+
+}  // namespace detail
+}  // namespace holdfast

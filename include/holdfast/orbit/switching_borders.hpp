@@ -1,0 +1,163 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/orbit/itinerary_maps.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// The surfaces on which the drive changes its contact.
+enum class SwitchingSurface {
+  reversal,   ///< Δż = 0 while the drive transmits: it enters its backlash
+  gap_lower,  ///< Δz at the lower end of the gap: it leaves
+  gap_upper,  ///< Δz at the upper end of the gap: it leaves
+};
+
+/// How near a motion comes to a switching surface.
+struct Border {
+  double distance = std::numeric_limits<double>::infinity();  ///< m, or m/s for `reversal`
+  SwitchingSurface surface = SwitchingSurface::reversal;      ///< nothing where `sample` is −1
+  std::int64_t sample = -1;  ///< counted from the orbit's first sample; −1 where there is none
+};
+
+/// What one sample's decision about the contact rests on.
+struct ContactDecision {
+  bool was_inside;  ///< before the sample
+  bool engaged;     ///< after it
+  /// The sign of Δż where it counts, at this sample or at the next one (that of 0 is 1); 0 inside
+  /// the gap and without backlash.
+  std::int8_t velocity_sign;
+  /// −1, 1: it left the gap by its lower, upper end; 0: it did not.
+  std::int8_t exit_side;
+};
+
+/// The decisions of one period and what the drive remembers before the first of them.
+struct SwitchingPattern {
+  std::vector<ContactDecision> decisions;               ///< one for each sample
+  BacklashMemory<double> memory{false, 0.0, 0.0, 0.0};  ///< of the drive before the first sample
+  bool repeats = false;  ///< the drive ends the period as it begins it
+
+  /// The drive never leaves its gap.
+  bool stays_inside() const {
+    return std::all_of(decisions.begin(), decisions.end(), [](const ContactDecision& decision) {
+      return decision.was_inside && !decision.engaged;
+    });
+  }
+};
+
+namespace detail {
+
+template <class Scalar>
+ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
+  const Scalar displacement = relative_displacement(state), velocity = relative_velocity(state);
+  ContactDecision decision{law.inside(), false, 0, 0};
+  const Scalar lower = law.lower();
+  decision.engaged = law.step(displacement, velocity);
+  const bool velocity_counts = decision.engaged || !decision.was_inside;
+  if (velocity_counts && law.width() > Scalar(0)) {
+    decision.velocity_sign = velocity < Scalar(0) ? std::int8_t{-1} : std::int8_t{1};
+  }
+  if (decision.was_inside && decision.engaged)
+    decision.exit_side = displacement < lower ? std::int8_t{-1} : std::int8_t{1};
+  return decision;
+}
+
+}  // namespace detail
+
+namespace detail {
+
+template <class Scalar>
+bool same_contact(const BacklashMemory<Scalar>& memory, const BacklashMemory<Scalar>& other) {
+  return memory.inside == other.inside && (!memory.inside || memory.lower == other.lower);
+}
+
+}  // namespace detail
+
+/// Sends an orbit through the backlash until the drive has come to its own gap, and notes the
+/// decisions of a period that ends as it begins; at most four turns are tried.
+/// @param states  z̃_j of one period
+/// @param law     the backlash before the first sample, as the motion that led here left it
+template <class Scalar>
+SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
+                                   Backlash<Scalar> law) {
+  SwitchingPattern pattern;
+  pattern.decisions.reserve(states.size());
+  for (int turn = 0; turn < 4 && !pattern.repeats; ++turn) {
+    const BacklashMemory<Scalar> before = law.memory();
+    pattern.decisions.clear();
+    for (const auto& state : states) pattern.decisions.push_back(detail::decide(law, state));
+    pattern.repeats = turn > 0 && detail::same_contact(before, law.memory());
+    pattern.memory = {before.inside, static_cast<double>(before.lower),
+                      static_cast<double>(before.upper),
+                      static_cast<double>(before.previous_velocity)};
+  }
+  return pattern;
+}
+
+/// Whether these are the contacts that the backlash decides, turn after turn.
+inline bool has_contacts(const SwitchingPattern& pattern, const Contacts& contacts) {
+  return pattern.repeats &&
+         std::equal(pattern.decisions.begin(), pattern.decisions.end(), contacts.begin(),
+                    contacts.end(), [](const ContactDecision& decision, std::uint8_t contact) {
+                      return decision.engaged == (contact != 0);
+                    });
+}
+
+/// The nearest of the surfaces of either kind.
+struct Borders {
+  Border displacement;  ///< an end of a gap (m)
+  Border velocity;      ///< a reversal (m/s)
+};
+
+/// How far the states of an orbit are from deciding otherwise than a pattern says; negative where
+/// one does.
+///
+/// Inside the gap the distance is that of Δz from its nearer end; where the drive leaves it, how
+/// far Δz is beyond; elsewhere that of Δż from zero.
+/// @param pattern  of the orbit, or of one that it is to be compared with
+/// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
+/// @param width    r₀ (m)
+inline Borders borders_of(const SwitchingPattern& pattern,
+                          const std::vector<Vector<double, 5>>& states, double width) {
+  Borders nearest;
+  double lower = pattern.memory.lower, upper = pattern.memory.upper;
+  const std::size_t samples = states.size();
+  const auto keep_nearer = [](Border& best, double distance, SwitchingSurface surface,
+                              std::size_t sample) {
+    if (distance < best.distance) best = {distance, surface, static_cast<std::int64_t>(sample)};
+  };
+  // The first turn finds the gap that the motion itself is in at the start.
+  for (std::size_t k = 0; k < 2 * samples; ++k) {
+    const std::size_t j = k % samples;
+    const ContactDecision& decision = pattern.decisions[j];
+    const double displacement = relative_displacement(states[j]);
+    if (!decision.was_inside && !decision.engaged) {
+      const bool from_positive = pattern.decisions[(j + samples - 1) % samples].velocity_sign > 0;
+      lower = from_positive ? displacement - width : displacement;
+      upper = lower + width;
+    }
+    if (k < samples) continue;
+    if (decision.velocity_sign != 0)
+      keep_nearer(nearest.velocity, decision.velocity_sign * relative_velocity(states[j]),
+                  SwitchingSurface::reversal, j);
+    if (!decision.was_inside) continue;
+    const double inward = decision.engaged ? -1.0 : 1.0;
+    if (decision.exit_side <= 0)
+      keep_nearer(nearest.displacement, inward * (displacement - lower),
+                  SwitchingSurface::gap_lower, j);
+    if (decision.exit_side >= 0 && (!decision.engaged || decision.exit_side > 0))
+      keep_nearer(nearest.displacement, inward * (upper - displacement),
+                  SwitchingSurface::gap_upper, j);
+  }
+  return nearest;
+}
+
+}  // namespace holdfast

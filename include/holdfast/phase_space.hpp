@@ -1,0 +1,14 @@
+#pragma once
+
+/// Basins, sections, diagrams.
+
+#include "holdfast/phase_space/attractor_set.hpp"
+#include "holdfast/phase_space/basins.hpp"
+#include "holdfast/phase_space/coverage.hpp"
+#include "holdfast/phase_space/deviation.hpp"
+#include "holdfast/phase_space/event_basins.hpp"
+#include "holdfast/phase_space/event_section.hpp"
+#include "holdfast/phase_space/motion_batch.hpp"
+#include "holdfast/phase_space/motion_dense_output.hpp"
+#include "holdfast/phase_space/orbit_diagram.hpp"
+#include "holdfast/phase_space/poincare_section.hpp"

@@ -1,0 +1,192 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/phase_space/attractor_set.hpp"
+#include "holdfast/phase_space/motion_batch.hpp"
+
+namespace holdfast {
+
+/// What one initial state comes to.
+struct MotionFate {
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or why it has no attractor
+  int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
+};
+
+/// One attractor of a set of initial states.
+/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+template <class Orbit>
+struct AttractorOf {
+  Orbit orbit;            ///< certified; of copies begun at other coincidences the one found first
+  std::size_t states;     ///< how many of the initial states come to it
+  double fraction;        ///< of all of them
+  double standard_error;  ///< √(fraction (1 − fraction)/n): the states being a sample
+  std::optional<int> mirror_image;  ///< of an earlier attractor
+};
+
+/// Which attractor each of many initial states comes to.
+template <class Orbit>
+struct BasinsOf {
+  std::vector<MotionFate> fates;               ///< in the order of the initial states
+  std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
+};
+
+/// One attractor of a ForcedLoop.
+using BasinAttractor = AttractorOf<PeriodicOrbit>;
+/// Which attractor each of many initial states of a ForcedLoop comes to.
+using BasinMap = BasinsOf<PeriodicOrbit>;
+
+namespace detail {
+
+/// The basins of fates whose attractors are numbered in the order in which their orbits were found,
+/// with the attractors in that in which the states meet them.
+template <class Orbit>
+BasinsOf<Orbit> numbered_basins(std::vector<MotionFate> fates, const std::vector<Orbit>& orbits) {
+  BasinsOf<Orbit> basins{std::move(fates), {}};
+  std::vector<int> number_of(orbits.size(), -1);
+  for (MotionFate& fate : basins.fates) {
+    if (fate.attractor < 0) continue;
+    const auto found = static_cast<std::size_t>(fate.attractor);
+    if (number_of[found] < 0) {
+      number_of[found] = static_cast<int>(basins.attractors.size());
+      basins.attractors.push_back({orbits[found], 0, 0.0, 0.0, std::nullopt});
+    }
+    fate.attractor = number_of[found];
+    ++basins.attractors[static_cast<std::size_t>(fate.attractor)].states;
+  }
+  const auto all = static_cast<double>(basins.fates.size());
+  for (std::size_t k = 0; k < basins.attractors.size(); ++k) {
+    AttractorOf<Orbit>& attractor = basins.attractors[k];
+    attractor.fraction = static_cast<double>(attractor.states) / all;
+    attractor.standard_error = std::sqrt(attractor.fraction * (1.0 - attractor.fraction) / all);
+    for (std::size_t earlier = 0; earlier < k && !attractor.mirror_image; ++earlier) {
+      if (is_mirror_image(attractor.orbit, basins.attractors[earlier].orbit))
+        attractor.mirror_image = static_cast<int>(earlier);
+    }
+  }
+  return basins;
+}
+
+/// Finds the fates of many initial states of one loop, in rounds: some of the states that are left
+/// are searched for their own orbits, one by one; then all that are left move on together past the
+/// orbits known by now. Each round takes twice as many of both. Nothing depends on the order in
+/// which the parts of a round are done.
+/// @tparam Scalar  the lanes
+/// @tparam Tiles   for_tiles(count, tile, job): job(first, number) for tiles of 0 … count − 1
+template <class Scalar, class Tiles>
+class BasinSearch {
+ public:
+  BasinSearch(const ForcedLoop<double>& loop, const OrbitLimits& limits, const Tiles& for_tiles)
+      : loop_(loop), limits_(limits), for_tiles_(for_tiles), catalogue_(loop) {}
+
+  BasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
+    fates_.resize(initial_states.size());
+    const auto ratio = forcing_ratio(loop_);
+    if (!ratio || ratio->denominator > limits_.largest_period) {
+      const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
+      for (MotionFate& fate : fates_) fate.outcome = outcome;
+      return {std::move(fates_), {}};
+    }
+    for (std::size_t k = 0; k < initial_states.size(); ++k)
+      left_.push_back({k, memory_of_start(initial_states[k])});
+    std::size_t probes = 8;
+    std::int64_t samples = std::max<std::int64_t>(4096, 4 * ratio->denominator);
+    while (!left_.empty()) {
+      probe(*ratio, probes);
+      travel(*ratio, samples);
+      probes *= 2;
+      samples *= 2;
+    }
+    return numbered_basins(std::move(fates_), catalogue_.orbits());
+  }
+
+ private:
+  /// Searches some of the motions that are left, evenly spread.
+  void probe(const Rational& ratio, std::size_t most) {
+    const std::size_t count = std::min(most, left_.size());
+    std::vector<OrbitResult> results(count, {OrbitOutcome::none_found, std::nullopt, 0, 0});
+    for_tiles_(count, 1, [&](std::size_t first, std::size_t number) {
+      for (std::size_t k = first; k < first + number; ++k) {
+        auto motion = periodically_forced_motion(loop_, ratio, Vector<double, 4>::Zero().eval());
+        motion.restore(left_[place_of(k, count)].memory);
+        results[k] = OrbitSearch<double>(loop_, ratio, limits_, motion).run();
+      }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      TravellingMotion& motion = left_[place_of(k, count)];
+      MotionFate& fate = fates_[motion.number];
+      fate.outcome = results[k].outcome;
+      if (fate.outcome == OrbitOutcome::certified)
+        fate.attractor = catalogue_.add(std::move(*results[k].orbit));
+      motion.searched = true;
+    }
+    drop([](const TravellingMotion& motion) { return motion.searched; });
+  }
+
+  std::size_t place_of(std::size_t probe, std::size_t probes) const {
+    return probe * left_.size() / probes;
+  }
+
+  void travel(const Rational& ratio, std::int64_t samples) {
+    const MotionBatch<Scalar> batch(loop_, ratio);
+    constexpr std::size_t tile = 64;
+    for_tiles_(left_.size(), tile, [&](std::size_t first, std::size_t number) {
+      MotionBatch<Scalar> own = batch;
+      own.run(left_.data() + first, number, samples, catalogue_);
+    });
+    for (const TravellingMotion& motion : left_) {
+      if (motion.diverged) fates_[motion.number] = {OrbitOutcome::diverges, -1};
+      if (motion.orbit >= 0) fates_[motion.number] = {OrbitOutcome::certified, motion.orbit};
+    }
+    drop([](const TravellingMotion& motion) { return motion.diverged || motion.orbit >= 0; });
+  }
+
+  template <class Ended>
+  void drop(const Ended& ended) {
+    left_.erase(std::remove_if(left_.begin(), left_.end(), ended), left_.end());
+  }
+
+  ForcedLoop<double> loop_;
+  OrbitLimits limits_;
+  const Tiles& for_tiles_;
+  OrbitCatalogue catalogue_;
+  std::vector<TravellingMotion> left_;
+  std::vector<MotionFate> fates_;
+};
+
+}  // namespace detail
+
+/// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
+///
+/// Distinct attractors are told apart by their orbits; copies of one that run some coincidences of
+/// sampling and forcing later are the same attractor. An initial state counts as an attractor's
+/// only once its motion is in a neighbourhood from which it surely tends to it.
+/// @param loop            the loop with its excitation and backlash
+/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit; motions travel on in between,
+///                        so that more of them may be found than by searches alone
+/// @tparam Scalar         the lanes: `double`, or a SIMD pack
+/// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
+///                        0 … count − 1, on as many threads as it likes; the result does not depend
+///                        on it
+/// @throws InvalidParameter where loop, states or limits are not admissible
+template <class Scalar, class Tiles>
+BasinMap find_basins(const ForcedLoop<double>& loop,
+                     const std::vector<Vector<double, 4>>& initial_states,
+                     const OrbitLimits& limits, const Tiles& for_tiles) {
+  validate(loop);
+  validate(limits);
+  for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
+  return detail::BasinSearch<Scalar, Tiles>(loop, limits, for_tiles).run(initial_states);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+
+namespace holdfast {
+
+/// A rectangle of the phase plane (z₁, ż₁).
+struct PhaseWindow {
+  double displacement_min,  ///< least z₁ (m), inside the window
+      displacement_max;     ///< largest z₁ (m), outside it, > displacement_min
+  double velocity_min,      ///< least ż₁ (m/s), inside the window
+      velocity_max;         ///< largest ż₁ (m/s), outside it, > velocity_min
+};
+
+/// @throws InvalidParameter unless both sides of the window are positive and finite
+inline void validate(const PhaseWindow& window) {
+  require_positive("width of the phase window", window.displacement_max - window.displacement_min,
+                   "m");
+  require_positive("height of the phase window", window.velocity_max - window.velocity_min, "m/s");
+}
+
+/// Which cells of a phase-plane window the samples of a motion have visited.
+///
+/// A motion that is topologically transitive would fill the window as time grows; a periodic one
+/// stops at the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
+class Coverage {
+ public:
+  /// @param window          with sides longer than zero
+  /// @param cells_per_side  1 … 10 000; the window has its square of cells
+  /// @throws InvalidParameter for an empty window or another number of cells
+  Coverage(const PhaseWindow& window, std::size_t cells_per_side)
+      : window_(window), side_(cells_per_side) {
+    validate(window);
+    require_within("cells per side", static_cast<double>(cells_per_side), "", 1.0, 1e4);
+    visited_cells_.assign(cells_per_side * cells_per_side, false);
+  }
+
+  /// Marks the cell of a sample's (z₁, ż₁); of one outside the window nothing.
+  void operator()(const MotionSample<double>& sample) {
+    const double x = fraction(sample.state[0], window_.displacement_min, window_.displacement_max);
+    const double y = fraction(sample.state[1], window_.velocity_min, window_.velocity_max);
+    if (!(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0)) return;
+    const double side = static_cast<double>(side_);
+    const std::size_t cell =
+        static_cast<std::size_t>(x * side) * side_ + static_cast<std::size_t>(y * side);
+    if (!visited_cells_[cell]) ++visited_;
+    visited_cells_[cell] = true;
+  }
+
+  /// Number of cells of the window, visited or not.
+  std::size_t cells() const { return visited_cells_.size(); }
+  /// Number of cells in which at least one sample has been.
+  std::size_t visited() const { return visited_; }
+  /// visited() over cells(), 0 … 1.
+  double visited_fraction() const {
+    return static_cast<double>(visited_) / static_cast<double>(cells());
+  }
+
+ private:
+  static double fraction(double value, double from, double to) {
+    return (value - from) / (to - from);
+  }
+
+  PhaseWindow window_;
+  std::size_t side_;
+  std::vector<bool> visited_cells_;
+  std::size_t visited_ = 0;
+};
+
+}  // namespace holdfast

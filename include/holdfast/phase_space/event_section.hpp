@@ -1,0 +1,179 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/series.hpp"
+#include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "holdfast/phase_space/poincare_section.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// What the contact tells of Δż over the part of a sampling period that begins now.
+struct KnownVelocity {
+  int zeros = 0;      ///< how many of Δż, Δz̈, … are zero at its beginning
+  double sign = 0.0;  ///< the sign that Δż keeps all through it, ±1; 0: not told
+};
+
+inline KnownVelocity known_velocity(const Guards& guards) {
+  KnownVelocity known;
+  for (int g = 0; g < guards.count; ++g) {
+    const Guard& guard = guards.guard[static_cast<std::size_t>(g)];
+    if (guard.state == velocity_row() * guard.state[3]) {
+      known.zeros = std::max(known.zeros, guard.zeros);
+      if (!guard.unsigned_yet) known.sign = guard.state[3];
+    } else if (guard.state == displacement_row() * guard.state[2]) {
+      known.zeros = std::max(known.zeros, guard.zeros - 1);
+    }
+  }
+  return known;
+}
+
+/// The sign that p(x) has just after x = 0; 0 where p is zero.
+inline double leading_sign(const Series& p) {
+  for (Eigen::Index k = 0; k < p.size(); ++k)
+    if (p[k] != 0.0) return p[k] > 0.0 ? 1.0 : -1.0;
+  return 0.0;
+}
+
+/// Follows the sign of Δż along a motion and shows where it changes: an observer of
+/// HybridMotion::advance.
+template <class Contact, class Observer>
+class TurnFinder {
+  using Part = typename FlowTrace<Contact>::Part;
+
+ public:
+  /// Both must outlive the finder.
+  TurnFinder(const HybridMotion<Contact>& motion, Observer& observer)
+      : motion_(&motion), observer_(&observer), trace_(motion) {
+    const double velocity = relative_velocity(motion.state());
+    sign_ = velocity > 0.0 ? 1.0 : velocity < 0.0 ? -1.0 : 0.0;
+  }
+
+  /// To be called after `sense()` and before `advance()`.
+  void begin() {
+    time_ = motion_->time();
+    trace_.begin();
+  }
+
+  void flowed(int mode, double begin, double length) {
+    KnownVelocity known = known_velocity(motion_->contact().guards());
+    // Where changes of contact are no longer followed, Δż may pass zero in any mode.
+    if (motion_->counts().accumulates) known.sign = 0.0;
+    const std::size_t seen = trace_.parts().size();
+    trace_.flowed(mode, begin, length);
+    for (std::size_t part = seen; part < trace_.parts().size(); ++part) {
+      look_at(trace_.parts()[part], known);
+      known.zeros = 0;
+    }
+  }
+  void commanded() { trace_.commanded(); }
+  void switched(int from, int to, int guard, const ContactInstant& instant) {
+    trace_.switched(from, to, guard, instant);
+  }
+
+ private:
+  static constexpr double velocity_rounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+  void look_at(const Part& part, const KnownVelocity& known) {
+    if (part.mode == ContactMode::stick) return rest(part);
+    if (part.length == 0.0) return;
+    if (known.sign != 0.0) return take_sign(part, 0.0, known.sign);
+    search(part, known.zeros);
+  }
+
+  /// The sides of the drive stay together: one turn, however the motion goes on.
+  void rest(const Part& part) {
+    if (sign_ != 0.0) show(part, 0.0, sign_ < 0.0);
+    sign_ = 0.0;
+  }
+
+  /// From x on Δż has a sign; where it had the other one before, Δz turns at x.
+  void take_sign(const Part& part, double x, double sign) {
+    if (sign_ * sign < 0.0) show(part, x, sign > 0.0);
+    sign_ = sign;
+  }
+
+  /// @param zeros  of Δż and its derivatives at the beginning of the part
+  void search(const Part& part, int zeros) {
+    const auto& states = part.state.coefficients();
+    const double size = states.row(1).cwiseAbs().sum() + states.row(3).cwiseAbs().sum();
+    if (!(size > 0.0 && std::isfinite(size))) return;
+    // In units of the velocities, whose squares might leave the range of numbers.
+    const Series velocity = (states.row(3) - states.row(1)).transpose() / size;
+    double x = 0.0;
+    Series left = velocity;
+    left.head(std::min<Eigen::Index>(zeros, left.size())).setZero();
+    // A polynomial has no more zeros than coefficients.
+    for (Eigen::Index found = 0; found < velocity.size(); ++found) {
+      // A zero at the end of a part is left to the next one, which knows how Δż goes on.
+      if (left.cwiseAbs().sum() <= velocity_rounding) return;
+      const double sign = leading_sign(left);
+      take_sign(part, x, sign);
+      const FirstRoot root = first_root(sign * left);
+      if (root.outcome == RootOutcome::none) return;
+      x += root.at * (1.0 - x);
+      left = rest_of(velocity, x);
+      // Where it touches zero, the slope is zero but for rounding too.
+      const Eigen::Index vanishing = root.outcome == RootOutcome::grazing ? 2 : 1;
+      left.head(std::min(vanishing, left.size())).setZero();
+    }
+  }
+
+  void show(const Part& part, double x, bool rising) {
+    (*observer_)(SectionPoint{time_ + part.begin + x * part.length, part.state.state(x), rising,
+                              part.mode == ContactMode::engaged});
+  }
+
+  const HybridMotion<Contact>* motion_;
+  Observer* observer_;
+  FlowTrace<Contact> trace_;
+  double time_ = 0.0;
+  double sign_;  // of Δż; 0 while it is zero, and before it was first unlike zero
+};
+
+}  // namespace detail
+
+/// Runs a motion and shows every turn of Δz: every change of the sign of Δż, found between the
+/// samples as a first root of its Taylor series (math/roots/first_root.hpp), so that none is
+/// missed.
+///
+/// A stick, Δż = 0 for some time, is one point, at its beginning, whether Δz goes back or on
+/// afterwards; `rising` then tells that Δż came to zero from below. Where it goes on the next point
+/// has the same `rising`. A point is `engaged` where the drive transmits all of the command from
+/// the point on: with exact switching and a gap never, since a turn out of contact with the far
+/// side enters the gap or a stick. Where Δż only touches zero, but for rounding, there is no point.
+/// At the first sample Δż has the sign that it has there; a motion that begins with Δż = 0 does not
+/// begin with a point.
+/// @param motion    before the first sample to be looked at; a further call goes on from there
+/// @param samples   how many sampling periods
+/// @param observer  called with each `SectionPoint`, in the order of time
+/// Work: a Taylor series (motion/taylor_step.hpp) and a root for every part of constant
+/// contact, beside the motion's own.
+template <class Contact, class Observer>
+TrajectoryOutcome run_section(HybridMotion<Contact>& motion, std::int64_t samples,
+                              Observer&& observer) {
+  detail::TurnFinder<Contact, std::remove_reference_t<Observer>> turns(motion, observer);
+  for (std::int64_t taken = 0; taken < samples; ++taken) {
+    motion.sense();
+    turns.begin();
+    motion.advance(turns);
+    if (!std::isfinite(motion.state().sum())) return TrajectoryOutcome::diverged;
+  }
+  return TrajectoryOutcome::completed;
+}
+
+}  // namespace holdfast

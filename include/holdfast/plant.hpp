@@ -1,0 +1,9 @@
+#pragma once
+
+/// Linear plants and what is told of them without control.
+
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/energy.hpp"
+#include "holdfast/plant/free_decay.hpp"
+#include "holdfast/plant/reduction.hpp"
+#include "holdfast/plant/two_mass.hpp"

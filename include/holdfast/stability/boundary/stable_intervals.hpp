@@ -1,0 +1,130 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "holdfast/core/interval.hpp"
+#include "holdfast/math/poly/mobius_zhukovsky.hpp"
+#include "holdfast/math/poly/parity.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/math/poly/routh_hurwitz.hpp"
+#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+
+namespace holdfast {
+
+/// The values x at which a(w) + x d(w) has a root on the imaginary axis or at infinity, ascending.
+///
+/// w = 0 needs a₀ + x d₀ = 0, w = ∞ needs a_n + x d_n = 0. For w = iy the even and the odd part
+/// vanish together; eliminating x leaves a polynomial in Y = y² of degree at most 4,
+///
+///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
+///
+/// so every crossing is a root in closed form and none can be stepped over. w is measured in mean
+/// root moduli; a slope below 1e−12 of the largest is round-off of a zero, and its crossing lies at
+/// infinity.
+template <class Scalar, int Size>
+std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
+                                       const Vector<Scalar, Size>& slope_part) {
+  const Scalar unit = detail::mean_root_modulus(constant_part);
+  const Vector<Scalar, Size> a = detail::rescaled(constant_part, unit);
+  const Vector<Scalar, Size> d = detail::rescaled(slope_part, unit);
+  const Scalar negligible = Scalar(1e-12) * d.cwiseAbs().maxCoeff();
+  std::vector<Scalar> crossings;
+  const auto solve = [&](const Scalar& constant, const Scalar& slope) {
+    if (std::abs(slope) > negligible) crossings.push_back(-constant / slope);
+  };
+  solve(a[0], d[0]);
+  solve(a[Size - 1], d[Size - 1]);
+
+  const auto a_even = detail::parity_part(a, 0), a_odd = detail::parity_part(a, 1);
+  const auto d_even = detail::parity_part(d, 0), d_odd = detail::parity_part(d, 1);
+  const Vector<Scalar, 5> eliminated =
+      multiply<Scalar, 3, 3>(a_even, d_odd) - multiply<Scalar, 3, 3>(a_odd, d_even);
+  for (const auto& root : roots(eliminated)) {
+    // A double root leaves the axis by round-off of size √ε: it is still a crossing candidate.
+    if (!(root.real() > Scalar(0)) || std::abs(root.imag()) > Scalar(1e-6) * root.real()) continue;
+    const Scalar y2 = root.real();
+    const Scalar even_slope = evaluate(d_even, y2), odd_slope = evaluate(d_odd, y2);
+    if (even_slope * even_slope > odd_slope * odd_slope * y2) {
+      solve(evaluate(a_even, y2), even_slope);
+    } else {
+      solve(evaluate(a_odd, y2), odd_slope);
+    }
+  }
+  std::sort(crossings.begin(), crossings.end());
+  return crossings;
+}
+
+/// The open intervals of x in which a(w) + x d(w) has all its roots in Re w < 0.
+///
+/// Between neighbouring crossings the number of unstable roots cannot change, so one Hurwitz test
+/// in each gap decides it; gaps that touch and are both stable are joined unless a root sits on the
+/// axis between. The leading coefficient may change sign along x; the test normalises it.
+template <class Scalar, int Size>
+std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
+                                               const Vector<Scalar, Size>& d) {
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  std::vector<Scalar> ends = boundary_crossings(a, d);
+  ends.insert(ends.begin(), -infinity);
+  ends.push_back(infinity);
+  const auto stable_at = [&](const Scalar& x) {
+    const Vector<Scalar, Size> polynomial = a + x * d;
+    const Scalar sign = polynomial[Size - 1] < Scalar(0) ? Scalar(-1) : Scalar(1);
+    return hurwitz_conditions<Scalar, Size>(sign * polynomial).satisfied();
+  };
+  std::vector<Interval<Scalar>> result;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const Interval<Scalar> gap{ends[k], ends[k + 1]};
+    if (!(gap.lower < gap.upper) || !stable_at(gap.representative())) continue;
+    const bool joins = !result.empty() && result.back().upper == gap.lower && stable_at(gap.lower);
+    if (joins) {
+      result.back().upper = gap.upper;
+    } else {
+      result.push_back(gap);
+    }
+  }
+  return result;
+}
+
+/// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m), continuous loop.
+/// @param polynomial         `characteristic_polynomial(plant)`, in s
+/// @param proportional_gain  P (N/m), finite
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_differential_gains(
+    const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& proportional_gain) {
+  return stable_intervals<Scalar, 5>(polynomial.base + proportional_gain * polynomial.proportional,
+                                     polynomial.differential);
+}
+
+/// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m), sampled loop.
+/// @param polynomial         `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param proportional_gain  P (N/m), finite
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_differential_gains(
+    const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& proportional_gain) {
+  const auto q = polynomial.transformed(in_half_plane<Scalar, 6>);
+  return stable_intervals<Scalar, 6>(q.base + proportional_gain * q.proportional, q.differential);
+}
+
+/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), continuous loop.
+/// @param polynomial         `characteristic_polynomial(plant)`, in s
+/// @param differential_gain  D (N s/m), finite
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_proportional_gains(
+    const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& differential_gain) {
+  return stable_intervals<Scalar, 5>(polynomial.base + differential_gain * polynomial.differential,
+                                     polynomial.proportional);
+}
+
+/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), sampled loop.
+/// @param polynomial         `characteristic_polynomial(loop)`, in powers of λ − 1
+/// @param differential_gain  D (N s/m), finite
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_proportional_gains(
+    const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& differential_gain) {
+  const auto q = polynomial.transformed(in_half_plane<Scalar, 6>);
+  return stable_intervals<Scalar, 6>(q.base + differential_gain * q.differential, q.proportional);
+}
+
+}  // namespace holdfast

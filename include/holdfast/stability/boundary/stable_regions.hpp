@@ -1,0 +1,201 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/math/poly/unstable_roots.hpp"
+#include "holdfast/math/stats/slab_quadrature.hpp"
+#include "holdfast/stability/boundary/boundary_curves.hpp"
+#include "holdfast/stability/boundary/gain_decomposition.hpp"
+#include "holdfast/stability/boundary/gain_window.hpp"
+#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+
+namespace holdfast {
+
+/// A connected part of a window of gains in which the loop has the same number of unstable roots
+/// and which no boundary crosses.
+template <class Scalar>
+struct GainRegion {
+  int unstable_roots;      ///< with |λ| > 1 (continuous loop: Re s > 0); 0: asymptotically stable
+  Scalar area;             ///< ∬ dP dD within the window, N²s/m²
+  PdGains<Scalar> inside;  ///< a point well inside
+  Interval<Scalar> proportional;  ///< extent in P (N/m)
+  Interval<Scalar> differential;  ///< extent in D (N s/m)
+  bool at_edge;                   ///< reaches the window's edge: it may go on beyond
+};
+
+namespace detail {
+
+/// Joins the cells of neighbouring slabs to regions.
+template <class Scalar, int Degree>
+class RegionBuilder {
+ public:
+  RegionBuilder(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
+      : curves_(curves), window_(window) {
+    const GainSlabs<Scalar, Degree> slabs(curves, window);
+    std::size_t previous = 0;
+    for (const GainSlab<Scalar>& slab : slabs.slabs()) {
+      const std::size_t first = cells_.size();
+      add_cells(slab);
+      if (!slab.wall_below) join(previous, first);
+      previous = first;
+    }
+  }
+
+  /// Stable regions first, then by number of unstable roots; the larger first among equals.
+  std::vector<GainRegion<Scalar>> regions() {
+    std::vector<GainRegion<Scalar>> result;
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      if (root_of(k) != k) absorb(cells_[root_of(k)], cells_[k]);
+    }
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      const GainRegion<Scalar>& region = cells_[k].region;
+      const bool is_round_off = !(region.area > Scalar(negligible_ * window_.area()));
+      if (root_of(k) == k && region.unstable_roots >= 0 && !is_round_off) result.push_back(region);
+    }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.unstable_roots, -a.area) < std::pair(b.unstable_roots, -b.area);
+    });
+    return result;
+  }
+
+ private:
+  using Levels = std::vector<Scalar>;
+  static constexpr double negligible_ = 1e-12;  // of the window
+
+  /// The part of a region within one slab.
+  struct Cell {
+    std::size_t parent;
+    GainRegion<Scalar> region;
+    Interval<Scalar> left, right;  // in D, at the slab's two ends
+    Scalar largest;                // area of the cell that gave the point inside
+  };
+
+  /// The lower edge, the branches and the upper edge at P, ascending.
+  Levels levels(const GainSlab<Scalar>& slab, const Scalar& proportional_gain) const {
+    const Scalar top(window_.differential.upper);
+    Levels result = {Scalar(window_.differential.lower)};
+    for (const auto* branch : slab.branches) {
+      const Scalar d = branch->differential(proportional_gain);
+      result.push_back(std::clamp(d, result.back(), top));
+    }
+    result.push_back(top);
+    return result;
+  }
+
+  Levels areas(const GainSlab<Scalar>& slab) const {
+    const auto heights = [&](const Scalar& p) {
+      Levels result = levels(slab, p);
+      std::adjacent_difference(result.begin(), result.end(), result.begin());
+      result.erase(result.begin());
+      return result;
+    };
+    const Scalar tolerance(1e-13 * window_.area());
+    return SlabQuadrature<Scalar, decltype(heights)>(heights, tolerance)
+        .integrate(slab.lower, slab.upper);
+  }
+
+  /// −1 in a cell so thin that only round-off holds it open.
+  int count_roots(const PdGains<Scalar>& gains, const Scalar& height) const {
+    if (!(height > Scalar(negligible_ * window_.height()))) return -1;
+    return unstable_roots(curves_.polynomial().at(gains));
+  }
+
+  void add_cells(const GainSlab<Scalar>& slab) {
+    const Scalar p = slab.lower + (slab.upper - slab.lower) / Scalar(2);
+    const Levels left = levels(slab, slab.lower), middle = levels(slab, p);
+    const Levels right = levels(slab, slab.upper), area = areas(slab);
+    const bool at_side = slab.lower == Scalar(window_.proportional.lower) ||
+                         slab.upper == Scalar(window_.proportional.upper);
+    for (std::size_t k = 0; k < area.size(); ++k) {
+      const Scalar height = middle[k + 1] - middle[k];
+      const PdGains<Scalar> inside{p, middle[k] + height / Scalar(2)};
+      const GainRegion<Scalar> region{
+          count_roots(inside, height),
+          area[k],
+          inside,
+          {slab.lower, slab.upper},
+          {std::min(left[k], right[k]), std::max(left[k + 1], right[k + 1])},
+          at_side || k == 0 || k + 1 == area.size()};
+      cells_.push_back(
+          {cells_.size(), region, {left[k], left[k + 1]}, {right[k], right[k + 1]}, area[k]});
+    }
+  }
+
+  /// Cells that share a stretch of their slabs' common end belong to one region.
+  void join(std::size_t previous, std::size_t first) {
+    const Scalar slack(1e-9 * window_.height());
+    for (std::size_t i = previous; i < first; ++i) {
+      for (std::size_t j = first; j < cells_.size(); ++j) {
+        const Cell &a = cells_[i], &b = cells_[j];
+        const Scalar shared =
+            std::min(a.right.upper, b.left.upper) - std::max(a.right.lower, b.left.lower);
+        const bool same = a.region.unstable_roots == b.region.unstable_roots;
+        if (same && shared > slack) cells_[root_of(j)].parent = root_of(i);
+      }
+    }
+  }
+
+  std::size_t root_of(std::size_t cell) const {
+    while (cells_[cell].parent != cell) cell = cells_[cell].parent;
+    return cell;
+  }
+
+  static void absorb(Cell& whole, const Cell& part) {
+    const auto widen = [](Interval<Scalar>& interval, const Interval<Scalar>& other) {
+      interval = {std::min(interval.lower, other.lower), std::max(interval.upper, other.upper)};
+    };
+    if (part.region.area > whole.largest) {
+      whole.largest = part.region.area;
+      whole.region.inside = part.region.inside;
+    }
+    whole.region.area += part.region.area;
+    widen(whole.region.proportional, part.region.proportional);
+    widen(whole.region.differential, part.region.differential);
+    whole.region.at_edge = whole.region.at_edge || part.region.at_edge;
+  }
+
+  const BoundaryCurves<Scalar, Degree>& curves_;
+  GainWindow window_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace detail
+
+/// The regions into which the boundary divides a window of gains, with their exact areas.
+///
+/// The window is cut into slabs of P in which the crossings D₁(P) < D₂(P) < … of the boundary keep
+/// their number and order (`GainSlabs`). The gap between two crossings is a cell with one number of
+/// unstable roots, counted at its middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring
+/// slabs that touch with no boundary between them are one region. Areas are good to 1e−10 of the
+/// window's; a neck narrower than 1e−9 of its height does not connect.
+/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
+/// `characteristic_polynomial(plant)`, in s (degree 4)
+/// @param window      P (N/m) and D (N s/m), its edges included
+/// @return stable regions first, the larger first
+/// @throws InvalidParameter unless the window's ranges are finite and not empty
+template <class Scalar, int Degree>
+std::vector<GainRegion<Scalar>> gain_regions(const AffinePolynomial<Scalar, Degree>& polynomial,
+                                             const GainWindow& window) {
+  validate(window);
+  const BoundaryCurves<Scalar, Degree> curves(polynomial);
+  return detail::RegionBuilder<Scalar, Degree>(curves, window).regions();
+}
+
+/// Those of the `gain_regions` in which the loop is asymptotically stable.
+template <class Scalar, int Degree>
+std::vector<GainRegion<Scalar>> stable_regions(const AffinePolynomial<Scalar, Degree>& polynomial,
+                                               const GainWindow& window) {
+  auto regions = gain_regions(polynomial, window);
+  const auto unstable = [](const auto& region) { return region.unstable_roots > 0; };
+  regions.erase(std::find_if(regions.begin(), regions.end(), unstable), regions.end());
+  return regions;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/core/interval_sets.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/response/response.hpp"
+
+namespace holdfast {
+
+/// What a sampling period must allow to count as feasible.
+enum class DelayCriterion {
+  stable,      ///< some differential gain stabilises the loop
+  attenuates,  ///< τ < 1/(2f), so that the samples show the vibration, and some stabilising
+               ///< differential gain brings the steady amplitude below that of no
+               ///< control
+};
+
+/// A question about the slowest computer that still serves, for one excitation frequency.
+struct MaxDelayQuestion {
+  double frequency;          ///< f (Hz), > 0
+  double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
+  DelayCriterion criterion = DelayCriterion::attenuates;  ///< what counts as feasible
+  ForceHold hold = ForceHold::sampled;  ///< how the excitation enters; of `attenuates` only
+  double delay_fraction = 0.0;          ///< δ/τ, 0 … 1, kept while τ varies
+  double shortest_period = 1e-5;        ///< s; the search starts there, or at 1/(1000 f) if less
+  double longest_period = 1.0;          ///< s; where it gives up
+  double search_ratio = 1.001;  ///< > 1: infeasible windows narrower than this may be missed
+
+  /// ω = 2π f (rad/s).
+  double angular_frequency() const { return 2.0 * pi<double> * frequency; }
+
+  /// τ and the δ that belongs to it.
+  Sampling<double> sampling(double period) const { return {period, delay_fraction * period}; }
+};
+
+/// @throws InvalidParameter outside the ranges that the members of `MaxDelayQuestion` state
+inline void validate(const MaxDelayQuestion& question) {
+  require_positive("frequency", question.frequency, "Hz");
+  require_finite("proportional gain", question.proportional_gain, "N/m");
+  require_within("delay fraction", question.delay_fraction, "", 0.0, 1.0);
+  require_positive("shortest sampling period", question.shortest_period, "s");
+  require_positive("search span", question.longest_period - question.shortest_period, "s");
+  require_positive("search ratio minus one", question.search_ratio - 1.0, "");
+}
+
+namespace detail {
+
+/// What one sampling period offers at the question's P.
+struct DelayOffer {
+  std::vector<Interval<double>> stable;            ///< D that stabilise
+  std::optional<SteadyResponse<double>> response;  ///< nothing for the criterion `stable`
+};
+
+inline DelayOffer delay_offer(const TwoDof<double>& plant, const MaxDelayQuestion& question,
+                              double sampling_period) {
+  const auto loop = sampled_loop(plant, question.sampling(sampling_period));
+  DelayOffer offer{
+      stable_differential_gains(characteristic_polynomial(loop), question.proportional_gain), {}};
+  if (question.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
+  const double omega = question.angular_frequency();
+  offer.response.emplace(loop, harmonic_input(plant, loop, question.hold, omega), omega);
+  return offer;
+}
+
+/// False where the criterion asks for samples that show the vibration and they do not.
+inline bool shows_vibration(const MaxDelayQuestion& question, double sampling_period) {
+  return question.criterion == DelayCriterion::stable ||
+         2.0 * question.frequency * sampling_period < 1.0;
+}
+
+}  // namespace detail
+
+/// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
+/// those that stabilise and, to attenuate, those of them with an amplitude below that of no
+/// control.
+/// @param plant            within its ranges, which are not checked here
+/// @param question         within its ranges (`validate`), which are not checked here
+/// @param sampling_period  τ (s), > 0
+inline std::vector<Interval<double>> feasible_differential_gains(const TwoDof<double>& plant,
+                                                                 const MaxDelayQuestion& question,
+                                                                 double sampling_period) {
+  if (!detail::shows_vibration(question, sampling_period)) return {};
+  const auto offer = detail::delay_offer(plant, question, sampling_period);
+  if (!offer.response) return offer.stable;
+  return intersection(offer.stable,
+                      offer.response->differential_gains_below(question.proportional_gain));
+}
+
+/// The differential gain that makes one sampling period feasible, if there is one: of least
+/// amplitude over the stabilising gains, or amid the first interval of these.
+///
+/// The stabilising gains are known as exact intervals (`stable_differential_gains`) and the least
+/// amplitude over them in closed form (`SteadyResponse`), so nothing is scanned over D.
+/// @param plant            within its ranges, which are not checked here
+/// @param question         within its ranges (`validate`), which are not checked here
+/// @param sampling_period  τ (s), > 0
+inline std::optional<double> feasible_differential_gain(const TwoDof<double>& plant,
+                                                        const MaxDelayQuestion& question,
+                                                        double sampling_period) {
+  if (!detail::shows_vibration(question, sampling_period)) return std::nullopt;
+  const auto offer = detail::delay_offer(plant, question, sampling_period);
+  if (offer.stable.empty()) return std::nullopt;
+  if (!offer.response) return offer.stable.front().representative();
+  const auto best =
+      offer.response->best_differential_gain(question.proportional_gain, offer.stable);
+  if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
+  return best.differential_gain;
+}
+
+}  // namespace holdfast

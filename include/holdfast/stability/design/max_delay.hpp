@@ -1,0 +1,240 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/core/interval.hpp"
+#include "holdfast/core/interval_sets.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
+#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/design/delay_options.hpp"
+#include "holdfast/stability/design/minimum_radius.hpp"
+#include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/response/response_derivatives.hpp"
+
+namespace holdfast {
+
+/// How the search for the largest sampling period ended.
+enum class MaxDelayOutcome {
+  found,      ///< every period up to `sampling_period` is feasible, a slightly longer one is not
+  unlimited,  ///< every period up to the search limit is feasible; `sampling_period` is infinite
+  never,      ///< not even the shortest period of the search is feasible; `sampling_period` is 0
+};
+
+/// What a longer period lacks.
+enum class MaxDelayLimit {
+  none,         ///< nothing: the outcome is `unlimited`
+  stability,    ///< the gains that serve below no longer stabilise
+  attenuation,  ///< those that stabilise no longer bring the amplitude below that of no control
+  nyquist,      ///< τ = 1/(2f): the samples no longer show the vibration
+};
+
+/// The largest sampling period τ* such that every τ in (0, τ*] is feasible.
+struct MaxDelay {
+  MaxDelayOutcome outcome;   ///< how the search ended
+  double sampling_period;    ///< τ* (s)
+  double differential_gain;  ///< D (N s/m) at τ*: of least amplitude, or amid the stable interval;
+                             ///< a limit of gains that serve, not one to use without a margin;
+                             ///< NaN where the outcome is `never`
+  MaxDelayLimit limit;  ///< what is lacking beyond τ*, or at once where the outcome is `never`
+};
+
+namespace detail {
+
+/// Joins feasible periods to one another and finds where that ends.
+class DelaySearch {
+ public:
+  using Intervals = std::vector<Interval<double>>;
+
+  DelaySearch(const TwoDof<double>& plant, const MaxDelayQuestion& question)
+      : plant_(plant),
+        question_(question),
+        path_(SamplingPath::of_period(plant, question.delay_fraction)) {}
+
+  MaxDelay answer() {
+    feasible_ = std::min(question_.shortest_period, 1e-3 / question_.frequency);
+    gains_ = gains_at(feasible_);
+    if (gains_.empty()) return {MaxDelayOutcome::never, 0.0, no_gain, what_is_lacking(feasible_)};
+    const double end = longest();
+    double goal = end, boundary = end;
+    while (const std::optional<double> infeasible = advance(goal)) {
+      boundary = boundary_between(feasible_, *infeasible);
+      goal = std::max(feasible_, boundary / question_.search_ratio);
+      if (goal == feasible_) break;
+    }
+    if (boundary == end && end >= question_.longest_period) {
+      const double infinity = std::numeric_limits<double>::infinity();
+      return {MaxDelayOutcome::unlimited, infinity, gain_at(end), MaxDelayLimit::none};
+    }
+    return {MaxDelayOutcome::found, boundary, gain_at(boundary), limit_beyond(boundary)};
+  }
+
+ private:
+  static constexpr double no_gain = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double longest_link_ = 8.0;  // as a ratio of its ends
+
+  Intervals gains_at(double period) const {
+    return feasible_differential_gains(plant_, question_, period);
+  }
+  double gain_at(double period) const {
+    return feasible_differential_gain(plant_, question_, period).value_or(no_gain);
+  }
+
+  /// The search limit, or the longest period whose samples show the vibration.
+  double longest() const {
+    if (question_.criterion == DelayCriterion::stable) return question_.longest_period;
+    double nyquist = 0.5 / question_.frequency;
+    while (!shows_vibration(question_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+    return std::min(question_.longest_period, nyquist);
+  }
+
+  /// Moves `feasible_` to the goal by links; @return an infeasible period met on the way.
+  std::optional<double> advance(double goal) {
+    double ratio = longest_link_;
+    while (feasible_ < goal) {
+      const double next = std::min(goal, feasible_ * ratio);
+      Intervals gains = gains_at(next);
+      if (gains.empty()) return next;
+      const bool short_enough = next <= feasible_ * question_.search_ratio;
+      if (short_enough || links(next, gains)) {
+        feasible_ = next;
+        gains_ = std::move(gains);
+        ratio = longest_link_;
+      } else {
+        ratio = std::sqrt(next / feasible_);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// True where one D that serves at both ends serves in between.
+  bool links(double next, const Intervals& gains) const {
+    Intervals common = intersection(gains_, gains);
+    std::sort(common.begin(), common.end(),
+              [](const auto& a, const auto& b) { return b.upper - b.lower < a.upper - a.lower; });
+    return std::any_of(common.begin(), common.end(), [&](const Interval<double>& interval) {
+      return serves(interval.representative(), next);
+    });
+  }
+
+  bool serves(double differential_gain, double next) const {
+    const PdGains<double> gains{question_.proportional_gain, differential_gain};
+    const auto watch = [&](double period) { return watched(gains, period); };
+    const double first = 0.5 * (next - feasible_);
+    const double smallest = 0.1 * (question_.search_ratio - 1.0);
+    return first_exit(watch, feasible_, next, first, smallest).outcome == WalkOutcome::clear;
+  }
+
+  /// The loop's roots and, to attenuate, the complex amplitude over that of no control.
+  WatchedPoints watched(const PdGains<double>& gains, double period) const {
+    const auto loop = path_.loop_at(period);
+    WatchedPoints points = path_.watched_at(loop, gains);
+    if (question_.criterion == DelayCriterion::stable) return points;
+    const double omega = question_.angular_frequency();
+    const auto input = harmonic_input(plant_, loop, question_.hold, omega);
+    const auto input_rate = input_rate_by_period(plant_, loop, question_.hold, input, omega);
+    const ResponseRates response(loop, input, omega);
+    const std::complex<double> lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
+    const auto rates = response.along(path_.rate(loop), input_rate, lambda_rate);
+    const auto ratio = amplitude_ratio(response.phasors(), rates, gains);
+    points.push_back({MovingPoint{ratio.value, ratio.rate}});
+    return points;
+  }
+
+  /// Positive where some D stabilises: 1 − min ρ over D, to a ten-thousandth of itself.
+  double stability_reserve(double period) {
+    const auto loop = loop_polynomial(sampled_loop(plant_, question_.sampling(period)));
+    const auto least = LeastRadiusSearch(loop, question_.proportional_gain, 1e-5).from(start_);
+    start_ = least.differential_gain;
+    return least.margin;
+  }
+
+  /// Positive where some stabilising D attenuates: 1 less the least ratio; −1 where none
+  /// stabilises.
+  double attenuation_reserve(double period) const {
+    const auto offer = delay_offer(plant_, question_, period);
+    if (!offer.response) return -1.0;
+    return 1.0 - offer.response->best_differential_gain(question_.proportional_gain, offer.stable)
+                     .ratio_to_uncontrolled;
+  }
+
+  /// The last feasible period of a bracket whose ends differ: halved while it is wide, since
+  /// whether there is a gain is told much sooner than by how much it is missed.
+  double boundary_between(double feasible, double infeasible) {
+    while (infeasible > 1.01 * feasible) {
+      const double middle = std::sqrt(feasible * infeasible);
+      const Intervals gains = gains_at(middle);
+      if (!gains.empty()) start_ = gains.front().representative();
+      (gains.empty() ? infeasible : feasible) = middle;
+    }
+    if (delay_offer(plant_, question_, infeasible).stable.empty()) {
+      const auto reserve = [this](double period) { return stability_reserve(period); };
+      infeasible = narrowed(reserve, feasible, infeasible).upper;
+    }
+    if (question_.criterion == DelayCriterion::attenuates) {
+      const auto reserve = [this](double period) { return attenuation_reserve(period); };
+      infeasible = narrowed(reserve, feasible, infeasible).upper;
+    }
+    return last_feasible_before(feasible, infeasible);
+  }
+
+  template <class Reserve>
+  static SignChange<double> narrowed(const Reserve& reserve, double lower, double upper) {
+    const SignChange<double> bracket{lower, upper, reserve(lower), reserve(upper)};
+    return bracketing_root(reserve, bracket, 1e-13 * lower);
+  }
+
+  /// Round-off may place the sign change a little beyond the last period with an interval of gains.
+  double last_feasible_before(double feasible, double infeasible) const {
+    for (double step = 1e-13 * infeasible; infeasible - step > feasible; step *= 2.0) {
+      if (!gains_at(infeasible - step).empty()) return infeasible - step;
+    }
+    return feasible;
+  }
+
+  MaxDelayLimit what_is_lacking(double period) const {
+    if (!shows_vibration(question_, period)) return MaxDelayLimit::nyquist;
+    return delay_offer(plant_, question_, period).stable.empty() ? MaxDelayLimit::stability
+                                                                 : MaxDelayLimit::attenuation;
+  }
+
+  /// Where the amplitude jumps past that of no control, the interval that served has vanished.
+  MaxDelayLimit limit_beyond(double boundary) const {
+    const double beyond = boundary * (1.0 + 1e-9);
+    const MaxDelayLimit lacking = what_is_lacking(beyond);
+    if (lacking != MaxDelayLimit::attenuation) return lacking;
+    const double jump = attenuation_reserve(boundary) - attenuation_reserve(beyond);
+    return jump > 1e-3 ? MaxDelayLimit::stability : MaxDelayLimit::attenuation;
+  }
+
+  TwoDof<double> plant_;
+  MaxDelayQuestion question_;
+  SamplingPath path_;
+  double feasible_ = 0.0;  // every period up to it is feasible
+  Intervals gains_;        // that serve there
+  double start_ = 0.0;     // D of least radius at a neighbouring period
+};
+
+}  // namespace detail
+
+/// The largest sampling period, link by link.
+///
+/// A longer period is joined to those known to be feasible by one D that serves at both and, its
+/// roots and its amplitude followed from one to the other in safe steps (`first_exit`), in between.
+/// Where no longer period joins, the boundary is found by a bracketing root finder on a function
+/// that changes its sign there: 1 − min ρ over D (`least_radius`), or 1 less the least amplitude
+/// ratio over the stabilising D. The last stretch, from τ*/search_ratio on, is feasible at its ends
+/// and taken to be so in between. Source: Kollár 2022, Fig. 5.
+/// @throws InvalidParameter for a plant or question outside the admissible ranges
+inline MaxDelay max_sampling_period(const TwoDof<double>& plant, const MaxDelayQuestion& question) {
+  validate(plant);
+  validate(question);
+  return detail::DelaySearch(plant, question).answer();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+
+namespace holdfast {
+
+/// What kind of answer the D of least spectral radius is.
+enum class LeastRadiusOutcome {
+  point,       ///< one D has the least radius
+  plateau,     ///< a root that D does not move sets the radius over the whole `interval`
+  idle,        ///< no D changes the radius; `interval` is the whole line and D is 0
+  unresolved,  ///< P is so large that round-off hides the least radius: D is the start, `radius` is
+               ///< that of the start and `lower_bound` is 0
+};
+
+/// The differential gain at which the sampled loop forgets fastest, at a fixed P.
+struct LeastRadius {
+  LeastRadiusOutcome outcome;  ///< whether one D has the radius, many, all, or none is known to
+  double differential_gain;    ///< D (N s/m), amid `interval`
+  double radius;               ///< the least ρ = max |λ|; stable ⇔ below 1
+  double margin;               ///< 1 − radius without cancellation
+  double lower_bound;          ///< no D whatever has a radius below this; ≤ radius
+  Interval<double> interval;   ///< the D (N s/m) with that radius to 1e−12
+};
+
+namespace detail {
+
+/// Narrows the least level r at which {D : ρ(P, D) < r} is not empty.
+///
+/// The set is a union of intervals known in closed form for every r, and it grows with r, so that
+/// each level tested is a bound from above or from below on the global minimum. Levels to test
+/// come from ρ in the middle of the intervals and where the secants of their two ends meet, which
+/// are exact in the limit for a smooth minimum and for two branches that cross.
+class LeastRadiusSearch {
+ public:
+  using Intervals = std::vector<Interval<double>>;
+
+  /// @param accuracy  what the margin may err by as a share of itself; 0 for all digits
+  LeastRadiusSearch(const LoopPolynomial<double>& loop, double proportional_gain,
+                    double accuracy = 0.0)
+      : loop_(loop), proportional_gain_(proportional_gain), accuracy_(accuracy) {}
+
+  /// @param start  any D; the closer the quicker
+  LeastRadius from(double start) {
+    if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
+      return {LeastRadiusOutcome::unresolved, start, loop_.centre + upper_,
+              (1.0 - loop_.centre) - upper_,  0.0,   {start, start}};
+    }
+    for (int round = 0; round < most_rounds_ && upper_ - lower_ > closing_step(); ++round) {
+      const double trial = next_level();
+      Intervals found = within(trial);
+      if (found.empty()) {
+        lower_ = trial;
+        continue;
+      }
+      previous_ = std::move(intervals_);
+      previous_level_ = upper_;
+      intervals_ = std::move(found);
+      upper_ = trial;
+    }
+    return answer();
+  }
+
+ private:
+  static constexpr int most_rounds_ = 300, most_raises_ = 40;
+
+  Intervals within(double offset) const {
+    return loop_.differential_gains_within(proportional_gain_, offset);
+  }
+
+  /// Below this, levels differ by round-off.
+  double tolerance() const {
+    const double round_off = 1e-14 * (loop_.centre == 0.0 ? std::abs(upper_) : loop_.scale());
+    return round_off + accuracy_ * std::abs((1.0 - loop_.centre) - upper_) + 1e-18;
+  }
+  double closing_step() const { return 4.0 * tolerance(); }
+
+  /// False where no level has gains, as when coefficients overflow.
+  bool begin(double level) {
+    lower_ = -loop_.centre;
+    upper_ = level;
+    // The start may be the minimum itself: its own open level set is then empty.
+    double raise = tolerance();
+    for (int k = 0; k < most_raises_ && (intervals_ = within(upper_)).empty(); ++k, raise *= 4.0) {
+      lower_ = upper_;
+      upper_ += raise;
+    }
+    probe_ = closing_step();
+    return !intervals_.empty();
+  }
+
+  /// The best ρ in sight if it improves, else a step below the level, doubled while it finds gains.
+  double next_level() {
+    double best = upper_;
+    for (const Interval<double>& interval : intervals_) best = std::min(best, best_in(interval));
+    best += tolerance();
+    if (best < upper_ - closing_step() && best > lower_) return best;
+    const double middle = lower_ + (upper_ - lower_) / 2.0;
+    const double below = upper_ - probe_;
+    probe_ *= 2.0;
+    return std::max(below, middle);
+  }
+
+  double best_in(const Interval<double>& interval) const {
+    double best = loop_.radius_offset({proportional_gain_, interval.representative()});
+    for (const Interval<double>& outer : previous_) {
+      if (!(outer.lower < interval.lower && interval.upper < outer.upper)) continue;
+      // The secants of both ends between the last two levels meet at the vertex of a V.
+      const double left = 1.0 / (interval.lower - outer.lower);
+      const double right = 1.0 / (outer.upper - interval.upper);
+      const double vertex = (left * interval.lower + right * interval.upper) / (left + right);
+      best = std::min(best, loop_.radius_offset({proportional_gain_, vertex}));
+    }
+    return best;
+  }
+
+  /// The gains a trifle above the least level: where two roots meet, the radius answers to the
+  /// square root of a change of D on one side, and the very D of the minimum would be a rounding
+  /// error away from a much larger radius.
+  LeastRadius answer() const {
+    const Intervals close = within(upper_ + 1e-12 * std::max(loop_.scale(), std::abs(upper_)));
+    const Interval<double> interval = close.empty() ? intervals_.front() : close.front();
+    const bool idle = !std::isfinite(interval.lower) || !std::isfinite(interval.upper);
+    const double size = std::max(std::abs(interval.lower), std::abs(interval.upper));
+    const bool plateau = interval.upper - interval.lower > 1e-3 * size;
+    const auto outcome = idle      ? LeastRadiusOutcome::idle
+                         : plateau ? LeastRadiusOutcome::plateau
+                                   : LeastRadiusOutcome::point;
+    return {outcome,
+            interval.representative(),
+            loop_.centre + upper_,
+            (1.0 - loop_.centre) - upper_,
+            std::max(0.0, loop_.centre + lower_),
+            interval};
+  }
+
+  LoopPolynomial<double> loop_;
+  double proportional_gain_, accuracy_;
+  double lower_ = 0.0, upper_ = 0.0, previous_level_ = 0.0, probe_ = 0.0;
+  Intervals intervals_, previous_;
+};
+
+}  // namespace detail
+
+/// min over D of ρ(S(P, D)): the global minimum, not by scanning.
+///
+/// With λ = r λ′ the loop has all |λ| < r exactly if the polynomial in λ′ is stable, so that
+/// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`). The least radius
+/// is the r at which it becomes empty. The leading coefficient does not contain D, so ρ grows
+/// without bound as |D| does and the minimum exists unless no coefficient contains D.
+/// @param loop               of `sampled_loop`
+/// @param proportional_gain  P (N/m), finite
+/// @param start              a D (N s/m) to begin from, finite; any will do
+/// @throws InvalidParameter for gains that are not finite
+inline LeastRadius least_radius(const SampledLoop<double>& loop, double proportional_gain,
+                                double start = 0.0) {
+  require_finite("proportional gain P", proportional_gain, "N/m");
+  require_finite("differential gain D", start, "N s/m");
+  return detail::LeastRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,216 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/math/poly/schur_cohn.hpp"
+#include "holdfast/stability/boundary/boundary_features.hpp"
+#include "holdfast/stability/boundary/gain_window.hpp"
+#include "holdfast/stability/design/minimum_radius.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+
+namespace holdfast {
+
+/// How the search for the pair of gains ended.
+enum class LeastRadiusGainsOutcome {
+  found,  ///< `radius` and `lower_bound` agree to 1e−6 of the roots' distance from λ = 1
+  open,   ///< they do not: better gains may exist, but none with a radius below `lower_bound`
+  idle,   ///< the gains, or a combination of them, do not move the roots: P is 0, D the best for it
+};
+
+/// The pair of gains at which the sampled loop forgets fastest.
+struct LeastRadiusGains {
+  LeastRadiusGainsOutcome outcome;  ///< whether `radius` is known to be the least
+  PdGains<double> gains;            ///< P (N/m), D (N s/m)
+  double radius;                    ///< ρ = max |λ| there
+  double margin;                    ///< 1 − radius without cancellation
+  double lower_bound;               ///< no gains whatever have a radius below this; ≤ radius
+};
+
+namespace detail {
+
+/// Narrows a range to what two values leave of it.
+inline void narrow(double& lower, double& upper, double low, double high) {
+  lower = std::max(lower, std::min(low, high));
+  upper = std::min(upper, std::max(low, high));
+}
+
+/// A rectangle that holds all gains with all |λ′| < 1. The coefficient of λ′^k, an affine function
+/// b_k + P p_k + D d_k of the gains, is then within ± C(5, k): five strips, any two of which bound
+/// a parallelogram. Infinite where the strips are all parallel.
+inline GainWindow window_of_unit_radius(const AffinePolynomial<double, 5>& in_powers_of_mu) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto q = in_powers_of_mu.transformed(in_powers_of_lambda<double, 6>);
+  GainWindow window{{-infinity, infinity}, {-infinity, infinity}};
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double pi = q.proportional[i], pj = q.proportional[j];
+      const double di = q.differential[i], dj = q.differential[j];
+      const double determinant = pi * dj - pj * di;
+      // Cramer's rule with ± half-widths: the centre and the largest deviation from it.
+      const double wi = std::abs(q.base[5]) * binomial(5, i);
+      const double wj = std::abs(q.base[5]) * binomial(5, j);
+      const double p = (q.base[j] * di - q.base[i] * dj) / determinant;
+      const double d = (q.base[i] * pj - q.base[j] * pi) / determinant;
+      const double p_reach = (wi * std::abs(dj) + wj * std::abs(di)) / std::abs(determinant);
+      const double d_reach = (wj * std::abs(pi) + wi * std::abs(pj)) / std::abs(determinant);
+      if (!std::isfinite(p_reach + d_reach + p + d)) continue;
+      narrow(window.proportional.lower, window.proportional.upper, p - p_reach, p + p_reach);
+      narrow(window.differential.lower, window.differential.upper, d - d_reach, d + d_reach);
+    }
+  }
+  return window;
+}
+
+/// Narrows the least level r at which {(P, D) : ρ < r} is not empty.
+///
+/// The shape of that set over P changes only at the special points of its boundary, which are known
+/// in closed form (`boundary_features`); between neighbouring ones a single P decides whether the
+/// set has gains there (`stable_intervals`). So each level tested is a bound from above or from
+/// below on the global minimum. Levels to test come from min ρ over D (`LeastRadiusSearch`) in the
+/// middle of the P intervals and where the secants of their ends meet.
+class LeastRadiusGainsSearch {
+ public:
+  using Intervals = std::vector<Interval<double>>;
+
+  explicit LeastRadiusGainsSearch(const LoopPolynomial<double>& loop) : loop_(loop) {}
+
+  LeastRadiusGains run() {
+    upper_ = loop_.radius_offset(best_);
+    if (!is_bounded(upper_)) return answer_without_pair();
+    lower_ = -loop_.centre;
+    intervals_ = within(upper_);
+    probe_ = closing_step();
+    for (int idle_rounds = 0; upper_ - lower_ > closing_step() && idle_rounds < 10;) {
+      const double gap = upper_ - lower_;
+      refine();
+      idle_rounds = upper_ - lower_ < gap ? 0 : idle_rounds + 1;
+    }
+    const bool closed = upper_ - lower_ <= 1000.0 * closing_step();
+    return {closed ? LeastRadiusGainsOutcome::found : LeastRadiusGainsOutcome::open, best_,
+            loop_.centre + upper_, (1.0 - loop_.centre) - upper_,
+            std::max(0.0, loop_.centre + lower_)};
+  }
+
+ private:
+  double closing_step() const {
+    return 1e-9 * std::max(loop_.scale(), std::min(1.0, std::abs(upper_)));
+  }
+
+  bool is_bounded(double offset) const {
+    const GainWindow window = window_of_unit_radius(loop_.at_radius(offset));
+    return std::isfinite(window.width()) && std::isfinite(window.height());
+  }
+
+  LeastRadiusGains answer_without_pair() const {
+    const auto least = LeastRadiusSearch(loop_, 0.0).from(0.0);
+    return {LeastRadiusGainsOutcome::idle,
+            {0.0, least.differential_gain},
+            least.radius,
+            least.margin,
+            least.lower_bound};
+  }
+
+  /// One step down from above, or where that no longer helps one from below.
+  void refine() {
+    const double found = descend();
+    const double drop = upper_ - found, margin = std::abs((1.0 - loop_.centre) - found);
+    accuracy_ = std::clamp(0.02 * drop / margin, 1e-13, accuracy_);
+    if (drop > closing_step()) return accept(found);
+    upper_ = found;
+    const double trial = std::max(upper_ - probe_, lower_ + (upper_ - lower_) / 2.0);
+    probe_ *= 4.0;
+    Intervals below = within(trial);
+    if (below.empty()) {
+      lower_ = trial;
+    } else {
+      intervals_ = std::move(below);
+    }
+  }
+
+  void accept(double level) {
+    Intervals found = within(level);
+    previous_ = std::move(intervals_);
+    intervals_ = std::move(found);
+    upper_ = level;
+  }
+
+  /// The P intervals in which some D has a radius below the level.
+  Intervals within(double offset) const {
+    if (!(loop_.centre + offset > 0.0)) return {};
+    const auto polynomial = loop_.at_radius(offset);
+    const GainWindow window = window_of_unit_radius(polynomial);
+    if (!(window.width() > 0.0) || !(window.height() > 0.0)) return {};
+    std::vector<double> cuts{window.proportional.lower, window.proportional.upper};
+    for (const auto& feature : boundary_features(polynomial, window)) {
+      cuts.push_back(feature.gains.proportional);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    Intervals result;
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const Interval<double> gap{cuts[k], cuts[k + 1]};
+      if (!(gap.lower < gap.upper)) continue;
+      if (stable_differential_gains(polynomial, gap.representative()).empty()) continue;
+      if (!result.empty() && result.back().upper == gap.lower) {
+        result.back().upper = gap.upper;
+      } else {
+        result.push_back(gap);
+      }
+    }
+    return result;
+  }
+
+  /// The least radius over D at promising P; keeps the gains if they are the best so far.
+  double descend() {
+    double best = upper_;
+    for (const Interval<double>& interval : intervals_) {
+      consider(interval.representative(), best);
+      for (const Interval<double>& outer : previous_) {
+        if (!(outer.lower < interval.lower && interval.upper < outer.upper)) continue;
+        const double left = 1.0 / (interval.lower - outer.lower);
+        const double right = 1.0 / (outer.upper - interval.upper);
+        consider((left * interval.lower + right * interval.upper) / (left + right), best);
+      }
+    }
+    return best;
+  }
+
+  void consider(double proportional_gain, double& best) {
+    const auto least =
+        LeastRadiusSearch(loop_, proportional_gain, accuracy_).from(best_.differential);
+    const PdGains<double> gains{proportional_gain, least.differential_gain};
+    const double offset = loop_.radius_offset(gains);
+    if (!(offset < best)) return;
+    best = offset;
+    best_ = gains;
+  }
+
+  LoopPolynomial<double> loop_;
+  PdGains<double> best_{0.0, 0.0};
+  double lower_ = 0.0, upper_ = 0.0, probe_ = 0.0;
+  double accuracy_ = 1e-3;  // of the minima over D, a share of the margin
+  Intervals intervals_, previous_;
+};
+
+}  // namespace detail
+
+/// min over P and D of ρ(S(P, D)): the global minimum over the whole plane, not by scanning.
+///
+/// {(P, D) : ρ < r} is bounded by the curves on which a root of the polynomial in λ′ = λ/r reaches
+/// the unit circle. Whether it is empty is decided in closed form for every r: its special points
+/// cut the P axis into ranges within which one P speaks for all. The least radius is the r at which
+/// it becomes empty. There two pairs often coincide; the roots then answer to the square root of a
+/// change of the gains, so that gains in `double` cannot hold the radius to better than about 1e−8.
+/// Where all roots of the plant have decayed to 1e−6 within a sample the outcome may be `open`.
+/// @param loop  of `sampled_loop`
+inline LeastRadiusGains least_radius_gains(const SampledLoop<double>& loop) {
+  return detail::LeastRadiusGainsSearch(loop_polynomial(loop)).run();
+}
+
+}  // namespace holdfast

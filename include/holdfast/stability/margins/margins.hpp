@@ -1,0 +1,263 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
+#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/margins/slow_sampling.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+
+namespace holdfast {
+
+/// Whether there is anything to measure margins from.
+enum class MarginOutcome {
+  stable,      ///< all margins are there
+  not_stable,  ///< a root on the unit circle or outside: every end is `undefined`
+};
+
+/// How far one can go in one direction.
+enum class MarginEndOutcome {
+  undefined,      ///< the loop is not stable: the numbers are NaN
+  boundary,       ///< a root reaches the unit circle at `position`
+  none,           ///< stable all the way; `position` is where the quantity's range ends
+  beyond_search,  ///< stable as far as was looked, which is `position`
+};
+
+/// One end of the stable stretch of a quantity about its value.
+struct MarginEnd {
+  MarginEndOutcome outcome = MarginEndOutcome::undefined;      ///< what is met in this direction
+  double position = std::numeric_limits<double>::quiet_NaN();  ///< the quantity there
+  /// From the value; ∞ where there is no boundary, and of `beyond_search` how far was looked.
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  BoundaryCurve curve = BoundaryCurve::plus_one;  ///< which root crosses; of a `boundary` only
+  /// Hz; of the motion there, |arg λ|/(2πτ). NaN without a boundary.
+  double frequency = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// The stable stretch about a value: down and up from it.
+struct TwoSidedMargin {
+  MarginEnd below;  ///< towards smaller values
+  MarginEnd above;  ///< towards larger values
+};
+
+/// What the loop can bear before it loses its stability, one quantity moving at a time.
+struct StabilityMargins {
+  MarginOutcome outcome;             ///< whether the loop is stable as it is
+  double unit_circle;                ///< 1 − ρ, not positive where the loop is not stable
+  TwoSidedMargin differential_gain;  ///< D (N s/m)
+  TwoSidedMargin proportional_gain;  ///< P (N/m)
+  TwoSidedMargin sampling_period;    ///< τ (s), δ/τ kept; its range is (0, ∞)
+  TwoSidedMargin processing_delay;   ///< δ (s), τ kept; its range is [0, τ]
+};
+
+/// How far and how finely margins are looked for.
+struct MarginSearch {
+  /// > 1; the walk towards longer sampling periods gives up at this multiple of τ or, if that is
+  /// longer, at twenty periods of the plant's slowest mode, unless stability at all longer ones is
+  /// certain before.
+  double longest_period_ratio = 1000.0;
+  /// 1e−12 … 0.1; the shortest step of the walks along τ and δ as a share of the position. Narrower
+  /// windows of instability may be missed, and so may one that a single step passes over and of
+  /// which the roots, their speeds and p(−1) at both ends of the step show nothing.
+  double smallest_step = 1e-6;
+};
+
+namespace detail {
+
+/// The end at which a root, the one nearest to the unit circle, crosses it.
+inline MarginEnd boundary_end(const SampledLoop<double>& loop, const PdGains<double>& gains,
+                              double position, double value) {
+  std::complex<double> nearest(1.0);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& mu : roots(characteristic_polynomial(loop).at(gains))) {
+    const double excess = std::abs(2.0 * mu.real() + std::norm(mu));  // ||λ|² − 1|
+    if (!(excess < smallest)) continue;
+    smallest = excess;
+    nearest = mu;
+  }
+  const bool real = std::abs(nearest.imag()) <= 1e-6 * std::abs(nearest);
+  const BoundaryCurve curve = !real                   ? BoundaryCurve::complex_pair
+                              : nearest.real() < -1.0 ? BoundaryCurve::minus_one
+                                                      : BoundaryCurve::plus_one;
+  return {MarginEndOutcome::boundary, position, std::abs(position - value), curve,
+          std::abs(std::arg(1.0 + nearest)) / (2.0 * pi<double> * loop.sampling.period)};
+}
+
+/// An end without a boundary.
+inline MarginEnd no_boundary(double position) {
+  MarginEnd end;
+  end.outcome = MarginEndOutcome::none;
+  end.position = position;
+  end.distance = std::numeric_limits<double>::infinity();
+  return end;
+}
+
+inline MarginEnd beyond_search(double position, double value) {
+  MarginEnd end;
+  end.outcome = MarginEndOutcome::beyond_search;
+  end.position = position;
+  end.distance = std::abs(position - value);
+  return end;
+}
+
+/// Both ends of the interval that holds the value; undefined where none does.
+/// @param gains_at  value of the gain that varies → PdGains
+template <class GainsAt>
+TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double value,
+                         const SampledLoop<double>& loop, const GainsAt& gains_at) {
+  const auto end = [&](double position) {
+    return std::isfinite(position) ? boundary_end(loop, gains_at(position), position, value)
+                                   : no_boundary(position);
+  };
+  for (const Interval<double>& interval : intervals) {
+    if (interval.contains(value)) return {end(interval.lower), end(interval.upper)};
+  }
+  return {};
+}
+
+/// Margins along a path through the samplings, the gains held.
+class PathMargin {
+ public:
+  PathMargin(const SamplingPath& path, const PdGains<double>& gains, double value,
+             const MarginSearch& search)
+      : path_(path), gains_(gains), value_(value), search_(search) {}
+
+  /// The first loss of stability between the value and `limit`; `otherwise` where there is none.
+  /// @param first  length of the first step, > 0
+  MarginEnd towards(double limit, double first, const MarginEnd& otherwise) const {
+    const auto watch = [this](double position) {
+      return path_.watched_at(path_.loop_at(position), gains_);
+    };
+    const FirstExit walk = first_exit(watch, value_, limit, first, search_.smallest_step);
+    if (walk.outcome == WalkOutcome::blocked) return {};
+    if (walk.outcome == WalkOutcome::clear) return otherwise;
+    const auto excess = [this](double position) {
+      return loop_polynomial(path_.loop_at(position)).excess(gains_);
+    };
+    const double lower = std::min(walk.last_inside, walk.first_outside);
+    const double upper = std::max(walk.last_inside, walk.first_outside);
+    const auto crossing = bracketing_root(
+        excess, SignChange<double>{lower, upper, excess(lower), excess(upper)}, 0.0);
+    const double position = limit < value_ ? crossing.upper : crossing.lower;
+    return boundary_end(path_.loop_at(position), gains_, position, value_);
+  }
+
+ private:
+  SamplingPath path_;
+  PdGains<double> gains_;
+  double value_;
+  MarginSearch search_;
+};
+
+/// max Re s of the continuous loop, to which the sampled loop tends as τ → 0.
+inline double continuous_abscissa(const TwoDof<double>& plant, const PdGains<double>& gains) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& root : roots(characteristic_polynomial(plant).at(gains))) {
+    largest = std::max(largest, root.real());
+  }
+  return largest;
+}
+
+/// 2π over the least |s| of the plant without control, s.
+inline double slowest_mode_period(const TwoDof<double>& plant) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& root : roots(characteristic_polynomial(plant).base)) {
+    slowest = std::min(slowest, std::abs(root));
+  }
+  return 2.0 * pi<double> / slowest;
+}
+
+inline TwoSidedMargin period_margin(const TwoDof<double>& plant, const Sampling<double>& sampling,
+                                    const PdGains<double>& gains, const MarginSearch& search) {
+  const double period = sampling.period, fraction = sampling.processing_delay / period;
+  const double shortest = 1e-6 * period;
+  const double longest =
+      std::max(search.longest_period_ratio * period, 20.0 * slowest_mode_period(plant));
+  const double certain = SlowSamplingBound(plant, gains, fraction).certain_from();
+  const MarginEnd no_shorter =
+      continuous_abscissa(plant, gains) < 0.0 ? no_boundary(0.0) : beyond_search(shortest, period);
+  const MarginEnd no_longer = certain <= longest
+                                  ? no_boundary(std::numeric_limits<double>::infinity())
+                                  : beyond_search(longest, period);
+  const PathMargin margin(SamplingPath::of_period(plant, fraction), gains, period, search);
+  const double limit = std::max(period, std::min(certain, longest));
+  return {margin.towards(shortest, 0.05 * period, no_shorter),
+          margin.towards(limit, 0.05 * period, no_longer)};
+}
+
+inline TwoSidedMargin delay_margin(const TwoDof<double>& plant, const Sampling<double>& sampling,
+                                   const PdGains<double>& gains, const MarginSearch& search) {
+  const PathMargin margin(SamplingPath::of_delay(plant, sampling.period), gains,
+                          sampling.processing_delay, search);
+  const auto to = [&](double limit) {
+    return margin.towards(limit, 0.05 * sampling.period, no_boundary(limit));
+  };
+  return {to(0.0), to(sampling.period)};
+}
+
+}  // namespace detail
+
+/// @throws InvalidParameter outside the ranges that the members of `MarginSearch` state
+inline void validate(const MarginSearch& search) {
+  require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
+  require_within("smallest step", search.smallest_step, "", 1e-12, 0.1);
+}
+
+/// How far D, P, τ and δ, each on its own, are from the boundary of stability.
+///
+/// D and P: the stable interval about the value, in closed form (`stable_intervals`). τ and δ: the
+/// roots are followed from the value outwards in steps that their measured speed shows to be safe
+/// (`first_exit`), and the crossing of the unit circle is then found by a bracketing root finder on
+/// ρ − 1. Towards τ = 0 the continuous loop decides; towards τ = ∞ stability may be certain
+/// (`SlowSamplingBound`).
+/// @param plant     m, k and c of both masses, within their ranges
+/// @param sampling  τ (s) > 0, δ (s) 0 … τ
+/// @param gains     P (N/m) and D (N s/m), finite
+/// @param search    of the walks along τ and δ; D and P need none
+/// @throws InvalidParameter for a plant, sampling, gains or search outside their ranges
+inline StabilityMargins stability_margins(const TwoDof<double>& plant,
+                                          const Sampling<double>& sampling,
+                                          const PdGains<double>& gains,
+                                          const MarginSearch& search = {}) {
+  validate(plant);
+  validate(sampling);
+  validate(gains);
+  validate(search);
+  const auto loop = sampled_loop(plant, sampling);
+  const auto polynomial = characteristic_polynomial(loop);
+  const double reserve = -loop_polynomial(loop).excess(gains);
+  const TwoSidedMargin by_d =
+      detail::margin_in(stable_differential_gains(polynomial, gains.proportional),
+                        gains.differential, loop, [&](double d) {
+                          return PdGains<double>{gains.proportional, d};
+                        });
+  const TwoSidedMargin by_p =
+      detail::margin_in(stable_proportional_gains(polynomial, gains.differential),
+                        gains.proportional, loop, [&](double p) {
+                          return PdGains<double>{p, gains.differential};
+                        });
+  const bool stable = reserve > 0.0 && by_d.below.outcome != MarginEndOutcome::undefined &&
+                      by_p.below.outcome != MarginEndOutcome::undefined;
+  if (!stable) return {MarginOutcome::not_stable, std::min(reserve, 0.0), {}, {}, {}, {}};
+  return {MarginOutcome::stable,
+          reserve,
+          by_d,
+          by_p,
+          detail::period_margin(plant, sampling, gains, search),
+          detail::delay_margin(plant, sampling, gains, search)};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,160 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/stability/response/response.hpp"
+#include "holdfast/stability/response/response_derivatives.hpp"
+#include "holdfast/stability/sensitivity/sensitivity.hpp"
+
+namespace holdfast {
+
+/// How the least amplitude ratio over D at a fixed P, and its D, answer to the loop.
+struct AmplitudeSensitivity {
+  LeastAmplitudeOutcome outcome;      ///< of the least amplitude; NaN below where it has no D
+  LoopSensitivity ratio;              ///< of the least amplitude over that without control
+  LoopSensitivity differential_gain;  ///< of the D (N s/m) that has it
+};
+
+namespace detail {
+
+/// The squared amplitude ratio N(D)/M(D) and how its coefficients move.
+class MovingRatio {
+ public:
+  using Complex = std::complex<double>;
+
+  MovingRatio(const ResponsePhasors<double>& phasors, double proportional_gain)
+      : phasors_(phasors), proportional_gain_(proportional_gain) {
+    slope_ = phasors.numerator_slope();
+    below_ = 1.0 - proportional_gain * phasors.control_displacement;
+    ratio_ = {squares(phasors.force_displacement, slope_),
+              std::norm(phasors.force_displacement) * squares(below_, -phasors.control_velocity)};
+  }
+
+  const RatioOfQuadratics<double>& ratio() const { return ratio_; }
+
+  /// The rates of both quadratics' coefficients, from the phasors' rates and that of P.
+  RatioOfQuadratics<double> rate(const ResponsePhasors<double>& rates,
+                                 double proportional_rate) const {
+    const auto& [t1, t2, f1, f2] = phasors_;
+    const auto& [t1_rate, t2_rate, f1_rate, f2_rate] = rates;
+    const Complex slope_rate = t1_rate * f2 + t1 * f2_rate - t2_rate * f1 - t2 * f1_rate;
+    const Complex below_rate = -proportional_gain_ * t1_rate - proportional_rate * t1;
+    return {square_rates(f1, slope_, f1_rate, slope_rate),
+            2.0 * (std::conj(f1) * f1_rate).real() * squares(below_, -t2) +
+                std::norm(f1) * square_rates(below_, -t2, below_rate, -t2_rate)};
+  }
+
+ private:
+  /// Coefficients of |a + x b|² and their rates.
+  static Vector<double, 3> squares(const Complex& a, const Complex& b) {
+    return {std::norm(a), 2.0 * (std::conj(a) * b).real(), std::norm(b)};
+  }
+  static Vector<double, 3> square_rates(const Complex& a, const Complex& b, const Complex& a_rate,
+                                        const Complex& b_rate) {
+    return {2.0 * (std::conj(a) * a_rate).real(),
+            2.0 * (std::conj(a_rate) * b + std::conj(a) * b_rate).real(),
+            2.0 * (std::conj(b) * b_rate).real()};
+  }
+
+  ResponsePhasors<double> phasors_;
+  double proportional_gain_;
+  Complex slope_, below_;
+  RatioOfQuadratics<double> ratio_;
+};
+
+/// The rates of the phasors by the carried parameters.
+inline std::array<ResponsePhasors<double>, carried_parameters> phasor_rates(
+    const TwoDof<double>& plant, const SampledLoop<double>& loop, ForceHold hold,
+    const HarmonicInput<double>& input, const ResponseRates& response, double omega) {
+  std::array<ResponsePhasors<double>, carried_parameters> result;
+  const auto rates = loop_rates(plant, loop);
+  const auto by_plant = plant_rates(plant);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    HarmonicInput<double> input_rate{rates[i].held_excitation, Vector<double, 4>::Zero()};
+    std::complex<double> lambda_rate(0.0);
+    if (i == 6) {
+      input_rate = input_rate_by_period(plant, loop, hold, input, omega);
+      lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
+    } else if (i < 6 && hold == ForceHold::exact) {
+      input_rate = exact_input_rate_by_plant(plant, by_plant[i], loop.sampling.period, omega);
+    }
+    result[i] = response.along(rates[i], input_rate, lambda_rate);
+  }
+  return result;
+}
+
+/// ∂ of the ratio at a held D, and of the stationary D, by all parameters.
+struct RatioEntries {
+  Entries ratio;       ///< entry 9: by D
+  Entries stationary;  ///< of the D at which the ratio is stationary
+};
+
+inline RatioEntries ratio_entries(
+    const MovingRatio& moving, const std::array<ResponsePhasors<double>, carried_parameters>& rates,
+    double d) {
+  const RatioOfQuadratics<double>& square = moving.ratio();
+  const double n = evaluate(square.numerator, d), m = evaluate(square.denominator, d);
+  const double ratio = std::sqrt(n / m);
+  const Vector<double, 3> s = square.slope_numerator();
+  const double s_slope = s[1] + 2.0 * s[2] * d;
+  RatioEntries entries{Entries::Zero(), Entries::Zero()};
+  for (int i = 0; i < 9; ++i) {
+    const auto change = i < carried_parameters
+                            ? moving.rate(rates[static_cast<std::size_t>(i)], 0.0)
+                            : moving.rate({}, 1.0);
+    entries.ratio[i] =
+        0.5 * ratio * (evaluate(change.numerator, d) / n - evaluate(change.denominator, d) / m);
+    const Vector<double, 3> s_rate =
+        RatioOfQuadratics<double>{change.numerator, square.denominator}.slope_numerator() +
+        RatioOfQuadratics<double>{square.numerator, change.denominator}.slope_numerator();
+    entries.stationary[i] = -evaluate(s_rate, d) / s_slope;
+  }
+  entries.ratio[9] = 0.5 * ratio * evaluate(s, d) / (n * m);
+  return entries;
+}
+
+}  // namespace detail
+
+/// The sensitivity of `least_amplitude`: of the least amplitude ratio over the admissible D at a
+/// fixed P, and of its D; by D itself the entries are 0.
+///
+/// At a stationary D the ratio moves as at a held D (its slope by D is zero) and D follows the root
+/// of the slope's numerator, a quadratic in D. At the edge D follows the boundary
+/// (`boundary_gain_sensitivity`) and takes the ratio with it.
+/// @param plant              m, k and c of both masses, within their ranges
+/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
+/// @param frequency          f (Hz), > 0; held, so that a P tuned to it moves with k₂ and m₂ only
+///                           (`with_tuned_gain`)
+/// @param proportional_gain  P (N/m), finite
+/// @throws InvalidParameter outside the admissible ranges
+inline AmplitudeSensitivity amplitude_sensitivity(const TwoDof<double>& plant,
+                                                  const AmplitudeQuestion& question,
+                                                  double frequency, double proportional_gain) {
+  const auto least = least_amplitude(plant, question, frequency, proportional_gain);
+  const detail::Entries none = detail::Entries::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (!std::isfinite(least.differential_gain))
+    return {least.outcome, sensitivity_of(none), sensitivity_of(none)};
+  const double omega = 2.0 * pi<double> * frequency, d = least.differential_gain;
+  const auto loop = sampled_loop(plant, question.sampling);
+  const auto input = harmonic_input(plant, loop, question.hold, omega);
+  const ResponseRates response(loop, input, omega);
+  auto [ratio, gain] = detail::ratio_entries(
+      detail::MovingRatio(response.phasors(), proportional_gain),
+      detail::phasor_rates(plant, loop, question.hold, input, response, omega), d);
+  if (least.outcome == LeastAmplitudeOutcome::edge) {
+    gain =
+        entries_of(boundary_gain_sensitivity(plant, question.sampling, {proportional_gain, d},
+                                             BoundaryGain::differential, question.largest_radius));
+    ratio += ratio[9] * gain;
+  }
+  ratio[9] = 0.0;
+  return {least.outcome, sensitivity_of(ratio), sensitivity_of(gain)};
+}
+
+}  // namespace holdfast

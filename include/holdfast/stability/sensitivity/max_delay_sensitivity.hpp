@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/stability/design/delay_options.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
+#include "holdfast/stability/sensitivity/amplitude_sensitivity.hpp"
+#include "holdfast/stability/sensitivity/minimum_radius_sensitivity.hpp"
+#include "holdfast/stability/sensitivity/sensitivity.hpp"
+
+namespace holdfast {
+
+/// How the largest sampling period answers to the loop.
+struct MaxDelaySensitivity {
+  LoopSensitivity sampling_period;  ///< of τ*; its entries by τ, δ and D are 0
+  double by_delay_fraction;  ///< ∂τ*/∂φ, φ = δ/τ (s); one-sided at φ = 0 and φ = 1
+};
+
+namespace detail {
+
+/// The gradient of what is zero at τ*: 1 − min ρ where stability limits it, 1 less the least
+/// amplitude ratio where attenuation does; NaN where it has none.
+inline Entries reserve_gradient(const TwoDof<double>& plant, const MaxDelayQuestion& question,
+                                const MaxDelay& answer) {
+  const auto sampling = question.sampling(answer.sampling_period);
+  const double p = question.proportional_gain;
+  if (answer.limit == MaxDelayLimit::attenuation)
+    return entries_of(
+        amplitude_sensitivity(plant, {sampling, question.hold}, question.frequency, p).ratio);
+  const auto least = least_radius_sensitivity(plant, sampling, {p, answer.differential_gain});
+  if (least.kind == LeastRadiusKind::fixed)
+    return Entries::Constant(std::numeric_limits<double>::quiet_NaN());
+  return entries_of(least.radius);
+}
+
+}  // namespace detail
+
+/// The sensitivity of the largest sampling period τ*, the delay keeping its fraction φ of it and P
+/// its value.
+///
+/// With the quantity G that is zero at τ* (`detail::reserve_gradient`),
+///
+///     ∂τ*/∂x = −G_x/(G_τ + φ G_δ),   ∂τ*/∂φ = −τ* G_δ/(G_τ + φ G_δ)
+///
+/// Where τ* = 1/(2f) no parameter moves it.
+/// @param plant     m, k and c of both masses, within their ranges
+/// @param question  the one that `answer` belongs to
+/// @param answer    of `max_sampling_period` to the same question
+/// @return zeros where `answer` is not `found`; NaN where the least radius at τ* has no sensitivity
+/// (`LeastRadiusKind::fixed`)
+/// @throws InvalidParameter outside the admissible ranges
+inline MaxDelaySensitivity max_delay_sensitivity(const TwoDof<double>& plant,
+                                                 const MaxDelayQuestion& question,
+                                                 const MaxDelay& answer) {
+  validate(plant);
+  validate(question);
+  const bool moves = answer.outcome == MaxDelayOutcome::found &&
+                     answer.limit != MaxDelayLimit::nyquist &&
+                     std::isfinite(answer.differential_gain);
+  if (!moves) return {{}, 0.0};
+  const detail::Entries g = detail::reserve_gradient(plant, question, answer);
+  const double along = g[6] + question.delay_fraction * g[7];
+  detail::Entries result = -g / along;
+  result[6] = result[7] = result[9] = 0.0;
+  return {sensitivity_of(result), -answer.sampling_period * g[7] / along};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,13 @@
+#pragma once
+
+/// Metrics of many motions.
+
+#include "holdfast/sweep/event_metrics.hpp"
+#include "holdfast/sweep/metric_batch.hpp"
+#include "holdfast/sweep/metric_group.hpp"
+#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/metric_track.hpp"
+#include "holdfast/sweep/motion_metrics.hpp"
+#include "holdfast/sweep/phasor_forcing.hpp"
+#include "holdfast/sweep/sweep_matrices.hpp"
+#include "holdfast/sweep/sweep_motion.hpp"

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+#include "holdfast/control/sampling_clock.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/instant.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/motion_metrics.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// The samples of a motion whose clock may jitter: those not after the duration, and of them those
+/// not before half of it.
+inline SampleSpan sample_span(const SamplingClock& clock, double duration) {
+  SampleSpan span = sample_span(0, duration, clock.period());
+  if (clock.jitter().half_width == 0.0) return span;
+  // No sample strays by half a period from the grid, and each comes after the one before.
+  while (not_before(duration, clock.time(span.samples))) ++span.samples;
+  while (!not_before(duration, clock.time(span.samples - 1))) --span.samples;
+  const auto is_steady = [&](std::int64_t index) {
+    return not_before(clock.time(index), 0.5 * duration);
+  };
+  std::int64_t& first = span.first_steady;
+  first = std::min(first, span.samples);
+  while (first > 0 && is_steady(first - 1)) --first;
+  while (first < span.samples && !is_steady(first)) ++first;
+  return span;
+}
+
+/// Of a motion whose changes of contact accumulate after some samples.
+inline MotionMetrics unfollowed_metrics(std::int64_t samples) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {MotionEnd::accumulates, samples, nan, nan, nan, nan, nan, nan, nan, nan};
+}
+
+/// Takes the samples of one motion, each into all that is kept of them.
+class HybridTrack {
+ public:
+  explicit HybridTrack(const SampleSpan& span) : span_(span) {}
+
+  void observe(const HybridSample& sample) {
+    const double velocity = relative_velocity(sample.state);
+    const bool reverses = is_reversal(previous_velocity_, velocity);
+    previous_velocity_ = velocity;
+    extremum_.observe(sample.state[0]);
+    load_.observe(sample.control_force, relative_displacement(sample.state));
+    if (sample.index < span_.first_steady) return;
+    if (sample.index == span_.first_steady) steady_.restart(true, reverses);
+    steady_.observe(sample.state[0], sample.control_force, sample.engaged, reverses);
+  }
+
+  MotionMetrics completed(const SamplingClock& clock) const {
+    MotionMetrics metrics = completed_metrics(sums(span_.samples), span_);
+    const double time = clock.time(span_.samples - 1) - clock.time(span_.first_steady);
+    if (time > 0.0) metrics.reversals_per_s = steady_.reversals / time;
+    return metrics;
+  }
+
+  /// @param samples  with a finite state
+  MotionMetrics diverged(std::int64_t samples) const { return diverged_metrics(sums(samples)); }
+
+ private:
+  LaneSums sums(std::int64_t samples) const {
+    return {extremum_.size(), load_.force(), load_.stroke(), static_cast<double>(samples), steady_};
+  }
+
+  SampleSpan span_;
+  FirstExtremum<double> extremum_;
+  LoadExtent<double> load_;
+  SteadySums<double> steady_;
+  double previous_velocity_ = 0.0;
+};
+
+}  // namespace detail
+
+/// The metrics of sweep/motion_metrics.hpp for one motion of a loop as it is built.
+///
+/// All is taken at the samples, t_j of the loop's clock, also where the drive switches between
+/// them: a sample transmits where the drive is `engaged` (a stick is not), and the force u_j is
+/// what the drive transmits there. Of the loop of the paper's model the metrics are those of
+/// `motion_metrics`, but for rounding.
+///
+///     hybrid_metrics(real_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
+///
+/// Work: that of HybridMotion, and about 30 operations a sample. The loop over samples allocates
+/// nothing.
+/// @param loop           as it is built
+/// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+/// @param duration       s, ≥ 0
+/// @param pause          called every 2¹⁴ samples; may throw to end the motion
+/// @throws InvalidParameter where the loop or the duration is not admissible, or the state not
+/// finite
+inline MotionMetrics hybrid_metrics(const RealLoop& loop, const Vector<double, 4>& initial_state,
+                                    double duration, const std::function<void()>& pause = {}) {
+  constexpr std::int64_t samples_between_pauses = 1 << 14;
+  validate(loop);
+  for (const double entry : initial_state) require_finite("initial state", entry, "SI");
+  const SamplingClock clock(loop.digital.sampling.period, loop.digital.jitter);
+  const detail::SampleSpan span = detail::sample_span(clock, duration);
+  return with_motion(loop, initial_state, [&](auto motion) {
+    detail::HybridTrack track(span);
+    for (std::int64_t taken = 0; taken < span.samples; ++taken) {
+      if (pause && taken % samples_between_pauses == 0) pause();
+      if (!std::isfinite(motion.state().sum())) return track.diverged(taken);
+      track.observe(motion.sense());
+      motion.advance();
+      if (motion.counts().accumulates) return detail::unfollowed_metrics(taken + 1);
+    }
+    return track.completed(clock);
+  });
+}
+
+}  // namespace holdfast

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "holdfast/excitation/recorded_force.hpp"
+
+namespace holdfast::program {
+
+/// The tables of a case file, one struct each; the members bear the names of the keys. Units,
+/// admissible ranges and meaning of each are in case_keys().
+namespace case_tables {
+
+struct Conductor {
+  double mass_per_length = 0.0;
+  double span = 0.0;
+  double sag = 0.0;
+  double area = 0.0;
+  double youngs_modulus = 0.0;
+  double damping_ratio = 0.0;
+  double gravity = 9.81;
+};
+
+struct Absorber {
+  double mass = 0.0;
+  double position = 0.0;
+};
+
+struct Reduction {
+  double first_frequency = 0.0;   // Hz
+  double second_frequency = 0.0;  // Hz
+  std::string stiffness_reading;
+  double reading_below = 0.0;
+  double reading_above = 0.0;
+};
+
+struct Plant {
+  double conductor_mass = 0.0;
+  double conductor_stiffness = 0.0;
+  double conductor_damping = 0.0;
+  double absorber_mass = 0.0;
+  double absorber_stiffness = 0.0;
+  double absorber_damping = 0.0;
+};
+
+struct Control {
+  double proportional_gain = 0.0;  // not in force while tuned: ask resolved_proportional_gain()
+  bool proportional_gain_tuned = false;
+  double differential_gain = 0.0;
+  double sampling_period = 0.0;
+  double processing_delay = 0.0;
+  double displacement_quantum = 0.0;
+  double velocity_quantum = 0.0;
+  std::string velocity = "measured";
+  double largest_force = std::numeric_limits<double>::infinity();  // infinity: "none"
+  double jitter = 0.0;                                             // half width
+  double jitter_seed = 1.0;                                        // whole
+};
+
+struct Backlash {
+  double width = 0.0;
+  std::string law = "kollar";
+  double contact_stiffness = 0.0;
+  double contact_damping = 0.0;
+};
+
+struct Excitation {
+  double amplitude = 0.0;
+  double frequency = 0.0;  // Hz
+  std::string hold = "sampled";
+  std::vector<std::array<double, 3>> harmonics;  // amplitude (N), frequency (Hz), phase (rad)
+  std::string record;                            // a file, seen from the working folder; "": none
+  std::string record_interpolation = "linear";
+  double noise_rms = 0.0;
+  double noise_lowest = 1.0;    // Hz
+  double noise_highest = 50.0;  // Hz
+  double noise_lines = 1000.0;  // whole
+  double noise_seed = 1.0;      // whole
+};
+
+struct Wind {
+  double speed = 0.0;
+  double diameter = 0.0;
+  double effective_length = 0.0;
+  double strouhal = 0.2;
+  double lift_coefficient = 1.0;
+  double air_density = 1.225;
+};
+
+struct Initial {
+  double z1 = 0.0;
+  double v1 = 0.0;
+  double z2 = 0.0;
+  double v2 = 0.0;
+};
+
+}  // namespace case_tables
+
+/// Everything that a case file says, in SI units. load_case() makes one that is checked.
+struct Case {
+  case_tables::Conductor conductor;
+  case_tables::Absorber absorber;
+  case_tables::Reduction reduction;
+  case_tables::Plant plant;
+  case_tables::Control control;
+  case_tables::Backlash backlash;
+  // With wind, its amplitude and frequency do not count: ask effective_excitation().
+  case_tables::Excitation excitation;
+  std::optional<case_tables::Wind> wind;
+  case_tables::Initial initial;
+
+  // What excitation.record holds; null where it is "". CaseSource::attach_record() reads it.
+  std::shared_ptr<const RecordedForce> force_record;
+
+  // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
+  std::map<std::string, std::string> places;
+  bool plant_given = false;      // the user gave a key of [plant]
+  bool conductor_given = false;  // the user gave a key of [conductor], [absorber] or [reduction]
+  // The frequencies of [reduction] are computed from the conductor: it is the user's, they are not.
+  bool first_frequency_computed = false;
+  bool second_frequency_computed = false;
+};
+
+/// The force on the conductor: [excitation] as given, or with its amplitude and frequency made from
+/// [wind]: frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
+/// effective_length·lift_coefficient (N).
+case_tables::Excitation effective_excitation(const Case& the_case);
+
+/// Why the wind's vortices are not those of aeolian vibration (3 to 150 Hz), in words for a
+/// warning; empty where they are, or there is no wind.
+std::string wind_warning(const Case& the_case);
+
+/// The proportional gain in force (N/m): the number given, or for "tuned" Eq. 6,
+/// P = k2 − m2 ω², with ω = 2π·frequency of effective_excitation().
+double resolved_proportional_gain(const Case& the_case);
+
+}  // namespace holdfast::program

@@ -1,0 +1,141 @@
+#include "case/case_keys.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "case/model/cable_of_case.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using case_tables::Backlash;
+using case_tables::Excitation;
+using case_tables::Reduction;
+
+std::string quantity(const char* key, double value, const char* unit) {
+  return std::string(key) + " = " + format_number(value) + " " + unit;
+}
+
+CaseFault control_fault(const Case& c) {
+  if (c.control.processing_delay <= c.control.sampling_period) return {};
+  return {{"control.processing_delay", "control.sampling_period"},
+          quantity("control.processing_delay", c.control.processing_delay, "s") +
+              " must not exceed " +
+              quantity("control.sampling_period", c.control.sampling_period, "s")};
+}
+
+CaseFault jitter_fault(const Case& c) {
+  const double period = c.control.sampling_period, jitter = c.control.jitter;
+  const std::string half_width = quantity("control.jitter", jitter, "s");
+  if (!(jitter < period / 2.0)) {
+    return {{"control.jitter", "control.sampling_period"},
+            half_width + " must be less than half of " +
+                quantity("control.sampling_period", period, "s")};
+  }
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  if (2.0 * jitter + c.control.processing_delay <= period * (1.0 + rounding)) return {};
+  return {{"control.jitter", "control.processing_delay", "control.sampling_period"},
+          "twice " + half_width + " and " +
+              quantity("control.processing_delay", c.control.processing_delay, "s") +
+              " together must not exceed " + quantity("control.sampling_period", period, "s")};
+}
+
+CaseFault contact_fault(const Case& c) {
+  const Backlash& b = c.backlash;
+  if (b.law == "dead_zone") return {};
+  const auto fault = [&](const char* key, double value, const char* unit) -> CaseFault {
+    return {{key, "backlash.law"},
+            quantity(key, value, unit) + " is of the stops of a dead zone: it must be 0 unless " +
+                "backlash.law = \"dead_zone\", here it is \"" + b.law + "\""};
+  };
+  if (b.contact_stiffness > 0.0)
+    return fault("backlash.contact_stiffness", b.contact_stiffness, "N/m");
+  if (b.contact_damping > 0.0) return fault("backlash.contact_damping", b.contact_damping, "N s/m");
+  return {};
+}
+
+CaseFault noise_fault(const Case& c) {
+  const Excitation& force = c.excitation;
+  if (!(force.noise_rms > 0.0) || force.noise_lowest < force.noise_highest) return {};
+  return {{"excitation.noise_lowest", "excitation.noise_highest", "excitation.noise_rms"},
+          quantity("excitation.noise_lowest", force.noise_lowest, "Hz") + " must be less than " +
+              quantity("excitation.noise_highest", force.noise_highest, "Hz")};
+}
+
+CaseFault reduction_fault(const Case& c) {
+  const Reduction& r = c.reduction;
+  if (!(r.first_frequency < r.second_frequency)) {
+    return {{"reduction.first_frequency", "reduction.second_frequency"},
+            quantity("reduction.first_frequency", r.first_frequency, "Hz") + " must be less than " +
+                quantity("reduction.second_frequency", r.second_frequency, "Hz")};
+  }
+  const bool needs_extent = r.stiffness_reading != "tangent";
+  if (needs_extent && !(r.reading_below + r.reading_above > 0.0)) {
+    return {{"reduction.reading_below", "reduction.reading_above", "reduction.stiffness_reading"},
+            "reduction.reading_below and reduction.reading_above must not both be 0 for the "
+            "stiffness reading \"" +
+                r.stiffness_reading + "\""};
+  }
+  return {};
+}
+
+CaseFault force_fault(const Case& c) {
+  const Excitation force = effective_excitation(c);
+  const bool fine =
+      std::isfinite(force.amplitude) && std::isfinite(force.frequency) && force.frequency > 0.0;
+  if (!fine) {
+    return {{"wind.speed", "wind.diameter", "wind.effective_length", "wind.strouhal",
+             "wind.lift_coefficient", "wind.air_density"},
+            "the wind gives an excitation of " + format_number(force.amplitude) + " N at " +
+                format_number(force.frequency) + " Hz, which must be finite and above 0 Hz"};
+  }
+  if (std::isfinite(resolved_proportional_gain(c))) return {};
+  return {{"control.proportional_gain", "excitation.frequency", "plant.absorber_mass"},
+          "the tuned proportional gain k2 - m2 (2 pi frequency)^2 is not finite"};
+}
+
+}  // namespace
+
+CaseFault conductor_fault(const Case& the_case) {
+  const double span = the_case.conductor.span;
+  if (!(the_case.absorber.position < span)) {
+    return {{"absorber.position", "conductor.span"},
+            quantity("absorber.position", the_case.absorber.position, "m") + " must be less than " +
+                quantity("conductor.span", span, "m")};
+  }
+  if (!(the_case.conductor.sag < span / 2.0)) {
+    return {{"conductor.sag", "conductor.span"},
+            quantity("conductor.sag", the_case.conductor.sag, "m") + " must be less than half of " +
+                quantity("conductor.span", span, "m")};
+  }
+  const auto conductor = conductor_of(the_case);
+  const double strain = conductor.parabolic_tension() / conductor.axial_stiffness();
+  // Below, the stretch of a bar of the continuous cable drowns in the round-off of its length.
+  constexpr double smallest_strain = 1e-10, largest_strain = 0.1;
+  if (!(strain >= smallest_strain && strain <= largest_strain)) {
+    return {{"conductor.youngs_modulus", "conductor.area", "conductor.sag",
+             "conductor.mass_per_length", "conductor.span", "conductor.gravity"},
+            "the conductor's own weight would stretch it by " + format_rounded(strain) +
+                " of its length; admissible is from 1e-10, less than which cannot be computed, to "
+                "0.1, more than which no cable bears"};
+  }
+  return {};
+}
+
+CaseFault first_fault(const Case& the_case) {
+  for (const auto find : {control_fault, jitter_fault, contact_fault, conductor_fault,
+                          reduction_fault, force_fault, noise_fault}) {
+    CaseFault fault = find(the_case);
+    if (!fault.message.empty()) return fault;
+  }
+  return {};
+}
+
+void check_case(const Case& the_case) {
+  const CaseFault fault = first_fault(the_case);
+  if (!fault.message.empty()) throw WrongInput(fault.message);
+}
+
+}  // namespace holdfast::program

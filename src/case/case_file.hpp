@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/case_keys.hpp"
+
+namespace holdfast::program {
+
+/// The built-in case, then the file, then each override `key=value` in its order (the value is
+/// TOML; a bare word counts as a string: `control.proportional_gain=tuned`).
+/// [wind] takes the place of excitation.amplitude and excitation.frequency; the other keys of
+/// [excitation] may stand beside it.
+/// A relative excitation.record is one to the folder of the file that it stands in, in an override
+/// to the working folder, where quotes about it may be left out. The case bears it as seen from the
+/// working folder; nobody reads it here.
+/// Throws WrongInput, one line with file and line or the override, the key, the value and what is
+/// admissible: syntax, unknown key, wrong type, out of range, check_case(), unreadable file.
+Case load_case(const std::optional<std::filesystem::path>& file,
+               const std::vector<std::string>& overrides);
+
+/// The same from a text; `name` stands for the file in messages.
+Case load_case_text(const std::string& text, const std::string& name,
+                    const std::vector<std::string>& overrides);
+
+/// The value that a key has in a case, as TOML; empty for [wind] without wind, and for what wind
+/// replaces.
+std::string case_value_text(const CaseKey& key, const Case& the_case);
+
+/// The value that a key has when nobody gives it, as TOML; empty when it must be given.
+std::string case_default(const CaseKey& key);
+
+/// The full case as a commented case file; load_case() of it gives the same case.
+std::string case_to_toml(const Case& the_case);
+
+/// The full case, a JSON object for each table.
+nlohmann::ordered_json case_to_json(const Case& the_case);
+
+}  // namespace holdfast::program

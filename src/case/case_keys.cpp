@@ -1,0 +1,208 @@
+#include "case/case_keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Keys = std::vector<CaseKey>;
+
+/// `greater than 0 s`, `any finite number rad`.
+std::string in_words(const AdmissibleRange& range, const std::string& unit) {
+  std::string words;
+  if (std::isfinite(range.lowest)) {
+    words = (range.lowest_open ? "greater than " : "at least ") + format_number(range.lowest);
+  }
+  if (std::isfinite(range.highest)) {
+    words += words.empty() ? "" : " and ";
+    words += (range.highest_open ? "less than " : "at most ") + format_number(range.highest);
+  }
+  if (words.empty()) words = "any finite number";
+  if (!unit.empty()) words += " " + unit;
+  return range.whole ? "a whole number, " + words : words;
+}
+
+std::string harmonics_in_words() {
+  std::string parts;
+  for (const HarmonicPart& part : harmonic_parts()) {
+    parts += (parts.empty() ? "" : ", ") + std::string(part.name) + " " +
+             in_words(part.range, part.unit);
+  }
+  return "[[amplitude, frequency, phase], ...]: " + parts + " (may be left out)";
+}
+
+/// Symbols of the equations and other words that a key goes by.
+struct OtherName {
+  std::string_view word;
+  std::string_view key;
+};
+
+constexpr std::array<OtherName, 26> other_names = {{
+    {"m1", "plant.conductor_mass"},
+    {"k1", "plant.conductor_stiffness"},
+    {"c1", "plant.conductor_damping"},
+    {"m2", "plant.absorber_mass"},
+    {"k2", "plant.absorber_stiffness"},
+    {"c2", "plant.absorber_damping"},
+    {"p", "control.proportional_gain"},
+    {"kp", "control.proportional_gain"},
+    {"d", "control.differential_gain"},
+    {"kd", "control.differential_gain"},
+    {"tau", "control.sampling_period"},
+    {"dt", "control.sampling_period"},
+    {"delta", "control.processing_delay"},
+    {"delay", "control.processing_delay"},
+    {"r0", "backlash.width"},
+    {"play", "backlash.width"},
+    {"gap", "backlash.width"},
+    {"f", "excitation.frequency"},
+    {"fm", "excitation.amplitude"},
+    {"force", "excitation.amplitude"},
+    {"l", "conductor.span"},
+    {"length", "conductor.span"},
+    {"e", "conductor.youngs_modulus"},
+    {"zeta", "conductor.damping_ratio"},
+    {"f1", "reduction.first_frequency"},
+    {"f2", "reduction.second_frequency"},
+}};
+
+std::string_view after_table(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+/// The key that goes by another name; null where none does.
+const CaseKey* key_by_other_name(std::string_view name) {
+  std::string word(after_table(name));
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const auto found = std::find_if(other_names.begin(), other_names.end(),
+                                  [&](const OtherName& other) { return other.word == word; });
+  return found == other_names.end() ? nullptr : find_case_key(found->key);
+}
+
+std::size_t distance_to(std::string_view name, const CaseKey& key) {
+  // A key given without its table, or in the wrong one, is near as well.
+  const std::size_t dot = name.rfind('.');
+  const std::string_view last = after_table(name);
+  const std::size_t elsewhere = dot == std::string_view::npos ? 1 : 2;
+  return std::min(edit_distance(name, key.name), edit_distance(last, key.short_name()) + elsewhere);
+}
+
+const CaseKey& number_key_named(std::string_view name) {
+  const CaseKey* key = find_case_key(name);
+  if (key == nullptr) {
+    const CaseKey& nearest = nearest_case_key(name);
+    throw WrongInput(std::string(name) + ": unknown key: did you mean " + nearest.name + " (" +
+                     nearest.admissible() + ")?");
+  }
+  if (key->number == nullptr) {
+    throw WrongInput(key->name + " is not a number but " +
+                     (key->word != nullptr ? "a word: " : "") + key->admissible());
+  }
+  return *key;
+}
+
+}  // namespace
+
+bool AdmissibleRange::contains(double value) const {
+  if (!std::isfinite(value)) return false;
+  const bool above = lowest_open ? value > lowest : value >= lowest;
+  const bool below = highest_open ? value < highest : value <= highest;
+  return above && below && !(whole && value != std::trunc(value));
+}
+
+std::string CaseKey::table() const { return name.substr(0, name.find('.')); }
+
+std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1); }
+
+std::string CaseKey::admissible() const {
+  if (file != nullptr) return "the name of a file in quotes, or \"\" for none";
+  if (harmonics != nullptr) return harmonics_in_words();
+  std::string text = number != nullptr ? in_words(range, unit) : "";
+  for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
+  return text;
+}
+
+bool CaseKey::bears_word(Case& the_case) const {
+  if (number == nullptr || words.empty()) return false;
+  return tuned != nullptr ? *tuned(the_case) : std::isinf(*number(the_case));
+}
+
+void CaseKey::give_word(Case& the_case) const {
+  if (tuned != nullptr) {
+    *tuned(the_case) = true;
+  } else {
+    *number(the_case) = std::numeric_limits<double>::infinity();
+  }
+}
+
+const std::array<HarmonicPart, 3>& harmonic_parts() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  static const std::array<HarmonicPart, 3> parts = {{{"amplitude", "N", {0.0}},
+                                                     {"frequency", "Hz", {0.0, infinity, true}},
+                                                     {"phase", "rad", {}}}};
+  return parts;
+}
+
+const CaseKey* find_case_key(std::string_view name) {
+  const Keys& keys = case_keys();
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const CaseKey& key) { return key.name == name; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+const CaseKey& nearest_case_key(std::string_view name) {
+  if (const CaseKey* key = key_by_other_name(name)) return *key;
+  const Keys& keys = case_keys();
+  return *std::min_element(keys.begin(), keys.end(), [&](const CaseKey& a, const CaseKey& b) {
+    return distance_to(name, a) < distance_to(name, b);
+  });
+}
+
+std::string nearest_case_table(std::string_view name) {
+  std::vector<std::string> tables;
+  for (const CaseKey& key : case_keys()) tables.push_back(key.table());
+  return nearest_name(tables, name);
+}
+
+void require_in_force(const Case& the_case, const CaseKey& key) {
+  if (key.table() == "wind" && !the_case.wind)
+    throw WrongInput(key.name + ": the case has no [wind]");
+  if (key.replaced_by_wind && the_case.wind)
+    throw WrongInput(key.name + ": the case has [wind], which stands in place of [excitation]");
+}
+
+void set_case_value(Case& the_case, std::string_view name, double value) {
+  const CaseKey& key = number_key_named(name);
+  if (!key.range.contains(value)) {
+    throw WrongInput(key.name + " = " + format_number(value) + ": admissible is " +
+                     key.admissible());
+  }
+  require_in_force(the_case, key);
+  *key.number(the_case) = value + 0.0;  // a negative zero is zero
+  if (key.tuned != nullptr) *key.tuned(the_case) = false;
+}
+
+Case case_with(Case the_case, std::string_view name, double value) {
+  set_case_value(the_case, name, value);
+  check_case(the_case);
+  return the_case;
+}
+
+double case_value(const Case& the_case, std::string_view name) {
+  const CaseKey& key = number_key_named(name);
+  if (key.tuned != nullptr) return resolved_proportional_gain(the_case);
+  Case copy = the_case;
+  const double* value = key.number(copy);
+  if (value == nullptr) throw WrongInput(key.name + ": the case has no [wind]");
+  return *value;
+}
+
+}  // namespace holdfast::program

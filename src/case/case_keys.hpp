@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/case.hpp"
+
+namespace holdfast::program {
+
+/// The numbers that a key admits; the ends belong to it unless open. Infinity and NaN never do.
+struct AdmissibleRange {
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+  bool lowest_open = false;
+  bool highest_open = false;
+  bool whole = false;  // only whole numbers
+
+  bool contains(double value) const;
+};
+
+/// One of the three numbers of a further harmonic of the excitation.
+struct HarmonicPart {
+  const char* name;
+  const char* unit;
+  AdmissibleRange range;
+};
+
+/// Amplitude, frequency and phase, of which the last may be left out.
+const std::array<HarmonicPart, 3>& harmonic_parts();
+
+/// One key of the case file. Exactly one of `number`, `word`, `file` and `harmonics` says where its
+/// value lies in a case; a key of [wind] gives a null pointer for a case without wind.
+struct CaseKey {
+  std::string name;  // with its table: "control.sampling_period"
+  std::string unit;  // "" without dimension
+  std::string description;
+  AdmissibleRange range;           // of numbers
+  std::vector<std::string> words;  // admissible words; a number may have one, "tuned" or "none"
+  bool required = false;           // of [wind]: has no default
+  bool replaced_by_wind = false;   // of [excitation]: [wind] stands in its place
+  double* (*number)(Case&) = nullptr;
+  std::string* (*word)(Case&) = nullptr;
+  std::string* (*file)(Case&) = nullptr;  // the name of a file, empty for none
+  std::vector<std::array<double, 3>>* (*harmonics)(Case&) = nullptr;
+  bool* (*tuned)(Case&) = nullptr;  // set when a key that is a number is given the word "tuned"
+
+  std::string table() const;       // "control"
+  std::string short_name() const;  // "sampling_period"
+  /// In words: `greater than 0 s`, `a whole number, at least 1 and at most 10000`,
+  /// `"sampled" or "exact"`.
+  std::string admissible() const;
+
+  /// Whether the word of a number stands in place of one: "tuned", or "none", which is infinity.
+  bool bears_word(Case& the_case) const;
+  void give_word(Case& the_case) const;
+};
+
+/// Every key, in the order in which a case is written.
+const std::vector<CaseKey>& case_keys();
+
+/// The key of that name, or null.
+const CaseKey* find_case_key(std::string_view name);
+
+/// The known key, or the known table, closest to a name that is not known (fewest edits).
+const CaseKey& nearest_case_key(std::string_view name);
+std::string nearest_case_table(std::string_view name);
+
+/// Throws WrongInput for a key of [wind] and a case without it, and for one that [wind] stands in
+/// place of.
+void require_in_force(const Case& the_case, const CaseKey& key);
+
+/// The case with one number changed, checked. Throws as set_case_value() and check_case().
+Case case_with(Case the_case, std::string_view name, double value);
+
+/// Sets one number by its key; a sweep calls it, then check_case() once all its keys are set.
+/// A proportional gain set so is no longer tuned.
+/// Throws WrongInput when the key is unknown or not a number, when the value is not finite, out of
+/// range or a fraction where only whole numbers are admitted, when wind.* is set and the case has
+/// no wind, and when excitation.amplitude or excitation.frequency is set and the case has wind.
+void set_case_value(Case& the_case, std::string_view name, double value);
+
+/// One number by its key; the proportional gain as resolved_proportional_gain() gives it, infinity
+/// for a largest force that is "none".
+/// Throws WrongInput when the key is unknown or not a number, or wind.* and there is no wind.
+double case_value(const Case& the_case, std::string_view name);
+
+/// What is wrong between keys that are each admissible alone.
+struct CaseFault {
+  std::vector<std::string> keys;  // those involved
+  std::string message;            // empty: nothing is wrong
+};
+CaseFault first_fault(const Case& the_case);
+
+/// The part of it that is about [conductor] and [absorber].
+CaseFault conductor_fault(const Case& the_case);
+
+/// Throws WrongInput when first_fault() finds one.
+void check_case(const Case& the_case);
+
+}  // namespace holdfast::program

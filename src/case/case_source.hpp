@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+
+namespace holdfast::program {
+
+/// What a case is read from, so that it can be read once more with further values.
+struct CaseSource {
+  std::optional<std::string> text;     // of the case file; none: the built-in case
+  std::string name;                    // of that file, for messages
+  std::vector<std::string> overrides;  // "control.sampling_period=0.002", in their order
+
+  std::shared_ptr<const RecordedForce> force_record;  // every case that is loaded gets it
+
+  /// Reads the recorded force that the case names, if it names one, for it and for those to be
+  /// loaded. Throws what read_force_record() throws.
+  void attach_record(Case& the_case);
+
+  /// The case with further overrides behind the others; its plant is not reduced yet.
+  /// Throws what load_case() throws.
+  Case load(const std::vector<std::string>& further = {}) const;
+};
+
+}  // namespace holdfast::program

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "case/builtin_case.hpp"
+#include "case/case_file.hpp"
+#include "io/text/text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// A TOML float: digits alone would be an integer, of which TOML has only 64 bits.
+std::string toml_number(double value) {
+  std::string text = format_number(value);
+  const bool whole = text.find_first_of(".e") == std::string::npos;
+  return whole ? text + ".0" : text;
+}
+
+/// A TOML string: quotes, backslashes and control characters are escaped.
+std::string toml_string(std::string_view text) {
+  constexpr std::string_view hexadecimal = "0123456789abcdef";
+  std::string quoted = "\"";
+  for (const char character : text) {
+    const auto code = static_cast<unsigned char>(character);
+    if (code < 0x20 || code == 0x7f) {
+      quoted.append("\\u00").append({hexadecimal[code / 16U], hexadecimal[code % 16U]});
+      continue;
+    }
+    if (character == '"' || character == '\\') quoted += '\\';
+    quoted += character;
+  }
+  return quoted + "\"";
+}
+
+std::string toml_harmonics(const std::vector<std::array<double, 3>>& harmonics) {
+  std::string list;
+  for (const auto& [amplitude, frequency, phase] : harmonics) {
+    list += (list.empty() ? "[" : ", [") + toml_number(amplitude) + ", " + toml_number(frequency) +
+            ", " + toml_number(phase) + "]";
+  }
+  return "[" + list + "]";
+}
+
+std::int64_t whole(double value) { return static_cast<std::int64_t>(value); }
+
+std::string toml_value(const CaseKey& key, Case& the_case) {
+  if (key.word != nullptr) return toml_string(*key.word(the_case));
+  if (key.file != nullptr) return toml_string(*key.file(the_case));
+  if (key.harmonics != nullptr) return toml_harmonics(*key.harmonics(the_case));
+  if (key.bears_word(the_case)) return toml_string(key.words.front());
+  const double number = *key.number(the_case);
+  return key.range.whole ? std::to_string(whole(number)) : toml_number(number);
+}
+
+nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
+  if (key.word != nullptr) return *key.word(the_case);
+  if (key.file != nullptr) return *key.file(the_case);
+  if (key.harmonics != nullptr) return *key.harmonics(the_case);
+  if (key.bears_word(the_case)) return key.words.front();
+  const double number = *key.number(the_case);
+  if (key.range.whole) return whole(number);
+  return number;
+}
+
+/// What stands for a case's key: nothing for [wind] without wind, and for what wind replaces.
+bool is_in_force(const CaseKey& key, const Case& the_case) {
+  if (key.table() == "wind") return the_case.wind.has_value();
+  return !(key.replaced_by_wind && the_case.wind);
+}
+
+/// What a person should know of a table before changing it; empty for most.
+std::string table_comment(const std::string& table) {
+  if (table == "conductor")
+    return "# The sag of a span L under a horizontal tension H is mass_per_length gravity L^2 / (8 "
+           "H).\n"
+           "# This table, [absorber] and [reduction] make the plant where [plant] does not give "
+           "it.\n";
+  if (table == "plant")
+    return "# What stands here is used as it is. Take this table away to have the plant reduced "
+           "from\n"
+           "# [conductor], [absorber] and [reduction].\n";
+  if (table == "reduction")
+    return "# Take the frequencies away to have them computed for another conductor, or give those "
+           "that\n"
+           "# you measured; the higher one should be near that of the excitation.\n";
+  if (table == "excitation")
+    return "# In place of amplitude and frequency: a table [wind] with speed, diameter (of the\n"
+           "# conductor) and effective_length.\n";
+  return "";
+}
+
+std::string toml_line(const CaseKey& key, Case& the_case) {
+  std::string line = key.short_name() + " = " + toml_value(key, the_case);
+  constexpr std::size_t comment_column = 32;
+  line.resize(std::max(line.size() + 1, comment_column), ' ');
+  line += "# ";
+  if (!key.unit.empty()) line += key.unit + ", ";
+  line += key.description;
+  if (key.word != nullptr) line += ": " + key.admissible();
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string case_value_text(const CaseKey& key, const Case& the_case) {
+  Case copy = the_case;
+  return is_in_force(key, the_case) ? toml_value(key, copy) : "";
+}
+
+std::string case_default(const CaseKey& key) {
+  if (key.required) return "";
+  Case builtin = load_case(std::nullopt, {});
+  if (!builtin.wind) builtin.wind.emplace();
+  return toml_value(key, builtin);
+}
+
+std::string case_to_toml(const Case& the_case) {
+  Case copy = the_case;
+  std::string text = "# A case of holdfast, SI units.\n";
+  std::string table;
+  for (const CaseKey& key : case_keys()) {
+    if (!is_in_force(key, the_case)) continue;
+    if (key.table() != table) {
+      table = key.table();
+      text += "\n[" + table + "]\n" + table_comment(table);
+    }
+    text += toml_line(key, copy);
+  }
+  return text;
+}
+
+nlohmann::ordered_json case_to_json(const Case& the_case) {
+  Case copy = the_case;
+  nlohmann::ordered_json json;
+  for (const CaseKey& key : case_keys()) {
+    if (!is_in_force(key, the_case)) continue;
+    json[key.table()][key.short_name()] = json_value(key, copy);
+  }
+  return json;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,154 @@
+#include "case/model/loop_of_case.hpp"
+
+#include <limits>
+
+#include "case/case_keys.hpp"
+#include "holdfast/excitation/band_limited_noise.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+DigitalLimits limits_of(const Case& the_case) {
+  const auto& control = the_case.control;
+  return {
+      control.displacement_quantum, control.velocity_quantum,
+      control.velocity == "difference" ? VelocitySensing::difference : VelocitySensing::measured,
+      control.largest_force};
+}
+
+ContactLaw law_of(const std::string& word) {
+  if (word == "immediate") return ContactLaw::immediate;
+  if (word == "play") return ContactLaw::play;
+  if (word == "dead_zone") return ContactLaw::dead_zone;
+  return word == "none" ? ContactLaw::none : ContactLaw::kollar;
+}
+
+/// The main harmonic first, then the further ones, then the noise.
+ComposedForce force_of(const Case& the_case) {
+  const auto given = effective_excitation(the_case);
+  ComposedForce force =
+      composed_force(HarmonicExcitation<double>{given.amplitude, given.frequency});
+  for (const auto& [amplitude, frequency, phase] : given.harmonics)
+    force.harmonics.push_back({amplitude, frequency, phase});
+  if (given.noise_rms > 0.0) {
+    const auto lines = band_limited_noise({given.noise_rms, given.noise_lowest, given.noise_highest,
+                                           static_cast<int>(given.noise_lines),
+                                           static_cast<std::uint64_t>(given.noise_seed)});
+    force.harmonics.insert(force.harmonics.end(), lines.begin(), lines.end());
+  }
+  force.record = the_case.force_record;
+  return force;
+}
+
+}  // namespace
+
+TwoDof<double> plant_of(const Case& the_case) {
+  const auto& plant = the_case.plant;
+  return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
+          plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
+}
+
+PdGains<double> gains_of(const Case& the_case) {
+  return {resolved_proportional_gain(the_case), the_case.control.differential_gain};
+}
+
+Sampling<double> sampling_of(const Case& the_case) {
+  return {the_case.control.sampling_period, the_case.control.processing_delay};
+}
+
+SampledLoop<double> loop_of(const Case& the_case) {
+  return sampled_loop(plant_of(the_case), sampling_of(the_case));
+}
+
+LoopPoint loop_point_of(const Case& the_case) {
+  return {plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
+}
+
+HarmonicExcitation<double> excitation_of(const Case& the_case) {
+  const auto excitation = effective_excitation(the_case);
+  return {excitation.amplitude, excitation.frequency};
+}
+
+ForceHold force_hold_of(const Case& the_case) {
+  return effective_excitation(the_case).hold == "exact" ? ForceHold::exact : ForceHold::sampled;
+}
+
+Vector<double, 4> initial_state_of(const Case& the_case) {
+  const auto& initial = the_case.initial;
+  return {initial.z1, initial.v1, initial.z2, initial.v2};
+}
+
+ForcedLoop<double> forced_loop_of(const Case& the_case) {
+  const double width = the_case.backlash.law == "none" ? 0.0 : the_case.backlash.width;
+  return {plant_of(the_case),
+          sampling_of(the_case),
+          gains_of(the_case),
+          excitation_of(the_case),
+          width,
+          force_hold_of(the_case)};
+}
+
+ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value) {
+  return forced_loop_of(case_with(the_case, key, value));
+}
+
+double end_of_force(const Case& the_case) {
+  return the_case.force_record ? the_case.force_record->last_time()
+                               : std::numeric_limits<double>::infinity();
+}
+
+std::int64_t samples_of(const Case& the_case, double duration) {
+  const double end = end_of_force(the_case);
+  if (duration > end) {
+    throw WrongInput("the motion lasts " + format_number(duration) +
+                     " s, but the force in excitation.record ends at " + format_number(end) + " s");
+  }
+  return samples_within(duration, the_case.control.sampling_period);
+}
+
+SampledMotion<double> motion_of(const Case& the_case) {
+  return harmonically_forced_motion(forced_loop_of(the_case), initial_state_of(the_case));
+}
+
+ForcedLoop<double> uncontrolled(ForcedLoop<double> loop) {
+  loop.gains = {0.0, 0.0};
+  loop.backlash_width = 0.0;
+  return loop;
+}
+
+bool is_of_the_paper(const Case& the_case, Switching switching) {
+  const auto& excitation = the_case.excitation;
+  const ContactLaw law = law_of(the_case.backlash.law);
+  return switching == Switching::sampled &&
+         (law == ContactLaw::kollar || law == ContactLaw::none) && the_case.control.jitter == 0.0 &&
+         is_ideal(limits_of(the_case)) && excitation.harmonics.empty() &&
+         the_case.force_record == nullptr && excitation.noise_rms == 0.0;
+}
+
+RealLoop real_loop_of(const Case& the_case, Switching switching) {
+  const auto& control = the_case.control;
+  const auto& backlash = the_case.backlash;
+  const Jitter jitter{control.jitter, static_cast<std::uint64_t>(control.jitter_seed)};
+  return {
+      plant_of(the_case),
+      {sampling_of(the_case), gains_of(the_case), force_of(the_case), force_hold_of(the_case),
+       limits_of(the_case), jitter},
+      {law_of(backlash.law), backlash.width, backlash.contact_stiffness, backlash.contact_damping},
+      switching};
+}
+
+RealLoop real_loop_with(const Case& the_case, const std::string& key, double value,
+                        Switching switching) {
+  return real_loop_of(case_with(the_case, key, value), switching);
+}
+
+RealLoop uncontrolled(RealLoop loop) {
+  loop.digital.gains = {0.0, 0.0};
+  loop.backlash = {ContactLaw::none};
+  return loop;
+}
+
+}  // namespace holdfast::program

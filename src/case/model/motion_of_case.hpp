@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "case/model/loop_of_case.hpp"
+#include "io/text/text.hpp"
+#include "jobs/motion/motion_run.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+
+namespace holdfast::program {
+
+/// A case as the motion sees it, with the switching that was asked for and with or without control.
+struct MotionChoice {
+  Switching switching = Switching::sampled;
+  bool controlled = true;
+};
+
+/// Calls `visit` with the motion of the case from its initial state: the stepper of the paper's
+/// model where that is all there is to the case, else a HybridMotion.
+template <class Visit>
+auto with_motion_of(const Case& the_case, const MotionChoice& choice, Visit&& visit) {
+  const Vector<double, 4> state = initial_state_of(the_case);
+  if (is_of_the_paper(the_case, choice.switching)) {
+    const ForcedLoop<double> loop = forced_loop_of(the_case);
+    return visit(harmonically_forced_motion(choice.controlled ? loop : uncontrolled(loop), state));
+  }
+  const RealLoop loop = real_loop_of(the_case, choice.switching);
+  return with_motion(choice.controlled ? loop : uncontrolled(loop), state,
+                     std::forward<Visit>(visit));
+}
+
+/// Throws NoAnswer where a motion's changes of contact accumulate, so that it is not to be trusted;
+/// warns where rounding decided some of them.
+template <class Motion>
+void require_resolved(const Motion&, bool) {}
+
+template <class Contact>
+void require_resolved(const HybridMotion<Contact>& motion, bool quiet) {
+  const SwitchCounts& counts = motion.counts();
+  if (counts.accumulates) {
+    throw NoAnswer("the contact changes more than " +
+                   std::to_string(HybridMotion<Contact>::most_switches) +
+                   " times within one sampling period, at t = " + format_number(motion.time()) +
+                   " s at the latest: the motion cannot be followed further");
+  }
+  if (counts.grazing > 0)
+    report_warning(
+        std::to_string(counts.grazing) +
+            " change(s) of contact are decided by rounding: Delta z or its velocity only "
+            "touches where the contact would change",
+        quiet);
+}
+
+}  // namespace holdfast::program

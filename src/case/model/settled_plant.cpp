@@ -1,0 +1,109 @@
+#include "case/model/settled_plant.hpp"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "case/case_keys.hpp"
+#include "case/model/cable_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "io/text/text.hpp"
+#include "jobs/cable/damping_fit.hpp"
+#include "jobs/charts/conditioning.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// The keys of [plant] that the user gave.
+std::vector<const CaseKey*> given_of_plant(const Case& the_case) {
+  std::vector<const CaseKey*> given;
+  for (const CaseKey& key : case_keys())
+    if (key.table() == "plant" && the_case.places.count(key.name) > 0) given.push_back(&key);
+  return given;
+}
+
+void take_plant(Case& the_case, const TwoDof<double>& reduced) {
+  the_case.plant = {reduced.conductor_mass, reduced.conductor_stiffness, reduced.conductor_damping,
+                    reduced.absorber_mass,  reduced.absorber_stiffness,  reduced.absorber_damping};
+}
+
+std::string partial_plant_text(const std::vector<const CaseKey*>& given) {
+  if (given.empty()) return "";
+  std::string names;
+  for (const CaseKey* key : given) names += (names.empty() ? "" : ", ") + key->name;
+  return names + " given; the rest of the plant is reduced from the conductor";
+}
+
+/// A plant of natural frequencies f1 and f2 says little of what the cable does far from them.
+std::string distant_force_text(const Case& the_case) {
+  const double frequency = effective_excitation(the_case).frequency;
+  const double first = the_case.reduction.first_frequency;
+  const double second = the_case.reduction.second_frequency;
+  if (0.5 * first <= frequency && frequency <= 2.0 * second) return "";
+  return "the excitation is at " + format_rounded(frequency) +
+         " Hz, far from the natural frequencies of " + format_rounded(first) + " and " +
+         format_rounded(second) +
+         " Hz that the plant is reduced for: set reduction.first_frequency and "
+         "reduction.second_frequency to two about it";
+}
+
+/// The plant of the conductor, c2 apart; none where it has none.
+std::optional<TwoDof<double>> plant_of_conductor(const Case& the_case) {
+  try {
+    return plant_without_absorber_damping(the_case);
+  } catch (const WrongInput&) {
+    return std::nullopt;
+  } catch (const NoAnswer&) {
+    return std::nullopt;
+  }
+}
+
+/// What the conductor makes of the plant where every key of [plant] is given all the same.
+std::string overruled_conductor_text(const Case& the_case) {
+  if (!the_case.conductor_given || !the_case.plant_given) return "";
+  const std::optional<TwoDof<double>> conductors = plant_of_conductor(the_case);
+  if (!conductors) return "";
+  const TwoDof<double>& reduced = *conductors;
+  const TwoDof<double> given = plant_of(the_case);
+  constexpr double tolerance = 0.1;
+  const auto differ = [](double a, double b) { return std::abs(a - b) > tolerance * std::abs(b); };
+  const bool same = !differ(given.conductor_mass, reduced.conductor_mass) &&
+                    !differ(given.conductor_stiffness, reduced.conductor_stiffness) &&
+                    !differ(given.absorber_stiffness, reduced.absorber_stiffness);
+  if (same) return "";
+  return "every key of [plant] is given, so that [conductor] does not count for it; the conductor "
+         "would give m1 = " +
+         format_rounded(reduced.conductor_mass) +
+         " kg, k1 = " + format_rounded(reduced.conductor_stiffness) +
+         " N/m, k2 = " + format_rounded(reduced.absorber_stiffness) + " N/m";
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() || text.empty() ? "" : "; ") + text;
+  return all;
+}
+
+/// Fits c2 where it is not given; what there is to say of the fit.
+std::string settle_damping(Case& the_case) {
+  if (the_case.places.count("plant.absorber_damping") > 0) return "";
+  const AbsorberDampingFit found = fit_absorber_damping(the_case, plant_of(the_case));
+  the_case.plant.absorber_damping = found.fit.minima.front().plant.absorber_damping;
+  return misfit_warning(found);
+}
+
+}  // namespace
+
+std::string settle_plant(Case& the_case) {
+  if (!plant_is_reduced(the_case)) return overruled_conductor_text(the_case);
+  const std::vector<const CaseKey*> given = given_of_plant(the_case);
+  Case as_given = the_case;
+  take_plant(the_case, plant_without_absorber_damping(the_case));
+  for (const CaseKey* key : given) *key->number(the_case) = *key->number(as_given);
+  const std::string misfit = settle_damping(the_case);
+  return joined({partial_plant_text(given), misfit, sensitive_reduction_warning(the_case),
+                 distant_force_text(the_case)});
+}
+
+}  // namespace holdfast::program

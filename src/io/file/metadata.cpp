@@ -1,0 +1,96 @@
+#include "io/file/metadata.hpp"
+
+#include <cctype>
+
+#include "case/case_file.hpp"
+#include "io/file/build_record.hpp"
+
+#ifndef HOLDFAST_VERSION
+#error "the build defines HOLDFAST_VERSION"
+#endif
+
+namespace holdfast::program {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A file name as a relative URL.
+std::string url_of(const std::string& file_name) {
+  constexpr const char* hexadecimal = "0123456789ABCDEF";
+  const std::string plain = "-._~";
+  std::string url;
+  for (const char character : file_name) {
+    const auto code = static_cast<unsigned char>(character);
+    const bool alphanumeric = code < 0x80 && std::isalnum(code) != 0;
+    if (alphanumeric || plain.find(character) != std::string::npos) {
+      url += character;
+    } else {
+      url += '%';
+      url += hexadecimal[code / 16];
+      url += hexadecimal[code % 16];
+    }
+  }
+  return url;
+}
+
+Json column_metadata(const Column& column) {
+  Json json = {{"name", column.name}, {"titles", column.name}, {"datatype", column.datatype}};
+  if (!column.description.empty()) json["dc:description"] = column.description;
+  if (!column.unit.empty()) json["schema:unitText"] = column.unit;
+  return json;
+}
+
+Json origin(const JobContext& context) {
+  Json options = Json::object();
+  for (const auto& [name, text] : context.options) {
+    // An option may be given more than once.
+    if (!options.contains(name)) {
+      options[name] = text;
+    } else if (options[name].is_array()) {
+      options[name].push_back(text);
+    } else {
+      options[name] = Json::array({options[name], text});
+    }
+  }
+  Json built_with = Json::object();
+  for (const Dependency& dependency : dependencies())
+    built_with[dependency.name] = dependency.version;
+  return {{"version", HOLDFAST_VERSION}, {"compiler", compiler_text()},
+          {"built_with", built_with},    {"job", context.job},
+          {"options", options},          {"case", case_to_json(context.case_data)}};
+}
+
+void append_trust(Json& json, const TrustedDigits& trusted) {
+  if (!is_worth_telling(trusted)) return;
+  json["trusted_digits"] = trusted.digits;
+  if (trusted.until) json["trusted_until_s"] = *trusted.until;
+  if (!trusted.least.empty()) json["least_trusted"] = trusted.least;
+}
+
+}  // namespace
+
+Json table_metadata(const JobContext& context, const std::vector<Column>& columns,
+                    const std::string& file_name, const TrustedDigits& trusted) {
+  Json described = Json::array();
+  for (const Column& column : columns) described.push_back(column_metadata(column));
+  Json note = Json::object();
+  note["holdfast"] = origin(context);
+  append_trust(note["holdfast"], trusted);
+  Json json;
+  json["@context"] = "http://www.w3.org/ns/csvw";
+  json["url"] = url_of(file_name);
+  json["dc:title"] = "holdfast " + context.job;
+  json["tableSchema"]["columns"] = described;
+  json["notes"] = Json::array({note});
+  return json;
+}
+
+std::filesystem::path metadata_path(const std::filesystem::path& file) {
+  return file.parent_path() / (file.filename().string() + "-metadata.json");
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace holdfast::program

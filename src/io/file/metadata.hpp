@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/text/csv.hpp"
+#include "jobs/motion/trusted_digits.hpp"
+#include "process/job_context.hpp"
+
+namespace holdfast::program {
+
+/// What made a table and what its columns are, as W3C CSV on the Web metadata. `file_name` is the
+/// table's name without folder. Units are `schema:unitText`. `notes[0].holdfast` holds version,
+/// job, options and the full case. There is no date: the same question gives the same bytes.
+/// Where fewer than six digits of the table are to be trusted, `trusted_digits` says how many, with
+/// `trusted_until_s` for a motion and `least_trusted` for a table of single quantities.
+nlohmann::ordered_json table_metadata(const JobContext& context, const std::vector<Column>& columns,
+                                      const std::string& file_name,
+                                      const TrustedDigits& trusted = {});
+
+/// FILE-metadata.json beside FILE.
+std::filesystem::path metadata_path(const std::filesystem::path& file);
+
+/// The JSON as it is written: indented, with a final line end. Text that is not UTF-8 is mended.
+std::string json_text(const nlohmann::ordered_json& json);
+
+}  // namespace holdfast::program

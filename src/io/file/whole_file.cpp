@@ -1,0 +1,105 @@
+#include "io/file/whole_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+
+#include "io/file/descriptor.hpp"
+#include "io/file/new_file.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view ending = ".tmp";
+
+fs::path temporary_beside(const fs::path& file) {
+  static std::atomic<unsigned> count{0};
+  return file.parent_path() / ("." + file.filename().string() + "-" + std::to_string(getpid()) +
+                               "-" + std::to_string(count.fetch_add(1)) + std::string(ending));
+}
+
+bool is_number(std::string_view text) {
+  const auto is_digit = [](char character) { return character >= '0' && character <= '9'; };
+  return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
+}
+
+/// Finishes a write that a signal cuts short: what comes here is ready, and a job looks for the
+/// signal between its pieces of work.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// As much as there is, up to the size of the text, which is cut to it.
+int read_all(int descriptor, std::string& text) {
+  std::size_t filled = 0;
+  while (filled < text.size()) {
+    const ssize_t count = ::read(descriptor, text.data() + filled, text.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+  }
+  text.resize(filled);
+  return 0;
+}
+
+/// Reads an open file; gives 0 or the system's error number.
+int read_regular(int descriptor, std::string& text) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) return errno;
+  if (S_ISDIR(status.st_mode)) return EISDIR;
+  if (!S_ISREG(status.st_mode)) return EINVAL;
+  text.resize(static_cast<std::size_t>(status.st_size));
+  return read_all(descriptor, text);
+}
+
+}  // namespace
+
+int write_whole_file(const fs::path& file, std::string_view bytes) {
+  fs::path temporary;
+  const int descriptor = open_new_file([&file] { return temporary_beside(file); }, temporary);
+  if (descriptor < 0) return errno;
+  int error = write_all(descriptor, bytes);
+  // Some file systems report a lack of space only here. The file is not forced to the disk, which
+  // would cost more than most tiles do; whoever reads it must know a truncated one.
+  if (close(descriptor) != 0 && errno != EINTR && error == 0) error = errno;
+  if (error == 0 && rename(temporary.c_str(), file.c_str()) != 0) error = errno;
+  if (error != 0) unlink(temporary.c_str());
+  return error;
+}
+
+std::optional<std::string> name_behind_temporary(std::string_view name) {
+  const bool framed = name.size() > ending.size() && name.front() == '.' &&
+                      name.substr(name.size() - ending.size()) == ending;
+  if (!framed) return std::nullopt;
+  name = name.substr(1, name.size() - 1 - ending.size());
+  for (int number = 0; number < 2; ++number) {
+    const std::size_t dash = name.rfind('-');
+    if (dash == std::string_view::npos || !is_number(name.substr(dash + 1))) return std::nullopt;
+    name = name.substr(0, dash);
+  }
+  if (name.empty()) return std::nullopt;
+  return std::string(name);
+}
+
+std::optional<std::string> read_whole_file(const fs::path& file, int& error) {
+  // Without O_NONBLOCK a pipe would be waited for.
+  const Descriptor descriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  std::string text;
+  error = descriptor.is_open() ? read_regular(descriptor.number(), text) : errno;
+  if (error != 0) return std::nullopt;
+  return text;
+}
+
+}  // namespace holdfast::program

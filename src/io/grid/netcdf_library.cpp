@@ -1,0 +1,73 @@
+#include "io/grid/netcdf_library.hpp"
+
+#include <string>
+
+#include "process/errors.hpp"
+
+#ifdef HOLDFAST_HAS_NETCDF
+#include <dlfcn.h>
+#endif
+
+namespace holdfast::program {
+
+#ifdef HOLDFAST_HAS_NETCDF
+
+namespace {
+
+[[noreturn]] void refuse_to_load() {
+  const char* reason = dlerror();
+  throw NoAnswer("the netCDF C library cannot be loaded (" +
+                 std::string(reason != nullptr ? reason : "no reason given") +
+                 "): install the package libnetcdf-dev");
+}
+
+/// HDF5, under netCDF, tidies up when the process ends, and dies of a file that it could not finish
+/// for want of space. All that it shall finish is closed before.
+void forgo_tidying_at_exit(void* library) {
+  const auto forgo = reinterpret_cast<int (*)()>(dlsym(library, "H5dont_atexit"));
+  if (forgo != nullptr) forgo();
+}
+
+/// The library with which the program was built, or the one of that name on this machine.
+void* load() {
+  const std::string path = HOLDFAST_NETCDF_LIBRARY;
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) {
+    library = dlopen(path.substr(path.rfind('/') + 1).c_str(), RTLD_NOW | RTLD_LOCAL);
+  }
+  if (library == nullptr) refuse_to_load();
+  forgo_tidying_at_exit(library);
+  return library;
+}
+
+void* netcdf_library() {
+  static void* const library = load();
+  return library;
+}
+
+}  // namespace
+
+void require_netcdf() { netcdf_library(); }
+
+void* netcdf_symbol(const char* name) {
+  void* symbol = dlsym(netcdf_library(), name);
+  if (symbol == nullptr) refuse_to_load();
+  return symbol;
+}
+
+#else
+
+void require_netcdf() {
+  throw NoAnswer(
+      "netCDF needs the netCDF C library, which this program was built without: install the "
+      "package libnetcdf-dev and build again, or give a name that ends in .csv");
+}
+
+void* netcdf_symbol(const char*) {
+  require_netcdf();
+  return nullptr;
+}
+
+#endif
+
+}  // namespace holdfast::program

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "io/file/output.hpp"
+
+namespace holdfast::program {
+
+/// A column of a table that the program writes.
+struct Column {
+  std::string name;
+  std::string unit;  // "" without dimension
+  std::string description;
+  std::string datatype = "double";  // of CSV on the Web: double, integer, boolean, string
+};
+
+/// The text as a cell of CSV: in quotes where RFC 4180 wants them.
+std::string csv_cell(std::string_view text);
+
+/// Writes a table as CSV (RFC 4180: CRLF line ends, quotes where needed), the header row first.
+/// Numbers have the shortest digits that read back the same; `inf`, `-inf`, `nan`; booleans 0, 1.
+///
+///     writer.row(0.5, 12, "spring");
+///     writer.cell(0.5); writer.cell(12); writer.end_row();   // where the width is not fixed
+///
+/// Throws std::logic_error when a row has not as many cells as there are columns, Interrupted
+/// every so many rows, and what OutputFile::write() throws.
+class CsvWriter {
+ public:
+  CsvWriter(OutputFile& output, const std::vector<Column>& columns);
+
+  void cell(double value);
+  void cell(std::string_view text);
+  void cell(const char* text) { cell(std::string_view(text)); }
+  void cell(const std::string& text) { cell(std::string_view(text)); }
+  template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
+  void cell(Integer value) {
+    if constexpr (std::is_unsigned_v<Integer>) {
+      unsigned_cell(value);
+    } else {
+      signed_cell(value);
+    }
+  }
+  void end_row();
+
+  template <typename... Cells>
+  void row(const Cells&... cells) {
+    (cell(cells), ...);
+    end_row();
+  }
+
+  /// Rows that are text already, each with its cells and its line end as this class writes them.
+  void rows_of_text(std::string_view text, std::uint64_t rows);
+
+  /// Hands what is still held back to the output; call before its commit().
+  void flush();
+
+  std::uint64_t rows() const { return rows_; }
+
+ private:
+  void separate();
+  void end_line();
+  void signed_cell(std::int64_t value);
+  void unsigned_cell(std::uint64_t value);
+
+  OutputFile& output_;
+  std::size_t width_;
+  std::size_t cells_in_row_ = 0;
+  std::uint64_t rows_ = 0;
+  std::string buffer_;
+};
+
+/// A table read from CSV: text cells, with numbers on request.
+class CsvTable {
+ public:
+  const std::vector<std::string>& names() const { return names_; }
+  std::size_t rows() const { return lines_.size(); }
+  bool has(std::string_view column) const;
+
+  /// Throws WrongInput when there is no such column; it names those there are.
+  const std::string& text(std::size_t row, std::string_view column) const;
+  /// Throws WrongInput with file and line for a cell that is not a number; `inf`, `nan` are.
+  double number(std::size_t row, std::string_view column) const;
+  std::vector<double> numbers(std::string_view column) const;
+
+  /// The line of the file on which a row begins, for messages.
+  std::size_t line(std::size_t row) const { return lines_[row]; }
+
+ private:
+  friend CsvTable parse_csv(std::string_view text, const std::string& name);
+  std::size_t index(std::string_view column) const;
+  double number_at(std::size_t row, std::size_t column) const;
+
+  std::string name_;
+  std::vector<std::string> names_;
+  std::vector<std::string> cells_;  // row after row
+  std::vector<std::size_t> lines_;
+};
+
+/// Reads a CSV file with a header row: LF or CRLF, quoted fields that may hold both, blank lines
+/// skipped. Throws WrongInput, `file:line: …`, for anything malformed or unreadable.
+CsvTable read_csv(const std::filesystem::path& file);
+
+/// The same from a text; `name` stands for the file in messages.
+CsvTable parse_csv(std::string_view text, const std::string& name);
+
+}  // namespace holdfast::program

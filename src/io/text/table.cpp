@@ -1,0 +1,59 @@
+#include "io/text/table.hpp"
+
+#include <system_error>
+
+#include "io/file/metadata.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// A name that promises netCDF would lie about what stands in the file. Charts and sweeps keep the
+/// promise elsewhere.
+const std::optional<std::filesystem::path>& csv_target(
+    const std::optional<std::filesystem::path>& path) {
+  if (is_netcdf_name(path)) {
+    throw WrongInput("--output " + path->string() +
+                     ": only stability, response, basins and sweep write netCDF; give a name that "
+                     "ends in .csv");
+  }
+  return path;
+}
+
+}  // namespace
+
+Table::Table(const JobContext& context, const std::vector<Column>& columns)
+    : output_(csv_target(context.output)),
+      writer_(output_, columns),
+      context_(context),
+      columns_(columns) {
+  if (output_.is_file()) metadata_ = std::make_unique<OutputFile>(metadata_path(output_.target()));
+}
+
+void Table::commit() {
+  writer_.flush();
+  output_.finish();
+  if (!metadata_) {
+    output_.commit();
+    return;
+  }
+  const std::string name = output_.target().filename().string();
+  metadata_->write(json_text(table_metadata(context_, columns_, name, trusted_)));
+  // The table last: whoever sees it finds its metadata.
+  metadata_->commit();
+  try {
+    output_.commit();
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(metadata_->target(), ignored);
+    throw;
+  }
+}
+
+void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {
+  table.trust(trusted);
+  report_warning(trust_warning(trusted), context.quiet);
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "io/file/output.hpp"
+#include "io/text/csv.hpp"
+#include "jobs/motion/trusted_digits.hpp"
+#include "process/job_context.hpp"
+
+namespace holdfast::program {
+
+/// A job's result: a CSV table and, for a named file, its metadata; both appear at commit() or
+/// neither does.
+///
+///     Table table(context, {{"time_s", "s", "time"}, {"z1_m", "m", "displacement"}});
+///     table.row(0.0, 0.1);
+///     table.commit();
+///
+/// Throws what OutputFile and CsvWriter throw; a path that cannot be written is refused before
+/// anything is computed.
+class Table {
+ public:
+  Table(const JobContext& context, const std::vector<Column>& columns);
+
+  template <typename... Cells>
+  void row(const Cells&... cells) {
+    writer_.row(cells...);
+  }
+
+  /// For rows whose width is known only when the program runs: cell() … end_row().
+  CsvWriter& writer() { return writer_; }
+
+  /// What the metadata say of the table's digits; call before commit().
+  void trust(const TrustedDigits& trusted) { trusted_ = trusted; }
+
+  void commit();
+
+ private:
+  OutputFile output_;
+  CsvWriter writer_;
+  std::unique_ptr<OutputFile> metadata_;  // none for standard output
+  JobContext context_;
+  std::vector<Column> columns_;
+  TrustedDigits trusted_;
+};
+
+/// Puts the digits of a table into its metadata and, where there are few, tells the user.
+void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted);
+
+}  // namespace holdfast::program

@@ -1,0 +1,156 @@
+#include "io/text/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace holdfast::program {
+namespace {
+
+/// Whether the byte is not the first of a character of UTF-8.
+bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
+/// Code points that UTF-8 writes with so many bytes begin here; below is an overlong form.
+constexpr std::array<unsigned, 5> least_code_point = {0, 0, 0x80, 0x800, 0x10000};
+
+/// Bytes that a first byte announces; 0: it is none.
+std::size_t announced_length(unsigned char first) {
+  if (first < 0x80U) return 1;
+  if ((first & 0xE0U) == 0xC0U) return 2;
+  if ((first & 0xF0U) == 0xE0U) return 3;
+  return (first & 0xF8U) == 0xF0U ? 4 : 0;
+}
+
+/// Bytes of the first character of a text that is not empty; 0 where it is not UTF-8.
+std::size_t length_of_character(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = announced_length(first);
+  if (length <= 1) return length;
+  if (text.size() < length) return 0;
+  unsigned code_point = first & (0xFFU >> (length + 1));
+  for (std::size_t k = 1; k < length; ++k) {
+    if (!is_continuation(text[k])) return 0;
+    code_point = code_point << 6U | (static_cast<unsigned char>(text[k]) & 0x3FU);
+  }
+  const bool surrogate = code_point >= 0xD800U && code_point <= 0xDFFFU;
+  const bool admissible = code_point >= least_code_point[length] && code_point <= 0x10FFFFU;
+  return admissible && !surrogate ? length : 0;
+}
+
+bool is_control(char character) {
+  const auto code = static_cast<unsigned char>(character);
+  return code < 0x20 || code == 0x7f;
+}
+
+bool is_blank(char character) { return character == ' ' || character == '\t'; }
+
+}  // namespace
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  bool in_run = false;
+  for (const char character : text) {
+    const bool control = is_control(character);
+    if (!control) line += character;
+    if (control && !in_run) line += ' ';
+    in_run = control;
+  }
+  return std::string(trimmed(line));
+}
+
+std::string shortened(std::string text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && is_continuation(text[end])) --end;
+  text.resize(end);
+  return text + "...";
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = length_of_character(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  std::size_t begin = 0;
+  for (;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+std::string format_number(double value) {
+  if (std::isnan(value)) return "nan";  // to_chars would tell the sign of a NaN
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return std::string(digits.data(), result.ptr);
+}
+
+std::string format_rounded(double value) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                    std::chars_format::general, 5);
+  return std::string(digits.data(), result.ptr);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  if (plus) text.remove_prefix(1);
+  double value = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = result.ptr == text.data() + text.size() && !text.empty();
+  if (!whole || result.ec == std::errc::invalid_argument) return std::nullopt;
+  // Out of a double's range: too small is as good as zero, too large is infinite.
+  if (result.ec == std::errc::result_out_of_range) {
+    const bool negative = text.front() == '-';
+    const bool tiny =
+        text.find("e-") != std::string_view::npos || text.find("E-") != std::string_view::npos;
+    const double size = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    return negative ? -size : size;
+  }
+  return value;
+}
+
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  // Row i holds the distances of the first i characters of `from` to every beginning of `to`.
+  std::vector<std::size_t> row_before_last(to.size() + 1);
+  std::vector<std::size_t> last_row(to.size() + 1);
+  std::vector<std::size_t> row(to.size() + 1);
+  for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    row_before_last.swap(last_row);
+    last_row.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t change = from[i - 1] == to[j - 1] ? 0 : 1;
+      row[j] = std::min({last_row[j] + 1, row[j - 1] + 1, last_row[j - 1] + change});
+      const bool swapped = i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1];
+      if (swapped) row[j] = std::min(row[j], row_before_last[j - 2] + 1);
+    }
+  }
+  return row[to.size()];
+}
+
+std::string nearest_name(const std::vector<std::string>& names, std::string_view word) {
+  return *std::min_element(names.begin(), names.end(),
+                           [&](const std::string& a, const std::string& b) {
+                             return edit_distance(word, a) < edit_distance(word, b);
+                           });
+}
+
+}  // namespace holdfast::program

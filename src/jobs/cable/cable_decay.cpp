@@ -1,0 +1,101 @@
+#include "jobs/cable/cable_decay.hpp"
+
+#include "case/model/cable_of_case.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+#ifdef HOLDFAST_HAS_SUNDIALS
+#include "holdfast/cable/condensed_cable.hpp"
+#include "holdfast/cable/modes.hpp"
+#include "holdfast/sundials/load_removal.hpp"
+#endif
+
+namespace holdfast::program {
+
+CableDecayQuestion usual_decay(const Case& the_case) {
+  const double period = 1.0 / the_case.reduction.first_frequency;
+  const double force = the_case.absorber.mass * the_case.conductor.gravity / 8.0;
+  return {force, 6.0 * period, period / 250.0};
+}
+
+#ifdef HOLDFAST_HAS_SUNDIALS
+
+namespace {
+
+/// Refuses a decay of so many periods of the cable that it would take for ever, as when the
+/// frequencies of the reduction are not those of the cable at all.
+void require_followable(const Case& the_case, const CableDecayQuestion& question) {
+  constexpr double most_periods = 1e5;
+  const double lowest = irvine_modes(conductor_of(the_case), 1).front().frequency;
+  const double periods = question.duration * lowest;
+  if (periods <= most_periods) return;
+  throw NoAnswer("a decay over " + format_rounded(question.duration) + " s has " +
+                 format_rounded(periods) + " periods of the cable (" + format_rounded(lowest) +
+                 " Hz), more than are followed; its length is given, or six periods of "
+                 "reduction.first_frequency");
+}
+
+template <class Cable>
+CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
+  const auto removal = cvode::load_removal(cable, question.force, question.duration,
+                                           question.interval, {}, throw_if_interrupted);
+  const std::string force = "a force of " + format_number(question.force) + " N";
+  switch (removal.outcome) {
+    case cvode::LoadRemovalOutcome::completed:
+      break;
+    case cvode::LoadRemovalOutcome::slack:
+      throw WrongInput("after " + force + " is removed the cable goes slack within " +
+                       format_rounded(removal.last_time) +
+                       " s, and its model ends: take a smaller force");
+    case cvode::LoadRemovalOutcome::no_equilibrium:
+      throw NoAnswer("under " + force + " no equilibrium of the elements was found");
+    case cvode::LoadRemovalOutcome::integration_failed:
+      throw NoAnswer("CVODE gave up after " + format_number(removal.last_time) +
+                     " s: " + one_line(removal.words));
+  }
+  return {removal.initial_displacement, removal.record};
+}
+
+}  // namespace
+
+bool has_sundials() { return true; }
+void require_sundials() {}
+
+CableDecay cable_decay(const Case& the_case, const CableDecayQuestion& question) {
+  require_force_within_statics(the_case, question.force);
+  require_followable(the_case, question);
+  return decay_of(elements_of(the_case, question.elements, question.reading), question);
+}
+
+CableDecay condensed_decay(const Case& the_case, const CableDecayQuestion& question) {
+  require_force_within_statics(the_case, question.force);
+  require_followable(the_case, question);
+  const CondensedCable<8> cable(conductor_of(the_case), the_case.absorber.position,
+                                the_case.absorber.mass, rayleigh_damping_of(the_case));
+  return decay_of(cable, question);
+}
+
+#else
+
+bool has_sundials() { return false; }
+
+void require_sundials() {
+  throw NoAnswer(
+      "the continuous cable needs SUNDIALS, which this program was built without: install the "
+      "package libsundials-dev and build again");
+}
+
+CableDecay cable_decay(const Case&, const CableDecayQuestion&) {
+  require_sundials();
+  return {};
+}
+
+CableDecay condensed_decay(const Case&, const CableDecayQuestion&) {
+  require_sundials();
+  return {};
+}
+
+#endif
+
+}  // namespace holdfast::program

@@ -1,0 +1,49 @@
+#include "jobs/charts/conditioning.hpp"
+
+#include <algorithm>
+
+#include "case/model/cable_of_case.hpp"
+#include "holdfast/orbit/loop_orbit.hpp"
+#include "io/text/text.hpp"
+
+namespace holdfast::program {
+
+std::string sensitive_reduction_warning(const Case& the_case) {
+  const ReductionResult result = reduction_of(the_case);
+  const ReducedMasses& taken = result.solutions[0];
+  if (result.outcome != ReductionOutcome::double_solution && !taken.is_ill_conditioned()) return "";
+  return "the reduction is near its double solution (discriminant " +
+         format_rounded(result.discriminant) +
+         "): an error of 1 % of k1, m2 and the two frequencies may be one of " +
+         format_rounded(taken.stiffness_condition) + " % of k2 and " +
+         format_rounded(taken.mass_condition) + " % of m1";
+}
+
+template <class Scalar>
+std::string near_cusp_warning(const std::vector<BoundaryFeature<Scalar>>& features) {
+  const auto near = std::find_if(features.begin(), features.end(),
+                                 [](const auto& feature) { return feature.nearly_cusp; });
+  if (near == features.end()) return "";
+  return "the boundary nearly has a cusp at P = " +
+         format_rounded(static_cast<double>(near->gains.proportional)) +
+         " N/m, D = " + format_rounded(static_cast<double>(near->gains.differential)) +
+         " N s/m: there a small change of the loop makes stable intervals appear or vanish";
+}
+
+template std::string near_cusp_warning(const std::vector<BoundaryFeature<double>>&);
+template std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>&);
+
+std::string near_border_warning(double border_share) {
+  if (!(border_share < near_border)) return "";
+  return "the orbit passes a switching surface at " + format_rounded(border_share) +
+         " of its own size: a change of the loop in its fourth digit may end it";
+}
+
+std::string open_sign_warning(const LyapunovResult& result) {
+  if (result.sign_is_known()) return "";
+  return "the largest exponent, " + format_rounded(result.exponents[0]) + " per sample with the " +
+         "standard error " + format_rounded(result.standard_errors[0]) +
+         ", is not told from zero: a longer --duration may tell its sign";
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/stability/boundary/boundary_feature.hpp"
+
+namespace holdfast::program {
+
+/// What the user has to know of an answer that a small change of the question would change much;
+/// empty where there is nothing. Each is one line.
+
+/// Of a reduction near its double solution.
+std::string sensitive_reduction_warning(const Case& the_case);
+
+/// Of tangents of the boundary that are nearly a cusp.
+/// @tparam Scalar  of double or long double
+template <class Scalar>
+std::string near_cusp_warning(const std::vector<BoundaryFeature<Scalar>>& features);
+
+/// Of an orbit near a switching surface.
+/// @param border_share  of PeriodicOrbit or HybridOrbit
+std::string near_border_warning(double border_share);
+
+/// Of a largest exponent whose sign is not known.
+std::string open_sign_warning(const LyapunovResult& result);
+
+}  // namespace holdfast::program

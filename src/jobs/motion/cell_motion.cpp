@@ -1,0 +1,138 @@
+#include "jobs/motion/cell_motion.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <memory>
+
+#include "case/model/loop_of_case.hpp"
+#include "compiled_once/verdict.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/sweep/event_metrics.hpp"
+#include "holdfast/sweep/metric_batch.hpp"
+#include "jobs/charts/row_blocks.hpp"
+#include "jobs/motion/motion_run.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Motions that are computed at once.
+constexpr std::size_t motions_of_batch = 256;
+
+/// Lets a batch be interrupted.
+struct LookForInterrupt : IgnoreSwitching {
+  void pause() const { throw_if_interrupted(); }
+};
+
+/// Writes the metrics of some motions of the paper's model to their places.
+void batch_metrics(const std::vector<SweepMotion>& motions, const std::vector<std::size_t>& places,
+                   double duration, std::vector<MotionMetrics>& all) {
+  std::vector<MotionMetrics> metrics(motions.size());
+  for (std::size_t first = 0; first < motions.size(); first += motions_of_batch) {
+    motion_metrics<ChartNumber>(motions.data() + first,
+                                std::min(motions_of_batch, motions.size() - first), duration,
+                                metrics.data() + first, LookForInterrupt());
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
+}
+
+template <class Search>
+std::int64_t certified_period(const Search& search) {
+  return search.outcome == OrbitOutcome::certified ? search.orbit->period_samples() : 0;
+}
+
+LyapunovResult exponents_of_paper(const SweepMotion& cell, const LyapunovRun& run) {
+  const auto words = std::make_shared<const ContactWords>(
+      sampled_loop(cell.loop.plant, cell.loop.sampling), cell.loop.gains);
+  InterruptibleMotion motion(harmonically_forced_motion(cell.loop, cell.initial_state));
+  return run_lyapunov(motion, words, run);
+}
+
+bool has_one_harmonic(const DigitalLoop& digital) {
+  return digital.force.harmonics.size() == 1 && digital.force.record == nullptr &&
+         digital.jitter.half_width == 0.0;
+}
+
+}  // namespace
+
+CellMotion cell_motion(const Case& the_case, Switching switching, double duration) {
+  CellMotion motion{{forced_loop_of(the_case), initial_state_of(the_case)}, std::nullopt};
+  samples_of(the_case, duration);
+  validate(motion.of_paper.loop);
+  if (is_of_the_paper(the_case, switching)) return motion;
+  motion.built = real_loop_of(the_case, switching);
+  with_motion(*motion.built, motion.of_paper.initial_state, [](const auto&) { return true; });
+  return motion;
+}
+
+void set_differential_gain(CellMotion& motion, double gain) {
+  motion.of_paper.loop.gains.differential = gain;
+  if (motion.built) motion.built->digital.gains.differential = gain;
+}
+
+CellMotion without_control(const CellMotion& motion) {
+  CellMotion free = motion;
+  free.of_paper.loop = uncontrolled(motion.of_paper.loop);
+  free.of_paper.loop.sampling.processing_delay = 0.0;  // of a force that is zero
+  if (!motion.built || has_one_harmonic(motion.built->digital)) {
+    free.built = std::nullopt;
+  } else {
+    free.built = uncontrolled(*motion.built);
+  }
+  return free;
+}
+
+std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, double duration) {
+  std::vector<MotionMetrics> all(motions.size());
+  std::vector<SweepMotion> of_paper;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const CellMotion& motion = motions[k];
+    if (motion.built) {
+      all[k] = hybrid_metrics(*motion.built, motion.of_paper.initial_state, duration,
+                              throw_if_interrupted);
+    } else {
+      of_paper.push_back(motion.of_paper);
+      places.push_back(k);
+    }
+  }
+  batch_metrics(of_paper, places, duration, all);
+  return all;
+}
+
+double largest_exponent_of(const CellMotion& motion, double duration) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const SweepMotion& cell = motion.of_paper;
+  const std::int64_t steps = samples_within(duration, cell.loop.sampling.period) - 1;
+  if (steps < 1) return unknown;
+  const LyapunovRun run{steps, 0, 0.0, LyapunovScope::largest, LyapunovScope::largest};
+  const LyapunovResult result =
+      motion.built ? with_motion(*motion.built, cell.initial_state,
+                                 [&](auto built) {
+                                   return run_hybrid_lyapunov(built, run, throw_if_interrupted);
+                                 })
+                   : exponents_of_paper(cell, run);
+  return result.outcome == LyapunovOutcome::diverged ? unknown : result.exponents[0];
+}
+
+std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {
+  const SweepMotion& cell = motion.of_paper;
+  if (!motion.built)
+    return certified_period(find_periodic_orbit(cell.loop, cell.initial_state, limits));
+  return with_motion(*motion.built, cell.initial_state, [&](const auto& built) {
+    return certified_period(find_hybrid_orbit(built, limits));
+  });
+}
+
+CellVerdict verdict_of(const CellMotion& motion, const OrbitLimits& limits) {
+  const SweepMotion& cell = motion.of_paper;
+  if (motion.built) {
+    const HybridVerdict found = classify_motion(*motion.built, cell.initial_state, limits);
+    return {found.verdict.kind, found.evidence.certified_period.value_or(0)};
+  }
+  const MotionVerdict found = classify_motion(cell.loop, cell.initial_state, limits);
+  return {found.verdict.kind, found.evidence.certified_period.value_or(0)};
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,143 @@
+#include "jobs/motion/motion_digits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/model/loop_of_case.hpp"
+#include "holdfast/math/stats/trusted_digits.hpp"
+#include "holdfast/motion/instant.hpp"
+#include "holdfast/phase_space/deviation.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Wide = long double;
+
+SampledMotion<Wide> wide_motion(const ForcedLoop<double>& loop, const Vector<double, 4>& state) {
+  return harmonically_forced_motion(converted<Wide>(loop), Vector<Wide, 4>(state.cast<Wide>()));
+}
+
+constexpr Wide largest_share = 1e-6L;  // of digits_taken_for_granted
+
+int whole(double digits) { return static_cast<int>(std::floor(digits)); }
+
+/// The fewest of several quantities and the name of the one that has them.
+class Fewest {
+ public:
+  void take(const std::string& name, double value, Wide reference) {
+    const double digits = holdfast::trusted_digits(value, reference);
+    if (!(digits < least_)) return;
+    least_ = digits;
+    name_ = name;
+  }
+  TrustedDigits result() const { return {whole(least_), std::nullopt, name_}; }
+
+ private:
+  double least_ = most_trusted_digits;
+  std::string name_;
+};
+
+void take_root(Fewest& fewest, const ReducedMasses& found, const FrequencyReduction<Wide>& asked,
+               bool larger) {
+  const std::string which = larger ? "_other_root" : "";
+  const Wide stiffness = absorber_stiffness_root(asked, larger);
+  fewest.take("absorber_stiffness" + which, found.absorber_stiffness, stiffness);
+  fewest.take("conductor_mass" + which, found.conductor_mass,
+              reduced_conductor_mass(asked, stiffness));
+}
+
+}  // namespace
+
+MotionDigits::MotionDigits(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state,
+                           const std::optional<Kick>& kick, double from)
+    : reference_(wide_motion(loop, initial_state)), kick_(kick), from_(from) {}
+
+void MotionDigits::operator()(const MotionSample<double>& sample) {
+  const bool settled = lost_ && largest_ >= 0.1L;  // no whole digit
+  if (settled || compared_ == most_compared_samples) return;
+  if (kick_ && not_before(sample.time, kick_->time)) {
+    reference_.displace_conductor(kick_->displacement);
+    kick_.reset();
+  }
+  const Wide share = share_of(sample.state, reference_.sense().state);
+  if (not_before(sample.time, from_)) largest_ = std::max(largest_, share);
+  lost_ = lost_ || share > largest_share;
+  if (!lost_) until_ = sample.time;
+  reference_.advance();
+  ++compared_;
+}
+
+MotionDigits::Wide MotionDigits::share_of(const Vector<double, 4>& state,
+                                          const Vector<Wide, 4>& reference) {
+  const Vector<Wide, 4> size = reference.cwiseAbs();
+  const Vector<Wide, 4> difference = (state.cast<Wide>() - reference).cwiseAbs();
+  Wide share = 0.0L;
+  for (int i = 0; i < 2; ++i) {  // displacements, velocities
+    scale_[i] = std::max({scale_[i], size[i], size[i + 2]});
+    const Wide larger = std::max(difference[i], difference[i + 2]);
+    if (larger > 0.0L) share = std::max(share, larger / scale_[i]);
+  }
+  return share;
+}
+
+TrustedDigits MotionDigits::result() const {
+  const double digits = holdfast::trusted_digits(static_cast<double>(largest_), 0.0L, 1.0L);
+  return {whole(digits), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
+}
+
+std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
+                                          const std::optional<Kick>& kick, double from) {
+  if (!is_of_the_paper(the_case, choice.switching)) return std::nullopt;
+  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  return MotionDigits(choice.controlled ? loop : uncontrolled(loop), initial_state_of(the_case),
+                      kick, from);
+}
+
+TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
+                                       std::int64_t samples, double from) {
+  auto digits = digits_beside(the_case, {switching}, {}, from);
+  if (!digits) return {};
+  auto motion = motion_of(the_case);
+  run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
+  return digits->result();
+}
+
+TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
+                                          std::int64_t samples) {
+  if (!is_of_the_paper(the_case, switching)) return {};
+  auto first = motion_of(the_case), second = first;
+  auto wide_first = wide_motion(forced_loop_of(the_case), initial_state_of(the_case));
+  auto wide_second = wide_first;
+  second.displace_conductor(offset);
+  wide_second.displace_conductor(offset);
+  double least = most_trusted_digits, until = 0.0;
+  bool lost = false;
+  for (std::int64_t j = 0; j < std::min(samples, most_compared_samples) && least >= 1.0; ++j) {
+    const Vector<double, 4> difference = second.sense().state - first.sense().state;
+    const Vector<Wide, 4> reference = wide_second.sense().state - wide_first.sense().state;
+    if (!difference.allFinite()) break;
+    least = std::min(least, holdfast::trusted_digits(difference, reference));
+    lost = lost || least < digits_taken_for_granted;
+    if (!lost) until = first.time();
+    first.advance();
+    second.advance();
+    wide_first.advance();
+    wide_second.advance();
+  }
+  return {whole(least), lost ? std::optional<double>(until) : std::nullopt, ""};
+}
+
+TrustedDigits trusted_digits_of_reduction(const FrequencyReduction<double>& asked) {
+  const FrequencyReduction<Wide> wide{asked.conductor_stiffness, asked.absorber_mass,
+                                      asked.first_frequency, asked.second_frequency};
+  const ReductionResult found = reduce_to_frequencies(asked);
+  Fewest fewest;
+  fewest.take("discriminant", found.discriminant, reduction_discriminant(wide));
+  fewest.take("largest_absorber_mass", found.largest_absorber_mass, largest_absorber_mass(wide));
+  if (found.outcome == ReductionOutcome::no_solution) return fewest.result();
+  take_root(fewest, found.solutions[0], wide, false);
+  take_root(fewest, found.solutions[1], wide, true);
+  return fewest.result();
+}
+
+}  // namespace holdfast::program

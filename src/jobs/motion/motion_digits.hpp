@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "case/case.hpp"
+#include "case/model/motion_of_case.hpp"
+#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/reduction.hpp"
+#include "jobs/motion/trusted_digits.hpp"
+
+namespace holdfast::program {
+
+/// Most samples of a motion that are computed twice; beyond, the first ones stand for the rest.
+inline constexpr std::int64_t most_compared_samples = 100'000;
+
+/// Observer of a motion of the paper's model that runs the same motion beside it in long double.
+/// Displacements and velocities of both masses are compared relative to the largest so far, so that
+/// passing through zero is no loss.
+class MotionDigits {
+ public:
+  /// @param loop           of the motion
+  /// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
+  /// @param kick           that run_trajectory() is given
+  /// @param from           s; earlier samples are no rows of the table
+  MotionDigits(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state,
+               const std::optional<Kick>& kick = std::nullopt, double from = 0.0);
+
+  /// Takes every sample of the motion, from the first on.
+  void operator()(const MotionSample<double>& sample);
+
+  TrustedDigits result() const;
+
+ private:
+  using Wide = long double;
+
+  /// The difference of one sample as a share of what is large.
+  Wide share_of(const Vector<double, 4>& state, const Vector<Wide, 4>& reference);
+
+  SampledMotion<Wide> reference_;
+  std::optional<Kick> kick_;
+  double from_;
+  Vector<Wide, 2> scale_ = Vector<Wide, 2>::Zero();  // largest displacement (m), velocity (m/s)
+  Wide largest_ = 0.0L;                              // share
+  double until_ = 0.0;
+  bool lost_ = false;  // fewer digits than are taken for granted
+  std::int64_t compared_ = 0;
+};
+
+/// What looks after the digits of the case's motion while it runs, of the samples from `from` (s)
+/// on; nothing where the motion is not of the paper's model, of which alone there is one in long
+/// double.
+std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
+                                          const std::optional<Kick>& kick, double from);
+
+/// Digits of the first `samples` samples of that motion, which is run here; 17 where there is
+/// nothing that looks after them.
+TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
+                                       std::int64_t samples, double from);
+
+/// Digits of the deviation of a neighbour whose z₁ starts `offset` (m) away, relative to the
+/// deviation itself; 17 as above.
+TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
+                                          std::int64_t samples);
+
+/// Digits of what a reduction says of its plant: both roots, the discriminant, the largest absorber
+/// mass. Throws what reduce_to_frequencies() throws.
+TrustedDigits trusted_digits_of_reduction(const FrequencyReduction<double>& asked);
+
+}  // namespace holdfast::program

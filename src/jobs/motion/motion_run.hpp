@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "holdfast/motion/trajectory.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+
+/// Looks now and then whether the user or the system asks the program to stop, and if so ends a
+/// motion by throwing Interrupted.
+/// @param sample  number of the sample that the motion has reached
+inline void look_for_interrupt(std::int64_t sample) {
+  constexpr std::int64_t samples_between_looks = 1 << 14;
+  if (sample % samples_between_looks == 0) throw_if_interrupted();
+}
+
+/// A motion whose samples are taken one by one, for kernels that take no observer.
+template <class Motion>
+class InterruptibleMotion {
+ public:
+  explicit InterruptibleMotion(Motion motion) : motion_(std::move(motion)) {}
+
+  auto sense() {
+    look_for_interrupt(motion_.index());
+    return motion_.sense();
+  }
+  void advance() { motion_.advance(); }
+  const auto& state() const { return motion_.state(); }
+  double time() const { return motion_.time(); }
+
+ private:
+  Motion motion_;
+};
+
+/// Throws NoAnswer: the motion diverged at `time`, s.
+[[noreturn]] void refuse_diverging(double time);
+
+/// Throws NoAnswer when the motion diverged, saying when.
+void require_completed(TrajectoryOutcome outcome, double time);
+
+/// Runs `samples` samples of a motion past the observers, as `run_trajectory` does, to the last
+/// one. Ends early only by an exception: when the program is asked to stop, or NoAnswer when the
+/// motion diverges.
+template <class Motion, class... Observers>
+void run_to_completion(Motion& motion, std::int64_t samples, const std::optional<Kick>& kick,
+                       Observers&&... observers) {
+  const auto look = [](const MotionSample<double>& sample) { look_for_interrupt(sample.index); };
+  const TrajectoryOutcome outcome =
+      run_trajectory(motion, samples, kick, look, std::forward<Observers>(observers)...);
+  require_completed(outcome, motion.time());
+}
+
+}  // namespace holdfast::program

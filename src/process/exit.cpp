@@ -1,0 +1,113 @@
+#include "process/exit.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <holdfast/core/errors.hpp>
+#include <new>
+#include <string_view>
+#include <thread>
+
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+#include "process/group/mpi_launch.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Whether the first of the processes that a launcher started together tells of a wrong input that
+/// all of them were given. The launcher ends the others when it has, and would end it too if one of
+/// them exited before: hence they wait. Where nothing ends them the input is wrong here alone.
+bool told_by_first_process() {
+  if (mpi_launch().rank == 0) return false;
+  const auto patience_ends = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!interrupted() && std::chrono::steady_clock::now() < patience_ends)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return interrupted();
+}
+
+/// What there is to say of an exception; nothing where another process has.
+std::string message_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const ToldElsewhere&) {
+    return "";
+  } catch (const Interrupted& stopped) {
+    return stopped.what();
+  } catch (const WrongInput& error) {
+    return error.what();
+  } catch (const InvalidParameter& error) {
+    return error.what();
+  } catch (const NoAnswer& error) {
+    return error.what();
+  } catch (const OutputError& error) {
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return "the computation needs more memory than there is";
+  } catch (const std::exception& error) {
+    return std::string("unexpected failure: ") + error.what();
+  } catch (...) {
+    return "unexpected failure";
+  }
+}
+
+/// Says what there is to say of an exception that ends the program with that code.
+void tell(const std::exception_ptr& fault, int code) {
+  const std::string message = message_of(fault);
+  const bool told = message.empty() || (code == exit_code::wrong_input && told_by_first_process());
+  if (!told) report_error(message);
+}
+
+/// For where there is no memory for the words either.
+void tell_lack_of_memory() {
+  constexpr std::string_view line = "holdfast: no memory is left\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace
+
+void report_error(const std::string& message) {
+  constexpr std::size_t longest = 1500;
+  const std::string line = "holdfast: " + shortened(one_line(message), longest) + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fflush(stderr);
+}
+
+void report_warning(const std::string& message, bool quiet) {
+  if (!message.empty() && !quiet) report_error("warning: " + message);
+}
+
+int exit_code_of(const std::exception_ptr& fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const ToldElsewhere& told) {
+    return told.exit_code();
+  } catch (const Interrupted&) {
+    return exit_code::interrupted;
+  } catch (const WrongInput&) {
+    return exit_code::wrong_input;
+  } catch (const InvalidParameter&) {
+    return exit_code::wrong_input;
+  } catch (...) {
+    return exit_code::no_answer;
+  }
+}
+
+int run_guarded(const std::function<int()>& work) {
+  install_signal_handlers();
+  try {
+    return work();
+  } catch (...) {
+    const std::exception_ptr fault = std::current_exception();
+    const int code = exit_code_of(fault);
+    try {
+      tell(fault, code);
+    } catch (...) {
+      tell_lack_of_memory();
+    }
+    return code;
+  }
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,104 @@
+#include "process/interrupt.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+
+namespace holdfast::program {
+namespace {
+
+constexpr std::size_t path_size = 4096;
+
+/// A path that the signal handler may read: in use only once it is whole.
+struct Slot {
+  std::atomic<int> state{0};  // 0 free, 1 being filled, 2 to be removed
+  char path[path_size] = {};
+};
+
+std::atomic<int> signals_seen{0};
+std::array<Slot, 8> slots;
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may take no lock");
+
+/// What a computation gets to look at the flag: more than the two seconds for which the processes
+/// of a group wait for each other.
+constexpr unsigned seconds_to_end = 3;
+
+[[noreturn]] void end_at_once() {
+  for (const Slot& slot : slots) {
+    if (slot.state.load() == 2) unlink(slot.path);
+  }
+  _exit(130);
+}
+
+extern "C" void holdfast_on_signal(int) {
+  if (signals_seen.fetch_add(1) > 0) end_at_once();
+  alarm(seconds_to_end);
+}
+
+extern "C" void holdfast_on_alarm(int) {
+  constexpr std::string_view line = "holdfast: interrupted\n";
+  [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
+  end_at_once();
+}
+
+void handle(int signal_number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  // No SA_RESTART: a write that waits for a slow reader shall end as well.
+  sigaction(signal_number, &action, nullptr);
+}
+
+bool is_ignored(int signal_number) {
+  struct sigaction action {};
+  return sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  handle(SIGINT, holdfast_on_signal);
+  handle(SIGTERM, holdfast_on_signal);
+  if (!is_ignored(SIGHUP)) handle(SIGHUP, holdfast_on_signal);  // nohup ignores it
+  handle(SIGALRM, holdfast_on_alarm);
+  handle(SIGPIPE, SIG_IGN);
+  handle(SIGXFSZ, SIG_IGN);
+}
+
+void restore_signals_of_child() {
+  handle(SIGPIPE, SIG_DFL);
+  handle(SIGXFSZ, SIG_DFL);
+}
+
+bool interrupted() { return signals_seen.load(std::memory_order_relaxed) != 0; }
+
+void throw_if_interrupted() {
+  if (interrupted()) throw Interrupted();
+}
+
+void clear_interrupt() {
+  alarm(0);
+  signals_seen.store(0);
+}
+
+RemovedBySignal::RemovedBySignal(const char* path) {
+  if (std::strlen(path) >= path_size) return;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    int free = 0;
+    if (!slots[i].state.compare_exchange_strong(free, 1)) continue;
+    std::strcpy(slots[i].path, path);
+    slots[i].state.store(2);
+    slot_ = static_cast<int>(i);
+    return;
+  }
+}
+
+RemovedBySignal::~RemovedBySignal() {
+  if (slot_ >= 0) slots[static_cast<std::size_t>(slot_)].state.store(0);
+}
+
+}  // namespace holdfast::program

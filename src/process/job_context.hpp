@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/case_source.hpp"
+
+namespace holdfast::program {
+
+/// What a job was asked: everything that its result depends on, and how to show it.
+struct JobContext {
+  std::string job;  // "stability"
+  Case case_data;
+  CaseSource case_source;  // of case_data, for a job that needs variants of it
+  /// Options that the user gave and that shape the result, name and text: {"--p", "-600:0:41"}.
+  std::vector<std::pair<std::string, std::string>> options;
+  std::optional<std::filesystem::path> output;  // none or "-": standard output
+  bool quiet = false;
+  bool progress = false;  // even where standard error is no terminal
+  int threads = 0;        // 0: all
+};
+
+}  // namespace holdfast::program

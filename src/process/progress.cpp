@@ -1,0 +1,102 @@
+#include "process/progress.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace holdfast::program {
+namespace {
+
+constexpr std::int64_t milliseconds_between_updates = 100;
+constexpr const char* clear_line = "\r\033[K";
+
+bool standard_error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+std::string rounded(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), value < 10.0 ? "%.1f" : "%.4g", value);
+  return digits.data();
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 60.0) return rounded(seconds) + " s";
+  if (seconds < 3600.0) return rounded(seconds / 60.0) + " min";
+  return rounded(seconds / 3600.0) + " h";
+}
+
+void show(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+bool progress_wanted(const JobContext& context) {
+  return !context.quiet && (context.progress || standard_error_is_terminal());
+}
+
+std::string progress_text(const std::string& label, const ProgressCount& count, double seconds) {
+  const std::size_t comma = label.find(", ");
+  const std::string steps = comma == std::string::npos ? "" : " " + label.substr(comma + 2);
+  std::string text = label.substr(0, comma) + ": " + std::to_string(count.done) + "/" +
+                     std::to_string(count.total) + steps;
+  if (count.done == count.skipped || !(seconds > 0.0)) return text;
+  const double rate = static_cast<double>(count.done - count.skipped) / seconds;
+  text += ", " + rounded(rate) + steps + "/s";
+  if (count.samples > 0.0) text += ", " + rounded(count.samples / seconds) + " samples/s";
+  if (count.done >= count.total) return text + ", " + duration_text(seconds);
+  const double left = static_cast<double>(count.total - count.done) / rate;
+  return text + ", " + duration_text(left) + " left";
+}
+
+Progress::Progress(std::uint64_t total, std::string label, bool enabled)
+    : total_(total),
+      label_(std::move(label)),
+      enabled_(enabled),
+      on_terminal_(standard_error_is_terminal()),
+      start_(Clock::now()) {}
+
+Progress::~Progress() {
+  if (!enabled_) return;
+  show(on_terminal_ ? std::string(clear_line) : status() + "\n");
+}
+
+void Progress::skip(std::uint64_t steps) { skipped_ += steps; }
+
+void Progress::set_elsewhere(std::uint64_t steps) { elsewhere_ = steps; }
+
+void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
+  done_ += steps;
+  samples_ += samples;
+  if (!enabled_) return;
+  const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_);
+  std::int64_t due = next_draw_.load();
+  if (now.count() < due) return;
+  // Of the threads that come here at once, one draws.
+  if (!next_draw_.compare_exchange_strong(due, now.count() + milliseconds_between_updates)) return;
+  draw();
+}
+
+void Progress::draw() {
+  const std::lock_guard<std::mutex> lock(drawing_);
+  show(on_terminal_ ? clear_line + status() : status() + "\n");
+}
+
+double Progress::seconds_since_start() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+std::string Progress::status() const {
+  const std::uint64_t skipped = skipped_, here = done_, elsewhere = elsewhere_;
+  ProgressCount count{std::min(skipped + here + elsewhere, total_), total_, skipped};
+  // Samples are known of this process alone; the others take as many a step.
+  if (here > 0)
+    count.samples = static_cast<double>(samples_.load()) *
+                    (static_cast<double>(count.done - skipped) / static_cast<double>(here));
+  return progress_text(label_, count, seconds_since_start());
+}
+
+}  // namespace holdfast::program

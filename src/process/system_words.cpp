@@ -1,0 +1,20 @@
+#include "process/system_words.hpp"
+
+#include <cerrno>
+#include <system_error>
+
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+
+std::string system_words(int error) { return std::generic_category().message(error); }
+
+void refuse_to_write(const std::filesystem::path& path, int error) {
+  const std::string message = "cannot write " + path.string() + ": " + system_words(error);
+  const bool machine = error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE ||
+                       error == ENFILE || error == ENOMEM || error == EFBIG;
+  if (machine) throw OutputError(message);
+  throw WrongInput(message);
+}
+
+}  // namespace holdfast::program

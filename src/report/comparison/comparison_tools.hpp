@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "report/comparison/comparison.hpp"
+
+namespace holdfast::program {
+
+/// The loop of the paper's §4.2: P = −557 N/m, D = −13 N s/m, 0.5 N at 10 Hz, from rest.
+struct PaperLoop {
+  double sampling_period = 0.001;  ///< s
+  double backlash_width = 0.0;     ///< m
+  PdGains<double> gains{-557.0, -13.0};
+  double delay_fraction = 0.0;        ///< δ/τ
+  double initial_displacement = 0.0;  ///< z₁ at t = 0 (m)
+
+  SampledLoop<double> loop() const {
+    return sampled_loop(kollar2022_plant(),
+                        Sampling<double>{sampling_period, delay_fraction * sampling_period});
+  }
+
+  SampledMotion<double> motion() const {
+    const SampledLoop<double> sampled = loop();
+    return {sampled,
+            gains,
+            held_harmonic(sampled),
+            HarmonicExcitation<double>{0.5, 10.0},
+            Backlash<double>(backlash_width),
+            Vector<double, 4>{initial_displacement, 0.0, 0.0, 0.0}};
+  }
+};
+
+/// Text of a number with so many significant digits.
+std::string rounded(double value, int digits);
+
+/// A number of the paper with its tolerance, beside ours; `why` is kept only where they differ.
+Comparison number(const std::string& quantity, const std::string& paper_text, double paper,
+                  double tolerance, double ours, const std::string& unit,
+                  const std::string& reading, const std::string& why = "");
+
+/// A statement of the paper that holds or does not.
+Comparison statement(const std::string& quantity, const std::string& paper_text,
+                     const std::string& ours, bool holds, const std::string& reading,
+                     const std::string& why = "");
+
+/// Fig. 2 and Table 1: the plant from its conductor.
+void compare_cable(std::vector<Comparison>& rows);
+
+/// Figs. 9–13 and Table 2: what kind of motion it is.
+void compare_characteristics(std::vector<Comparison>& rows);
+
+}  // namespace holdfast::program

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "report/figures/figure.hpp"
+
+namespace holdfast::program {
+
+/// Whether a gnuplot can be started here (Debian package gnuplot-nox).
+bool gnuplot_available();
+
+/// The whole gnuplot script of a figure: style, axes, tables. It is run in the report's folder and
+/// reads data/NAME.csv.
+std::string gnuplot_script(const Figure& figure);
+
+/// Draws pictures/NAME.svg in the report's folder and leaves the script beside it as NAME.gp.
+/// The picture appears whole or not at all. Throws OutputError when gnuplot fails, in its words.
+void draw(const Figure& figure, const std::filesystem::path& folder);
+
+}  // namespace holdfast::program

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/comparison/comparison.hpp"
+#include "report/figures/figure.hpp"
+#include "report/page/motions.hpp"
+
+namespace holdfast::program {
+
+/// A figure as it came out: its picture as SVG text, or the reason why there is none.
+struct DrawnFigure {
+  Figure figure;
+  std::vector<std::string> commands;  ///< the command line of each table
+  std::string svg;
+  std::string reason;  ///< empty when there is a picture
+};
+
+/// A motion and the command line that shows all of it.
+struct ShownMotion {
+  MotionRow row;
+  std::string command;
+};
+
+/// Everything that the page shows.
+struct Page {
+  std::string title;
+  std::string introduction;
+  std::string case_text;                ///< the full case as TOML
+  std::string answers;                  ///< HTML: what a designer asks, answered
+  std::vector<Comparison> comparisons;  ///< may be empty
+  std::vector<ShownMotion> motions;
+  std::string switching;  ///< HTML: how much the sampled switching matters
+  std::vector<DrawnFigure> figures;
+};
+
+/// The page as one self-contained HTML text: pictures inside, nothing loaded from elsewhere.
+std::string html_of(const Page& page);
+
+/// A figure with its caption, its tables and the commands that make them.
+std::string figure_html(const DrawnFigure& drawn);
+
+/// Text with &, <, > and quotes escaped.
+std::string escaped(const std::string& text);
+
+/// Base64 of RFC 4648.
+std::string base64(const std::string& bytes);
+
+}  // namespace holdfast::program

@@ -1,0 +1,344 @@
+#include "report/switching/switching_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "case/case_keys.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "process/errors.hpp"
+#include "report/comparison/comparison_tools.hpp"
+#include "report/switching/switching_figures.hpp"
+#include "report/switching/switching_tables.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Motions = std::vector<StudiedMotion>;
+using Loops = std::vector<StudiedLoop>;
+
+double forcing_period(const Case& the_case) {
+  return 1.0 / effective_excitation(the_case).frequency;
+}
+
+std::size_t harmonics_of(const Case& the_case) {
+  return real_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
+}
+
+double duration_of(const Case& the_case) {
+  const double most_samples = std::min(5e5, 1e7 / static_cast<double>(harmonics_of(the_case)));
+  return std::min({std::max(20.0, 200.0 * forcing_period(the_case)),
+                   most_samples * the_case.control.sampling_period, end_of_force(the_case)});
+}
+
+void add_readings(Loops& loops, const Case& the_case, double duration) {
+  for (const Reading& reading : readings) loops.push_back({the_case, reading, duration});
+}
+
+/// The values with another one among them, ascending.
+std::vector<double> with_own(std::vector<double> values, double own) {
+  const auto same = [own](double value) { return std::abs(value - own) <= 1e-9 * std::abs(own); };
+  if (std::none_of(values.begin(), values.end(), same)) values.push_back(own);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+/// Sampling periods up to a fifth of the forcing period, whole two-hundredths of it so that
+/// sampling and forcing soon coincide, and long enough for what the computer does in one.
+std::vector<double> shown_sampling_periods(const Case& the_case) {
+  const double shortest = the_case.control.processing_delay + 2.0 * the_case.control.jitter;
+  std::vector<double> periods;
+  for (int part = 1; part <= 40; ++part) {
+    const double period = part * forcing_period(the_case) / 200.0;
+    if (period > shortest) periods.push_back(period);
+  }
+  return with_own(periods, the_case.control.sampling_period);
+}
+
+/// A little above a length, with one digit.
+double rounded_up(double length) {
+  const double unit = std::pow(10.0, std::floor(std::log10(length)));
+  return std::ceil(1.02 * length / unit) * unit;
+}
+
+std::vector<double> shown_widths(const Case& the_case) {
+  const double swing = swing_without_control(the_case, duration_of(the_case));
+  const double widest = swing > 0.0 ? rounded_up(swing) : 1e-3;
+  std::vector<double> widths;
+  for (int part = 0; part <= 30; ++part) widths.push_back(widest * part / 30.0);
+  return with_own(widths, the_case.backlash.width);
+}
+
+/// The readings one after the other, each over the values of a key.
+Loops loops_over(const Case& the_case, const std::string& key, const std::vector<double>& values) {
+  Loops loops;
+  for (const Reading& reading : readings) {
+    for (const double value : values) {
+      Case changed = the_case;
+      set_case_value(changed, key, value);
+      loops.push_back({changed, reading, duration_of(changed)});
+    }
+  }
+  return loops;
+}
+
+std::string milli(double value) { return rounded(1e3 * value, 4); }
+
+/// What the charts have in common, in words.
+std::string meaning_of_chart(const Case& the_case) {
+  return " Above: largest |z₁| at all times in the second half of " +
+         rounded(duration_of(the_case), 4) +
+         " s or more; curves leave the picture at the top where the motion "
+         "grows or diverges. Below: certified period over the "
+         "shortest one, after which sampling and forcing coincide again; \"none\": no certified "
+         "orbit was found. Dotted upright: the case itself.";
+}
+
+Figure delay_chart(const Case& the_case, const std::vector<double>& periods,
+                   const ShownAmplitudes& amplitudes) {
+  return switching_chart(
+      "switching-delay", "Amplitude and period over the sampling period",
+      "The backlash is r₀ = " + milli(the_case.backlash.width) +
+          " mm. At samples the drive enters and leaves its backlash only when the computer looks; "
+          "exactly, when it happens. As τ becomes short the two come together." +
+          meaning_of_chart(the_case),
+      {MotionColumn::sampling_period, "sampling period τ (ms)", 1e3, periods.front(),
+       periods.back(), the_case.control.sampling_period},
+      amplitudes);
+}
+
+Figure backlash_chart(const Case& the_case, const std::vector<double>& widths,
+                      const ShownAmplitudes& amplitudes) {
+  return switching_chart(
+      "switching-backlash", "Amplitude and period over the backlash",
+      "The sampling period is τ = " + milli(the_case.control.sampling_period) +
+          " ms. At r₀ = 0 there is no switching, and what is left between the curves is the hold "
+          "of the force; at the right end the backlash swallows the motion without control." +
+          meaning_of_chart(the_case),
+      {MotionColumn::backlash_width, "backlash {/:Italic r}_0 (mm)", 1e3, widths.front(),
+       widths.back(), the_case.backlash.width},
+      amplitudes);
+}
+
+/// The window of Fig. 8, 9.05 s to 9.11 s, in periods of the excitation; earlier where the force
+/// ends before.
+std::pair<double, double> shown_window(const Case& the_case) {
+  const double period = forcing_period(the_case);
+  const double end = std::min(91.1 * period, end_of_force(the_case));
+  return {std::max(end - 0.6 * period, 0.0), end};
+}
+
+/// @param instants  of window_of()
+ContactStrip strip_of(const std::string& name, const StudiedLoop& studied, int instants = 0) {
+  const auto [begin, end] = shown_window(studied.the_case);
+  return {name, "", window_of(studied, begin, end, instants)};
+}
+
+std::string phases_caption(const Case& the_case, const Reading& sampled, bool builtin) {
+  const bool held = sampled.hold == ForceHold::sampled;
+  return "τ = " + milli(the_case.control.sampling_period) +
+         " ms, r₀ = " + milli(the_case.backlash.width) +
+         " mm. Top: the contact where the drive switches at samples (the force " +
+         (held ? "held over each sample as in the paper" : "exact") +
+         "), with the instants in s at which it goes into its gap and out of it" +
+         (builtin ? ", which are those of the paper's Fig. 8" : "") +
+         "; and where it switches exactly (the force exact): after a reversal its sides stay "
+         "together (stick), then it crosses its gap, then it transmits again. Middle: the force "
+         "transmitted; while the drive sticks it lies between zero and the command u. Bottom: "
+         "z₂ − z₁, which stands still meanwhile. Tints: the phases of the exact motion.";
+}
+
+SwitchingFigure without_tables(Figure figure, const std::string& reason) {
+  figure.tables.clear();
+  return {figure, reason};
+}
+
+SwitchingFigure write_phases(const JobContext& context, bool builtin) {
+  const Case& the_case = context.case_data;
+  constexpr int instants = 601;
+  const bool held = force_hold_of(the_case) == ForceHold::sampled;
+  const Reading& reading = readings[held ? sampled_and_held : sampled_switching];
+  const std::string name = "switching-phases";
+  const std::string title = builtin ? "Fig. 8 with its stick phase, τ = 1 ms, r₀ = 0.5 mm"
+                                    : "What the drive does between the samples";
+  const std::string caption = phases_caption(the_case, reading, builtin);
+  ContactStrip sampled{"at samples", "", {}}, exact{"exact", "", {}};
+  try {
+    sampled = strip_of("at samples", {the_case, reading, 0.0}, instants);
+    exact = strip_of("exact", {the_case, readings[exact_switching], 0.0}, instants);
+  } catch (const NoAnswer& reason) {
+    return without_tables(contact_window_figure(name, title, caption, sampled, exact),
+                          reason.what());
+  }
+  write_strips(context, name, {sampled, exact});
+  write_window(context, name + "-motion", exact.window, sampled.window);
+  return {contact_window_figure(name, title, caption, sampled, exact), ""};
+}
+
+struct NamedLaw {
+  const char* key;    // backlash.law
+  const char* words;  // gnuplot would set what follows an underscore lower
+};
+
+constexpr std::array<NamedLaw, 5> laws = {{{"kollar", "kollar"},
+                                           {"immediate", "immediate"},
+                                           {"play", "play"},
+                                           {"dead_zone", "dead zone"},
+                                           {"none", "no backlash"}}};
+
+/// Places in `laws`.
+enum : std::size_t { play = 2, dead_zone = 3, no_backlash = 4 };
+
+Case with_law(Case the_case, const NamedLaw& law) {
+  the_case.backlash.law = law.key;
+  return the_case;
+}
+
+std::vector<StudiedLaw> study_laws(const JobContext& context) {
+  Loops loops;
+  for (const NamedLaw& law : laws) {
+    const Case changed = with_law(context.case_data, law);
+    for (const std::size_t reading : {sampled_switching, exact_switching})
+      loops.push_back({changed, readings[reading], duration_of(changed)});
+  }
+  const Motions motions = study(loops, context.threads);
+  write_motions(context, "switching-law-motions", motions);
+  std::vector<StudiedLaw> studied;
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    studied.push_back({laws[k].words, motions[2 * k], motions[2 * k + 1]});
+  return studied;
+}
+
+std::string amplitude_remark(const StudiedMotion& motion) {
+  const SteadyMotion& steady = motion.steady;
+  return steady.diverges ? "diverges" : milli(steady.largest_displacement) + " mm";
+}
+
+/// The strip of a law with its amplitude; an empty one where the motion has no answer.
+ContactStrip strip_with_amplitude(const std::string& name, const StudiedMotion& motion) {
+  ContactStrip strip{name, "", {}};
+  try {
+    strip = strip_of(name, motion.loop);
+  } catch (const NoAnswer&) {
+    std::tie(strip.window.begin, strip.window.end) = shown_window(motion.loop.the_case);
+  }
+  strip.remark = amplitude_remark(motion);
+  return strip;
+}
+
+/// The strips of the laws that differ. Exactly taken, those up to `play` are one.
+std::vector<ContactStrip> strips_of_laws(const std::vector<StudiedLaw>& studied) {
+  std::vector<ContactStrip> strips;
+  const auto add = [&strips](const std::string& name, const StudiedMotion& motion) {
+    strips.push_back(strip_with_amplitude(name, motion));
+  };
+  for (std::size_t k = 0; k <= play; ++k)
+    add(studied[k].words + ", at samples", studied[k].sampled);
+  add("these three, exact", studied[play].exact);
+  add("dead zone, at samples", studied[dead_zone].sampled);
+  add("dead zone, exact", studied[dead_zone].exact);
+  add("no backlash", studied[no_backlash].sampled);
+  return strips;
+}
+
+constexpr const char* nowhere = "the motion diverges in all of them";
+
+SwitchingFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>& studied) {
+  const std::vector<ContactStrip> strips = strips_of_laws(studied);
+  const bool none = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
+    return strip.window.phases.empty();
+  });
+  const std::string name = "switching-laws";
+  write_strips(context, name, strips);
+  const Figure figure = contact_strips_figure(
+      name, "The same for every law of the backlash",
+      "What the drive does under each law, switching at samples and exactly, the force exact in "
+      "all; at the right the largest |z₁| of the steady motion. Exactly taken, kollar, immediate "
+      "and play are one law. The gap of the dead zone lies about z₂ − z₁ = 0 and does not move.",
+      strips);
+  return {figure, none ? nowhere : ""};
+}
+
+/// What the charts show: half as much again as without control, and the case's own motions.
+ShownAmplitudes shown_amplitudes(const Case& the_case, const Motions& of_case) {
+  const double free = amplitude_without_control(the_case, duration_of(the_case));
+  double largest = 1.5 * free;
+  for (const StudiedMotion& motion : of_case)
+    largest = std::fmax(largest, 1.2 * motion.steady.largest_displacement);
+  return {free, largest};
+}
+
+SwitchingFigure write_chart(const JobContext& context, const Figure& figure, const Loops& loops) {
+  const Motions motions = study(loops, context.threads);
+  write_motions(context, figure.name, motions);
+  const bool none = std::none_of(motions.begin(), motions.end(), [](const StudiedMotion& motion) {
+    return std::isfinite(motion.steady.largest_displacement);
+  });
+  return {figure, none ? nowhere : ""};
+}
+
+/// The charts without their pictures: they take two hundred motions, whose work grows with the
+/// harmonics of the force.
+std::vector<SwitchingFigure> charts_left_out(const Case& the_case, std::size_t harmonics) {
+  const std::string reason = "the force has " + std::to_string(harmonics) +
+                             " harmonics, too many to follow hundreds of motions";
+  return {without_tables(delay_chart(the_case, {the_case.control.sampling_period}, {}), reason),
+          without_tables(backlash_chart(the_case, {the_case.backlash.width}, {}), reason)};
+}
+
+std::vector<SwitchingFigure> write_charts(const JobContext& context, const Motions& of_case) {
+  const Case& the_case = context.case_data;
+  const ShownAmplitudes amplitudes = shown_amplitudes(the_case, of_case);
+  const auto periods = shown_sampling_periods(the_case), widths = shown_widths(the_case);
+  return {write_chart(context, delay_chart(the_case, periods, amplitudes),
+                      loops_over(the_case, "control.sampling_period", periods)),
+          write_chart(context, backlash_chart(the_case, widths, amplitudes),
+                      loops_over(the_case, "backlash.width", widths))};
+}
+
+}  // namespace
+
+std::vector<StudiedLoop> loops_of_paper(const Case& the_case) {
+  constexpr double milliseconds = 1e-3, millimetres = 1e-3;
+  constexpr std::array<std::pair<double, double>, 7> settings = {
+      {{1.0, 0.5}, {1.0, 2.0}, {3.0, 2.0}, {5.0, 1.0}, {10.0, 2.0}, {11.0, 1.0}, {11.0, 2.0}}};
+  Loops loops;
+  for (const auto& [period, width] : settings) {
+    Case changed = the_case;
+    changed.control.sampling_period = period * milliseconds;
+    changed.backlash.width = width * millimetres;
+    const double samples = std::ceil(3.0 / changed.control.sampling_period * (1.0 - 1e-12));
+    add_readings(loops, changed, samples * changed.control.sampling_period);
+  }
+  return loops;
+}
+
+std::vector<StudiedLoop> loops_of_case(const Case& the_case) {
+  Loops loops;
+  add_readings(loops, the_case, duration_of(the_case));
+  return loops;
+}
+
+SwitchingPage make_switching_page(const JobContext& context, bool builtin) {
+  const Case& the_case = context.case_data;
+  SwitchingPage page;
+  page.of_case = study(loops_of_case(the_case), context.threads);
+  write_motions(context, "switching-case", page.of_case);
+  if (builtin) {
+    page.of_paper = study(loops_of_paper(the_case), context.threads);
+    write_motions(context, "switching-paper", page.of_paper);
+  }
+  page.laws = study_laws(context);
+  page.figures = {write_phases(context, builtin), write_laws(context, page.laws)};
+  constexpr std::size_t most_harmonics = 20;
+  const std::size_t harmonics = harmonics_of(the_case);
+  for (SwitchingFigure& chart : harmonics > most_harmonics ? charts_left_out(the_case, harmonics)
+                                                           : write_charts(context, page.of_case))
+    page.figures.push_back(std::move(chart));
+  return page;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,189 @@
+#include "sweep/sweep_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "holdfast/core/errors.hpp"
+#include "io/text/text.hpp"
+#include "jobs/charts/row_blocks.hpp"
+#include "jobs/design/best_gains.hpp"
+#include "jobs/motion/cell_motion.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+CellOutcome outcome_of(MotionEnd end) {
+  if (end == MotionEnd::accumulates) return CellOutcome::accumulates;
+  return end == MotionEnd::diverged ? CellOutcome::diverges : CellOutcome::computed;
+}
+
+CellOutcome outcome_of(LeastAmplitudeOutcome outcome) {
+  if (outcome == LeastAmplitudeOutcome::none) return CellOutcome::no_gain;
+  if (outcome == LeastAmplitudeOutcome::aliased) return CellOutcome::aliased;
+  return CellOutcome::computed;
+}
+
+/// The admissible cells of a tile as motions, and what is found of each.
+class TileCells {
+ public:
+  TileCells(const SweepPlan& plan, std::int64_t tile)
+      : plan_(plan), results_(static_cast<std::size_t>(plan.cells_of(tile))) {
+    BestGains gains(plan.question().duration);
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      throw_if_interrupted();
+      add(i, plan.first_cell(tile) + static_cast<std::int64_t>(i), gains);
+    }
+  }
+
+  void compute() {
+    find_motions();
+    if (plan_.wants(SweepMetric::ratio_to_uncontrolled) || plan_.wants(SweepMetric::attenuates))
+      find_uncontrolled_peaks();
+    for (std::size_t k = 0; k < motions_.size(); ++k) {
+      CellResult& result = results_[cells_[k]];
+      if (result.outcome == CellOutcome::computed) find_attractor(motions_[k], result);
+    }
+  }
+
+  TileResult tile_result() const {
+    TileResult tile;
+    tile.cells = static_cast<std::int64_t>(results_.size());
+    tile.first_fault = first_fault_;
+    for (const CellResult& result : results_) {
+      tile.samples += result.motion.samples;
+      tile.diverging += result.outcome == CellOutcome::diverges ? 1 : 0;
+      tile.without_motion += has_motion(result.outcome) ? 0 : 1;
+    }
+    for (const SweepMetric metric : plan_.metrics())
+      for (const CellResult& result : results_) tile.values.push_back(metric_value(metric, result));
+    return tile;
+  }
+
+ private:
+  void add(std::size_t place, std::int64_t cell, BestGains& gains) {
+    try {
+      const Case the_case = plan_.case_of(cell);
+      CellMotion motion =
+          cell_motion(the_case, plan_.question().switching, plan_.question().duration);
+      if (plan_.question().best_gain && !take_best_gain(place, motion, gains)) return;
+      results_[place].differential_gain = motion.of_paper.loop.gains.differential;
+      motions_.push_back(motion);
+      cells_.push_back(place);
+    } catch (const WrongInput& fault) {
+      note(fault.what());
+    } catch (const InvalidParameter& fault) {
+      note(fault.what());
+    } catch (const NoAnswer& fault) {
+      note(fault.what());
+    }
+  }
+
+  /// False where there is no best gain, with the outcome that says why.
+  bool take_best_gain(std::size_t place, CellMotion& motion, BestGains& gains) {
+    const ForcedLoop<double>& loop = motion.of_paper.loop;
+    const LeastAmplitude& best = gains.of(loop);
+    set_differential_gain(motion, best.differential_gain);
+    const CellOutcome outcome = outcome_of(best.outcome);
+    if (has_motion(outcome)) return true;
+    results_[place].outcome = outcome;
+    const double half_rate = 0.5 / loop.sampling.period;
+    note(outcome == CellOutcome::no_gain
+             ? "no differential gain lets the motion settle within half the duration"
+             : "the excitation of " + format_rounded(loop.excitation.frequency) +
+                   " Hz is not below half the sampling rate, " + format_rounded(half_rate) + " Hz");
+    return false;
+  }
+
+  void note(const std::string& fault) {
+    if (first_fault_.empty()) first_fault_ = fault;
+  }
+
+  void find_motions() {
+    const std::vector<MotionMetrics> metrics = metrics_of(motions_, plan_.question().duration);
+    for (std::size_t k = 0; k < motions_.size(); ++k) {
+      CellResult& result = results_[cells_[k]];
+      result.motion = metrics[k];
+      result.outcome = outcome_of(metrics[k].end);
+      if (result.outcome == CellOutcome::accumulates) note("its changes of contact accumulate");
+    }
+  }
+
+  /// Of each distinct motion without control once: many cells share theirs.
+  void find_uncontrolled_peaks() {
+    std::vector<CellMotion> distinct;
+    std::map<std::array<double, 14>, std::size_t> known;
+    std::vector<std::size_t> number_of(motions_.size());
+    for (std::size_t k = 0; k < motions_.size(); ++k) {
+      const CellMotion motion = without_control(motions_[k]);
+      const auto [entry, added] =
+          motion.built ? std::pair(known.end(), true)
+                       : known.try_emplace(all_numbers_of(motion.of_paper), distinct.size());
+      number_of[k] = added ? distinct.size() : entry->second;
+      if (added) distinct.push_back(motion);
+    }
+    const std::vector<MotionMetrics> metrics = metrics_of(distinct, plan_.question().duration);
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      results_[cells_[k]].uncontrolled_peak = metrics[number_of[k]].steady_peak;
+  }
+
+  static std::array<double, 14> all_numbers_of(const SweepMotion& motion) {
+    const auto plant = numbers_of(motion.loop.plant);
+    const Vector<double, 4>& state = motion.initial_state;
+    return {plant[0],
+            plant[1],
+            plant[2],
+            plant[3],
+            plant[4],
+            plant[5],
+            motion.loop.sampling.period,
+            motion.loop.excitation.amplitude,
+            motion.loop.excitation.frequency,
+            motion.loop.hold == ForceHold::exact ? 1.0 : 0.0,
+            state[0],
+            state[1],
+            state[2],
+            state[3]};
+  }
+
+  void find_attractor(const CellMotion& motion, CellResult& result) const {
+    if (plan_.wants(SweepMetric::largest_exponent))
+      result.largest_exponent = largest_exponent_of(motion, plan_.question().duration);
+    const OrbitLimits limits{plan_.question().largest_period, 0, throw_if_interrupted};
+    if (plan_.wants(SweepMetric::verdict)) {
+      const CellVerdict found = verdict_of(motion, limits);
+      result.kind = found.kind;
+      result.period = found.period;
+    } else if (plan_.wants(SweepMetric::period_samples)) {
+      result.period = period_of(motion, limits);
+    }
+  }
+
+  const SweepPlan& plan_;
+  std::vector<CellResult> results_;
+  std::vector<CellMotion> motions_;  // of the admissible cells
+  std::vector<std::size_t> cells_;   // their places in the tile
+  std::string first_fault_;
+};
+
+}  // namespace
+
+TileResult compute_tile(const SweepPlan& plan, std::int64_t tile) {
+  TileCells cells(plan, tile);
+  cells.compute();
+  return cells.tile_result();
+}
+
+std::string arithmetic() {
+#ifdef HOLDFAST_HAS_SIMD
+  return xsimd::default_arch::name();
+#else
+  return "scalar";
+#endif
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,231 @@
+#include "sweep/sweep_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "case/axes/axis.hpp"
+#include "case/axes/key_axis.hpp"
+#include "case/case_file.hpp"
+#include "case/model/cable_of_case.hpp"
+#include "case/model/settled_plant.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "io/text/checksum.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr double most_cells = 9007199254740992.0;  // 2⁵³
+constexpr const char* sampling_key = "control.sampling_period";
+
+GridAxis sweep_axis(const std::string& text) {
+  const std::string name(trimmed(std::string_view(text).substr(0, text.find('='))));
+  const CaseKey* key = find_case_key(name);
+  if (key != nullptr && key->number == nullptr)
+    throw WrongInput("--axis " + text + ": " + name +
+                     " is not a number; run a sweep for each with --set");
+  const KeyValues axis = parse_key_values("--axis", text);
+  if (key == nullptr) {
+    throw WrongInput("--axis " + text + ": unknown key " + name + "; did you mean " +
+                     nearest_case_key(name).name + "?");
+  }
+  return grid_axis(*key, axis);
+}
+
+std::vector<GridAxis> sweep_axes(const std::vector<std::string>& texts) {
+  if (texts.empty())
+    throw WrongInput("--axis: a sweep needs at least one, for example --axis " +
+                     std::string(sampling_key) + "=0.001:0.03:30");
+  std::vector<GridAxis> axes;
+  std::set<std::string> keys;
+  double cells = 1.0;
+  for (const std::string& text : texts) {
+    axes.push_back(sweep_axis(text));
+    const std::string& key = axes.back().column.name;
+    if (!keys.insert(key).second) throw WrongInput("--axis: " + key + " is given twice");
+    cells *= static_cast<double>(axes.back().count());
+  }
+  if (cells > most_cells)
+    throw WrongInput("--axis: " + format_rounded(cells) + " cells are more than 2^53");
+  return axes;
+}
+
+std::vector<SweepMetric> sweep_metrics(const std::vector<std::string>& names) {
+  if (names.empty()) return usual_metrics();
+  std::vector<SweepMetric> metrics;
+  for (const std::string& name : names) {
+    metrics.push_back(metric_named(name));
+    if (std::count(metrics.begin(), metrics.end(), metrics.back()) > 1)
+      throw WrongInput("--metric " + name + ": given twice");
+  }
+  return metrics;
+}
+
+std::string table_of(const GridAxis& axis) { return find_case_key(axis.column.name)->table(); }
+
+/// What a plant that is not given is reduced from.
+bool is_of_conductor(const GridAxis& axis) {
+  const std::string table = table_of(axis);
+  return table == "conductor" || table == "absorber" || table == "reduction";
+}
+
+/// Those that decide what the plant is. A key of [plant] goes over what the reduction gives.
+std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
+                                            const std::vector<GridAxis>& axes) {
+  const bool reduced =
+      plant_is_reduced(the_case) || std::any_of(axes.begin(), axes.end(), is_of_conductor);
+  std::vector<std::size_t> shaping;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    if (is_of_conductor(axes[k]) || (reduced && table_of(axes[k]) == "plant")) shaping.push_back(k);
+  }
+  return shaping;
+}
+
+/// The best gain takes the place of D, and a motion needs time to settle.
+void require_room_for_best_gain(const SweepQuestion& question, const std::vector<GridAxis>& axes) {
+  if (!question.best_gain) return;
+  if (!(question.duration > 0.0)) throw WrongInput("--best-gain needs a --duration above 0");
+  for (const GridAxis& axis : axes) {
+    if (axis.column.name == "control.differential_gain")
+      throw WrongInput(
+          "--best-gain takes the place of control.differential_gain, which is an axis");
+  }
+}
+
+/// Of the numbers of a record, so that another record of the same name is noticed.
+std::string checksum_of(const RecordedForce& record) {
+  const auto bytes_of = [](const std::vector<double>& numbers) {
+    return std::string_view(reinterpret_cast<const char*>(numbers.data()),
+                            numbers.size() * sizeof(double));
+  };
+  return std::to_string(checksum(bytes_of(record.forces()), checksum(bytes_of(record.times()))));
+}
+
+/// Samples of one motion; none where τ is not admissible.
+double samples_of(double duration, double sampling_period) {
+  const bool countable = sampling_period > 0.0 && duration / sampling_period < 9e15;
+  return countable ? static_cast<double>(samples_within(duration, sampling_period)) : 0.0;
+}
+
+}  // namespace
+
+SweepPlan::SweepPlan(const JobContext& context, const SweepQuestion& question)
+    : context_(context),
+      question_(question),
+      metrics_(sweep_metrics(question.metrics)),
+      layout_{sweep_axes(question.axes), {}} {
+  for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
+  require_room_for_best_gain(question_, layout_.axes);
+  for (const GridAxis& axis : layout_.axes)
+    require_in_force(context_.case_data, *find_case_key(axis.column.name));
+  shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
+  settle_case();
+  samples_ = counted_samples();
+  tile_cells_ = question_.tile_cells > 0 ? question_.tile_cells : chosen_tile_cells();
+}
+
+void SweepPlan::settle_case() {
+  if (shaping_axes_.empty()) {
+    report_warning(settle_plant(context_.case_data), context_.quiet);
+  } else {
+    reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
+  }
+}
+
+std::int64_t SweepPlan::cells_of(std::int64_t tile) const {
+  return std::min(tile_cells_, cells() - first_cell(tile));
+}
+
+bool SweepPlan::wants(SweepMetric metric) const {
+  return std::count(metrics_.begin(), metrics_.end(), metric) > 0;
+}
+
+double SweepPlan::axis_value(std::size_t axis, std::int64_t cell) const {
+  for (std::size_t faster = layout_.axes.size() - 1; faster > axis; --faster)
+    cell /= static_cast<std::int64_t>(layout_.axes[faster].count());
+  const auto count = static_cast<std::int64_t>(layout_.axes[axis].count());
+  return layout_.axes[axis].at(static_cast<std::size_t>(cell % count));
+}
+
+Case SweepPlan::case_of(std::int64_t cell) const {
+  std::vector<std::string> shaping;
+  for (const std::size_t k : shaping_axes_)
+    shaping.push_back(layout_.axes[k].column.name + "=" + format_number(axis_value(k, cell)));
+  Case the_case = reduced_cases_ ? reduced_cases_->with(shaping) : context_.case_data;
+  for (std::size_t k = 0; k < layout_.axes.size(); ++k) {
+    if (std::count(shaping_axes_.begin(), shaping_axes_.end(), k) == 0)
+      set_case_value(the_case, layout_.axes[k].column.name, axis_value(k, cell));
+  }
+  check_case(the_case);
+  return the_case;
+}
+
+double SweepPlan::counted_samples() const {
+  constexpr std::size_t most_counted = 1'000'000;
+  for (const GridAxis& axis : layout_.axes) {
+    if (axis.column.name != sampling_key) continue;
+    const std::size_t stride = axis.count() / most_counted + 1;
+    double sum = 0.0, counted = 0.0;
+    for (std::size_t i = 0; i < axis.count(); i += stride, ++counted)
+      sum += samples_of(question_.duration, axis.at(i));
+    return sum / counted * static_cast<double>(cells());
+  }
+  return static_cast<double>(cells()) *
+         samples_of(question_.duration, context_.case_data.control.sampling_period);
+}
+
+/// Tiles that take some tenths of a second, so that little is lost with one and much is done by
+/// each, and enough of them for many cores, but none with fewer cells than fill the lanes of a
+/// processor. They depend on the plan alone, as they must be found again.
+std::int64_t SweepPlan::chosen_tile_cells() const {
+  constexpr double samples_of_tile = 1e8, most_cells_of_tile = 4096.0, most_tiles_wanted = 64.0;
+  const bool orbits = wants(SweepMetric::period_samples) || wants(SweepMetric::verdict);
+  const bool exponents = wants(SweepMetric::largest_exponent);
+  const auto all = static_cast<double>(cells());
+  double cost = std::max(samples() / all, 1.0);
+  if (exponents) cost *= 5.0;
+  if (orbits) cost += 20.0 * static_cast<double>(question_.largest_period);
+  // A reduction takes some tenths of a second, and every cell may need one.
+  const bool reductions = !shaping_axes_.empty();
+  if (reductions) cost += 0.1 * samples_of_tile;
+  const double fewest = orbits || exponents || reductions ? 8.0 : 64.0;
+  const double share = std::max(all / most_tiles_wanted, fewest);
+  const double fitting = std::clamp(samples_of_tile / cost, 1.0, most_cells_of_tile);
+  return static_cast<std::int64_t>(std::min({fitting, share, all}));
+}
+
+TilePlan SweepPlan::tile_plan() const {
+  TilePlan plan{{{"version", HOLDFAST_VERSION}}, tiles()};
+  auto& entries = plan.entries;
+  entries.emplace_back("--tile", std::to_string(tile_cells_));
+  for (std::size_t k = 0; k < question_.axes.size(); ++k)
+    entries.emplace_back("--axis " + std::to_string(k + 1), question_.axes[k]);
+  for (std::size_t k = 0; k < metrics_.size(); ++k)
+    entries.emplace_back("--metric " + std::to_string(k + 1),
+                         metric_column(metrics_[k]).column.name);
+  entries.emplace_back("--duration", format_number(question_.duration));
+  entries.emplace_back("--max-period", std::to_string(question_.largest_period));
+  entries.emplace_back("--switching",
+                       question_.switching == Switching::exact ? "exact" : "sampled");
+  if (context_.case_data.force_record)
+    entries.emplace_back("force record", checksum_of(*context_.case_data.force_record));
+  entries.emplace_back("--best-gain", question_.best_gain ? "yes" : "no");
+  if (reduced_cases_) {
+    const CaseSource& source = context_.case_source;
+    entries.emplace_back("case file", source.text.value_or("built-in"));
+    for (std::size_t k = 0; k < source.overrides.size(); ++k)
+      entries.emplace_back("--set " + std::to_string(k + 1), source.overrides[k]);
+  }
+  const nlohmann::ordered_json json = case_to_json(context_.case_data);
+  for (const auto& [table, keys] : json.items()) {
+    for (const auto& [key, value] : keys.items())
+      entries.emplace_back(table + "." + key, value.dump());
+  }
+  return plan;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,236 @@
+#include "sweep/sweep_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "jobs/charts/row_blocks.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+#include "process/group/mpi_launch.hpp"
+#include "process/group/process_group.hpp"
+#include "process/interrupt.hpp"
+#include "process/progress.hpp"
+#include "process/shared_step.hpp"
+#include "process/system_words.hpp"
+#include "process/worker_threads.hpp"
+#include "sweep/sweep_cells.hpp"
+#include "sweep/tiles/tile_result.hpp"
+#include "sweep/tiles/work_folder.hpp"
+#include "sweep/tiles/work_folder_plan.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the result goes to a file of that name, beside which a work folder can lie.
+bool has_named_output(const JobContext& context) {
+  if (!context.output || *context.output == "-") return false;
+  const std::string path = fs::absolute(*context.output).lexically_normal().string();
+  if (path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0) return false;
+  std::error_code error;
+  return !fs::exists(*context.output, error) || fs::is_regular_file(*context.output, error);
+}
+
+/// Beside a named output, where an interrupted sweep is gone on with; else one for this run alone.
+fs::path work_folder(const JobContext& context, bool named) {
+  if (named) return fs::path(context.output->string() + ".tiles");
+  std::string name = (fs::temp_directory_path() / "holdfast-sweep-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
+  return name;
+}
+
+/// What the tiles are parts of: the plan, computed by this program.
+TilePlan tile_plan_of(const SweepPlan& plan) {
+  TilePlan tiles = plan.tile_plan();
+  tiles.entries.emplace_back("instruction set", arithmetic());
+  return tiles;
+}
+
+/// What the faults of all tiles together are.
+struct SweepFaults {
+  std::int64_t diverging = 0;
+  std::int64_t without_motion = 0;
+  std::string first;
+
+  void add(const TileResult& tile) {
+    diverging += tile.diverging;
+    without_motion += tile.without_motion;
+    if (first.empty()) first = tile.first_fault;
+  }
+
+  std::string warning(std::int64_t cells) const {
+    std::string text;
+    if (diverging > 0) text = std::to_string(diverging) + " diverge";
+    if (without_motion > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(without_motion) +
+              " have no motion, the first because: " + first;
+    return text.empty() ? text : "of " + std::to_string(cells) + " cells " + text;
+  }
+};
+
+/// One sweep in one of the processes that work on it.
+class SweepRun {
+ public:
+  SweepRun(const JobContext& context, const SweepQuestion& question)
+      : plan_(context, question), named_(has_named_output(context)), group_(join_process_group()) {}
+
+  void run() {
+    threads_ = worker_threads(context().threads, *group_);
+    take_shared_step(*group_, [this] { begin(); });
+    take_shared_step(*group_, [this] { join(); });
+    try {
+      take_shared_step(*group_, [this] { compute_tiles(); });
+      end_progress();
+      take_shared_step(*group_, [this] { assemble(); });
+    } catch (...) {
+      leave_tiles();
+      throw;
+    }
+  }
+
+ private:
+  const JobContext& context() const { return plan_.context(); }
+  bool is_first() const { return group_->rank() == 0; }
+
+  void begin() {
+    if (!is_first()) return;
+    open_output();
+    // What can be written is known now; a process that is killed shall leave nothing of it.
+    if (named_) output_.reset();
+    const fs::path folder = work_folder(context(), named_);
+    store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.question().resume);
+    tiles_found_ = contents_of_work_folder(folder).tiles;
+  }
+
+  void open_output() {
+    if (!output_) output_.emplace(context(), plan_.layout());
+  }
+
+  void join() {
+    if (!is_first()) store_ = TileStore::join(work_folder(context(), named_), tile_plan_of(plan_));
+  }
+
+  void compute_tiles() {
+    progress_.emplace(static_cast<std::uint64_t>(plan_.cells()), "sweep, cells",
+                      is_first() && progress_wanted(context()));
+    progress_->skip(cells_in(tiles_found_));
+    std::atomic<bool> stop{false};
+    parallel_rows(threads_, 1, threads_, 0, [&](int&, std::int64_t, std::int64_t) {
+      try {
+        work(stop);
+      } catch (...) {
+        if (!stop.exchange(true)) give_up_tiles();
+        throw;
+      }
+    });
+  }
+
+  /// The other processes need not go on.
+  void give_up_tiles() noexcept {
+    try {
+      group_->skip_tickets(plan_.tiles());
+    } catch (...) {
+      // They go on in vain; the fault that brought us here is the one to be told.
+    }
+  }
+
+  /// What one thread does: the next tile, until there is none.
+  void work(const std::atomic<bool>& stop) {
+    while (!stop) {
+      throw_if_interrupted();
+      const std::int64_t tile = group_->take_ticket();
+      if (tile >= plan_.tiles()) return;
+      if (store_->has(tile)) continue;
+      const TileResult result = compute_tile(plan_, tile);
+      store_->put(tile, tile_bytes(result));
+      ++tiles_computed_;
+      show_others();
+      progress_->advance(static_cast<std::uint64_t>(result.cells),
+                         static_cast<std::uint64_t>(result.samples));
+    }
+  }
+
+  /// Those handed out that were neither found nor computed here: the others have or compute them.
+  void show_others() {
+    if (!is_first() || group_->size() == 1) return;
+    const std::int64_t taken = std::min(group_->tickets_taken(), plan_.tiles());
+    progress_->set_elsewhere(cells_in(taken - std::min(taken, tiles_found_) - tiles_computed_));
+  }
+
+  /// All is computed.
+  void end_progress() {
+    progress_->set_elsewhere(cells_in(plan_.tiles() - tiles_found_ - tiles_computed_));
+    progress_.reset();
+  }
+
+  std::uint64_t cells_in(std::int64_t tiles) const {
+    return static_cast<std::uint64_t>(
+        std::clamp(tiles * plan_.cells_of(0), std::int64_t{0}, plan_.cells()));
+  }
+
+  /// Puts the tiles together in their order, one at a time.
+  void assemble() {
+    if (!is_first()) return;
+    SweepFaults faults;
+    open_output();
+    const std::size_t columns = plan_.metrics().size();
+    std::vector<const double*> values(columns);
+    for (std::int64_t tile = 0; tile < plan_.tiles(); ++tile) {
+      throw_if_interrupted();
+      const TileResult result = tile_of_bytes(store_->get(tile), plan_.cells_of(tile), columns);
+      for (std::size_t k = 0; k < columns; ++k) values[k] = result.column(k);
+      output_->append(result.cells, values);
+      faults.add(result);
+    }
+    output_->commit();
+    store_->remove();
+    report_warning(faults.warning(plan_.cells()), context().quiet);
+  }
+
+  /// After a fault: says how to go on, or removes what cannot be gone on with.
+  void leave_tiles() noexcept {
+    if (!is_first() || !store_) return;
+    try {
+      if (!named_) {
+        store_->remove();
+      } else {
+        const std::int64_t kept = contents_of_work_folder(store_->folder()).tiles;
+        report_error(finished_tiles(kept) + " of " + std::to_string(plan_.tiles()) +
+                     " are kept in " + store_->folder().string() +
+                     "; the same command with --resume goes on");
+      }
+    } catch (...) {
+      // The fault that brought us here is the one to be told.
+    }
+  }
+
+  SweepPlan plan_;
+  bool named_;  // the output is a file, and the work folder stays beside it for --resume
+  std::unique_ptr<ProcessGroup> group_;
+  int threads_ = 1;  // of this process
+  std::optional<SweepOutput> output_;
+  std::optional<TileStore> store_;
+  std::optional<Progress> progress_;
+  std::int64_t tiles_found_ = 0;  // by the first process, of an earlier run
+  std::atomic<std::int64_t> tiles_computed_{0};
+};
+
+}  // namespace
+
+void write_sweep(const JobContext& context, const SweepQuestion& question) {
+  if (question.resume && !has_named_output(context))
+    throw WrongInput("--resume needs --output, the file whose tiles are left");
+  if (mpi_launch().size > 1 && !has_named_output(context))
+    throw WrongInput(
+        "--output: a sweep on several processes needs a file, beside which they share their tiles");
+  SweepRun(context, question).run();
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,42 @@
+#include "sweep/tiles/tile_result.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Counts = std::array<std::int64_t, 4>;
+
+void append_bytes(std::string& bytes, const void* from, std::size_t size) {
+  bytes.append(static_cast<const char*>(from), size);
+}
+
+}  // namespace
+
+std::string tile_bytes(const TileResult& tile) {
+  const Counts counts = {tile.cells, tile.samples, tile.diverging, tile.without_motion};
+  std::string bytes;
+  bytes.reserve(sizeof(counts) + tile.values.size() * sizeof(double) + tile.first_fault.size());
+  append_bytes(bytes, counts.data(), sizeof(counts));
+  append_bytes(bytes, tile.values.data(), tile.values.size() * sizeof(double));
+  return bytes + tile.first_fault;
+}
+
+TileResult tile_of_bytes(std::string_view bytes, std::int64_t cells, std::size_t columns) {
+  Counts counts{};
+  const std::size_t values = static_cast<std::size_t>(cells) * columns;
+  const std::size_t size = sizeof(counts) + values * sizeof(double);
+  if (bytes.size() >= size) std::memcpy(counts.data(), bytes.data(), sizeof(counts));
+  if (bytes.size() < size || counts[0] != cells)
+    throw OutputError("a finished tile does not hold what the sweep needs");
+  TileResult tile{cells,     std::vector<double>(values),    counts[1], counts[2],
+                  counts[3], std::string(bytes.substr(size))};
+  if (values > 0)  // of none, data() may be null, which memcpy does not take
+    std::memcpy(tile.values.data(), bytes.data() + sizeof(counts), values * sizeof(double));
+  return tile;
+}
+
+}  // namespace holdfast::program

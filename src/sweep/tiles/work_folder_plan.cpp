@@ -1,0 +1,118 @@
+#include "sweep/tiles/work_folder_plan.hpp"
+
+#include <cerrno>
+#include <optional>
+#include <system_error>
+
+#include "io/file/whole_file.hpp"
+#include "process/errors.hpp"
+#include "process/system_words.hpp"
+#include "sweep/tiles/tile_plan_file.hpp"
+#include "sweep/tiles/work_folder.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_to_read(const fs::path& path, int error) {
+  throw WrongInput("cannot read " + path.string() + ": " + system_words(error));
+}
+
+/// The text of the folder's plan; nothing where there is no such file.
+std::optional<std::string> read_plan(const fs::path& folder) {
+  int error = 0;
+  std::optional<std::string> text = read_whole_file(folder / plan_file_name, error);
+  if (!text && error != ENOENT) refuse_to_read(folder / plan_file_name, error);
+  return text;
+}
+
+WorkFolderContents read_contents(const fs::path& folder) {
+  try {
+    return contents_of_work_folder(folder);
+  } catch (const fs::filesystem_error& error) {
+    refuse_to_read(folder, error.code().value());
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (error) refuse_to_write(folder, error.value());
+}
+
+/// Looks before anything is laid into the folder. A plan without tiles will be replaced, which must
+/// not befall another program's file of that name.
+void require_work_folder(const fs::path& folder) {
+  const std::optional<std::string> text = read_plan(folder);
+  if (text && (text->empty() || begins_as_tile_plan(*text))) return;
+  const WorkFolderContents contents = read_contents(folder);
+  if (contents.tiles > 0) return;
+  const std::string refusal = folder.string() + " is no work folder: ";
+  if (text) throw WrongInput(refusal + "its file " + plan_file_name + " is of another kind");
+  if (contents.others) throw WrongInput(refusal + "it holds other files and no plan");
+}
+
+void require_same_plan(const fs::path& folder, const TilePlan& before, const TilePlan& now) {
+  const std::string differences = tile_plan_differences(before, now);
+  if (differences.empty()) return;
+  throw WrongInput("the tiles in " + folder.string() + " are of another sweep: " + differences +
+                   "; give the same options, another --output, or remove the folder");
+}
+
+void require_tiles_of_plan(const fs::path& folder, std::int64_t tiles, const TilePlan& plan,
+                           bool resume) {
+  const std::string held = folder.string() + " holds " + finished_tiles(tiles);
+  if (!resume) {
+    throw WrongInput(held +
+                     " of an interrupted sweep; go on with --resume, or remove the folder to "
+                     "begin anew");
+  }
+  const std::optional<std::string> text = read_plan(folder);
+  const std::optional<TilePlan> before = text ? parse_tile_plan(*text) : std::nullopt;
+  if (!before) {
+    throw WrongInput(held + ", but its plan is " + (text ? "damaged" : "missing") +
+                     "; remove the folder to begin anew");
+  }
+  require_same_plan(folder, *before, plan);
+}
+
+void write_plan(const fs::path& folder, const TilePlan& plan) {
+  const fs::path file = folder / plan_file_name;
+  const int error = write_whole_file(file, tile_plan_text(plan));
+  if (error == 0) return;
+  remove_work_folder(folder);
+  refuse_to_write(file, error);
+}
+
+}  // namespace
+
+std::string finished_tiles(std::int64_t tiles) {
+  return std::to_string(tiles) + (tiles == 1 ? " finished tile" : " finished tiles");
+}
+
+FolderLock enter_work_folder(const fs::path& folder, const TilePlan& plan, bool resume) {
+  make_folder(folder);
+  require_work_folder(folder);
+  FolderLock lock(folder);
+  // Read anew: until here another program may have held the folder.
+  const WorkFolderContents contents = read_contents(folder);
+  if (contents.tiles > 0) require_tiles_of_plan(folder, contents.tiles, plan, resume);
+  std::error_code ignored;
+  for (const fs::path& leftover : contents.leftovers) fs::remove(leftover, ignored);
+  if (contents.tiles == 0) write_plan(folder, plan);
+  return lock;
+}
+
+void require_plan_of_work_folder(const fs::path& folder, const TilePlan& plan) {
+  const std::optional<std::string> text = read_plan(folder);
+  if (!text) {
+    throw WrongInput("no plan in " + folder.string() +
+                     "; all processes need a file system that they share");
+  }
+  const std::optional<TilePlan> before = parse_tile_plan(*text);
+  if (!before) throw WrongInput("the plan of " + folder.string() + " is damaged");
+  require_same_plan(folder, *before, plan);
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,274 @@
+#include "holdfast/chaos/block_spectrum.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "support/kollar_case.hpp"
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+using TangentMap = Matrix<double, 5>;
+using PreciseSpectrum = LyapunovSpectrum<long double, 5>;
+
+/// Two maps and the contacts that order them.
+struct TangentSequence {
+  TangentMap engaged;
+  TangentMap backlash;
+  std::vector<bool> contacts;
+
+  ContactSpectrum<double> spectrum(LyapunovScope scope = LyapunovScope::all) const {
+    return ContactSpectrum<double>(std::make_shared<const ContactWords>(engaged, backlash), scope);
+  }
+
+  /// Pushes the contacts of [first, last). @return the incomplete word at the end
+  LaneWords<double> push(ContactSpectrum<double>& into, std::size_t first, std::size_t last) const {
+    LaneWords<double> open = no_contacts<double>();
+    for (std::size_t k = first; k < last; ++k) {
+      open[0] = followed_by(open[0], contacts[k]);
+      if (!is_whole(open[0])) continue;
+      into.push(open);
+      open = no_contacts<double>();
+    }
+    return open;
+  }
+
+  /// QR at every sample, in extended precision.
+  PreciseSpectrum precise(std::size_t last) const {
+    const int engaged_rank = LyapunovSpectrum<double, 5>::rank_of(engaged);
+    const int backlash_rank = LyapunovSpectrum<double, 5>::rank_of(backlash);
+    const Matrix<long double, 5> s = engaged.cast<long double>(),
+                                 s_star = backlash.cast<long double>();
+    PreciseSpectrum result;
+    for (std::size_t k = 0; k < last; ++k)
+      result.push(contacts[k] ? s : s_star, contacts[k] ? engaged_rank : backlash_rank);
+    return result;
+  }
+};
+
+void expect_same_exponents(const Vector<double, 5>& found, const Vector<double, 5>& expected,
+                           double tolerance) {
+  for (int i = 0; i < 5; ++i) {
+    if (std::isfinite(expected[i])) {
+      EXPECT_NEAR(found[i], expected[i], tolerance) << "exponent " << i;
+    } else {
+      EXPECT_EQ(found[i], expected[i]) << "exponent " << i;
+    }
+  }
+}
+
+void expect_every_step_qr(const TangentSequence& sequence, double tolerance = 1e-10) {
+  auto spectrum = sequence.spectrum();
+  const std::size_t samples = sequence.contacts.size();
+  const auto open = sequence.push(spectrum, 0, samples);
+  expect_same_exponents(spectrum.spectrum(open).exponents(),
+                        sequence.precise(samples).exponents().cast<double>(), tolerance);
+}
+
+TangentSequence tangents_along(const test::KollarCase& which, const SampledLoop<double>& tangent,
+                               std::int64_t samples) {
+  TangentSequence result{tangent.engaged_map(which.gains), tangent.backlash_map(), {}};
+  auto motion = which.motion();
+  run_trajectory(motion, samples, std::nullopt, [&](const MotionSample<double>& sample) {
+    result.contacts.push_back(sample.engaged);
+  });
+  return result;
+}
+
+test::KollarCase wide_gap(double period, double delay) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.processing_delay = delay;
+  which.width = 0.002;
+  return which;
+}
+
+/// Random maps of about unit size; 0 full, 1 with the backlash's zero row, 2 without delay as well,
+/// 3 of rank three.
+TangentSequence random_tangents(test::Random& random, int kind, std::size_t samples) {
+  TangentSequence result{random.matrix<TangentMap>(), random.matrix<TangentMap>(), {}};
+  if (kind >= 1) result.backlash.row(4).setZero();
+  if (kind == 2) result.backlash.col(4).setZero();
+  if (kind == 2) result.engaged.col(4).setZero();
+  if (kind == 3) result.backlash.row(2) = result.backlash.row(1);
+  const double share = random.unit();
+  for (std::size_t k = 0; k < samples; ++k) result.contacts.push_back(random.unit() < share);
+  return result;
+}
+
+TEST(ContactWord, IsItsFirstSamplesFollowedByItsLast) {
+  ContactWord word = 1;
+  for (const bool engaged : {true, false, false, true, true, false})
+    word = followed_by(word, engaged);
+  EXPECT_TRUE(is_whole(word));
+  for (int first = 0; first <= 6; ++first) {
+    ContactWord joined = first_of(word, first);
+    EXPECT_EQ(samples_of(joined), first);
+    const ContactWord rest = last_of(word, 6 - first);
+    EXPECT_EQ(samples_of(rest), 6 - first);
+    EXPECT_FALSE(first < 6 && is_whole(joined));
+    for (int k = 5 - first; k >= 0; --k) joined = followed_by(joined, ((rest >> k) & 1) != 0);
+    EXPECT_EQ(joined, word);
+  }
+}
+
+TEST(ContactWords, MapsAreTheProductsOfTheSamplesMapsInBalancedCoordinates) {
+  test::Random random(501);
+  const TangentSequence maps = random_tangents(random, 1, 0);
+  const ContactWords words(maps.engaged, maps.backlash);
+  for (unsigned word = 1; word < 128; ++word) {
+    const auto code = static_cast<ContactWord>(word);
+    TangentMap product = TangentMap::Identity();
+    int rank = 5;
+    for (int k = samples_of(code) - 1; k >= 0; --k) {
+      const bool engaged = ((word >> k) & 1U) != 0;
+      product = (engaged ? maps.engaged : maps.backlash) * product;
+      if (!engaged) rank = 4;
+    }
+    const TangentMap found =
+        words.scale().asDiagonal() * words.map(code) * words.scale().cwiseInverse().asDiagonal();
+    EXPECT_LE((found - product).norm(), 1e-13 * product.norm()) << word;
+    EXPECT_EQ(words.rank(code), rank);
+  }
+  EXPECT_EQ(words.reach(), 5);
+  EXPECT_EQ(ContactWords(wide_gap(0.01, 0.0).loop(), {-557.0, -13.0}).reach(), 4);
+}
+
+TEST(Orthonormalise, FactorsTheColumns) {
+  test::Random random(502);
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto columns = random.matrix<Matrix<double, 5, 4>>();
+    TangentBasis<double, 4> basis = columns;
+    Alive<double> alive{true, true, true, true, true};
+    const auto stretches = orthonormalise<double, 4>(basis, alive);
+    const Matrix<double, 4> r = basis.transpose() * columns;
+    EXPECT_LE((basis.transpose() * basis - Matrix<double, 4>::Identity()).norm(), 1e-12);
+    EXPECT_LE((basis * r - columns).norm(), 1e-12);
+    EXPECT_LE(r.triangularView<Eigen::StrictlyLower>().toDenseMatrix().norm(), 1e-12);
+    EXPECT_LE((stretches.squares.cwiseSqrt() - r.diagonal()).norm(), 1e-12);
+    EXPECT_NEAR(stretches.inverse / r.inverse().squaredNorm(), 1.0, 1e-9);
+  }
+}
+
+TEST(Orthonormalise, LeavesOutWhatIsNotAliveAndMarksWhatVanishes) {
+  test::Random random(503);
+  TangentBasis<double, 4> basis = random.matrix<Matrix<double, 5, 4>>();
+  basis.col(2).setZero();
+  Alive<double> alive{true, true, true, true, true};
+  auto stretches = orthonormalise<double, 4>(basis, alive);
+  EXPECT_TRUE(alive[0] && alive[1]);
+  EXPECT_FALSE(alive[2] || alive[3]);
+  EXPECT_EQ(stretches.squares[2], 0.0);
+  EXPECT_EQ(basis.col(3).norm(), 0.0);
+  stretches = orthonormalise<double, 4>(basis, alive);
+  EXPECT_EQ(stretches.squares[2], 1.0);
+  EXPECT_NEAR(stretches.inverse, 2.0, 1e-12);
+}
+
+TEST(ContactSpectrum, IsThatOfQrAtEverySampleOnThePapersMotions) {
+  for (const double period : {0.001, 0.011}) {
+    for (const double fraction : {0.0, 0.5, 1.0}) {
+      const auto which = wide_gap(period, 0.0);
+      const auto tangent = wide_gap(period, fraction * period).loop();
+      for (const std::int64_t samples : {1, 2, 5, 6, 7, 36, 37, 101, 1000, 9999}) {
+        SCOPED_TRACE(samples);
+        expect_every_step_qr(tangents_along(which, tangent, samples));
+      }
+    }
+  }
+}
+
+TEST(ContactSpectrum, IsThatOfQrAtEverySampleForRandomMaps) {
+  test::Random random(504);
+  for (int draw = 0; draw < 400; ++draw) {
+    SCOPED_TRACE(draw);
+    const std::size_t samples = 1 + random.index(draw % 40 == 0 ? 5000 : 300);
+    expect_every_step_qr(random_tangents(random, draw % 4, samples));
+  }
+}
+
+TEST(ContactSpectrum, NeitherOverflowsNorUnderflows) {
+  test::Random random(505);
+  for (const double size : {1e-4, 1e4}) {
+    TangentSequence sequence = random_tangents(random, 1, 3000);
+    sequence.engaged *= size;
+    sequence.backlash *= size;
+    expect_every_step_qr(sequence);
+  }
+}
+
+TEST(ContactSpectrum, DoesABlockAgainThatTurnsOutTooLong) {
+  test::Random random(506);
+  const TangentMap turn =
+      Eigen::HouseholderQR<TangentMap>(random.matrix<TangentMap>()).householderQ();
+  // Long blocks while the maps only turn, then each sample contracts by up to a thousand.
+  const Vector<double, 5> contraction(1.0, 0.3, 0.1, 0.03, 0.001);
+  TangentSequence sequence{turn, turn * contraction.asDiagonal(), {}};
+  for (int k = 0; k < 6000; ++k) sequence.contacts.push_back(k % 2000 < 1900);
+  expect_every_step_qr(sequence);
+}
+
+TEST(ContactSpectrum, SplitsAWordWhoseSamplesAreHardlyRegular) {
+  test::Random random(507);
+  const TangentMap turn =
+      Eigen::HouseholderQR<TangentMap>(random.matrix<TangentMap>()).householderQ();
+  const Vector<double, 5> contraction(1.0, 0.1, 1e-2, 1e-4, 1e-5);
+  TangentSequence sequence{contraction.asDiagonal() * turn, turn, {}};
+  for (int k = 0; k < 300; ++k) sequence.contacts.push_back(random.unit() < 0.8);
+  expect_every_step_qr(sequence);
+}
+
+TEST(ContactSpectrum, AVanishingColumnIsMinusInfinity) {
+  // Rank 2 as a product of maps of rank 4 and 3, which no rank of a single map tells.
+  TangentMap first = TangentMap::Identity(), second = TangentMap::Identity();
+  first.diagonal() << 1, 1, 1, 1, 0;
+  second.diagonal() << 1, 1, 0, 0, 1;
+  TangentSequence sequence{first, second, {true, false, true, true, false, false, true}};
+  auto spectrum = sequence.spectrum();
+  const auto open = sequence.push(spectrum, 0, 7);
+  const Vector<double, 5> exponents = spectrum.spectrum(open).exponents();
+  EXPECT_EQ(exponents[0], 0.0);
+  EXPECT_EQ(exponents[1], 0.0);
+  for (int i = 2; i < 5; ++i) EXPECT_EQ(exponents[i], -std::numeric_limits<double>::infinity());
+}
+
+TEST(ContactSpectrum, AfterARestartItCountsOnlyWhatFollows) {
+  for (const double delay : {0.0, 0.011}) {
+    const auto sequence = tangents_along(wide_gap(0.011, 0.0), wide_gap(0.011, delay).loop(), 3007);
+    for (const std::size_t discarded : {1U, 6U, 250U, 1003U}) {
+      auto spectrum = sequence.spectrum();
+      spectrum.restart(sequence.push(spectrum, 0, discarded));
+      const auto open = sequence.push(spectrum, discarded, 3007);
+      const Vector<long double, 5> before = sequence.precise(discarded).exponents();
+      const Vector<long double, 5> all = sequence.precise(3007).exponents();
+      const double whole = 3007, left_out = static_cast<double>(discarded);
+      EXPECT_EQ(spectrum.spectrum(open).steps(), 3007 - static_cast<std::int64_t>(discarded));
+      for (int i = 0; i < 4; ++i) {
+        const auto expected = (whole * all[i] - left_out * before[i]) / (whole - left_out);
+        EXPECT_NEAR(spectrum.spectrum(open).exponents()[i], static_cast<double>(expected), 1e-10);
+      }
+    }
+  }
+}
+
+TEST(ContactSpectrum, TheLargestAloneIsTheFirstOfAll) {
+  test::Random random(508);
+  for (int draw = 0; draw < 40; ++draw) {
+    const auto sequence = random_tangents(random, draw % 4, 1 + random.index(3000));
+    auto all = sequence.spectrum(), largest = sequence.spectrum(LyapunovScope::largest);
+    const auto open = sequence.push(all, 0, sequence.contacts.size());
+    sequence.push(largest, 0, sequence.contacts.size());
+    EXPECT_NEAR(largest.spectrum(open).exponents()[0], all.spectrum(open).exponents()[0], 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast

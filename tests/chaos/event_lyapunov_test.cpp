@@ -1,0 +1,323 @@
+#include "holdfast/chaos/event_lyapunov.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/trajectory.hpp"
+#include "orbit/event/event_setting.hpp"
+#include "support/kollar_case.hpp"
+
+namespace holdfast {
+namespace {
+
+constexpr double annihilated = -std::numeric_limits<double>::infinity();
+
+RealLoop kollar_loop_exactly(const test::KollarCase& which) {
+  RealLoop loop = real_loop(which.forced_loop());
+  loop.switching = Switching::exact;
+  loop.digital.hold = ForceHold::exact;
+  return loop;
+}
+
+HybridMotion<ExactBacklash> backlash_motion(const test::KollarCase& which) {
+  const RealLoop loop = kollar_loop_exactly(which);
+  return {loop.digital, ExactBacklash(loop.plant, loop.backlash.width), which.initial_state};
+}
+
+test::KollarCase kollar_case_of(double period, double width, double delay = 0.0) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.width = width;
+  which.processing_delay = delay;
+  return which;
+}
+
+int finite_exponents(const LyapunovSpectrum<double, 7>& spectrum) {
+  const Vector<double, 7> exponents = spectrum.exponents();
+  return static_cast<int>((exponents.array() > annihilated).count());
+}
+
+/// ln |λ| of a matrix, largest first.
+std::vector<double> logarithms_of_eigenvalues(const Matrix<double, 5>& map) {
+  std::vector<double> logarithms;
+  for (const auto& eigenvalue : map.eigenvalues())
+    logarithms.push_back(std::log(std::abs(eigenvalue)));
+  std::sort(logarithms.begin(), logarithms.end(), std::greater<>());
+  return logarithms;
+}
+
+/// Without backlash every map is S. Where its eigenvalues are a pair, the two exponents turn about
+/// their mean; the sum over them, and over all before, is that of ln |λ| once the directions have
+/// settled.
+TEST(HybridLyapunov, WithoutBacklashItIsTheSpectrumOfTheSampledLoop) {
+  for (const double delay : {0.0, 0.0004, 0.001}) {
+    const auto which = kollar_case_of(0.001, 0.0, delay);
+    auto motion = backlash_motion(which);
+    const auto result = run_hybrid_lyapunov(motion, {5000, 5000});
+    const auto expected = logarithms_of_eigenvalues(which.loop().engaged_map(which.gains));
+    EXPECT_NEAR(result.exponents.head<2>().sum(), expected[0] + expected[1], 1e-9);
+    EXPECT_NEAR(result.exponents.head<4>().sum(),
+                expected[0] + expected[1] + expected[2] + expected[3], 1e-9);
+    if (delay > 0.0)
+      EXPECT_NEAR(result.exponents[4], expected[4], 1e-9);
+    else
+      EXPECT_EQ(result.exponents[4], annihilated);
+  }
+}
+
+/// A law that is asked at samples: the maps are S and S*, and the spectrum that of ContactSpectrum.
+TEST(HybridLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
+  for (const double delay : {0.0, 0.003}) {
+    auto which = kollar_case_of(0.011, 0.002, delay);
+    which.gains.differential = -8.0;
+    const LyapunovRun run{4000, 1000};
+    const RealLoop loop = real_loop(which.forced_loop());
+    HybridMotion<SampledContactMotion> motion(
+        loop.digital, SampledContactMotion(loop.plant, loop.backlash), which.initial_state);
+    const auto result = run_hybrid_lyapunov(motion, run);
+    auto sampled = which.motion();
+    const auto words = std::make_shared<const ContactWords>(which.loop(), which.gains);
+    const auto expected = run_lyapunov(sampled, words, run);
+    EXPECT_EQ(result.samples, expected.samples);
+    for (const int leading : {2, 3, 4})
+      EXPECT_NEAR(result.exponents.head(leading).sum(), expected.exponents.head(leading).sum(),
+                  1e-9)
+          << leading;
+    EXPECT_EQ(result.exponents[4], annihilated);
+    EXPECT_EQ(expected.exponents[4], annihilated);
+  }
+}
+
+/// The growth of one tangent vector by two neighbours of the motion, brought near again at every
+/// sample.
+class GrowthByDifferences {
+ public:
+  explicit GrowthByDifferences(const HybridMotion<ExactBacklash>& motion,
+                               const Vector<double, 7>& direction)
+      : motion_(motion), direction_(direction), sizes_(test::sizes_of(motion)) {}
+
+  /// @return false where no neighbour near enough goes the same way
+  bool advance() {
+    HybridMotion<ExactBacklash> next = motion_;
+    test::SwitchRecorder recorder;
+    recorder.advance(next);
+    double step = 3e-6 / direction_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
+    std::optional<test::Difference> difference;
+    for (int attempt = 0; attempt < 4 && !difference; ++attempt, step *= 0.2)
+      difference = test::derivative_along(motion_, direction_, step, 1, recorder.seen());
+    if (!difference) return false;
+    logarithm_ += std::log(difference->value.norm());
+    direction_ = difference->value.normalized();
+    motion_ = next;
+    return true;
+  }
+
+  double logarithm() const { return logarithm_; }
+
+ private:
+  HybridMotion<ExactBacklash> motion_;
+  Vector<double, 7> direction_, sizes_;
+  double logarithm_ = 0.0;
+};
+
+TEST(HybridLyapunov, TheLargestExponentIsThatOfNeighbouringMotions) {
+  test::Random random(921);
+  int sticking = 0, lost = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto setting = test::bounded_hybrid_setting(random, trial);
+    auto motion = setting.motion();
+    for (int left = static_cast<int>(2.0 / setting.loop.sampling.period);
+         left > 0 || motion.contact().word() == ContactMode::stick; --left) {
+      motion.sense();
+      motion.advance();
+    }
+    GrowthByDifferences neighbours(motion, detail::oblique_basis().col(0));
+    HybridLyapunov<ExactBacklash> lyapunov(motion);
+    constexpr int samples = 1500;
+    const auto sticks = motion.counts().entered[2];
+    bool kept = true;
+    for (int sample = 0; sample < samples && kept; ++sample) {
+      kept = neighbours.advance();
+      lyapunov.sense();
+      lyapunov.advance();
+    }
+    if (!kept) {
+      ++lost;
+      continue;
+    }
+    const double largest = lyapunov.spectrum().exponents()[0];
+    EXPECT_NEAR(neighbours.logarithm() / samples, largest, 1e-4 * std::abs(largest)) << trial;
+    if (motion.counts().entered[2] > sticks + 10) ++sticking;
+  }
+  EXPECT_LE(lost, 2);
+  EXPECT_GT(sticking, 20);
+}
+
+TEST(HybridLyapunov, StickAnnihilatesOneDirectionMore) {
+  for (const double delay : {0.0, 0.0004}) {
+    const auto which = kollar_case_of(0.001, 0.0005, delay);
+    const auto largest_finite = [&which](double width) {
+      auto other = which;
+      other.width = width;
+      auto motion = backlash_motion(other);
+      HybridLyapunov<ExactBacklash> lyapunov(motion);
+      run_trajectory(lyapunov, 3000, std::nullopt);
+      const bool sticks = motion.counts().entered[2] > 0;
+      return std::pair{finite_exponents(lyapunov.spectrum()), sticks};
+    };
+    const auto [with, sticks] = largest_finite(0.0005);
+    const auto [without, never] = largest_finite(0.0);
+    EXPECT_TRUE(sticks);
+    EXPECT_FALSE(never);
+    EXPECT_EQ(without, delay > 0.0 ? 5 : 4);
+    EXPECT_EQ(with, 3);
+  }
+}
+
+/// With a delay and the velocity by difference, u_{j−1} and z₁ as read both act: six exponents are
+/// finite, and the seventh, where the gap lies, is not.
+TEST(HybridLyapunov, WhatIsNotUsedIsAnnihilated) {
+  struct Asked {
+    double delay;
+    VelocitySensing velocity;
+    int finite;
+  };
+  for (const Asked& asked :
+       {Asked{0.0, VelocitySensing::measured, 4}, Asked{0.0004, VelocitySensing::measured, 5},
+        Asked{0.0, VelocitySensing::difference, 5},
+        Asked{0.0004, VelocitySensing::difference, 6}}) {
+    RealLoop loop = kollar_loop_exactly(kollar_case_of(0.001, 0.0, asked.delay));
+    loop.digital.limits.velocity = asked.velocity;
+    HybridMotion<ExactBacklash> motion(loop.digital, ExactBacklash(loop.plant, 0.0),
+                                       Vector<double, 4>::Zero());
+    HybridLyapunov<ExactBacklash> from_rest(motion);
+    run_trajectory(from_rest, 1, std::nullopt);
+    HybridLyapunov<ExactBacklash> lyapunov(motion);
+    run_trajectory(lyapunov, 500, std::nullopt);
+    EXPECT_EQ(finite_exponents(lyapunov.spectrum()), asked.finite);
+    // Before its first sample a controller has read nothing that could be varied.
+    EXPECT_EQ(finite_exponents(from_rest.spectrum()), asked.delay > 0.0 ? 5 : 4);
+  }
+}
+
+/// A drive that crosses its gap without an end moves by A_d, and where its gap lies stays as it is.
+TEST(HybridLyapunov, AGapThatIsNeverLeftIsNeutral) {
+  const auto which = kollar_case_of(0.001, 0.05);
+  auto motion = backlash_motion(which);
+  while (motion.contact().word() != ContactMode::gap || motion.time() < 5.0) {
+    motion.sense();
+    motion.advance();
+  }
+  const auto result = run_hybrid_lyapunov(motion, {4000, 20000});
+  Matrix<double, 5> map = Matrix<double, 5>::Zero();
+  map.topLeftCorner<4, 4>() = which.loop().transition;
+  const auto expected = logarithms_of_eigenvalues(map);
+  EXPECT_NEAR(result.exponents[0], 0.0, 1e-9);
+  EXPECT_NEAR(result.exponents.segment<2>(1).sum(), expected[0] + expected[1], 1e-9);
+}
+
+/// What is contracted beyond rounding is not mistaken for what is annihilated: with gains of zero
+/// the exponents are those of the plant, at any length of the run.
+TEST(HybridLyapunov, AStrongContractionIsFinite) {
+  auto which = kollar_case_of(0.5, 0.0);
+  which.gains = {0.0, 0.0};
+  auto motion = backlash_motion(which);
+  const auto result = run_hybrid_lyapunov(motion, {2000, 100});
+  Matrix<double, 5> map = Matrix<double, 5>::Zero();
+  map.topLeftCorner<4, 4>() = which.loop().transition;
+  const auto expected = logarithms_of_eigenvalues(map);
+  EXPECT_LT(expected[3] - expected[0], -18.0);
+  EXPECT_NEAR(result.exponents.head<2>().sum(), expected[0] + expected[1], 1e-9);
+  EXPECT_NEAR(result.exponents.segment<2>(2).sum(), expected[2] + expected[3], 1e-5);
+  EXPECT_EQ(result.exponents[4], annihilated);
+}
+
+TEST(HybridLyapunov, GoesBesideATrajectoryAndChangesNothing) {
+  const auto which = kollar_case_of(0.001, 0.0005);
+  const Kick kick{0.5, 1e-4};
+  auto plain = backlash_motion(which), followed = plain;
+  std::vector<double> history;
+  HybridLyapunov<ExactBacklash> lyapunov(followed);
+  std::vector<Vector<double, 4>> seen, expected;
+  run_trajectory(lyapunov, 2000, kick, [&](const MotionSample<double>& sample) {
+    seen.push_back(sample.state);
+    history.push_back(lyapunov.spectrum().exponents()[0]);
+  });
+  run_trajectory(plain, 2000, kick,
+                 [&](const MotionSample<double>& sample) { expected.push_back(sample.state); });
+  EXPECT_EQ(seen, expected);
+  EXPECT_EQ(followed.index(), 2000);
+  EXPECT_EQ(lyapunov.spectrum().steps(), 2000);
+  EXPECT_TRUE(std::isnan(history.front()));
+  EXPECT_TRUE(std::isfinite(history.back()));
+}
+
+TEST(HybridLyapunov, LeavesOutTheSamplesToBeDiscarded) {
+  const auto which = kollar_case_of(0.001, 0.0005);
+  const auto sum_over = [&which](const LyapunovRun& run) {
+    auto motion = backlash_motion(which);
+    const auto result = run_hybrid_lyapunov(motion, run);
+    EXPECT_EQ(motion.index(), run.discard + run.most_samples);
+    EXPECT_EQ(result.samples, run.most_samples);
+    EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
+    return Vector<double, 3>(result.exponents.head<3>() * static_cast<double>(result.samples));
+  };
+  const Vector<double, 3> all = sum_over({2000}), first = sum_over({700});
+  EXPECT_LT((sum_over({1300, 700}) - (all - first)).norm(), 1e-9);
+}
+
+TEST(HybridLyapunov, EndsWhenItIsAccurate) {
+  const auto which = kollar_case_of(0.011, 0.002);
+  LyapunovRun run{200000, 2000, 1e-3};
+  run.judged = LyapunovScope::all;
+  auto motion = backlash_motion(which);
+  const auto result = run_hybrid_lyapunov(motion, run);
+  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
+  EXPECT_LT(result.samples, run.most_samples);
+  EXPECT_LE(result.standard_errors.maxCoeff(), 1e-3);
+  EXPECT_EQ(result.standard_errors[4], 0.0);
+  auto again = backlash_motion(which);
+  const auto longer = run_hybrid_lyapunov(again, {20 * result.samples, run.discard});
+  EXPECT_EQ(longer.outcome, LyapunovOutcome::sample_limit);
+  EXPECT_NEAR(result.exponents[0], longer.exponents[0], 5e-3);
+  run.scope = LyapunovScope::largest;
+  auto third = backlash_motion(which);
+  const auto largest = run_hybrid_lyapunov(third, run);
+  EXPECT_TRUE(std::isfinite(largest.exponents[0]));
+  EXPECT_TRUE(std::isnan(largest.exponents[1]) && std::isnan(largest.standard_errors[4]));
+}
+
+TEST(HybridLyapunov, ADivergingMotionCountsTheSamplesBeforeItLeft) {
+  const auto which = kollar_case_of(0.011, 0.0, 0.011);  // an eigenvalue outside the unit circle
+  auto motion = backlash_motion(which);
+  const auto result = run_hybrid_lyapunov(motion, {100000});
+  EXPECT_EQ(result.outcome, LyapunovOutcome::diverged);
+  EXPECT_EQ(result.samples, motion.index());
+  EXPECT_GT(result.exponents[0], 0.1);
+  auto early = backlash_motion(which);
+  const auto none = run_hybrid_lyapunov(early, {10, 99999});
+  EXPECT_EQ(none.outcome, LyapunovOutcome::diverged);
+  EXPECT_EQ(none.samples, 0);
+  EXPECT_TRUE(std::isnan(none.exponents[0]));
+}
+
+TEST(HybridLyapunov, RefusesWhatIsNoRun) {
+  auto motion = backlash_motion(kollar_case_of(0.001, 0.0005));
+  EXPECT_THROW(run_hybrid_lyapunov(motion, {0}), InvalidParameter);
+  EXPECT_THROW(run_hybrid_lyapunov(motion, {10, -1}), InvalidParameter);
+  EXPECT_THROW(run_hybrid_lyapunov(motion, {10, 0, -1e-3}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast

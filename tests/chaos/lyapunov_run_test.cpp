@@ -1,0 +1,154 @@
+#include "holdfast/chaos/lyapunov_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "holdfast/chaos/lyapunov.hpp"
+#include "support/kollar_case.hpp"
+
+namespace holdfast {
+namespace {
+
+test::KollarCase flickering(double period) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.width = 0.002;
+  return which;
+}
+
+LyapunovResult run_of(const test::KollarCase& which, const LyapunovRun& run) {
+  auto motion = which.motion();
+  return run_lyapunov(motion, std::make_shared<const ContactWords>(which.loop(), which.gains), run);
+}
+
+LyapunovRun until(double standard_error, LyapunovScope judged) {
+  LyapunovRun run{2000000, 500, standard_error};
+  run.judged = judged;
+  return run;
+}
+
+TEST(LyapunovRun, TakesAllSamplesWhereNothingElseIsAskedFor) {
+  for (const double period : {0.001, 0.011}) {
+    for (const std::int64_t samples : {1, 4, 6, 1001}) {
+      const auto which = flickering(period);
+      const auto result = run_of(which, {samples});
+      LyapunovObserver observer(which.loop(), which.gains);
+      auto motion = which.motion();
+      run_trajectory(motion, samples, std::nullopt, observer);
+      EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
+      EXPECT_EQ(result.samples, samples);
+      EXPECT_EQ(result.exponents, observer.spectrum().exponents());
+    }
+  }
+}
+
+TEST(LyapunovRun, LeavesTheMotionAfterTheLastSample) {
+  const auto which = flickering(0.011);
+  auto motion = which.motion();
+  const auto words = std::make_shared<const ContactWords>(which.loop(), which.gains);
+  run_lyapunov(motion, words, {100, 33});
+  EXPECT_EQ(motion.index(), 133);
+}
+
+TEST(LyapunovRun, LeavesOutTheSamplesToBeDiscarded) {
+  const auto which = flickering(0.011);
+  const double all = run_of(which, {1500}).exponents[2] * 1500;
+  const double first = run_of(which, {401}).exponents[2] * 401;
+  const auto rest = run_of(which, {1099, 401});
+  EXPECT_EQ(rest.samples, 1099);
+  EXPECT_NEAR(rest.exponents[2], (all - first) / 1099, 1e-10);
+}
+
+TEST(LyapunovRun, EndsWhenTheLargestExponentIsAccurate) {
+  const auto which = flickering(0.011);
+  const auto result = run_of(which, until(1e-4, LyapunovScope::largest));
+  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
+  EXPECT_LE(result.standard_errors[0], 1e-4);
+  EXPECT_LT(result.samples, 2000000);
+  const auto longer = run_of(which, {20 * result.samples, 500});
+  EXPECT_NEAR(result.exponents[0], longer.exponents[0], 5e-4);
+  const auto finer = run_of(which, until(1e-5, LyapunovScope::largest));
+  EXPECT_EQ(finer.outcome, LyapunovOutcome::accurate);
+  EXPECT_GT(finer.samples, result.samples);
+}
+
+TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {
+  EXPECT_TRUE(run_of(flickering(0.001), {200000, 2000}).sign_is_known());
+  EXPECT_FALSE(run_of(flickering(0.011), {12}).sign_is_known()) << "too short to have an error";
+  LyapunovResult result = run_of(flickering(0.011), {1200});
+  result.standard_errors[0] = 1e-3;
+  for (const double sign : {-1.0, 1.0}) {
+    result.exponents[0] = sign * 1.9e-3;
+    EXPECT_FALSE(result.sign_is_known());
+    result.exponents[0] = sign * 2.2e-3;
+    EXPECT_TRUE(result.sign_is_known());
+  }
+  result.exponents[0] = -std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(result.sign_is_known());
+}
+
+TEST(LyapunovRun, CanWaitForAllExponents) {
+  const auto which = flickering(0.011);
+  const auto result = run_of(which, until(1e-4, LyapunovScope::all));
+  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
+  EXPECT_LE(result.standard_errors.maxCoeff(), 1e-4);
+  EXPECT_EQ(result.standard_errors[4], 0.0);
+  EXPECT_GE(result.samples, run_of(which, until(1e-4, LyapunovScope::largest)).samples);
+}
+
+TEST(LyapunovRun, HasStandardErrorsFromFourBatchesOn) {
+  for (const std::int64_t words : {3, 4, 7, 8, 16}) {
+    const auto result = run_of(flickering(0.011), {6 * words});
+    EXPECT_EQ(std::isnan(result.standard_errors[0]), words < 4) << words;
+  }
+}
+
+TEST(LyapunovRun, SaysWhereTheSamplesDidNotSuffice) {
+  LyapunovRun run{300, 0, 1e-9};
+  const auto result = run_of(flickering(0.011), run);
+  EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
+  EXPECT_EQ(result.samples, 300);
+}
+
+TEST(LyapunovRun, TheLargestAloneIsTheFirstOfTheSpectrum) {
+  for (const double period : {0.001, 0.011}) {
+    LyapunovRun run{5003, 100};
+    const auto all = run_of(flickering(period), run);
+    run.scope = LyapunovScope::largest;
+    const auto largest = run_of(flickering(period), run);
+    EXPECT_NEAR(largest.exponents[0], all.exponents[0], 1e-10);
+    EXPECT_TRUE(std::isnan(largest.exponents[1]) && std::isnan(largest.standard_errors[4]));
+  }
+}
+
+TEST(LyapunovRun, ADivergingMotionCountsTheSamplesBeforeItLeft) {
+  test::KollarCase which = flickering(0.011);
+  which.processing_delay = 0.011;  // S has an eigenvalue outside the unit circle
+  LyapunovObserver observer(which.loop(), which.gains);
+  auto motion = which.motion();
+  ASSERT_EQ(run_trajectory(motion, 100000, std::nullopt, observer), TrajectoryOutcome::diverged);
+  const auto result = run_of(which, {100000});
+  EXPECT_EQ(result.outcome, LyapunovOutcome::diverged);
+  EXPECT_EQ(result.samples, observer.spectrum().steps());
+  EXPECT_EQ(result.exponents, observer.spectrum().exponents());
+  EXPECT_GT(result.exponents[0], 0.1);
+
+  const auto early = run_of(which, {10, 99999});
+  EXPECT_EQ(early.outcome, LyapunovOutcome::diverged);
+  EXPECT_EQ(early.samples, 0);
+  EXPECT_TRUE(std::isnan(early.exponents[0]));
+}
+
+TEST(LyapunovRun, RefusesWhatIsNoRun) {
+  const auto which = flickering(0.011);
+  EXPECT_THROW(run_of(which, {0}), InvalidParameter);
+  EXPECT_THROW(run_of(which, {10, -1}), InvalidParameter);
+  EXPECT_THROW(run_of(which, {10, 0, -1e-3}), InvalidParameter);
+  EXPECT_THROW(run_of(which, {10, 0, std::nan("")}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "cli/program.hpp"
+#include "cli/running_program.hpp"
+#include "io/text/csv.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+using program::CsvTable;
+
+/// Cells with and without backlash, of unequal numbers of samples, one that diverges and some that
+/// are not admissible.
+const std::string mixed_sweep =
+    "sweep --axis control.sampling_period=0.001,0.004 --axis control.differential_gain=-13,900"
+    " --axis control.processing_delay=0:0.0015:3 --axis backlash.width=0:0.002:5 --duration 1.5";
+
+std::string bytes_of(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  return outcome.output;
+}
+
+TEST(SweepJob, ColumnsAreTheKeysThenTheMetricsAsAskedAndTheFirstAxisIsSlowest) {
+  const CsvTable table = table_of(
+      "sweep --axis initial.z1=1e-3,-2e-3 --axis backlash.width=0:0.002:3 --duration 0.2"
+      " --metric outcome --metric force_peak --metric attenuates");
+  EXPECT_EQ(table.names(), (std::vector<std::string>{"initial.z1", "backlash.width", "outcome",
+                                                     "force_peak", "attenuates"}));
+  ASSERT_EQ(table.rows(), 6U);
+  for (std::size_t row = 0; row < 6; ++row) {
+    EXPECT_EQ(table.number(row, "initial.z1"), row < 3 ? 1e-3 : -2e-3);
+    EXPECT_EQ(table.number(row, "backlash.width"), 0.001 * static_cast<double>(row % 3));
+    EXPECT_EQ(table.text(row, "outcome"), "computed");
+  }
+  EXPECT_EQ(table_of("sweep --axis initial.z1=0 --duration 0.2").names(),
+            (std::vector<std::string>{"initial.z1", "steady_peak", "ratio_to_uncontrolled",
+                                      "attenuates", "outcome"}));
+}
+
+TEST(SweepJob, ThreadsAndTilesDoNotChangeAnyByte) {
+  const std::string sweep = mixed_sweep +
+                            " --metric steady_peak --metric steady_rms --metric force_rms --metric "
+                            "reversals_per_s --metric ratio_to_uncontrolled --metric outcome";
+  const std::string bytes = bytes_of(sweep);
+  EXPECT_EQ(lines_of(bytes).size(), 61U);
+  for (const std::string way :
+       {" --threads 1", " --threads 2", " --threads 5", " --tile 1", " --tile 7", " --tile 1000"}) {
+    EXPECT_EQ(bytes_of(sweep + way), bytes) << way;
+  }
+}
+
+/// The values of an axis of five, as the table writes them, with commas between.
+std::string values_of_axis(const CsvTable& table, const std::string& key) {
+  std::string values;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    values += (row == 0 ? "" : ",") + table.text(row, key);
+  return values;
+}
+
+TEST(SweepJob, AnAxisIsTheListOfItsValues) {
+  const std::string key = "control.sampling_period";
+  for (const std::string axis : {"0.001:0.005:5", "log:0.001:0.016:5"}) {
+    const std::string sweep = "sweep --duration 1 --axis " + key + "=";
+    const std::string bytes = bytes_of(sweep + axis);
+    const CsvTable table = program::parse_csv(bytes, axis);
+    ASSERT_EQ(table.rows(), 5U);
+    EXPECT_EQ(bytes_of(sweep + values_of_axis(table, key)), bytes) << axis;
+  }
+}
+
+TEST(SweepJob, ALogarithmicAxisHasItsEndsAndEqualRatios) {
+  const CsvTable table =
+      table_of("sweep --duration 0.1 --axis control.sampling_period=log:0.001:0.016:5");
+  const auto periods = table.numbers("control.sampling_period");
+  ASSERT_EQ(periods.size(), 5U);
+  EXPECT_EQ(periods.front(), 0.001);
+  EXPECT_EQ(periods.back(), 0.016);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR(periods[i] / periods[i - 1], 2.0, 1e-13);
+}
+
+double quantity_of(const CsvTable& table, const std::string& name) {
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "quantity") == name) return table.number(row, "value");
+  }
+  ADD_FAILURE() << name;
+  return std::nan("");
+}
+
+TEST(SweepJob, ADryRunOfAHundredMillionCellsComputesNothingAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const std::string sweep =
+      "sweep --axis initial.z1=0:0.001:10000 --axis initial.z2=0:0.001:10000 --dry-run";
+  const CsvTable table = table_of(sweep + " --output '" + (folder / "sweep.csv").string() + "'");
+  EXPECT_EQ(table.names(), (std::vector<std::string>{"quantity", "value", "unit"}));
+  EXPECT_EQ(quantity_of(table, "cells"), 1e8);
+  EXPECT_GE(quantity_of(table, "tiles"), 1.0);
+  EXPECT_LE(quantity_of(table, "tiles"), 1e8);
+  // 20 s at 1 ms, the first sample and the last one counted.
+  EXPECT_GE(quantity_of(table, "samples"), 1e8 * 20001.0);
+  EXPECT_EQ(quantity_of(table_of(sweep + " --tile 1000"), "tiles"), 1e5);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+long peak_memory_of(const std::string& cells) {
+  const TemporaryFolder folder;
+  RunningProgram sweep(words_of(
+      "sweep --threads 2 --duration 0.004 --axis initial.z1=0:0.001:" + cells +
+      " --metric first_peak --metric steady_peak --metric steady_rms --metric engaged_fraction"
+      " --metric force_peak --metric force_rms --metric reversals_per_s --metric absorber_stroke"
+      " --metric outcome --output " +
+      (folder / "sweep.csv").string()));
+  const Ending ending = sweep.wait();
+  EXPECT_EQ(ending.exit_code, 0) << ending.errors;
+  return ending.peak_memory_kib;
+}
+
+TEST(SweepJob, MemoryDoesNotGrowWithTheNumberOfCells) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer keeps freed memory back";
+#endif
+  // From some 260 000 cells on tiles are of the largest size.
+  const auto some = static_cast<double>(peak_memory_of("300000"));
+  const auto many = static_cast<double>(peak_memory_of("1000000"));
+  EXPECT_LE(many, 1.2 * some);
+}
+
+}  // namespace
+}  // namespace holdfast::tests

@@ -1,0 +1,263 @@
+#include "holdfast/contact/exact_backlash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "support/random.hpp"
+#include "support/random_loop.hpp"
+
+namespace holdfast {
+namespace {
+
+/// Δz̈ by Newton's law of each mass, a force s being transmitted.
+double relative_acceleration_by_newton(const TwoDof<double>& plant, const ContactInstant& now,
+                                       double transmitted) {
+  const Vector<double, 4>& z = now.state;
+  const double between = plant.absorber_stiffness * (z[2] - z[0]) +
+                         plant.absorber_damping * (z[3] - z[1]) + transmitted;
+  const double conductor =
+      (-plant.conductor_stiffness * z[0] - plant.conductor_damping * z[1] + between + now.force) /
+      plant.conductor_mass;
+  return -between / plant.absorber_mass - conductor;
+}
+
+/// An instant at which Δż = 0, with forces of the size of those of the springs.
+ContactInstant reversal_instant(const TwoDof<double>& plant, test::Random& random) {
+  ContactInstant now{random.matrix<Vector<double, 4>>(), 0.0, 0.0};
+  now.state[3] = now.state[1];
+  now.command = plant.absorber_stiffness * random.uniform(-2.0, 2.0);
+  now.force = plant.conductor_stiffness * random.uniform(-2.0, 2.0);
+  return now;
+}
+
+/// A drive that has moved in one direction.
+ExactBacklash moved_drive(const TwoDof<double>& plant, double width, double sign) {
+  ExactBacklash drive(plant, width);
+  drive.learn_sign(sign);
+  return drive;
+}
+
+/// g at an instant.
+double value_of_guard(const Guard& guard, const ContactInstant& now) {
+  return guard.state.dot(now.state) + guard.command * now.command + guard.force * now.force +
+         guard.constant;
+}
+
+TEST(ExactBacklash, AReversalOpensTheGapOnTheSideThatItCameFrom) {
+  test::Random random(1321);
+  const auto plant = kollar2022_plant();
+  for (const double sign : {1.0, -1.0}) {
+    ExactBacklash drive = moved_drive(plant, 0.5, sign);
+    ContactInstant now = reversal_instant(plant, random);
+    const double here = relative_displacement(now.state);
+    drive.reached(0, now);
+    EXPECT_DOUBLE_EQ(drive.lower(), sign > 0.0 ? here - 0.5 : here);
+    EXPECT_DOUBLE_EQ(drive.upper(), sign > 0.0 ? here : here + 0.5);
+    EXPECT_EQ(drive.sign(), sign);
+  }
+}
+
+TEST(ExactBacklash, ItSticksWhereTheSpringPushesOnAndTheCommandTurnsBack) {
+  test::Random random(1322);
+  int sticks = 0;
+  for (int draw = 0; draw < 4000; ++draw) {
+    const auto plant = test::random_plant(random);
+    const double sign = random.sign();
+    ExactBacklash drive = moved_drive(plant, 0.1, sign);
+    ContactInstant now = reversal_instant(plant, random);
+    const double free = sign * relative_acceleration_by_newton(plant, now, 0.0);
+    const double driven = sign * relative_acceleration_by_newton(plant, now, now.command);
+    drive.reached(0, now);
+    const bool expected = free > 0.0 && driven < 0.0;
+    ASSERT_EQ(drive.word(), expected ? ContactMode::stick : ContactMode::gap) << draw;
+    sticks += expected ? 1 : 0;
+    if (!expected) continue;
+    const double transmitted = drive.transmitted(now);
+    ASSERT_NEAR(relative_acceleration_by_newton(plant, now, transmitted), 0.0,
+                1e-12 * std::abs(free - driven));
+    ASSERT_GE(transmitted, std::min(0.0, now.command));
+    ASSERT_LE(transmitted, std::max(0.0, now.command));
+    const Guards guards = drive.guards();
+    ASSERT_EQ(guards.count, 2);
+    ASSERT_NEAR(value_of_guard(guards.guard[0], now), free, 1e-12 * std::abs(free - driven));
+    ASSERT_NEAR(value_of_guard(guards.guard[1], now), -driven, 1e-12 * std::abs(free - driven));
+  }
+  EXPECT_GT(sticks, 300);
+  EXPECT_LT(sticks, 3700);
+}
+
+TEST(ExactBacklash, WhatIsTransmittedIsWhatItsDynamicsHave) {
+  test::Random random(1323);
+  for (int draw = 0; draw < 300; ++draw) {
+    const auto plant = test::random_plant(random);
+    ContactInstant now = reversal_instant(plant, random);
+    const ExactBacklash drive(plant, 0.1);
+    const auto rate = [&](ContactMode mode, double command) -> Vector<double, 4> {
+      const AffineDynamics moving = drive.dynamics(static_cast<int>(mode));
+      return moving.state * now.state + moving.drift + moving.command * command +
+             moving.force * now.force;
+    };
+    const auto by_plant = [&](double transmitted) -> Vector<double, 4> {
+      return plant.state_matrix() * now.state + plant.control_input() * transmitted +
+             plant.excitation_input() * now.force;
+    };
+    const double size = by_plant(0.0).norm() + by_plant(now.command).norm();
+    ASSERT_LE((rate(ContactMode::engaged, now.command) - by_plant(now.command)).norm(),
+              1e-14 * size);
+    ASSERT_LE((rate(ContactMode::gap, now.command) - by_plant(0.0)).norm(), 1e-14 * size);
+    // a(s) = a(0) − s (1/m₁ + 1/m₂)
+    const double holding = relative_acceleration_by_newton(plant, now, 0.0) /
+                           (1.0 / plant.conductor_mass + 1.0 / plant.absorber_mass);
+    const Vector<double, 4> held = rate(ContactMode::stick, now.command);
+    ASSERT_LE((held - by_plant(holding)).norm(), 1e-11 * (size + by_plant(holding).norm()));
+    ASSERT_EQ(held[1], held[3]) << "to the last bit: the sides stay together";
+    ASSERT_EQ(held[0], held[2]);
+  }
+}
+
+/// A drive that sticks; the instant is changed until it does.
+ExactBacklash sticking_drive(const TwoDof<double>& plant, test::Random& random,
+                             ContactInstant& now) {
+  while (true) {
+    ExactBacklash drive = moved_drive(plant, 0.1, random.sign());
+    now = reversal_instant(plant, random);
+    drive.reached(0, now);
+    if (drive.word() == ContactMode::stick) return drive;
+  }
+}
+
+TEST(ExactBacklash, ACommandThatJumpsMayEndTheStick) {
+  test::Random random(1324);
+  int counts[3] = {0, 0, 0};
+  for (int draw = 0; draw < 3000; ++draw) {
+    const auto plant = test::random_plant(random);
+    ContactInstant now;
+    ExactBacklash drive = sticking_drive(plant, random, now);
+    const double lower = drive.lower(), upper = drive.upper();
+    now.command = plant.absorber_stiffness * random.uniform(-2.0, 2.0);
+    if (draw % 2 == 0) now.force = plant.conductor_stiffness * random.uniform(-2.0, 2.0);
+    const double free = drive.sign() * relative_acceleration_by_newton(plant, now, 0.0);
+    const double driven = drive.sign() * relative_acceleration_by_newton(plant, now, now.command);
+    drive.jumped(now);
+    const ContactMode expected = !(free > 0.0)     ? ContactMode::gap
+                                 : !(driven < 0.0) ? ContactMode::engaged
+                                                   : ContactMode::stick;
+    ASSERT_EQ(drive.word(), expected) << draw;
+    ASSERT_EQ(drive.lower(), lower);
+    ASSERT_EQ(drive.upper(), upper);
+    ++counts[static_cast<int>(expected)];
+  }
+  for (const int count : counts) EXPECT_GT(count, 200);
+}
+
+TEST(ExactBacklash, AJumpLeavesTheOtherModesAsTheyAre) {
+  test::Random random(1325);
+  const auto plant = kollar2022_plant();
+  ContactInstant now = reversal_instant(plant, random);
+  ExactBacklash engaged = moved_drive(plant, 0.1, 1.0);
+  engaged.jumped(now);
+  EXPECT_EQ(engaged.word(), ContactMode::engaged);
+  now = {Vector<double, 4>(0.0, 0.0, 1.0, 0.0), 0.0, 0.0};  // the spring pulls back
+  ExactBacklash gap = moved_drive(plant, 0.1, 1.0);
+  gap.reached(0, now);
+  ASSERT_EQ(gap.word(), ContactMode::gap);
+  now.command = -1e3;
+  gap.jumped(now);
+  EXPECT_EQ(gap.word(), ContactMode::gap);
+  EXPECT_EQ(gap.transmitted(now), 0.0);
+  EXPECT_EQ(engaged.transmitted(now), -1e3);
+}
+
+TEST(ExactBacklash, TheEndOfTheGapThatIsPassedGivesTheDirection) {
+  const auto plant = kollar2022_plant();
+  for (const int end : {0, 1}) {
+    ContactInstant now{Vector<double, 4>(0.0, 0.0, 1.0, 0.0), 0.0, 0.0};
+    ExactBacklash drive = moved_drive(plant, 0.1, 1.0);
+    drive.reached(0, now);
+    ASSERT_EQ(drive.word(), ContactMode::gap);
+    const Guards guards = drive.guards();
+    ASSERT_EQ(guards.count, 2);
+    EXPECT_NEAR(value_of_guard(guards.guard[0], now), 0.0, 1e-15) << "the upper end is here";
+    EXPECT_NEAR(value_of_guard(guards.guard[1], now), 0.1, 1e-15) << "and the lower one 0.1 m off";
+    now.state = Vector<double, 4>(0.0, 0.0, end == 0 ? 1.0 : 0.9, end == 0 ? 0.5 : -0.5);
+    drive.reached(end, now);
+    EXPECT_EQ(drive.word(), ContactMode::engaged);
+    EXPECT_EQ(drive.sign(), end == 0 ? 1.0 : -1.0);
+    const Guards engaged = drive.guards();
+    ASSERT_EQ(engaged.count, 1);
+    EXPECT_DOUBLE_EQ(value_of_guard(engaged.guard[0], now), 0.5) << "it moves on";
+  }
+}
+
+TEST(ExactBacklash, MirroredMotionIsMirrored) {
+  test::Random random(1326);
+  for (int draw = 0; draw < 500; ++draw) {
+    const auto plant = test::random_plant(random);
+    ContactInstant now = reversal_instant(plant, random);
+    ContactInstant mirror{-now.state, -now.command, -now.force};
+    ExactBacklash drive = moved_drive(plant, 0.1, 1.0), other = moved_drive(plant, 0.1, -1.0);
+    drive.reached(0, now);
+    other.reached(0, mirror);
+    ASSERT_EQ(drive.word(), other.word());
+    ASSERT_EQ(drive.lower(), -other.upper());
+    ASSERT_EQ(drive.upper(), -other.lower());
+    ASSERT_EQ(drive.transmitted(now), -other.transmitted(mirror));
+  }
+}
+
+TEST(ExactBacklash, ADisplacedDriveDoesNotStick) {
+  test::Random random(1327);
+  const auto plant = kollar2022_plant();
+  ContactInstant now;
+  ExactBacklash drive = sticking_drive(plant, random, now);
+  drive.displaced();
+  EXPECT_EQ(drive.word(), ContactMode::gap);
+  for (int g = 0; g < 2; ++g) EXPECT_EQ(drive.guards().guard[static_cast<std::size_t>(g)].zeros, 0);
+}
+
+TEST(ExactBacklash, AShiftedGapIsAsWide) {
+  test::Random random(1328);
+  const auto plant = kollar2022_plant();
+  ContactInstant now;
+  ExactBacklash drive = sticking_drive(plant, random, now);
+  const double lower = drive.lower(), upper = drive.upper();
+  drive.shift_gap(0.25);
+  EXPECT_DOUBLE_EQ(drive.lower(), lower + 0.25);
+  EXPECT_DOUBLE_EQ(drive.upper(), upper + 0.25);
+}
+
+TEST(ExactBacklash, WithoutWidthNothingEndsTheContact) {
+  const ExactBacklash drive(kollar2022_plant(), 0.0);
+  EXPECT_EQ(drive.guards().count, 0);
+  EXPECT_EQ(drive.word(), ContactMode::engaged);
+  EXPECT_EQ(drive.sign(), 0.0);
+  EXPECT_EQ(drive.commanded(-3.0), -3.0);
+}
+
+TEST(ExactBacklash, TheSignOfADriveAtRestIsNotKnown) {
+  ExactBacklash drive(kollar2022_plant(), 0.1);
+  ASSERT_EQ(drive.guards().count, 1);
+  EXPECT_TRUE(drive.guards().guard[0].unsigned_yet);
+  drive.learn_sign(-1.0);
+  EXPECT_FALSE(drive.guards().guard[0].unsigned_yet);
+  EXPECT_EQ(drive.guards().guard[0].state, -velocity_row());
+}
+
+TEST(ExactBacklash, AWidthOutOfRangeIsRefused) {
+  for (const double width :
+       {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(ExactBacklash(kollar2022_plant(), width), InvalidParameter) << width;
+}
+
+TEST(ContactMode, HasAWord) {
+  EXPECT_EQ(std::string(word_for(ContactMode::engaged)), "engaged");
+  EXPECT_EQ(std::string(word_for(ContactMode::gap)), "gap");
+  EXPECT_EQ(std::string(word_for(ContactMode::stick)), "stick");
+}
+
+}  // namespace
+}  // namespace holdfast

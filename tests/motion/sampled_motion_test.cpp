@@ -1,0 +1,103 @@
+#include "holdfast/motion/sampled_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/kollar_case.hpp"
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+using test::KollarCase;
+
+TEST(SampledMotion, WithoutBacklashTwiceTheForceMovesTwiceAsFar) {
+  // Doubling is exact in binary, so superposition holds to the last bit.
+  KollarCase once;
+  once.width = 0.0;
+  once.sampling_period = 0.003;
+  once.processing_delay = 0.001;
+  KollarCase twice = once;
+  twice.excitation.amplitude *= 2.0;
+  const auto single = test::record(once, 3.0), doubled = test::record(twice, 3.0);
+  ASSERT_EQ(single.size(), 1001U);
+  for (std::size_t j = 0; j < single.size(); ++j) {
+    ASSERT_EQ(doubled[j].state, 2.0 * single[j].state) << j;
+    ASSERT_EQ(doubled[j].control_force, 2.0 * single[j].control_force) << j;
+  }
+  EXPECT_GT(single.back().state.norm(), 1e-4);
+}
+
+TEST(SampledMotion, WithBacklashTwiceTheForceDoesNotMoveTwiceAsFar) {
+  KollarCase once, twice;
+  twice.excitation.amplitude *= 2.0;
+  const auto single = test::record(once, 3.0), doubled = test::record(twice, 3.0);
+  EXPECT_GT((doubled.back().state - 2.0 * single.back().state).norm(), 1e-4);
+}
+
+TEST(SampledMotion, FollowsTheExtendedMaps) {
+  // z̃ = [z; previous force] steps by S outside the backlash and by S* inside, whatever the delay.
+  for (const double fraction : {0.0, 0.4, 1.0}) {
+    KollarCase which;
+    which.processing_delay = fraction * which.sampling_period;
+    const auto samples = test::record(which, 2.0);
+    const auto loop = which.loop();
+    const Matrix<double, 5> engaged = loop.engaged_map(which.gains), idle = loop.backlash_map();
+    double previous_force = 0.0;
+    int inside = 0;
+    for (std::size_t j = 0; j + 1 < samples.size(); ++j) {
+      Vector<double, 5> extended;
+      extended << samples[j].state, previous_force;
+      Vector<double, 5> next = (samples[j].engaged ? engaged : idle) * extended;
+      next.head<4>() +=
+          loop.held_excitation *
+          sample_excitation(which.excitation, which.sampling_period, samples[j].index).cosine;
+      ASSERT_LE((next.head<4>() - samples[j + 1].state).cwiseAbs().maxCoeff(), 1e-14);
+      ASSERT_NEAR(next[4], samples[j].control_force, 1e-12);
+      previous_force = samples[j].control_force;
+      inside += samples[j].engaged ? 0 : 1;
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_LT(inside, 1900);
+  }
+}
+
+TEST(SampledMotion, ADelayedForceArrivesLate) {
+  // The whole period late: nothing of the first command is felt in the first step, all of it in the
+  // second.
+  KollarCase which;
+  which.width = 0.0;
+  which.excitation.amplitude = 0.0;
+  which.initial_state << 0.001, 0.0, 0.0, 0.0;
+  KollarCase late = which, off = which.without_control();
+  late.processing_delay = late.sampling_period;
+  const auto prompt = test::record(which, 0.002), delayed = test::record(late, 0.002),
+             idle = test::record(off, 0.002);
+  EXPECT_EQ(delayed[1].state, idle[1].state);
+  EXPECT_NE(prompt[1].state, idle[1].state);
+  const Vector<double, 4> felt = delayed[2].state - idle[2].state;
+  const Vector<double, 4> expected = which.loop().present_force * delayed[0].control_force;
+  EXPECT_LE((felt - expected).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_DOUBLE_EQ(delayed[0].control_force, -0.557);
+}
+
+TEST(SampledMotion, NoForceIsTransmittedInTheBacklash) {
+  const auto samples = test::record(KollarCase{}, 2.0);
+  int inside = 0;
+  for (const auto& sample : samples) {
+    const double command = -557.0 * sample.state[0] - 13.0 * sample.state[1];
+    ASSERT_DOUBLE_EQ(sample.control_force, sample.engaged ? command : 0.0);
+    inside += sample.engaged ? 0 : 1;
+  }
+  EXPECT_GT(inside, 0);
+}
+
+TEST(SampledMotion, ADisplacedConductorIsSeenByTheNextSample) {
+  auto motion = KollarCase{}.motion();
+  motion.displace_conductor(0.003);
+  EXPECT_EQ(motion.sense().state[0], 0.003);
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,179 @@
+#include "holdfast/motion/taylor_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "holdfast/control/zero_order_hold.hpp"
+#include "holdfast/excitation/multi_harmonic_force.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/exponential.hpp"
+#include "support/random.hpp"
+#include "support/random_loop.hpp"
+
+namespace holdfast {
+namespace {
+
+using PreciseState = Vector<long double, 4>;
+
+/// ż = A z + drift + b u + c Σ F cos ω t over x h, in extended precision: one exponential of
+/// [z; 1; cos ω t; sin ω t].
+PreciseState precise_state(const AffineDynamics& dynamics, const Vector<double, 4>& state,
+                           double command, const Harmonic& harmonic, double time,
+                           long double length) {
+  Matrix<long double, 7> generator = Matrix<long double, 7>::Zero();
+  generator.topLeftCorner<4, 4>() = dynamics.state.cast<long double>();
+  generator.block<4, 1>(0, 4) =
+      dynamics.drift.cast<long double>() +
+      dynamics.command.cast<long double>() * static_cast<long double>(command);
+  generator.block<4, 1>(0, 5) = dynamics.force.cast<long double>();
+  const long double omega = 2.0L * pi<long double> * harmonic.frequency;
+  generator(5, 6) = -omega;
+  generator(6, 5) = omega;
+  const long double angle = omega * time + harmonic.phase;
+  Vector<long double, 7> begin;
+  begin << state.cast<long double>(), 1.0L, harmonic.amplitude * std::cos(angle),
+      harmonic.amplitude * std::sin(angle);
+  const BalancedMatrix<long double, 7> similar(generator * length);
+  const Matrix<long double, 7> step =
+      similar.restored(exponential<long double, 7>(similar.balanced));
+  return (step * begin).head<4>();
+}
+
+/// The motion of a plant with all its inputs.
+AffineDynamics driven_dynamics(const TwoDof<double>& plant, test::Random& random) {
+  return {plant.state_matrix(), plant.control_input(), plant.excitation_input(),
+          plant.control_input() * random.uniform(-1.0, 1.0)};
+}
+
+TEST(AffineExpansion, IsTheExactMotionToRoundOff) {
+  test::Random random(1311);
+  double worst = 0.0;
+  for (int draw = 0; draw < 1000; ++draw) {
+    const auto plant = test::random_plant(random);
+    const AffineDynamics dynamics = driven_dynamics(plant, random);
+    const Vector<double, 4> unit = balancing(dynamics.state);
+    const Harmonic harmonic{random.uniform(0.0, 2.0), random.log_uniform(0.1, 100.0),
+                            random.uniform(-3.0, 3.0)};
+    const double rate = std::max(balanced_norm(dynamics.state), harmonic.angular_frequency());
+    const double share = random.log_uniform(1e-3, 1.0), length = share / rate;
+    const double time = random.uniform(0.0, 0.1), command = random.uniform(-1.0, 1.0);
+    Series force(terms_for(share));
+    ComposedForce{{harmonic}, nullptr}.expand(time, length, force);
+    const Vector<double, 4> begin = unit.asDiagonal() * random.matrix<Vector<double, 4>>();
+    const AffineExpansion motion(dynamics, begin, command, force, length);
+    for (const double x : {0.0, 0.25, 0.7, 1.0}) {
+      const PreciseState exact = precise_state(dynamics, begin, command, harmonic, time,
+                                               static_cast<long double>(length) * x);
+      const Vector<double, 4> wrong = motion.state(x) - exact.cast<double>();
+      // Relative to the state and to what the inputs may add, in units that suit all components.
+      const Vector<double, 4> inputs = dynamics.drift.cwiseAbs() +
+                                       dynamics.command.cwiseAbs() * std::abs(command) +
+                                       dynamics.force.cwiseAbs() * harmonic.amplitude;
+      const Vector<double, 4> scale = exact.cast<double>().cwiseAbs() + length * inputs;
+      const double error = wrong.cwiseQuotient(unit).cwiseAbs().maxCoeff() /
+                           scale.cwiseQuotient(unit).cwiseAbs().maxCoeff();
+      worst = std::max(worst, error);
+      ASSERT_LT(error, 1e-14) << "draw " << draw << ", x = " << x << ", ‖A‖ h = " << share;
+    }
+  }
+  std::cout << "largest relative error " << worst << '\n';
+}
+
+TEST(AffineExpansion, UnderAHeldForceIsTheZeroOrderHold) {
+  test::Random random(1312);
+  for (int draw = 0; draw < 500; ++draw) {
+    const auto plant = test::random_plant(random);
+    const AffineDynamics dynamics{plant.state_matrix(), plant.control_input(),
+                                  plant.excitation_input()};
+    const Vector<double, 4> unit = balancing(dynamics.state);
+    const double length = 1.0 / balanced_norm(dynamics.state);
+    Matrix<double, 4, 2> inputs;
+    inputs << dynamics.command, dynamics.force;
+    const Vector<double, 2> held = random.matrix<Vector<double, 2>>();
+    Series force = Series::Zero(terms_for(1.0));
+    force[0] = held[1];
+    const Vector<double, 4> begin = unit.asDiagonal() * random.matrix<Vector<double, 4>>();
+    const AffineExpansion motion(dynamics, begin, held[0], force, length);
+    const auto step = zero_order_hold<double, 4, 2>(dynamics.state, inputs, length);
+    const Vector<double, 4> expected = step.transition * begin + step.input * held;
+    const double scale = std::max(expected.cwiseQuotient(unit).norm(),
+                                  length * (inputs * held).cwiseQuotient(unit).norm());
+    ASSERT_LE((motion.state(1.0) - expected).cwiseQuotient(unit).norm(), 3e-14 * scale) << draw;
+    ASSERT_EQ(motion.state(0.0), begin);
+  }
+}
+
+TEST(AffineExpansion, ItsCoefficientsSolveTheEquationOfMotion) {
+  test::Random random(1313);
+  const auto plant = kollar2022_plant();
+  const AffineDynamics dynamics = driven_dynamics(plant, random);
+  const double length = 0.005, command = 0.3;
+  Series force(20);
+  ComposedForce{{{0.5, 10.0, 0.4}}, nullptr}.expand(0.02, length, force);
+  const Vector<double, 4> begin(0.001, -0.03, 0.002, 0.05);
+  const AffineExpansion motion(dynamics, begin, command, force, length);
+  const auto& z = motion.coefficients();
+  for (Eigen::Index k = 0; k + 1 < z.cols(); ++k) {
+    Vector<double, 4> rate = dynamics.state * z.col(k) + dynamics.force * force[k];
+    if (k == 0) rate += dynamics.drift + dynamics.command * command;
+    const Vector<double, 4> slope = z.col(k + 1) * (static_cast<double>(k + 1) / length);
+    EXPECT_LE((slope - rate).norm(), 1e-14 * rate.norm()) << k;
+  }
+}
+
+/// x^n / n! + x^{n+1} / (n + 1)! + …
+long double rest_of_exponential(long double x, int terms) {
+  long double term = 1.0L, rest = 0.0L;
+  for (int k = 1; k <= terms; ++k) term *= x / k;
+  for (int k = terms + 1; k < terms + 60; ++k) {
+    rest += term;
+    term *= x / k;
+  }
+  return rest;
+}
+
+TEST(TermsFor, LeaveARestThatIsNegligibleAndAreNoMoreThanThatTakes) {
+  test::Random random(1314);
+  constexpr long double negligible = 0x1p-60L;
+  int fewest = most_terms, most = 0;
+  for (int draw = 0; draw < 20000; ++draw) {
+    const double x = draw == 0 ? 1.0 : random.log_uniform(1e-20, 1.0);
+    const int terms = terms_for(x);
+    fewest = std::min(fewest, terms);
+    most = std::max(most, terms);
+    ASSERT_GE(terms, 1);
+    ASSERT_LE(terms, most_terms);
+    // The rest is the first term left out, more or less.
+    ASSERT_LE(rest_of_exponential(x, terms), 1.1L * negligible) << x;
+    if (terms > 1) {
+      ASSERT_GT(rest_of_exponential(x, terms - 1), negligible) << x;
+    }
+  }
+  EXPECT_EQ(fewest, 1);
+  EXPECT_EQ(most, most_terms);
+  EXPECT_EQ(terms_for(0.0), 1);
+}
+
+TEST(BalancedNorm, BoundsEveryEigenvalueWhateverTheUnits) {
+  test::Random random(1315);
+  for (int draw = 0; draw < 300; ++draw) {
+    const Matrix<double, 4> a = test::random_plant(random).state_matrix();
+    const double norm = balanced_norm(a);
+    const double fastest = a.eigenvalues().cwiseAbs().maxCoeff();
+    ASSERT_GE(norm, fastest * (1.0 - 1e-9));
+    ASSERT_LE(norm, 10.0 * fastest) << "much longer steps would do";
+    Vector<double, 4> unit;
+    for (int i = 0; i < 4; ++i) unit[i] = std::exp2(std::floor(random.uniform(-20.0, 20.0)));
+    const double elsewhere =
+        balanced_norm(Matrix<double, 4>(unit.cwiseInverse().asDiagonal() * a * unit.asDiagonal()));
+    ASSERT_LE(elsewhere, 2.0 * norm);
+    ASSERT_GE(elsewhere, 0.5 * norm);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast

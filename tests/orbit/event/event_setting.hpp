@@ -1,0 +1,190 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/contact/exact_backlash.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/variational_flow.hpp"
+#include "support/random.hpp"
+
+namespace holdfast::test {
+
+/// A loop near that of Kollár 2022 whose drive may switch between the samples.
+struct HybridSetting {
+  TwoDof<double> plant;
+  DigitalLoop loop;
+  double width;
+
+  HybridMotion<ExactBacklash> motion() const {
+    return {loop, ExactBacklash(plant, width), Vector<double, 4>::Zero()};
+  }
+};
+
+/// Whether a motion stays within 20 mm for some seconds.
+template <class Contact>
+bool stays_small(HybridMotion<Contact> motion, double duration) {
+  while (motion.time() < duration) {
+    motion.sense();
+    if (!(motion.state().cwiseAbs().maxCoeff() < 2.0) || !(std::abs(motion.state()[0]) < 0.02))
+      return false;
+    motion.advance();
+  }
+  return !motion.counts().accumulates;
+}
+
+/// All masses, springs and dampers of Table 1 within ± 30 %, τ 0.5 … 20 ms, δ = 0, τ/3 and τ in
+/// turn, both holds of the force in turn, r₀ 0.1 … 3 mm, F at 3 … 60 Hz, gains up to those of the
+/// paper; to half of them a second harmonic, which makes sticking end in any way.
+inline HybridSetting random_hybrid_setting(Random& random, int index) {
+  const auto near = [&random](double value) { return value * random.uniform(0.7, 1.3); };
+  const TwoDof<double> table = kollar2022_plant();
+  HybridSetting setting;
+  setting.plant = {near(table.conductor_mass),     near(table.conductor_stiffness),
+                   near(table.conductor_damping),  near(table.absorber_mass),
+                   near(table.absorber_stiffness), near(table.absorber_damping)};
+  const double period = random.log_uniform(5e-4, 2e-2);
+  const double delays[] = {0.0, period / 3.0, period};
+  setting.loop.sampling = {period, delays[index % 3]};
+  setting.loop.gains = {-557.0 * random.uniform(0.2, 1.1), -13.0 * random.uniform(0.2, 1.2)};
+  setting.loop.force.harmonics = {{0.5, random.log_uniform(3.0, 60.0), random.uniform(0.0, 6.0)}};
+  if (index % 4 >= 2) setting.loop.force.harmonics.push_back({0.3, random.log_uniform(20.0, 80.0)});
+  setting.loop.hold = index % 2 == 0 ? ForceHold::exact : ForceHold::sampled;
+  setting.width = random.log_uniform(1e-4, 3e-3);
+  return setting;
+}
+
+/// The same for a motion that stays small for three seconds.
+inline HybridSetting bounded_hybrid_setting(Random& random, int index) {
+  for (;;) {
+    HybridSetting setting = random_hybrid_setting(random, index);
+    if (stays_small(setting.motion(), 3.0)) return setting;
+  }
+}
+
+/// A change of contact, to tell whether two motions go the same way.
+struct SeenSwitch {
+  std::int64_t index;
+  int from, to, guard;
+  bool operator==(const SeenSwitch& other) const {
+    return index == other.index && from == other.from && to == other.to && guard == other.guard;
+  }
+};
+
+/// Writes down the changes of contact of a motion between its samples, and at them.
+class SwitchRecorder {
+ public:
+  template <class Contact>
+  void advance(HybridMotion<Contact>& motion) {
+    index_ = motion.index();
+    const int before = motion.contact().mode();
+    motion.sense();
+    if (motion.contact().mode() != before)
+      seen_.push_back({index_, before, motion.contact().mode(), -2});
+    motion.advance(*this);
+  }
+
+  void flowed(int, double, double) const {}
+  void commanded() const {}
+  void switched(int from, int to, int guard, const ContactInstant&) {
+    seen_.push_back({index_, from, to, guard});
+  }
+  const std::vector<SeenSwitch>& seen() const { return seen_; }
+
+ private:
+  std::int64_t index_ = 0;
+  std::vector<SeenSwitch> seen_;
+};
+
+/// X = [z; u_{j−1}; g; z₁ as read] of a motion that has come to a sample.
+inline double anchor_of(const ExactBacklash& contact) {
+  return ContactTangent<ExactBacklash>::anchored(contact.mode()) ? contact.lower() : 0.0;
+}
+template <class Contact>
+double anchor_of(const Contact&) {
+  return 0.0;
+}
+
+template <class Contact>
+Vector<double, 7> extended_state(const HybridMotion<Contact>& motion) {
+  const bool reads = motion.controller().limits().velocity == VelocitySensing::difference;
+  Vector<double, 7> extended;
+  extended << motion.state(), motion.previous_command(), anchor_of(motion.contact()),
+      reads ? motion.controller().memory().previous_displacement : 0.0;
+  return extended;
+}
+
+inline void shift_anchor(ExactBacklash& contact, double by) { contact.shift_gap(by); }
+template <class Contact>
+void shift_anchor(Contact&, double) {}
+
+/// A motion moved by a deviation of its z, u_{j−1} and g.
+template <class Contact>
+HybridMotion<Contact> displaced_motion(const HybridMotion<Contact>& motion,
+                                       const Vector<double, 7>& by) {
+  HybridMotion<Contact> other = motion;
+  Contact contact = motion.contact();
+  shift_anchor(contact, by[5]);
+  other.restore(motion.index(), motion.state() + by.head<4>(), motion.previous_command() + by[4],
+                contact);
+  return other;
+}
+
+/// Sizes of the entries of X that belong to a displacement of 1 mm.
+template <class Contact>
+Vector<double, 7> sizes_of(const HybridMotion<Contact>& motion) {
+  constexpr double displacement = 1e-3, rate = 20.0;
+  const PdGains<double>& gains = motion.loop().gains;
+  const double command =
+      (std::abs(gains.proportional) + rate * std::abs(gains.differential)) * displacement;
+  Vector<double, 7> sizes;
+  sizes << displacement, rate * displacement, displacement, rate * displacement,
+      std::max(command, 1e-6), displacement, displacement;
+  return sizes;
+}
+
+/// The two neighbours of a motion along a direction after some samples, nothing if either goes
+/// another way than `seen`.
+template <class Contact>
+std::optional<Vector<double, 7>> difference_along(const HybridMotion<Contact>& motion,
+                                                  const Vector<double, 7>& direction, int samples,
+                                                  const std::vector<SeenSwitch>& seen) {
+  Vector<double, 7> ends[2];
+  for (const int side : {0, 1}) {
+    HybridMotion<Contact> other =
+        displaced_motion(motion, side == 0 ? direction : Vector<double, 7>(-direction));
+    SwitchRecorder recorder;
+    for (int sample = 0; sample < samples; ++sample) recorder.advance(other);
+    if (!(recorder.seen() == seen)) return std::nullopt;
+    ends[side] = extended_state(other);
+  }
+  return 0.5 * (ends[0] - ends[1]);
+}
+
+/// The derivative along a direction, by differences over two steps of which the first error is
+/// taken out.
+struct Difference {
+  Vector<double, 7> value;
+  double error;  ///< of the larger step against the smaller one, in `sizes`
+};
+
+template <class Contact>
+std::optional<Difference> derivative_along(const HybridMotion<Contact>& motion,
+                                           const Vector<double, 7>& direction, double step,
+                                           int samples, const std::vector<SeenSwitch>& seen) {
+  const auto coarse = difference_along<Contact>(motion, direction * step, samples, seen);
+  const auto fine = difference_along<Contact>(motion, direction * (0.5 * step), samples, seen);
+  if (!coarse || !fine) return std::nullopt;
+  const Vector<double, 7> first = *coarse / step, second = *fine / (0.5 * step);
+  const Vector<double, 7> sizes = sizes_of(motion);
+  return Difference{(4.0 * second - first) / 3.0,
+                    (second - first).cwiseQuotient(sizes).cwiseAbs().maxCoeff()};
+}
+
+}  // namespace holdfast::test

@@ -1,0 +1,257 @@
+#include "holdfast/orbit/periodic_orbit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/stability/response/response.hpp"
+#include "support/kollar_case.hpp"
+
+namespace holdfast {
+namespace {
+
+ForcedLoop<double> orbit_loop(double period, double width, double delay_fraction = 0.0) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.width = width;
+  which.processing_delay = delay_fraction * period;
+  return which.forced_loop();
+}
+
+std::vector<ForcedLoop<double>> orbit_loops() {
+  return {orbit_loop(0.001, 0.0005), orbit_loop(0.001, 0.002),     orbit_loop(0.01, 0.002),
+          orbit_loop(0.011, 0.002),  orbit_loop(0.01, 0.001),      orbit_loop(0.01, 0.002, 0.5),
+          orbit_loop(0.001, 0.003),  orbit_loop(0.005, 0.001, 0.3)};
+}
+
+PeriodicOrbit orbit_from_rest(const ForcedLoop<double>& loop) {
+  const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {5000, 0});
+  EXPECT_EQ(found.outcome, OrbitOutcome::certified);
+  return found.orbit.value();
+}
+
+/// The motion on an orbit, begun at its first sample.
+PeriodicallyForcedMotion<double> motion_on(const ForcedLoop<double>& loop,
+                                           const PeriodicOrbit& orbit) {
+  auto motion = periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval());
+  const Vector<double, 5>& first = orbit.states.front();
+  motion.restore(
+      MotionMemory<double, BacklashMemory<double>>{first.head<4>(), first[4], orbit.memory});
+  return motion;
+}
+
+TEST(PeriodicOrbit, IsWhereALongPlainSimulationEnds) {
+  for (const auto& loop : orbit_loops()) {
+    const PeriodicOrbit orbit = orbit_from_rest(loop);
+    EXPECT_TRUE(orbit.is_attracting());
+    auto motion = harmonically_forced_motion(loop, Vector<double, 4>::Zero().eval());
+    const auto turns = static_cast<std::int64_t>(5.0 - 30.0 / orbit.multipliers[0].log_modulus);
+    // Enough for any transient here, a whole number of periods.
+    const std::int64_t periods = turns + 60000 / orbit.period_samples();
+    run_trajectory(motion, periods * orbit.period_samples(), std::nullopt);
+    // Which coincidence of the orbit the motion has come to is left open.
+    const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
+    double nearest = 1.0;
+    std::size_t start = 0;
+    for (std::size_t j = 0; j < orbit.states.size(); j += step) {
+      const double apart = (orbit.states[j].head<4>() - motion.state()).norm();
+      if (apart < nearest) nearest = apart, start = j;
+    }
+    EXPECT_LT(nearest, 1e-10) << loop.sampling.period;
+    for (std::size_t j = 0; j < orbit.states.size(); ++j) {
+      const std::size_t here = (start + j) % orbit.states.size();
+      ASSERT_LT((orbit.states[here].head<4>() - motion.state()).norm(), 1e-10);
+      ASSERT_EQ(motion.sense().engaged, orbit.contacts[here] != 0);
+      motion.advance();
+    }
+  }
+}
+
+TEST(PeriodicOrbit, ClosesUponItself) {
+  for (const auto& loop : orbit_loops()) {
+    const PeriodicOrbit orbit = orbit_from_rest(loop);
+    EXPECT_LE(orbit.closure_error, 1e-12);
+    auto motion = motion_on(loop, orbit);
+    for (const std::uint8_t contact : orbit.contacts) {
+      ASSERT_EQ(motion.sense().engaged, contact != 0);
+      motion.advance();
+    }
+    EXPECT_LT((motion.state() - orbit.states.front().head<4>()).norm(), 1e-12);
+    EXPECT_NEAR(motion.memory().previous_force, orbit.states.front()[4], 1e-10);
+    EXPECT_EQ(motion.law().inside(), orbit.memory.inside);
+  }
+}
+
+TEST(PeriodicOrbit, MultipliersAreThoseOfTheReturnMapByFiniteDifferences) {
+  for (const auto& loop : {orbit_loop(0.001, 0.0005), orbit_loop(0.01, 0.002),
+                           orbit_loop(0.01, 0.002, 0.5), orbit_loop(0.001, 0.002)}) {
+    const PeriodicOrbit orbit = orbit_from_rest(loop);
+    const auto after_period = [&](const Vector<double, 5>& deviation) {
+      auto motion = motion_on(loop, orbit);
+      auto memory = motion.memory();
+      memory.state += deviation.head<4>();
+      memory.previous_force += deviation[4];
+      motion.restore(memory);
+      run_trajectory(motion, orbit.period_samples(), std::nullopt);
+      Vector<double, 5> state;
+      state << motion.state(), motion.memory().previous_force;
+      return state;
+    };
+    const Vector<double, 5> steps(1e-7, 1e-6, 1e-7, 1e-6, 1e-6);
+    Matrix<double, 5> tangent;
+    for (int k = 0; k < 5; ++k) {
+      const Vector<double, 5> step = steps[k] * Vector<double, 5>::Unit(k);
+      tangent.col(k) = (after_period(step) - after_period(-step)) / (2.0 * steps[k]);
+    }
+    Vector<double, 5> expected = tangent.eigenvalues().cwiseAbs();
+    std::sort(expected.begin(), expected.end(), std::greater<>());
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double found = std::abs(orbit.multipliers[i].value());
+      EXPECT_NEAR(found, expected[static_cast<Eigen::Index>(i)], 1e-6) << i;
+    }
+    EXPECT_EQ(orbit.largest_multiplier(), std::exp(orbit.multipliers[0].log_modulus));
+  }
+}
+
+TEST(PeriodicOrbit, TheLogarithmsOfMultipliersPerSampleAreTheLyapunovExponents) {
+  for (const auto& loop : orbit_loops()) {
+    const PeriodicOrbit orbit = orbit_from_rest(loop);
+    LyapunovObserver observer(sampled_loop(loop.plant, loop.sampling), loop.gains);
+    auto motion = motion_on(loop, orbit);
+    const std::int64_t periods = 1 + 40000 / orbit.period_samples();
+    const std::int64_t samples = periods * orbit.period_samples();
+    run_trajectory(motion, samples, std::nullopt, observer);
+    const Vector<double, 5> exponents = observer.spectrum().exponents();
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double expected =
+          orbit.multipliers[i].log_modulus / static_cast<double>(orbit.period_samples());
+      const double found = exponents[static_cast<Eigen::Index>(i)];
+      if (std::isinf(expected)) {
+        EXPECT_EQ(found, expected);
+      } else {
+        // The turning of the basis adds a bounded sum, of order ln ‖S‖.
+        EXPECT_NEAR(found, expected, 20.0 / static_cast<double>(samples)) << i;
+      }
+    }
+  }
+}
+
+TEST(PeriodicOrbit, OfSlowSamplingHasAllItsMultipliers) {
+  // Without backlash they are the powers of the loop's eigenvalues, however small.
+  for (const double period : {0.01, 0.05, 0.1, 0.2, 0.3}) {
+    ForcedLoop<double> loop = orbit_loop(period, 0.0);
+    loop.gains = {-20.0, -0.5};
+    loop.excitation.frequency = 7.0;
+    const PeriodicOrbit orbit = orbit_from_rest(loop);
+    const ForcedLoop<long double> precise = converted<long double>(loop);
+    Vector<double, 5> expected = sampled_loop(precise.plant, precise.sampling)
+                                     .engaged_map(precise.gains)
+                                     .eigenvalues()
+                                     .cwiseAbs()
+                                     .array()
+                                     .log()
+                                     .cast<double>();
+    std::sort(expected.begin(), expected.end(), std::greater<>());
+    for (int i = 0; i < 4; ++i) {
+      const double samples = static_cast<double>(orbit.period_samples());
+      const double found = orbit.multipliers[static_cast<std::size_t>(i)].log_modulus / samples;
+      EXPECT_NEAR(found, expected[i], 1e-9) << period << ' ' << i;
+    }
+  }
+}
+
+TEST(PeriodicOrbit, OfTheLinearLoopIsItsSteadyResponse) {
+  for (const double period : {0.001, 0.004, 0.01}) {
+    for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
+      ForcedLoop<double> loop = orbit_loop(period, 0.0, 0.3);
+      loop.hold = hold;
+      const PeriodicOrbit orbit = orbit_from_rest(loop);
+      EXPECT_EQ(orbit.period_samples(), orbit.ratio.denominator);
+      const auto sampled = sampled_loop(loop.plant, loop.sampling);
+      const double omega = loop.excitation.angular_frequency();
+      const auto input = harmonic_input(loop.plant, sampled, hold, omega);
+      const SteadyResponse<double> response(sampled, input, omega);
+      // z₁ = Re(Z e^{iωt_j}): the sum over a period with e^{−iωt_j} is N Z/2.
+      std::complex<double> sum = 0.0;
+      for (std::size_t j = 0; j < orbit.states.size(); ++j)
+        sum += orbit.states[j][0] * std::polar(1.0, -omega * period * static_cast<double>(j));
+      const double amplitude = 2.0 * std::abs(sum) / static_cast<double>(orbit.states.size());
+      const double expected = 0.5 * response.amplitude_per_force(loop.gains);
+      EXPECT_NEAR(amplitude, expected, 1e-11 * expected) << period;
+      EXPECT_EQ(orbit.engaged_fraction(), 1.0);
+      EXPECT_EQ(orbit.borders.velocity.sample, -1);
+    }
+  }
+}
+
+TEST(PeriodicOrbit, ItsBordersAreWhereItsOwnDecisionsLie) {
+  for (const auto& loop : orbit_loops()) {
+    const PeriodicOrbit orbit = orbit_from_rest(loop);
+    auto motion = motion_on(loop, orbit);
+    double displacement = HUGE_VAL, velocity = HUGE_VAL;
+    for (std::size_t j = 0; j < orbit.contacts.size(); ++j) {
+      const auto state = motion.state();
+      const Backlash<double> before = motion.law();
+      const bool engaged = motion.sense().engaged;
+      motion.advance();
+      const double height = state[2] - state[0] - before.lower();
+      if (before.inside())
+        displacement =
+            std::min({displacement, std::abs(height), std::abs(loop.backlash_width - height)});
+      if (engaged || !before.inside()) velocity = std::min(velocity, std::abs(state[3] - state[1]));
+    }
+    EXPECT_NEAR(orbit.borders.displacement.distance, displacement, 1e-12);
+    if (std::isfinite(velocity)) {
+      EXPECT_NEAR(orbit.borders.velocity.distance, velocity, 1e-10);
+    }
+  }
+}
+
+TEST(OrbitOfContacts, AForeignSequenceIsNotVerified) {
+  const ForcedLoop<double> loop = orbit_loop(0.01, 0.002);
+  const PeriodicOrbit orbit = orbit_from_rest(loop);
+  const ContactMaps<double> maps(loop, orbit.ratio);
+  const Backlash<double> law(loop.backlash_width, orbit.memory);
+  const auto outcome = [&](const Contacts& contacts) {
+    return orbit_of_contacts(loop, orbit.ratio, maps, contacts, law).outcome;
+  };
+  EXPECT_EQ(outcome(orbit.contacts), CandidateOutcome::verified);
+  Contacts twice = orbit.contacts;
+  twice.insert(twice.end(), orbit.contacts.begin(), orbit.contacts.end());
+  EXPECT_EQ(outcome(twice), CandidateOutcome::verified);
+  for (std::size_t j = 0; j < orbit.contacts.size(); ++j) {
+    Contacts other = orbit.contacts;
+    other[j] ^= 1U;
+    EXPECT_EQ(outcome(other), CandidateOutcome::other_contacts) << j;
+  }
+}
+
+TEST(OrbitOfContacts, AnUndampedConductorAtResonanceHasNone) {
+  // Uncontrolled and undamped, with a natural period of exactly ten samples: e^{iωτN} = 1.
+  ForcedLoop<double> loop = orbit_loop(0.01, 0.0);
+  loop.gains = {0.0, 0.0};
+  const double omega = 2.0 * pi<double> * 10.0;
+  // A pair of masses of which one mode is at ω.
+  loop.plant = {0.1, 0.0, 0.0, 0.1, 0.05 * omega * omega, 0.0};
+  loop.plant.conductor_stiffness = 0.05 * omega * omega;
+  const double stiffness = loop.plant.conductor_stiffness;
+  // k₁ = k₂ = k, m₁ = m₂ = m: ω² = (k/m)(3 − √5)/2; scale k to put it at 10 Hz.
+  const double scale = omega * omega / (stiffness / 0.1 * (3.0 - std::sqrt(5.0)) / 2.0);
+  loop.plant.conductor_stiffness *= scale;
+  loop.plant.absorber_stiffness *= scale;
+  const Rational ratio = forcing_ratio(loop).value();
+  const ContactMaps<double> maps(loop, ratio);
+  EXPECT_EQ(orbit_of_contacts(loop, ratio, maps, Contacts(10, 1), Backlash<double>(0.0)).outcome,
+            CandidateOutcome::singular);
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,131 @@
+#include "holdfast/phase_space/attractor_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "holdfast/orbit/orbit_search.hpp"
+#include "support/kollar_case.hpp"
+
+namespace holdfast {
+namespace {
+
+ForcedLoop<double> catalogue_loop(double period, double width) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.width = width;
+  return which.forced_loop();
+}
+
+PeriodicOrbit catalogue_orbit(const ForcedLoop<double>& loop, double displacement = 0.0) {
+  const OrbitResult found = find_periodic_orbit(loop, {displacement, 0.0, 0.0, 0.0}, {20000, 0});
+  EXPECT_EQ(found.outcome, OrbitOutcome::certified);
+  return found.orbit.value();
+}
+
+/// The same motion, begun some coincidences later.
+PeriodicOrbit begun_later(const PeriodicOrbit& orbit, std::ptrdiff_t coincidences,
+                          const ForcedLoop<double>& loop) {
+  PeriodicOrbit later = orbit;
+  const std::ptrdiff_t shift = coincidences * orbit.ratio.denominator;
+  std::rotate(later.contacts.begin(), later.contacts.begin() + shift, later.contacts.end());
+  std::rotate(later.states.begin(), later.states.begin() + shift, later.states.end());
+  later.memory =
+      switching_pattern(later.states, Backlash<double>(loop.backlash_width, orbit.memory)).memory;
+  return later;
+}
+
+/// Where the motion of the orbit's mirror image ends: both signs changed, half a forcing period on.
+PeriodicOrbit mirrored(const ForcedLoop<double>& loop, const PeriodicOrbit& orbit) {
+  auto motion = periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval());
+  const auto half = static_cast<std::size_t>(orbit.ratio.denominator / 2);
+  auto from = motion.memory();
+  Backlash<double> law(loop.backlash_width, orbit.memory);
+  for (std::size_t j = 0; j < half; ++j) {
+    const auto& state = orbit.states[j];
+    law.step(state[2] - state[0], state[3] - state[1]);
+  }
+  from.state = -orbit.states[half].head<4>();
+  from.previous_force = -orbit.states[half][4];
+  from.backlash = law.memory();
+  from.backlash.lower = -law.upper();
+  from.backlash.upper = -law.lower();
+  from.backlash.previous_velocity *= -1.0;
+  motion.restore(from);
+  const OrbitResult found = detail::OrbitSearch(loop, orbit.ratio, {20000, 0}, motion).run();
+  EXPECT_EQ(found.outcome, OrbitOutcome::certified);
+  return found.orbit.value();
+}
+
+TEST(OrbitCatalogue, ACopyBegunLaterIsTheSameOrbit) {
+  for (const auto& loop : {catalogue_loop(0.011, 0.002), catalogue_loop(0.003, 0.002)}) {
+    const PeriodicOrbit orbit = catalogue_orbit(loop);
+    const auto coincidences = orbit.period_samples() / orbit.ratio.denominator;
+    OrbitCatalogue catalogue(loop);
+    EXPECT_EQ(catalogue.add(orbit), 0);
+    for (std::ptrdiff_t shift = 0; shift < coincidences; ++shift) {
+      const PeriodicOrbit later = begun_later(orbit, shift, loop);
+      EXPECT_TRUE(is_phase_shifted_copy(orbit, later)) << shift;
+      EXPECT_TRUE(is_phase_shifted_copy(later, orbit)) << shift;
+      EXPECT_EQ(catalogue.add(later), 0);
+    }
+    EXPECT_EQ(catalogue.orbits().size(), 1U);
+  }
+}
+
+TEST(OrbitCatalogue, ACopyThatIsNotOneIsSeen) {
+  const auto loop = catalogue_loop(0.011, 0.002);
+  const PeriodicOrbit orbit = catalogue_orbit(loop);
+  PeriodicOrbit other = begun_later(orbit, 3, loop);
+  other.states[500][0] += 1e-6;
+  EXPECT_FALSE(is_phase_shifted_copy(orbit, other));
+}
+
+TEST(OrbitCatalogue, DifferentOrbitsStayApart) {
+  const auto loop = catalogue_loop(0.003, 0.002);
+  const PeriodicOrbit first = catalogue_orbit(loop), second = catalogue_orbit(loop, 1e-5);
+  EXPECT_FALSE(is_phase_shifted_copy(first, second));
+  EXPECT_FALSE(is_mirror_image(first, second));
+  OrbitCatalogue catalogue(loop);
+  EXPECT_EQ(catalogue.add(first), 0);
+  EXPECT_EQ(catalogue.add(second), 1);
+  EXPECT_EQ(catalogue.add(first), 0);
+}
+
+TEST(OrbitCatalogue, TheMirrorImageIsAMotionOfTheLoopAndKnownAsOne) {
+  // Of the first loop's orbit the mirror image is another orbit, of the others' the same.
+  for (const auto& loop : {catalogue_loop(0.003, 0.002), catalogue_loop(0.001, 0.002),
+                           catalogue_loop(0.01, 0.002), catalogue_loop(0.01, 0.001)}) {
+    const PeriodicOrbit orbit = catalogue_orbit(loop), image = mirrored(loop, orbit);
+    EXPECT_EQ(image.period_samples(), orbit.period_samples());
+    EXPECT_TRUE(is_mirror_image(orbit, image)) << loop.sampling.period;
+    EXPECT_TRUE(is_mirror_image(image, orbit));
+    EXPECT_EQ(is_mirror_image(orbit, orbit), is_phase_shifted_copy(orbit, image));
+    EXPECT_EQ(is_mirror_image(orbit, orbit), loop.sampling.period != 0.003);
+    EXPECT_NEAR(image.multipliers[0].log_modulus, orbit.multipliers[0].log_modulus, 1e-7);
+  }
+}
+
+TEST(OrbitCatalogue, CapturesWhatOneOfItsPointsCaptures) {
+  const auto loop = catalogue_loop(0.003, 0.002);
+  OrbitCatalogue catalogue(loop);
+  const PeriodicOrbit orbits[] = {catalogue_orbit(loop), catalogue_orbit(loop, 1e-5)};
+  for (const auto& orbit : orbits) catalogue.add(orbit);
+  for (int number = 0; number < 2; ++number) {
+    for (const CapturePoint& point : capture_points(loop, orbits[number])) {
+      MotionMemory<double, BacklashMemory<double>> motion{point.state.head<4>(), point.state[4],
+                                                          point.memory};
+      EXPECT_EQ(catalogue.captured_by(motion), number);
+      motion.state[0] += 0.99 * point.radius;
+      EXPECT_EQ(catalogue.captured_by(motion), number);
+      motion.state[0] += 0.02 * point.radius;
+      EXPECT_EQ(catalogue.captured_by(motion), -1);
+      motion.state[0] = 1.0;
+      EXPECT_EQ(catalogue.captured_by(motion), -1);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,82 @@
+#include "holdfast/phase_space/coverage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+MotionSample<double> at(double displacement, double velocity) {
+  return {0, 0.0, {displacement, velocity, 0.0, 0.0}, 0.0, true};
+}
+
+const PhaseWindow frame{-1.0, 1.0, 10.0, 14.0};
+
+TEST(Coverage, CountsACellOnceHoweverOftenItIsVisited) {
+  Coverage coverage(frame, 4);
+  EXPECT_EQ(coverage.cells(), 16U);
+  EXPECT_EQ(coverage.visited(), 0U);
+  coverage(at(-0.9, 10.1));
+  coverage(at(-0.6, 10.9));
+  EXPECT_EQ(coverage.visited(), 1U);
+  coverage(at(-0.4, 10.1));
+  EXPECT_EQ(coverage.visited(), 2U);
+  EXPECT_DOUBLE_EQ(coverage.visited_fraction(), 2.0 / 16.0);
+}
+
+TEST(Coverage, TheLowerEdgesBelongToTheWindowAndTheUpperDoNot) {
+  Coverage coverage(frame, 4);
+  coverage(at(1.0, 12.0));
+  coverage(at(0.0, 14.0));
+  coverage(at(-1.0001, 12.0));
+  coverage(at(0.0, 9.999));
+  EXPECT_EQ(coverage.visited(), 0U);
+  coverage(at(-1.0, 10.0));
+  EXPECT_EQ(coverage.visited(), 1U);
+}
+
+TEST(Coverage, SamplesThatAreNoNumbersVisitNothing) {
+  Coverage coverage(frame, 4);
+  coverage(at(std::numeric_limits<double>::quiet_NaN(), 12.0));
+  coverage(at(0.0, std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(coverage.visited(), 0U);
+}
+
+TEST(Coverage, EveryCellIsReachedThroughItsMiddle) {
+  Coverage coverage(frame, 7);
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 7; ++j)
+      coverage(at(-1.0 + 2.0 * (i + 0.5) / 7.0, 10.0 + 4.0 * (j + 0.5) / 7.0));
+  }
+  EXPECT_EQ(coverage.visited(), 49U);
+  EXPECT_EQ(coverage.visited_fraction(), 1.0);
+}
+
+TEST(Coverage, ATransitiveMotionFillsTheWindowAsChanceWould) {
+  // n random throws leave each of N cells empty with probability (1 − 1/N)ⁿ.
+  test::Random random(121);
+  Coverage coverage(frame, 50);
+  for (int draw = 0; draw < 5000; ++draw)
+    coverage(at(random.uniform(-1, 1), random.uniform(10, 14)));
+  EXPECT_NEAR(coverage.visited_fraction(), 1.0 - std::pow(1.0 - 1.0 / 2500.0, 5000), 0.02);
+}
+
+TEST(Coverage, WhatIsOutOfRangeIsRefused) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const PhaseWindow& bad : {PhaseWindow{1, 1, 0, 1},
+                                 {1, 0, 0, 1},
+                                 {0, 1, 0, 0},
+                                 {0, infinity, 0, 1},
+                                 {0, 1, std::numeric_limits<double>::quiet_NaN(), 1}}) {
+    EXPECT_THROW(Coverage(bad, 4), InvalidParameter);
+  }
+  EXPECT_THROW(Coverage(frame, 0), InvalidParameter);
+  EXPECT_THROW(Coverage(frame, 10'001), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast

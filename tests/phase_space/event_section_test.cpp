@@ -1,0 +1,314 @@
+#include "holdfast/phase_space/event_section.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/phase_space/poincare_section.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "support/kollar_case.hpp"
+#include "support/random.hpp"
+#include "support/random_loop.hpp"
+
+namespace holdfast {
+namespace {
+
+RealLoop section_loop(double period, double width, Switching switching,
+                      ForceHold hold = ForceHold::exact) {
+  test::KollarCase which;
+  which.sampling_period = period;
+  which.width = width;
+  RealLoop loop = real_loop(which.forced_loop());
+  loop.digital.hold = hold;
+  loop.switching = switching;
+  return loop;
+}
+
+std::vector<SectionPoint> hybrid_section_of(const RealLoop& loop, std::int64_t samples) {
+  std::vector<SectionPoint> points;
+  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
+    return run_section(motion, samples, [&](const SectionPoint& at) { points.push_back(at); });
+  });
+  return points;
+}
+
+/// A change of the sign of Δż, or the beginning of a stick, between two instants.
+struct ScannedTurn {
+  double begin, end;  // s
+};
+
+/// The turns of a motion by looking at `looks` instants of every sampling period.
+template <class Contact>
+std::vector<ScannedTurn> scanned_turns(HybridMotion<Contact> motion, std::int64_t samples,
+                                       int looks) {
+  std::vector<ScannedTurn> turns;
+  FlowTrace<Contact> trace(motion);
+  double sign = 0.0, last = 0.0;
+  for (std::int64_t j = 0; j < samples; ++j) {
+    const double time = motion.time(), period = motion.period();
+    motion.sense();
+    trace.begin();
+    motion.advance(trace);
+    for (int look = 1; look <= looks; ++look) {
+      const double after = period * look / looks;
+      const Vector<double, 4> state = trace.state(after);
+      const bool sticks = trace.mode(after) == ContactMode::stick;
+      const double velocity = sticks ? 0.0 : relative_velocity(state);
+      if (!sticks && std::abs(velocity) < 1e-13 * state.cwiseAbs().maxCoeff()) continue;
+      if (sign * velocity < 0.0 || (sticks && sign != 0.0)) turns.push_back({last, time + after});
+      sign = velocity > 0.0 ? 1.0 : velocity < 0.0 ? -1.0 : 0.0;
+      last = time + after;
+    }
+  }
+  return turns;
+}
+
+/// Every scanned turn is a point, and every other point belongs to a pair within one look, which
+/// the scan cannot see. @return how many such points there are
+std::size_t expect_scanned(const RealLoop& loop, std::int64_t samples, int looks) {
+  const std::vector<SectionPoint> points = hybrid_section_of(loop, samples);
+  const std::vector<ScannedTurn> turns =
+      with_motion(loop, Vector<double, 4>::Zero(),
+                  [&](auto motion) { return scanned_turns(motion, samples, looks); });
+  const double slack = 1e-9 * loop.digital.sampling.period;
+  std::size_t next = 0, unseen = 0;
+  for (const ScannedTurn& turn : turns) {
+    while (next < points.size() && points[next].time < turn.begin - slack) ++next, ++unseen;
+    EXPECT_TRUE(next < points.size() && points[next].time <= turn.end + slack)
+        << "no point from " << turn.begin << " to " << turn.end;
+    if (next < points.size()) ++next;
+  }
+  return unseen + (points.size() - std::min(next, points.size()));
+}
+
+TEST(HybridSection, OfTheLoopOfThePaperIsThatOfItsOwnFunction) {
+  for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
+    for (const double delay : {0.0, 0.004, 0.011}) {
+      ForcedLoop<double> loop{kollar2022_plant(), {0.011, delay}, {-100.0, -2.0},
+                              {0.5, 10.0},        0.002,          hold};
+      std::vector<SectionPoint> expected;
+      auto motion = harmonically_forced_motion(loop, Vector<double, 4>::Zero().eval());
+      run_section(loop, motion, 3000, [&](const SectionPoint& at) { expected.push_back(at); });
+      const auto points = hybrid_section_of(real_loop(loop), 3000);
+      ASSERT_GT(expected.size(), 300U);
+      ASSERT_EQ(points.size(), expected.size());
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        EXPECT_NEAR(points[k].time, expected[k].time, 1e-9);
+        EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_EQ(points[k].rising, expected[k].rising) << points[k].time;
+        EXPECT_EQ(points[k].engaged, expected[k].engaged) << points[k].time;
+      }
+    }
+  }
+}
+
+TEST(HybridSection, PointsLieOnItToRounding) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    for (const double period : {0.001, 0.011}) {
+      const auto points = hybrid_section_of(section_loop(period, 0.002, switching), 4000);
+      ASSERT_GT(points.size(), 70U);
+      double largest = 0.0;
+      for (const SectionPoint& point : points)
+        largest = std::max(largest, point.state.cwiseAbs().maxCoeff());
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        EXPECT_NEAR(points[k].state[3], points[k].state[1], 1e-14 * largest) << points[k].time;
+        if (k == 0) continue;
+        EXPECT_GT(points[k].time, points[k - 1].time);
+      }
+    }
+  }
+}
+
+TEST(HybridSection, NoTurnIsMissedAgainstADenseScan) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    for (const double period : {0.001, 0.005, 0.011}) {
+      for (const double width : {0.0, 0.0005, 0.002}) {
+        const RealLoop loop = section_loop(period, width, switching);
+        EXPECT_EQ(expect_scanned(loop, 2000, 50), 0U) << period << " " << width;
+      }
+    }
+  }
+}
+
+TEST(HybridSection, NoTurnIsMissedOnAnyLoop) {
+  test::Random random(4711);
+  for (int k = 0; k < 60; ++k) {
+    RealLoop loop;
+    loop.plant = test::random_plant(random);
+    loop.digital.sampling = test::random_sampling(loop.plant, random);
+    loop.digital.gains = test::random_gains(loop.plant, loop.digital.sampling.period, random);
+    loop.digital.gains.proportional *= 0.05;
+    loop.digital.gains.differential *= 0.05;
+    for (int line = 0; line < 2; ++line)
+      loop.digital.force.harmonics.push_back(
+          {random.log_uniform(0.1, 1.0), random.log_uniform(0.5, 50.0), random.uniform(0.0, 6.0)});
+    loop.digital.hold = random.unit() < 0.5 ? ForceHold::sampled : ForceHold::exact;
+    const double size = 1.0 / loop.plant.conductor_stiffness;
+    const ContactLaw laws[] = {ContactLaw::kollar, ContactLaw::play, ContactLaw::dead_zone};
+    loop.backlash = {laws[random.index(3)], size * random.log_uniform(1e-3, 3.0),
+                     loop.plant.absorber_stiffness, loop.plant.absorber_damping};
+    loop.switching = random.unit() < 0.3 ? Switching::sampled : Switching::exact;
+    EXPECT_EQ(expect_scanned(loop, 300, 400), 0U) << k;
+  }
+}
+
+TEST(HybridSection, FindsAllTurnsOfALongSamplingPeriod) {
+  // Without control the motion is the plant's response to 10 Hz once the transient is over; three
+  // or four of its turns, 50 ms apart, fall into a sampling period of 170 ms.
+  RealLoop loop = section_loop(0.17, 0.0, Switching::exact);
+  loop.digital.gains = {0.0, 0.0};
+  const auto points = hybrid_section_of(loop, 300);
+  const double steady = 40.0, end = 51.0;
+  std::size_t seen = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k - 1].time < steady) continue;
+    ++seen;
+    EXPECT_NEAR(points[k].time - points[k - 1].time, 0.05, 1e-9);
+    EXPECT_NE(points[k].rising, points[k - 1].rising);
+  }
+  EXPECT_NEAR(static_cast<double>(seen), (end - steady) / 0.05, 1.0);
+}
+
+/// Without damping, force and control, from rest in the shape of one of the plant's modes.
+/// @return the points of `half_periods` half periods of it, `parts` samples each, from between two
+///         samples on
+std::vector<SectionPoint> modal_section(std::size_t mode, int parts, int half_periods) {
+  TwoDof<double> plant = kollar2022_plant();
+  plant.conductor_damping = plant.absorber_damping = 0.0;
+  Eigen::Matrix2d stiffness;
+  stiffness << plant.conductor_stiffness + plant.absorber_stiffness, -plant.absorber_stiffness,
+      -plant.absorber_stiffness, plant.absorber_stiffness;
+  const Eigen::Vector2d masses(plant.conductor_mass, plant.absorber_mass);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(
+      stiffness, Eigen::Matrix2d(masses.asDiagonal()));
+  const auto column = static_cast<Eigen::Index>(mode);
+  const Eigen::Vector2d shape = modes.eigenvectors().col(column);
+  RealLoop loop{plant, {}, {}, Switching::sampled};
+  loop.digital.gains = {0.0, 0.0};
+  loop.digital.sampling = {pi<double> / std::sqrt(modes.eigenvalues()[column]) / parts, 0.0};
+  std::vector<SectionPoint> points;
+  with_motion(loop, Vector<double, 4>(shape[0], 0.0, shape[1], 0.0), [&](auto motion) {
+    return run_section(motion, std::int64_t{parts} * half_periods + 1,
+                       [&](const SectionPoint& at) { points.push_back(at); });
+  });
+  return points;
+}
+
+TEST(HybridSection, ATurnAtASampleIsOnePoint) {
+  // Δz turns every half period, where rounding decides whether that is before or after the sample.
+  for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
+    for (const int parts : {1, 2, 3, 7, 20}) {
+      constexpr int half_periods = 300;
+      const auto points = modal_section(mode, parts, half_periods);
+      ASSERT_EQ(points.size(), static_cast<std::size_t>(half_periods)) << mode << " " << parts;
+      const double half_period = points.back().time / half_periods;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        EXPECT_NEAR(points[k].time, half_period * static_cast<double>(k + 1), 1e-10);
+        if (k == 0) continue;
+        EXPECT_NE(points[k].rising, points[k - 1].rising);
+      }
+    }
+  }
+}
+
+TEST(HybridSection, AStickIsOnePointAtItsBeginning) {
+  // Every reversal sticks in this motion; its sticks last longer than a sampling period.
+  const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
+  constexpr std::int64_t samples = 3000;
+  std::vector<SectionPoint> points;
+  std::int64_t sticks = 0, sticking_samples = 0;
+  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
+    for (std::int64_t j = 0; j < samples; ++j) {
+      const auto before = motion.counts().entered;
+      const double begin = motion.time();
+      const std::size_t known = points.size();
+      auto looked_at = motion;
+      sticking_samples += looked_at.sense().mode == ContactMode::stick ? 1 : 0;
+      run_section(motion, 1, [&](const SectionPoint& at) { points.push_back(at); });
+      const auto stick = static_cast<std::size_t>(ContactMode::stick);
+      const std::int64_t begun = motion.counts().entered[stick] - before[stick];
+      sticks += begun;
+      EXPECT_EQ(static_cast<std::int64_t>(points.size() - known), begun) << begin;
+      if (points.size() > known) {
+        EXPECT_GE(points.back().time, begin);
+      }
+    }
+    return 0;
+  });
+  EXPECT_GE(sticks, 50);
+  EXPECT_GT(sticking_samples, 2 * sticks);
+  for (const SectionPoint& point : points) EXPECT_FALSE(point.engaged);
+}
+
+TEST(HybridSection, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
+  const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
+  const auto points = hybrid_section_of(loop, 30000);
+  ASSERT_GT(points.size(), 500U);
+  for (std::size_t k = points.size() - 200; k < points.size(); ++k) {
+    EXPECT_NEAR(points[k].time - points[k - 2].time, 0.1, 1e-9);
+    EXPECT_NE(points[k].rising, points[k - 1].rising);
+    EXPECT_LE((points[k].state - points[k - 2].state).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(HybridSection, GoesOnWhereItEnded) {
+  const RealLoop loop = section_loop(0.001, 0.002, Switching::exact);
+  const auto whole = hybrid_section_of(loop, 2000);
+  std::vector<SectionPoint> pieces;
+  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
+    for (int piece = 0; piece < 400; ++piece)
+      run_section(motion, 5, [&](const SectionPoint& at) { pieces.push_back(at); });
+    return 0;
+  });
+  ASSERT_EQ(pieces.size(), whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces[k].time, whole[k].time);
+}
+
+TEST(HybridSection, AMotionAtRestHasNoPoint) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    RealLoop loop = section_loop(0.001, 0.0005, switching);
+    loop.digital.force.harmonics.clear();
+    EXPECT_TRUE(hybrid_section_of(loop, 1000).empty());
+  }
+}
+
+TEST(HybridSection, ADivergingMotionEnds) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    RealLoop loop = section_loop(0.011, 0.0, switching);
+    loop.digital.sampling.processing_delay = 0.011;
+    const auto outcome = with_motion(loop, Vector<double, 4>::Zero(), [](auto motion) {
+      return run_section(motion, 100000, [](const SectionPoint&) {});
+    });
+    EXPECT_EQ(outcome, TrajectoryOutcome::diverged);
+    EXPECT_EQ(expect_scanned(loop, 3000, 20), 0U) << "also where squares leave the range";
+  }
+}
+
+TEST(HybridSection, TheRestOfAPolynomialIsItself) {
+  test::Random random(99);
+  for (int trial = 0; trial < 200; ++trial) {
+    Series p(1 + static_cast<Eigen::Index>(random.index(most_terms)));
+    double factorial = 1.0;
+    for (Eigen::Index k = 0; k < p.size(); ++k) {
+      p[k] = random.uniform(-1.0, 1.0) / factorial;
+      factorial *= static_cast<double>(k + 1);
+    }
+    const double from = random.unit(), y = random.unit();
+    const double direct = value_and_slope(p, from + y * (1.0 - from)).value;
+    EXPECT_NEAR(value_and_slope(rest_of(p, from), y).value, direct, 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,100 @@
+#include "holdfast/phase_space/motion_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/orbit/orbit_search.hpp"
+#include "support/kollar_case.hpp"
+#include "support/random.hpp"
+
+namespace holdfast {
+namespace {
+
+ForcedLoop<double> batch_loop(double delay_fraction = 0.0) {
+  test::KollarCase which;
+  which.sampling_period = 0.01;
+  which.width = 0.002;
+  which.processing_delay = delay_fraction * which.sampling_period;
+  return which.forced_loop();
+}
+
+std::vector<TravellingMotion> random_motions(std::size_t count) {
+  test::Random random(861);
+  std::vector<TravellingMotion> motions;
+  for (std::size_t k = 0; k < count; ++k)
+    motions.push_back({k, memory_of_start(0.05 * random.matrix<Vector<double, 4>>())});
+  return motions;
+}
+
+TEST(MotionBatch, WithoutOrbitsMovesEveryMotionAsIfAlone) {
+  const auto loop = batch_loop(0.3);
+  const Rational ratio = forcing_ratio(loop).value();
+  auto motions = random_motions(7);
+  const auto starts = motions;
+  MotionBatch<double>(loop, ratio).run(motions.data(), motions.size(), 1000, OrbitCatalogue(loop));
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    auto alone = periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval());
+    alone.restore(starts[k].memory);
+    // A whole number of coincidences, at least as many samples as were asked for.
+    bool met = false;
+    for (int j = 0; j <= 1100 && !met; ++j) {
+      met = j >= 1000 && alone.state() == motions[k].memory.state;
+      if (met) break;
+      alone.sense();
+      alone.advance();
+    }
+    EXPECT_TRUE(met) << k;
+    EXPECT_EQ(alone.index() % 10, 0);
+    EXPECT_EQ(alone.memory().previous_force, motions[k].memory.previous_force);
+    EXPECT_EQ(alone.law().inside(), motions[k].memory.backlash.inside);
+    EXPECT_EQ(motions[k].orbit, -1);
+    EXPECT_FALSE(motions[k].diverged);
+    EXPECT_EQ(motions[k].number, k);
+  }
+}
+
+TEST(MotionBatch, MarksCapturedMotions) {
+  const auto loop = batch_loop();
+  OrbitCatalogue catalogue(loop);
+  catalogue.add(find_periodic_orbit(loop, Vector<double, 4>::Zero(), {3000, 0}).orbit.value());
+  auto motions = random_motions(50);
+  MotionBatch<double>(loop, forcing_ratio(loop).value())
+      .run(motions.data(), motions.size(), 20000, catalogue);
+  int captured = 0;
+  for (const auto& motion : motions) {
+    if (motion.orbit < 0) continue;
+    EXPECT_EQ(catalogue.captured_by(motion.memory), motion.orbit);
+    ++captured;
+  }
+  EXPECT_GT(captured, 0);
+}
+
+TEST(MotionBatch, MarksDivergedMotions) {
+  const auto loop = batch_loop(1.0);
+  ForcedLoop<double> growing = loop;
+  growing.gains.differential *= 3.0;
+  auto motions = random_motions(5);
+  MotionBatch<double>(growing, forcing_ratio(growing).value())
+      .run(motions.data(), motions.size(), 5000, OrbitCatalogue(growing));
+  for (const auto& motion : motions) EXPECT_TRUE(motion.diverged);
+}
+
+TEST(MotionBatch, ItsLanesHoldAMemory) {
+  const ForcedMotionMemory<double> memory{{1.0, 2.0, 3.0, 4.0}, 5.0, {true, 6.0, 7.0, 8.0}};
+  detail::MemoryLanes<double> lanes;
+  lanes.put(0, memory);
+  detail::MemoryLanes<double> copied;
+  copied.read(lanes.pack());
+  const auto back = copied.get(0);
+  EXPECT_EQ(back.state, memory.state);
+  EXPECT_EQ(back.previous_force, 5.0);
+  EXPECT_TRUE(back.backlash.inside);
+  EXPECT_EQ(back.backlash.lower, 6.0);
+  EXPECT_EQ(back.backlash.upper, 7.0);
+  EXPECT_EQ(back.backlash.previous_velocity, 8.0);
+}
+
+}  // namespace
+}  // namespace holdfast

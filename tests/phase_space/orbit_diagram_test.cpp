@@ -1,0 +1,173 @@
+#include "holdfast/phase_space/orbit_diagram.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "holdfast/motion/real_loop.hpp"
+#include "support/kollar_case.hpp"
+#include "support/message_of.hpp"
+
+namespace holdfast {
+namespace {
+
+ForcedLoop<double> diagram_loop(double period, double width) {
+  return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
+}
+
+/// z₁ of the strobes of one value and way, rounded to a nanometre.
+std::set<long> levels(const std::vector<StrobePoint>& points, std::size_t index, bool upward) {
+  std::set<long> result;
+  for (const StrobePoint& point : points)
+    if (point.index == index && point.upward == upward)
+      result.insert(std::lround(point.state[0] * 1e9));
+  return result;
+}
+
+std::vector<StrobePoint> diagram_of(double period, const std::vector<double>& widths,
+                                    const DiagramQuestion& question) {
+  std::vector<StrobePoint> points;
+  run_orbit_diagram([&](double width) { return diagram_loop(period, width); }, widths,
+                    Vector<double, 4>::Zero(), question,
+                    [&](const StrobePoint& point) { points.push_back(point); });
+  return points;
+}
+
+TEST(OrbitDiagram, ShowsAsManyLevelsAsTheOrbitHasForcingPeriods) {
+  const auto points = diagram_of(0.001, {0.0, 0.0005, 0.002}, {40.0, 30});
+  EXPECT_EQ(points.size(), 2U * 3U * 30U);
+  for (const bool upward : {true, false}) {
+    EXPECT_EQ(levels(points, 0, upward).size(), 1U);
+    EXPECT_EQ(levels(points, 1, upward).size(), 1U);
+    EXPECT_EQ(levels(points, 2, upward).size(), 5U);
+  }
+}
+
+TEST(OrbitDiagram, StrobesBetweenTheSamplesAreThoseOfTheLinearResponse) {
+  // 9 ms does not divide the forcing period of 0.1 s, so most strobes fall between samples; the
+  // period of the motion is nine forcing periods all the same.
+  const auto points = diagram_of(0.009, {0.0}, {60.0, 18});
+  std::vector<double> upward;
+  for (const StrobePoint& point : points)
+    if (point.upward) upward.push_back(point.state[0]);
+  ASSERT_EQ(upward.size(), 18U);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(upward[k], upward[k + 9], 1e-12);
+}
+
+TEST(OrbitDiagram, AMotionThatDivergesShowsNothingAndTheNextBeginsAnew) {
+  std::vector<StrobePoint> points;
+  const auto path = [](double delay) {
+    return ForcedLoop<double>{
+        kollar2022_plant(), {0.011, delay}, {-557.0, -13.0}, {0.5, 10.0}, 0.0};
+  };
+  run_orbit_diagram(path, {0.011, 0.0}, Vector<double, 4>::Zero(), {60.0, 5},
+                    [&](const StrobePoint& point) { points.push_back(point); });
+  EXPECT_EQ(points.size(), 10U);
+  for (const StrobePoint& point : points) EXPECT_EQ(point.index, 1U);
+}
+
+/// The diagram of loops as they are built, one for each width.
+template <class Change>
+std::vector<StrobePoint> built_diagram_of(double period, const std::vector<double>& widths,
+                                          const DiagramQuestion& question, const Change& change) {
+  std::vector<StrobePoint> points;
+  const auto path = [&](double width) {
+    RealLoop loop = real_loop(diagram_loop(period, width));
+    change(loop);
+    return loop;
+  };
+  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), question,
+                    [&](const StrobePoint& point) { points.push_back(point); });
+  return points;
+}
+
+TEST(OrbitDiagram, OfTheLoopOfThePaperAsItIsBuiltIsTheSame) {
+  for (const double period : {0.001, 0.009}) {
+    const std::vector<double> widths{0.0, 0.0005, 0.001};
+    const DiagramQuestion question{20.0, 20};
+    const auto expected = diagram_of(period, widths, question);
+    const auto points = built_diagram_of(period, widths, question, [](RealLoop&) {});
+    ASSERT_EQ(points.size(), expected.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      EXPECT_EQ(points[k].index, expected[k].index);
+      EXPECT_EQ(points[k].upward, expected[k].upward);
+      EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-12) << k;
+    }
+  }
+}
+
+TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {
+  const auto exactly = [](RealLoop& loop) { loop.switching = Switching::exact; };
+  const auto points = built_diagram_of(0.001, {0.0, 0.0005}, {40.0, 30}, exactly);
+  EXPECT_EQ(points.size(), 2U * 2U * 30U);
+  for (const bool upward : {true, false})
+    for (const std::size_t index : {std::size_t{0}, std::size_t{1}})
+      EXPECT_EQ(levels(points, index, upward).size(), 1U);
+}
+
+TEST(OrbitDiagram, StrobesBetweenJitteringSamplesAreThoseOfTheResponse) {
+  // Without control the samples are of no effect, wherever they fall: the strobes of the steady
+  // response to an exactly integrated force are all one.
+  const auto points = built_diagram_of(0.009, {0.0}, {60.0, 30}, [](RealLoop& loop) {
+    loop.digital.gains = {0.0, 0.0};
+    loop.digital.hold = ForceHold::exact;
+    loop.digital.jitter = {0.004, 7};
+  });
+  ASSERT_EQ(points.size(), 2U * 30U);
+  const double size = points.front().state.cwiseAbs().maxCoeff();
+  ASSERT_GT(size, 1e-4);
+  for (const StrobePoint& point : points)
+    EXPECT_LE((point.state - points.front().state).cwiseAbs().maxCoeff(), 1e-11 * size);
+}
+
+TEST(OrbitDiagram, StrobesAreAtThePeriodsOfTheFirstHarmonic) {
+  // 10 Hz and 5 Hz: once every period of the second the motion repeats, so that strobes at those
+  // of the first come in two levels, and the other way round in one.
+  for (const bool slower_first : {false, true}) {
+    const auto points = built_diagram_of(0.001, {0.0}, {60.0, 20}, [&](RealLoop& loop) {
+      const Harmonic slower{0.3, 5.0, 1.0};
+      auto& harmonics = loop.digital.force.harmonics;
+      harmonics.insert(slower_first ? harmonics.begin() : harmonics.end(), slower);
+    });
+    EXPECT_EQ(levels(points, 0, true).size(), slower_first ? 1U : 2U);
+  }
+}
+
+TEST(OrbitDiagram, ABuiltLoopThatDivergesShowsNothing) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const auto points = built_diagram_of(0.011, {0.0}, {60.0, 5}, [&](RealLoop& loop) {
+      loop.digital.sampling.processing_delay = 0.011;
+      loop.switching = switching;
+    });
+    EXPECT_TRUE(points.empty());
+  }
+}
+
+TEST(OrbitDiagram, WatchesABuiltLoop) {
+  int looks = 0;
+  DiagramQuestion question{40.0, 1};
+  question.watch = [&] { ++looks; };
+  built_diagram_of(0.001, {0.0}, question, [](RealLoop&) {});
+  EXPECT_EQ(looks, 2 * 3) << "at samples 0, 16384 and 32768 of each way";
+}
+
+TEST(OrbitDiagram, RefusesALoopWithoutAHarmonic) {
+  const auto built = [] {
+    built_diagram_of(0.001, {0.0}, {1.0, 1},
+                     [](RealLoop& loop) { loop.digital.force.harmonics.clear(); });
+  };
+  EXPECT_NE(tests::message_of<InvalidParameter>(built).find("number of harmonics"),
+            std::string::npos);
+}
+
+TEST(OrbitDiagram, RefusesWhatIsNotAdmissible) {
+  EXPECT_THROW(validate(DiagramQuestion{-1.0, 5}), InvalidParameter);
+  EXPECT_THROW(validate(DiagramQuestion{1.0, 0}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast

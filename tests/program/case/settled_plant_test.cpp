@@ -1,0 +1,79 @@
+#include "case/model/settled_plant.hpp"
+
+#include <gtest/gtest.h>
+
+#include "case/case_file.hpp"
+#include "case/model/cable_of_case.hpp"
+#include "io/text/text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// What there is to say of the plant of a case file.
+std::string said_of(const std::string& text) {
+  Case the_case = load_case_text(text, "case.toml", {});
+  return settle_plant(the_case);
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// c2 is given, so that no fit is needed.
+std::string conductor_and(const std::string& more) {
+  return "[absorber]\nmass = 0.1\n[plant]\nabsorber_damping = 4\n" + more;
+}
+
+/// [plant] with every key, k1 apart.
+std::string plant_with(double conductor_stiffness) {
+  return "[plant]\nconductor_mass = 0.0767\nconductor_damping = 0.079\nabsorber_mass = 0.16\n"
+         "absorber_stiffness = 74.4\nabsorber_damping = 4\nconductor_stiffness = " +
+         format_number(conductor_stiffness) + "\n";
+}
+
+TEST(SettledPlant, SaysNothingOfTheBuiltInCaseOrAPlantAlone) {
+  EXPECT_EQ(said_of(""), "");
+  EXPECT_EQ(said_of(plant_with(70.0)), "");
+}
+
+TEST(SettledPlant, SaysWhatIsGivenAndWhatIsReduced) {
+  const std::string said = said_of(conductor_and("[excitation]\nfrequency = 3\n"));
+  EXPECT_EQ(said,
+            "plant.absorber_damping given; the rest of the plant is reduced from the conductor");
+}
+
+TEST(SettledPlant, WarnsOfAForceFarFromTheFrequenciesOfTheReduction) {
+  const auto said = [](const std::string& frequency) {
+    return said_of(conductor_and("[excitation]\nfrequency = " + frequency +
+                                 "\n[reduction]\nfirst_frequency = 2\nsecond_frequency = 7\n"));
+  };
+  EXPECT_TRUE(holds(said("14.1"), "14.1 Hz, far from the natural frequencies of 2 and 7 Hz"));
+  EXPECT_TRUE(holds(said("0.99"), "far from"));
+  EXPECT_FALSE(holds(said("13.9"), "far from"));
+  EXPECT_FALSE(holds(said("1.01"), "far from"));
+}
+
+TEST(SettledPlant, WarnsWhereTheConductorWouldGiveAnotherPlantThanTheOneGiven) {
+  const std::string conductor = "[conductor]\nsag = 0.29\n";
+  EXPECT_EQ(said_of(conductor + plant_with(50.3)), "") << "Table 1 of the paper belongs together";
+  const std::string said = said_of(conductor + plant_with(80.0));
+  EXPECT_TRUE(holds(said, "every key of [plant] is given")) << said;
+  EXPECT_TRUE(holds(said, "the conductor would give m1 = ")) << said;
+}
+
+TEST(SettledPlant, AConductorThatHasNoPlantIsNoFaultWhereThePlantIsGiven) {
+  const std::string heavy = "[absorber]\nmass = 50\n";
+  EXPECT_EQ(said_of(heavy + plant_with(80.0)), "");
+}
+
+TEST(BorrowedCable, IsNamedWhereTheCaseGivesAPlantAlone) {
+  const auto warning = [](const std::string& text) {
+    return borrowed_cable_warning(load_case_text(text, "case.toml", {}));
+  };
+  EXPECT_TRUE(holds(warning("[plant]\nabsorber_mass = 0.2\n"), "that of the built-in case"));
+  EXPECT_EQ(warning("[plant]\nabsorber_mass = 0.2\n[conductor]\nsag = 0.3\n"), "");
+  EXPECT_EQ(warning(""), "");
+}
+
+}  // namespace
+}  // namespace holdfast::program

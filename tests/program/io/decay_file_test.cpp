@@ -1,0 +1,73 @@
+#include "io/text/decay_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "process/errors.hpp"
+#include "support/message_of.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using holdfast::tests::message_of;
+
+/// Ten good rows below a header, with one of them replaced.
+std::string record_with(int row, const std::string& replacement) {
+  std::string text = "time_s,displacement_m\n";
+  for (int k = 0; k < 10; ++k) {
+    const std::string good = "0." + std::to_string(k) + ",0.00" + std::to_string(9 - k);
+    text += (k == row ? replacement : good) + "\n";
+  }
+  return text;
+}
+
+std::string refusal(const std::string& text) {
+  return message_of<WrongInput>([&] { read_decay_text(text, "decay.csv"); });
+}
+
+TEST(DecayFile, IsRead) {
+  const DecayRecord record = read_decay_text(record_with(-1, ""), "decay.csv");
+  ASSERT_EQ(record.times.size(), 10U);
+  EXPECT_EQ(record.times[3], 0.3);
+  EXPECT_EQ(record.displacements[0], 0.009);
+}
+
+TEST(DecayFile, ColumnsMayStandInAnyOrderBesideOthersInQuotesAndWithCarriageReturns) {
+  std::string text = "\"displacement_m\",note,\"time_s\"\r\n";
+  for (int k = 0; k < 9; ++k) text += "1e-3,x," + std::to_string(k) + "\r\n";
+  const DecayRecord record = read_decay_text(text, "decay.csv");
+  EXPECT_EQ(record.times.back(), 8.0);
+  EXPECT_EQ(record.displacements.back(), 1e-3);
+}
+
+TEST(DecayFile, NamesFileAndLineOfAFault) {
+  EXPECT_EQ(refusal(record_with(4, "0.4,fast")).rfind("decay.csv:6: ", 0), 0U);
+  EXPECT_NE(refusal(record_with(4, "0.4,fast")).find("fast"), std::string::npos);
+  EXPECT_EQ(refusal(record_with(4, "0.4,nan")),
+            "decay.csv:6: displacement_m = nan: must be finite");
+  EXPECT_EQ(refusal(record_with(4, "0.4,")), "decay.csv:6: displacement_m is missing");
+  EXPECT_EQ(refusal(record_with(4, "0.4")), "decay.csv:6: has 1 cells, the header has 2");
+  EXPECT_EQ(refusal(record_with(4, ",0.001")), "decay.csv:6: time_s is missing");
+  EXPECT_EQ(refusal(record_with(4, "0.3,0.001")),
+            "decay.csv:6: time_s = 0.3 does not come after 0.3 of the row before");
+  EXPECT_EQ(refusal(record_with(0, "0.0,0")),
+            "decay.csv:2: displacement_m = 0: the decay must start displaced");
+}
+
+TEST(DecayFile, RefusesAGap) {
+  const std::string message = refusal(record_with(4, ""));
+  EXPECT_EQ(message.rfind("decay.csv:7: a gap of ", 0), 0U) << message;
+}
+
+TEST(DecayFile, RefusesWhatIsNoRecord) {
+  std::string other = record_with(-1, "");
+  other.replace(0, 6, "second");
+  EXPECT_NE(refusal(other).find("time_s"), std::string::npos) << refusal(other);
+  EXPECT_NE(refusal("").find("no header row"), std::string::npos);
+  EXPECT_NE(refusal("time_s,displacement_m\n0,1\n1,0.5\n").find("needs 8 rows"), std::string::npos);
+  EXPECT_THROW(read_decay_file("/nowhere/decay.csv"), WrongInput);
+}
+
+}  // namespace
+}  // namespace holdfast::program

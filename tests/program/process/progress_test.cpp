@@ -1,0 +1,74 @@
+#include "process/progress.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+namespace holdfast::program {
+namespace {
+
+template <typename Work>
+std::string standard_error_of(const Work& work) {
+  ::testing::internal::CaptureStderr();
+  work();
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, ShowsDoneRateAndRemainingTime) {
+  EXPECT_EQ(progress_text("chart", {40, 100}, 8.0), "chart: 40/100, 5.0/s, 12 s left");
+  EXPECT_EQ(progress_text("chart", {100, 100}, 8.0), "chart: 100/100, 12.5/s, 8.0 s");
+  EXPECT_EQ(progress_text("chart", {1, 1000}, 7.2), "chart: 1/1000, 0.1/s, 2.0 h left");
+  EXPECT_EQ(progress_text("chart", {0, 100}, 0.0), "chart: 0/100");
+}
+
+TEST(Progress, NamesStepsAndSamplesAndLeavesOutWhatWasDoneBefore) {
+  EXPECT_EQ(progress_text("sweep, cells", {140, 200, 100, 8e8}, 8.0),
+            "sweep: 140/200 cells, 5.0 cells/s, 1e+08 samples/s, 12 s left");
+  EXPECT_EQ(progress_text("sweep, cells", {100, 200, 100, 0.0}, 8.0), "sweep: 100/200 cells");
+}
+
+TEST(Progress, AddsWhatWasDoneBeforeAndElsewhere) {
+  const std::string shown = standard_error_of([] {
+    Progress progress(100, "sweep, cells", true);
+    progress.skip(50);
+    progress.set_elsewhere(20);
+    progress.advance(30, 3000);
+  });
+  EXPECT_NE(shown.find("sweep: 100/100 cells"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("samples/s"), std::string::npos) << shown;
+}
+
+TEST(Progress, IsSilentUnlessEnabled) {
+  EXPECT_EQ(standard_error_of([] { Progress(5, "chart", false).advance(5); }), "");
+}
+
+TEST(Progress, CountsFromManyThreadsAndUpdatesSeldom) {
+  const std::string shown = standard_error_of([] {
+    Progress progress(40000, "chart", true);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+      threads.emplace_back([&] {
+        for (int j = 0; j < 10000; ++j) progress.advance();
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+  });
+  EXPECT_NE(shown.find("chart: 40000/40000"), std::string::npos) << shown;
+  EXPECT_LT(std::count(shown.begin(), shown.end(), '\n'), 1000);
+}
+
+TEST(Progress, IsWantedWhenAskedForAndNeverWhenQuiet) {
+  JobContext context;
+  context.progress = true;
+  EXPECT_TRUE(progress_wanted(context));
+  context.quiet = true;
+  EXPECT_FALSE(progress_wanted(context));
+  context = {};
+  EXPECT_EQ(progress_wanted(context), isatty(STDERR_FILENO) == 1);
+}
+
+}  // namespace
+}  // namespace holdfast::program

@@ -1,0 +1,162 @@
+#include "sweep/sweep_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "case/case_file.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "process/errors.hpp"
+#include "support/message_of.hpp"
+
+namespace holdfast::program {
+namespace {
+
+JobContext sweep_context(const std::vector<std::string>& settings = {}) {
+  JobContext context;
+  context.job = "sweep";
+  context.case_source.overrides = settings;
+  context.case_data = load_case(std::nullopt, settings);
+  return context;
+}
+
+SweepQuestion sweep_over(std::vector<std::string> axes) {
+  SweepQuestion question;
+  question.axes = std::move(axes);
+  return question;
+}
+
+std::string refusal_of(const SweepQuestion& question) {
+  return tests::message_of<WrongInput>([&] { SweepPlan(sweep_context(), question); });
+}
+
+TEST(SweepPlan, NumbersItsCellsWithTheFirstAxisSlowest) {
+  const SweepPlan plan(sweep_context(),
+                       sweep_over({"control.sampling_period=0.001,0.002,0.004",
+                                   "backlash.width=0:0.003:4", "excitation.frequency=log:5:20:3"}));
+  ASSERT_EQ(plan.cells(), 36);
+  std::int64_t cell = 0;
+  for (const double period : {0.001, 0.002, 0.004}) {
+    for (const double width : {0.0, 0.001, 0.002, 0.003}) {
+      for (const double frequency : {5.0, 10.0, 20.0}) {
+        const Case the_case = plan.case_of(cell++);
+        EXPECT_EQ(the_case.control.sampling_period, period);
+        EXPECT_NEAR(the_case.backlash.width, width, 1e-18);
+        EXPECT_NEAR(the_case.excitation.frequency, frequency, 1e-13);
+        EXPECT_EQ(the_case.control.differential_gain, -13.0);
+      }
+    }
+  }
+}
+
+TEST(SweepPlan, TilesCoverEveryCellOnce) {
+  for (const std::int64_t size : {1, 5, 7, 35, 36, 1000}) {
+    SweepQuestion question = sweep_over({"backlash.width=0:0.003:36"});
+    question.tile_cells = size;
+    const SweepPlan plan(sweep_context(), question);
+    std::int64_t next = 0;
+    for (std::int64_t tile = 0; tile < plan.tiles(); ++tile) {
+      EXPECT_EQ(plan.first_cell(tile), next);
+      EXPECT_GE(plan.cells_of(tile), 1);
+      next += plan.cells_of(tile);
+    }
+    EXPECT_EQ(next, 36);
+  }
+}
+
+TEST(SweepPlan, CountsTheSamplesOfItsMotions) {
+  SweepQuestion question = sweep_over({"control.sampling_period=0.001,0.01", "backlash.width=0,1"});
+  question.duration = 2.0;
+  EXPECT_EQ(SweepPlan(sweep_context(), question).samples(), 2.0 * (2001.0 + 201.0));
+}
+
+TEST(SweepPlan, TunesTheProportionalGainOfEveryCell) {
+  const SweepPlan plan(sweep_context({"control.proportional_gain=tuned"}),
+                       sweep_over({"excitation.frequency=5,10"}));
+  const TwoDof<double> plant = plant_of(plan.case_of(0));
+  for (const std::int64_t cell : {0, 1}) {
+    const double frequency = cell == 0 ? 5.0 : 10.0;
+    EXPECT_EQ(gains_of(plan.case_of(cell)).proportional,
+              tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency));
+  }
+}
+
+TEST(SweepPlan, RefusesWhatNoCellCouldHave) {
+  EXPECT_NE(refusal_of(sweep_over({})).find("at least one"), std::string::npos);
+  EXPECT_NE(refusal_of(sweep_over({"backlash.widht=0,1"})).find("backlash.width"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(sweep_over({"backlash.law=0,1"})).find("is not a number"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(sweep_over({"wind.speed=1,2"})).find("no [wind]"), std::string::npos);
+  EXPECT_NE(refusal_of(sweep_over({"backlash.width=0,1", "backlash.width=2,3"})).find("twice"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(sweep_over({"initial.z1=0:1:1000000000", "initial.z2=0:1:1000000000"}))
+                .find("2^53"),
+            std::string::npos);
+  SweepQuestion question = sweep_over({"backlash.width=0,1"});
+  question.metrics = {"steady_peek"};
+  EXPECT_NE(refusal_of(question).find("steady_peak"), std::string::npos);
+  question.metrics = {"steady_rms", "steady_rms"};
+  EXPECT_NE(refusal_of(question).find("twice"), std::string::npos);
+}
+
+TEST(SweepPlan, AValueThatItsKeyDoesNotAdmitIsAFaultOfItsCellAlone) {
+  const SweepPlan plan(sweep_context(), sweep_over({"control.sampling_period=0.001,-1"}));
+  EXPECT_NO_THROW(plan.case_of(0));
+  EXPECT_THROW(plan.case_of(1), WrongInput);
+}
+
+TEST(SweepPlan, PlanOfTheTilesTellsAllThatTheyDependOn) {
+  const SweepQuestion question = sweep_over({"backlash.width=0,1"});
+  const auto entries = [&](const std::vector<std::string>& settings, const SweepQuestion& asked) {
+    return SweepPlan(sweep_context(settings), asked).tile_plan().entries;
+  };
+  const auto usual = entries({}, question);
+  EXPECT_EQ(usual, entries({}, question));
+  EXPECT_EQ(usual, entries({"control.differential_gain=-13"}, question));
+  EXPECT_NE(usual, entries({"control.differential_gain=-12.999999999999998"}, question));
+  EXPECT_NE(usual, entries({"excitation.hold=exact"}, question));
+  EXPECT_NE(usual, entries({"control.proportional_gain=tuned"}, question));
+  std::vector<SweepQuestion> others(6, question);
+  others[0].axes = {"backlash.width=0,1.0000001"};
+  others[1].metrics = {"steady_rms"};
+  others[2].duration = 20.000000000000004;
+  others[3].largest_period = 99'999;
+  others[4].best_gain = true;
+  others[5].tile_cells = 1;
+  for (const SweepQuestion& other : others) EXPECT_NE(usual, entries({}, other));
+}
+
+TEST(SweepPlan, PlanOfTilesWithTheirOwnPlantsTellsWhatTheyAreReducedFrom) {
+  const SweepQuestion question = sweep_over({"conductor.sag=0.285,0.29"});
+  const auto entries = [&](const std::vector<std::string>& settings) {
+    return SweepPlan(sweep_context(settings), question).tile_plan().entries;
+  };
+  // The value of the built-in case, but given: the plant is no longer reduced.
+  EXPECT_NE(entries({}), entries({"plant.conductor_mass=0.0767"}));
+  JobContext of_file = sweep_context();
+  of_file.case_source.text = "[conductor]\n";
+  EXPECT_NE(entries({}), SweepPlan(of_file, question).tile_plan().entries);
+}
+
+TEST(SweepPlan, WithTheBestGainHasNoOtherAndTimeToSettle) {
+  SweepQuestion question = sweep_over({"control.differential_gain=-20,-10"});
+  question.best_gain = true;
+  EXPECT_NE(refusal_of(question).find("is an axis"), std::string::npos);
+  question = sweep_over({"backlash.width=0,1"});
+  question.best_gain = true;
+  question.duration = 0.0;
+  EXPECT_NE(refusal_of(question).find("--duration"), std::string::npos);
+}
+
+TEST(SweepPlan, OfAHundredMillionCellsIsMadeAtOnce) {
+  const SweepPlan plan(sweep_context(), sweep_over({"backlash.width=0:0.003:10000",
+                                                    "control.sampling_period=0.001:0.03:10000"}));
+  EXPECT_EQ(plan.cells(), 100'000'000);
+  EXPECT_EQ(plan.case_of(99'999'999).backlash.width, 0.003);
+  EXPECT_EQ(plan.case_of(99'999'999).control.sampling_period, 0.03);
+}
+
+}  // namespace
+}  // namespace holdfast::program

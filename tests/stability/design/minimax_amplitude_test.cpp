@@ -1,0 +1,138 @@
+#include "holdfast/stability/design/minimax_amplitude.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "holdfast/math/linalg/spectral_radius.hpp"
+
+namespace holdfast {
+namespace {
+
+struct BandCase {
+  AmplitudeQuestion question;
+  double proportional_gain;
+  FrequencyBand band;
+};
+
+const BandCase band_cases[] = {
+    {{Sampling<double>{0.001}, ForceHold::sampled, 1.0}, -557.0, {9.0, 11.0}},
+    {{Sampling<double>{0.010}, ForceHold::exact, 0.995}, -557.0, {8.0, 12.0}},
+    {{Sampling<double>{0.005, 0.0025}, ForceHold::sampled, 0.995}, -200.0, {1.0, 20.0}},
+    {{Sampling<double>{0.002}, ForceHold::sampled, 1.0}, 0.0, {0.5, 10.0}},
+    {{Sampling<double>{0.020}, ForceHold::sampled, 1.0}, -10.0, {1.0, 25.0}}};
+
+/// Lightly damped, so that the amplitude has narrow peaks over the frequency.
+TwoDof<double> light_plant() {
+  TwoDof<double> plant = kollar2022_plant();
+  plant.absorber_damping = 0.1;
+  return plant;
+}
+
+/// The ratio at one D and frequency, from the loop's own response.
+double ratio_of(const SampledLoop<double>& loop, const BandCase& c, double frequency, double d) {
+  const double omega = 2.0 * pi<double> * frequency;
+  const auto input = harmonic_input(kollar2022_plant(), loop, c.question.hold, omega);
+  return SteadyResponse<double>(loop, input, omega).ratio_to_uncontrolled({c.proportional_gain, d});
+}
+
+TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
+  for (const BandCase& c : band_cases) {
+    const auto loop = sampled_loop(kollar2022_plant(), c.question.sampling);
+    const AmplitudeBand band(kollar2022_plant(), loop, c.question.hold, c.proportional_gain,
+                             c.band);
+    for (const double d : {-13.0, -5.0, 1.0}) {
+      const WorstFrequency worst = band.worst(d);
+      double scanned = 0.0;
+      for (int k = 0; k <= 20000; ++k) {
+        const double f = c.band.lower + (c.band.upper - c.band.lower) * k / 20000.0;
+        scanned = std::max(scanned, ratio_of(loop, c, f, d));
+      }
+      EXPECT_GE(worst.ratio, scanned * (1.0 - 1e-9));
+      EXPECT_LE(worst.ratio, scanned * (1.0 + 1e-3));
+      EXPECT_NEAR(ratio_of(loop, c, worst.frequency, d), worst.ratio, 1e-9 * worst.ratio);
+      EXPECT_TRUE(worst.frequency >= c.band.lower && worst.frequency <= c.band.upper);
+    }
+  }
+}
+
+TEST(AmplitudeBand, FindsANarrowPeak) {
+  const auto plant = light_plant();
+  const auto loop = sampled_loop(plant, Sampling<double>{0.02});
+  const AmplitudeBand band(plant, loop, ForceHold::exact, -20.0, {1.0, 20.0});
+  for (const double d : {-1.0, 0.3, 1.0, 2.0}) {
+    const WorstFrequency worst = band.worst(d);
+    double scanned = 0.0;
+    for (int k = 0; k <= 20000; ++k) {
+      const double omega = 2.0 * pi<double> * (1.0 + 19.0 * k / 20000.0);
+      const auto input = harmonic_input(plant, loop, ForceHold::exact, omega);
+      scanned = std::max(
+          scanned, SteadyResponse<double>(loop, input, omega).ratio_to_uncontrolled({-20.0, d}));
+    }
+    EXPECT_GE(worst.ratio, scanned * (1.0 - 1e-9)) << d;
+    EXPECT_LE(worst.ratio, scanned * (1.0 + 1e-2)) << d;
+  }
+}
+
+TEST(LeastWorstAmplitude, OfALightlyDampedPlantHasItsBoundsInOrder) {
+  const AmplitudeQuestion question{Sampling<double>{0.02}, ForceHold::exact};
+  const auto answer = least_worst_amplitude(light_plant(), question, -20.0, {1.0, 20.0});
+  EXPECT_EQ(answer.outcome, LeastWorstOutcome::found);
+  EXPECT_NEAR(answer.worst_ratio, answer.lower_bound, 1e-7 * answer.lower_bound);
+}
+
+TEST(LeastWorstAmplitude, NoGainOfADenseScanIsBetter) {
+  for (const BandCase& c : band_cases) {
+    const auto answer =
+        least_worst_amplitude(kollar2022_plant(), c.question, c.proportional_gain, c.band);
+    ASSERT_EQ(answer.outcome, LeastWorstOutcome::found);
+    EXPECT_LE(answer.lower_bound, answer.worst_ratio);
+    EXPECT_GE(answer.lower_bound, answer.worst_ratio * (1.0 - 1e-8));
+    EXPECT_NEAR(std::pow(10.0, -answer.attenuation / 20.0), answer.worst_ratio, 1e-9);
+    const auto loop = sampled_loop(kollar2022_plant(), c.question.sampling);
+    double scanned = std::numeric_limits<double>::infinity();
+    for (double d = -60.0; d <= 60.0; d += 0.2) {
+      const PdGains<double> gains{c.proportional_gain, d};
+      if (!(spectral_radius<double, 5>(loop.engaged_map(gains)) < c.question.largest_radius))
+        continue;
+      double worst = 0.0;
+      for (int k = 0; k <= 500 && worst < scanned; ++k) {
+        const double f = c.band.lower + (c.band.upper - c.band.lower) * k / 500.0;
+        worst = std::max(worst, ratio_of(loop, c, f, d));
+      }
+      scanned = std::min(scanned, worst);
+    }
+    EXPECT_LE(answer.worst_ratio, scanned * (1.0 + 1e-3)) << "the scan's peaks are too low";
+    EXPECT_GE(answer.worst_ratio, scanned * 0.9) << "and so is its step of D";
+  }
+}
+
+TEST(LeastWorstAmplitude, OfANarrowBandIsThatOfItsFrequency) {
+  const AmplitudeQuestion question{Sampling<double>{0.01}, ForceHold::sampled, 0.995};
+  const auto narrow =
+      least_worst_amplitude(kollar2022_plant(), question, -557.0, {10.0 - 1e-9, 10.0 + 1e-9});
+  const auto single = least_amplitude(kollar2022_plant(), question, 10.0, -557.0);
+  EXPECT_NEAR(narrow.worst_ratio, single.ratio_to_uncontrolled, 1e-7);
+  EXPECT_NEAR(narrow.differential_gain, single.differential_gain, 1e-5);
+}
+
+TEST(LeastWorstAmplitude, SaysWhereNoGainIsAdmissible) {
+  const auto answer =
+      least_worst_amplitude(kollar2022_plant(), {Sampling<double>{0.05}}, -557.0, {5.0, 9.0});
+  EXPECT_EQ(answer.outcome, LeastWorstOutcome::none);
+  EXPECT_TRUE(std::isnan(answer.differential_gain));
+}
+
+TEST(LeastWorstAmplitude, RefusesWhatIsNoBand) {
+  const auto plant = kollar2022_plant();
+  const AmplitudeQuestion question{Sampling<double>{0.01}};
+  for (const FrequencyBand& band :
+       {FrequencyBand{0.0, 1.0}, {2.0, 2.0}, {3.0, 2.0}, {1.0, 50.1}, {NAN, 2.0}}) {
+    EXPECT_THROW(least_worst_amplitude(plant, question, -557.0, band), InvalidParameter);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,78 @@
+#include "holdfast/stability/design/minimum_amplitude.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+
+namespace holdfast {
+namespace {
+
+/// Against a dense scan over D by eigenvalues and by the response of each loop.
+TEST(LeastAmplitude, IsNoWorseThanADenseScan) {
+  const auto plant = kollar2022_plant();
+  for (const Sampling<double>& sampling :
+       {Sampling<double>{0.001, 0.0}, {0.01, 0.0}, {0.01, 0.01}}) {
+    const auto loop = sampled_loop(plant, sampling);
+    for (const double frequency : {6.0, 10.0, 15.0}) {
+      for (const double largest_radius : {1.0, 0.99}) {
+        const double p = tuned_proportional_gain(74.4, 0.16, frequency);
+        const AmplitudeQuestion question{sampling, ForceHold::sampled, largest_radius};
+        const LeastAmplitude answer = least_amplitude(plant, question, frequency, p);
+        const SteadyResponse<double> response(loop, held_harmonic(loop),
+                                              2.0 * pi<double> * frequency);
+        double least = std::numeric_limits<double>::infinity();
+        for (int step = 0; step <= 8000; ++step) {
+          const double d = -200.0 + step * 0.03;
+          if (!(spectral_radius<double, 5>(loop.engaged_map({p, d})) < largest_radius)) continue;
+          least = std::min(least, response.ratio_to_uncontrolled({p, d}));
+        }
+        if (answer.outcome == LeastAmplitudeOutcome::none) {
+          EXPECT_TRUE(std::isinf(least)) << "no D of the scan is admissible";
+          EXPECT_TRUE(std::isnan(answer.differential_gain));
+          continue;
+        }
+        EXPECT_LE(answer.ratio_to_uncontrolled, least + 1e-9);
+        EXPECT_NEAR(answer.ratio_to_uncontrolled, least, 0.05 * least);
+        const PdGains<double> gains{p, answer.differential_gain};
+        EXPECT_NEAR(response.ratio_to_uncontrolled(gains), answer.ratio_to_uncontrolled, 1e-12);
+        EXPECT_NEAR(std::pow(10.0, -answer.attenuation / 20.0), answer.ratio_to_uncontrolled,
+                    1e-12);
+        const double radius = spectral_radius<double, 5>(loop.engaged_map(gains));
+        EXPECT_LE(radius, largest_radius + 1e-9);
+        EXPECT_EQ(answer.outcome == LeastAmplitudeOutcome::edge, radius > largest_radius - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(LeastAmplitude, SaysWhereTheSamplesDoNotShowTheVibration) {
+  for (const double frequency : {50.0, 100.0, 123.0}) {
+    const auto answer =
+        least_amplitude(kollar2022_plant(), {Sampling<double>{0.01}}, frequency, -557.0);
+    EXPECT_EQ(answer.outcome, LeastAmplitudeOutcome::aliased);
+    EXPECT_TRUE(std::isnan(answer.differential_gain));
+    EXPECT_TRUE(std::isnan(answer.ratio_to_uncontrolled));
+  }
+}
+
+TEST(LeastAmplitude, RefusesWhatIsNoQuestion) {
+  const auto plant = kollar2022_plant();
+  const AmplitudeQuestion question{Sampling<double>{0.001}};
+  EXPECT_THROW(least_amplitude(plant, question, 0.0, -557.0), InvalidParameter);
+  EXPECT_THROW(least_amplitude(plant, question, 10.0, INFINITY), InvalidParameter);
+  EXPECT_THROW(least_amplitude(plant, {Sampling<double>{0.0}}, 10.0, -557.0), InvalidParameter);
+  AmplitudeQuestion no_radius = question;
+  no_radius.largest_radius = 0.0;
+  EXPECT_THROW(least_amplitude(plant, no_radius, 10.0, -557.0), InvalidParameter);
+  AmplitudeQuestion divergent = question;
+  divergent.largest_radius = 1.1;
+  EXPECT_THROW(least_amplitude(plant, divergent, 10.0, -557.0), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,113 @@
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/random_loop.hpp"
+
+namespace holdfast {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// |p(x)| relative to the sum of the moduli of its terms, on the circle through x or at least 1.
+template <class Coefficients>
+double relative_value(const Coefficients& p, const Complex& x) {
+  double size = 0, power = 1;
+  for (int k = 0; k < p.size(); ++k, power *= std::max(1.0, std::abs(x)))
+    size += std::abs(p[k]) * power;
+  return std::abs(evaluate(p, x)) / size;
+}
+
+TEST(CharacteristicPolynomial, TheEigenvaluesOfTheLoopAreItsRoots) {
+  test::Random random(191);
+  for (int draw = 0; draw < 2000; ++draw) {
+    const auto plant = test::random_plant(random);
+    const auto sampling = test::random_sampling(plant, random);
+    const auto gains = test::random_gains(plant, sampling.period, random);
+    const auto loop = sampled_loop(plant, sampling);
+    const auto in_mu = characteristic_polynomial(loop).at(gains);
+    const auto in_lambda = in_powers_of_lambda<double, 6>(in_mu);
+    Matrix<double, 5> shifted = loop.engaged_map(gains);
+    shifted.topLeftCorner<4, 4>() = loop.increment + loop.present_force * gains.feedback_row();
+    shifted(4, 4) = -1.0;
+    const Vector<Complex, 5> mu = detail::balanced_eigenvalues<double, 5>(shifted);
+    for (const Complex& root : mu) {
+      EXPECT_LE(relative_value(in_mu, root), 1e-10);
+      EXPECT_LE(relative_value(in_lambda, root + 1.0), 1e-10);
+    }
+  }
+}
+
+TEST(CharacteristicPolynomial, IsTheDeterminantOfTheSampledLoop) {
+  test::Random random(192);
+  for (int draw = 0; draw < 500; ++draw) {
+    const auto plant = test::random_plant(random);
+    const auto sampling = test::random_sampling(plant, random);
+    const auto gains = test::random_gains(plant, sampling.period, random);
+    const auto loop =
+        sampled_loop(converted<long double>(plant),
+                     Sampling<long double>{sampling.period, sampling.processing_delay});
+    const PdGains<long double> precise{gains.proportional, gains.differential};
+    const auto p = characteristic_polynomial(loop).at(precise);
+    const std::complex<long double> mu(random.uniform(-3, 1), random.uniform(-2, 2));
+    using Complex5 = Matrix<std::complex<long double>, 5>;
+    const Complex5 shifted = (mu + 1.0L) * Complex5::Identity() -
+                             loop.engaged_map(precise).cast<std::complex<long double>>();
+    const std::complex<long double> determinant = shifted.fullPivLu().determinant();
+    long double size = 0, power = 1;
+    for (int k = 0; k <= 5; ++k, power *= std::abs(mu)) size += std::abs(p[k]) * power;
+    EXPECT_LE(std::abs(evaluate(p, mu) - determinant) / size, 1e-13L);
+  }
+}
+
+TEST(CharacteristicPolynomial, IsTheDeterminantOfTheContinuousLoop) {
+  test::Random random(193);
+  for (int draw = 0; draw < 500; ++draw) {
+    const auto plant = converted<long double>(test::random_plant(random));
+    const PdGains<long double> gains{random.uniform(-1000, 1000), random.uniform(-100, 100)};
+    const auto p = characteristic_polynomial(plant).at(gains);
+    const std::complex<long double> s(random.uniform(-50, 50), random.uniform(-100, 100));
+    using Complex4 = Matrix<std::complex<long double>, 4>;
+    const Matrix<long double, 4> closed =
+        plant.state_matrix() + plant.control_input() * gains.feedback_row();
+    const Complex4 shifted = s * Complex4::Identity() - closed.cast<std::complex<long double>>();
+    long double size = 0, power = 1;
+    for (int k = 0; k <= 4; ++k, power *= std::abs(s)) size += std::abs(p[k]) * power;
+    EXPECT_LE(std::abs(evaluate(p, s) - shifted.fullPivLu().determinant()) / size, 1e-13L);
+    EXPECT_EQ(p[4], 1.0L);
+  }
+}
+
+TEST(CharacteristicPolynomial, WithoutDelayZeroIsAStructuralRoot) {
+  const auto loop = sampled_loop(kollar2022_plant(), Sampling<double>{0.01, 0.0});
+  EXPECT_LE(std::abs(evaluate(characteristic_polynomial(loop).at({-557, -13}), -1.0)), 1e-12);
+  EXPECT_LE(
+      std::abs(in_powers_of_lambda<double, 6>(characteristic_polynomial(loop).at({-557, -13}))[0]),
+      1e-12);
+}
+
+TEST(CharacteristicPolynomial, VelocityFeedbackMovesNoStaticEquilibrium) {
+  const auto continuous = characteristic_polynomial(kollar2022_plant());
+  // D stands only before s³; at the plant's 7 Hz that term has this size.
+  const double size = std::abs(continuous.differential[3]) * std::pow(44.0, 3);
+  EXPECT_NEAR(continuous.differential[0], 0.0, 1e-13 * size);
+}
+
+TEST(InPowersOfLambda, IsTheTaylorShift) {
+  test::Random random(194);
+  for (int draw = 0; draw < 1000; ++draw) {
+    const Vector<double, 6> p = random.matrix<Vector<double, 6>>();
+    const Complex mu(random.uniform(-1, 1), random.uniform(-1, 1));
+    EXPECT_LE(std::abs(evaluate(in_powers_of_lambda<double, 6>(p), mu + 1.0) - evaluate(p, mu)),
+              1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast

@@ -1,0 +1,150 @@
+#include "holdfast/stability/response/response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/random_loop.hpp"
+
+namespace holdfast {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double frequency = 10.0, omega = 2.0 * pi<double> * frequency;
+
+SteadyResponse<double> held_response(const SampledLoop<double>& loop,
+                                     double angular_frequency = omega) {
+  return {loop, held_harmonic(loop), angular_frequency};
+}
+
+/// Amplitude of z₁ at the forcing frequency by least squares, after a transient of 7000 samples.
+double simulated_amplitude(const SampledLoop<double>& loop, const HarmonicInput<double>& input,
+                           const PdGains<double>& gains, const HarmonicExcitation<double>& force) {
+  SampledMotion<double> motion(loop, gains, input, force, Backlash<double>(0.0),
+                               Vector<double, 4>::Zero());
+  Matrix<double, 2> normal = Matrix<double, 2>::Zero();
+  Vector<double, 2> right = Vector<double, 2>::Zero();
+  for (int j = 0; j < 10000; ++j) {
+    const double z1 = motion.sense().state[0];
+    const double phase = force.angular_frequency() * motion.time();
+    motion.advance();
+    if (j < 7000) continue;
+    const Vector<double, 2> basis(std::cos(phase), std::sin(phase));
+    normal += basis * basis.transpose();
+    right += basis * z1;
+  }
+  return (normal.inverse() * right).norm();
+}
+
+TEST(SteadyResponse, IsTheAmplitudeOfTheSimulatedMotion) {
+  const auto plant = kollar2022_plant();
+  for (const double f : {10.0 / std::sqrt(2.0), 3.0 * std::sqrt(2.0), 17.3}) {
+    for (const double fraction : {0.0, 0.3, 1.0}) {
+      const auto loop = sampled_loop(plant, Sampling<double>{0.004, 0.004 * fraction});
+      const HarmonicExcitation<double> force{0.5, f};
+      const double w = force.angular_frequency();
+      const PdGains<double> gains{-300.0, -8.0};
+      for (const auto& input : {held_harmonic(loop), exact_harmonic(plant, 0.004, w)}) {
+        const SteadyResponse<double> response(loop, input, w);
+        const double expected = 0.5 * response.amplitude_per_force(gains);
+        EXPECT_NEAR(simulated_amplitude(loop, input, gains, force), expected, 1e-9 * expected)
+            << f << ' ' << fraction;
+        EXPECT_NEAR(simulated_amplitude(loop, input, {0, 0}, force),
+                    0.5 * response.uncontrolled_amplitude_per_force(), 1e-9 * expected);
+      }
+    }
+  }
+}
+
+TEST(SteadyResponse, WithoutControlAndWithExactForceIsThatOfTheContinuousPlant) {
+  const auto plant = kollar2022_plant();
+  const Matrix<Complex, 4> system =
+      Complex(0, omega) * Matrix<Complex, 4>::Identity() - plant.state_matrix().cast<Complex>();
+  const Vector<Complex, 4> z =
+      system.partialPivLu().solve(plant.excitation_input().cast<Complex>());
+  for (const double period : {0.001, 0.01, 0.03}) {
+    const auto loop = sampled_loop(plant, Sampling<double>{period});
+    const SteadyResponse<double> response(loop, exact_harmonic(plant, period, omega), omega);
+    EXPECT_NEAR(response.uncontrolled_amplitude_per_force() / std::abs(z[0]), 1.0, 1e-12);
+  }
+}
+
+TEST(SteadyResponse, TheHeldForcesAmplitudeErrsInSecondOrder) {
+  const auto plant = kollar2022_plant();
+  const auto error = [&](double period) {
+    const auto loop = sampled_loop(plant, Sampling<double>{period});
+    const SteadyResponse<double> exact(loop, exact_harmonic(plant, period, omega), omega);
+    return std::abs(held_response(loop).uncontrolled_amplitude_per_force() /
+                        exact.uncontrolled_amplitude_per_force() -
+                    1);
+  };
+  EXPECT_NEAR(std::log2(error(0.002) / error(0.001)), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(error(0.001) / error(0.0005)), 2.0, 0.1);
+}
+
+TEST(SteadyResponse, NoGainsLeaveTheUncontrolledAmplitude) {
+  const auto response = held_response(sampled_loop(kollar2022_plant(), Sampling<double>{0.01}));
+  EXPECT_EQ(response.ratio_to_uncontrolled({0.0, 0.0}), 1.0);
+}
+
+TEST(BestDifferentialGain, NoGainOfItsIntervalsIsBetter) {
+  test::Random random(231);
+  int compared = 0, in_the_middle = 0;
+  for (int draw = 0; draw < 500; ++draw) {
+    const auto plant = test::random_plant(random);
+    const auto sampling = test::random_sampling(plant, random);
+    const auto loop = sampled_loop(plant, sampling);
+    const double p = test::random_gains(plant, sampling.period, random).proportional;
+    const auto intervals = stable_differential_gains(characteristic_polynomial(loop), p);
+    if (intervals.empty()) continue;
+    const auto response = held_response(loop, random.uniform(0.02, 3.0) / sampling.period);
+    const auto best = response.best_differential_gain(p, intervals);
+    ASSERT_TRUE(std::isfinite(best.differential_gain));
+    EXPECT_DOUBLE_EQ(response.ratio_to_uncontrolled({p, best.differential_gain}),
+                     best.ratio_to_uncontrolled);
+    for (const auto& interval : intervals) {
+      if (!std::isfinite(interval.lower) || !std::isfinite(interval.upper)) continue;
+      in_the_middle += interval.contains(best.differential_gain) ? 1 : 0;
+      for (double share = 0.0; share <= 1.0; share += 1.0 / 128) {
+        const double d = interval.lower + share * (interval.upper - interval.lower);
+        ++compared;
+        EXPECT_GE(response.ratio_to_uncontrolled({p, d}), best.ratio_to_uncontrolled * (1 - 1e-12));
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_GT(in_the_middle, 20) << "some optima must be stationary points, not ends";
+}
+
+TEST(BestDifferentialGain, AStationaryGainHasOnlyWorseNeighbours) {
+  const auto response = held_response(sampled_loop(kollar2022_plant(), Sampling<double>{0.01}));
+  int stationary = 0;
+  for (double p = -900.0; p <= 300.0; p += 25.0) {
+    const auto best = response.best_differential_gain(p, {{-1e3, 1e3}});
+    if (std::abs(best.differential_gain) >= 1e3) continue;
+    ++stationary;
+    for (const double step : {-1e-3, 1e-3}) {
+      const double neighbour = best.differential_gain * (1.0 + step);
+      EXPECT_GT(response.ratio_to_uncontrolled({p, neighbour}), best.ratio_to_uncontrolled);
+    }
+  }
+  EXPECT_GT(stationary, 5);
+}
+
+TEST(BestDifferentialGain, OfNoIntervalIsNone) {
+  const auto best = held_response(sampled_loop(kollar2022_plant(), Sampling<double>{0.01}))
+                        .best_differential_gain(-557.0, {});
+  EXPECT_TRUE(std::isnan(best.differential_gain));
+  EXPECT_EQ(best.ratio_to_uncontrolled, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace holdfast

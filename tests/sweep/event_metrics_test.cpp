@@ -1,0 +1,246 @@
+#include "holdfast/sweep/event_metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "holdfast/control/sampling_clock.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
+#include "holdfast/motion/instant.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/sweep/metric_batch.hpp"
+#include "holdfast/sweep/sweep_motion.hpp"
+#include "support/kollar_case.hpp"
+#include "sweep/sweep_setting.hpp"
+
+namespace holdfast {
+namespace {
+
+std::vector<MotionMetrics> batch_metrics_of(const std::vector<SweepMotion>& motions,
+                                            double duration) {
+  std::vector<MotionMetrics> results(motions.size());
+  motion_metrics<double>(motions.data(), motions.size(), duration, results.data());
+  return results;
+}
+
+MotionMetrics hybrid_metrics_of(const SweepMotion& motion, double duration) {
+  return hybrid_metrics(real_loop(motion.loop), motion.initial_state, duration);
+}
+
+SweepMotion metric_motion(double sampling_period, double width,
+                          ForceHold hold = ForceHold::sampled) {
+  test::KollarCase which;
+  which.sampling_period = sampling_period;
+  which.width = width;
+  SweepMotion motion{which.forced_loop(), Vector<double, 4>::Zero()};
+  motion.loop.hold = hold;
+  return motion;
+}
+
+/// The metrics of another way to compute them: counts identical, lengths to 1e-12 of the motion's
+/// reach, and forces to 1e-12 of what the gains make of the reach and of the fastest velocity that
+/// the plant can give to it, since the terms of a force may cancel.
+void expect_same_motion(const MotionMetrics& metrics, const MotionMetrics& expected,
+                        const SweepMotion& motion, double duration) {
+  const double reach = test::reach_of(test::record(motion, duration));
+  const PdGains<double>& gains = motion.loop.gains;
+  const double terms =
+      reach * (std::abs(gains.proportional) +
+               std::abs(gains.differential) * balanced_norm(motion.loop.plant.state_matrix()));
+  EXPECT_EQ(metrics.end, expected.end);
+  EXPECT_EQ(metrics.samples, expected.samples);
+  EXPECT_TRUE(test::agree(metrics.engaged_fraction, expected.engaged_fraction, 0.0));
+  EXPECT_TRUE(test::agree(metrics.reversals_per_s, expected.reversals_per_s, 0.0));
+  const auto expect_close = [](double is, double should_be, double size) {
+    EXPECT_EQ(std::isnan(is), std::isnan(should_be));
+    if (std::isnan(is)) return;
+    EXPECT_LE(std::abs(is - should_be), 1e-12 * size);
+  };
+  expect_close(metrics.first_peak, expected.first_peak, reach);
+  expect_close(metrics.steady_peak, expected.steady_peak, reach);
+  expect_close(metrics.steady_rms, expected.steady_rms, reach);
+  expect_close(metrics.absorber_stroke, expected.absorber_stroke, reach);
+  expect_close(metrics.force_peak, expected.force_peak, terms);
+  expect_close(metrics.force_rms, expected.force_rms, terms);
+}
+
+/// @return how many of the motions switch
+int expect_those_of_the_batch(const std::vector<SweepMotion>& motions, double duration) {
+  const auto expected = batch_metrics_of(motions, duration);
+  int switching = 0;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    SCOPED_TRACE(k);
+    expect_same_motion(hybrid_metrics_of(motions[k], duration), expected[k], motions[k], duration);
+    switching += expected[k].engaged_fraction < 1.0 ? 1 : 0;
+  }
+  return switching;
+}
+
+TEST(HybridMetrics, OfTheLoopOfThePaperAreThoseOfTheBatch) {
+  std::vector<SweepMotion> motions;
+  for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact})
+    for (const double width : {0.0, 0.0005, 0.002})
+      for (const double period : {0.001, 0.003})
+        motions.push_back(metric_motion(period, width, hold));
+  EXPECT_EQ(expect_those_of_the_batch(motions, 20.0), 8);
+  for (const SweepMotion& motion : motions) {
+    const double reach = test::reach_of(test::record(motion, 20.0));
+    const auto expected = batch_metrics_of({motion}, 20.0).front();
+    EXPECT_TRUE(test::agree(hybrid_metrics_of(motion, 20.0), expected, 1e-12, reach));
+  }
+}
+
+TEST(HybridMetrics, OfAnyLoopOfTheModelAreThoseOfTheBatch) {
+  EXPECT_GT(expect_those_of_the_batch(test::random_sweep_motions(300, 911, 0.006), 0.2), 75);
+}
+
+TEST(HybridMetrics, OfAMotionThatDivergesAreThoseOfTheBatch) {
+  auto motions = test::random_sweep_motions(200, 912, 20.0);
+  for (auto& motion : motions) motion.loop.backlash_width = 0.0;
+  const auto expected = batch_metrics_of(motions, 4.0);
+  int diverged = 0;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    if (expected[k].end != MotionEnd::diverged) continue;
+    ++diverged;
+    const auto metrics = hybrid_metrics_of(motions[k], 4.0);
+    EXPECT_EQ(metrics.end, MotionEnd::diverged) << k;
+    // The sample at which a sum leaves the range depends on the order of its terms.
+    EXPECT_NEAR(static_cast<double>(metrics.samples), static_cast<double>(expected[k].samples), 1.0)
+        << k;
+    EXPECT_TRUE(test::agree(metrics.first_peak, expected[k].first_peak, 1e-12)) << k;
+    EXPECT_EQ(metrics.steady_peak, std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(std::isnan(metrics.reversals_per_s));
+  }
+  EXPECT_GT(diverged, 25);
+}
+
+// A plant that pushes out over the edge of the dead zone, and a command that pushes in.
+TEST(HybridMetrics, OfAMotionWhoseContactsAccumulateAreNotNumbers) {
+  RealLoop loop{{1.0, 1.0, 0.0, 1.0, 1.0, 300.0}, {{0.5, 0.0}, {-10.0, 0.0}, {}}};
+  loop.digital.force.record = std::make_shared<const RecordedForce>(
+      std::vector<double>{-1.0, 10.0}, std::vector<double>{-10.0, -10.0},
+      RecordInterpolation::held);
+  loop.digital.hold = ForceHold::exact;
+  loop.backlash = {ContactLaw::dead_zone, 0.02};
+  loop.switching = Switching::exact;
+  const auto metrics = hybrid_metrics(loop, Vector<double, 4>(-1.0, 0.0, -0.99, 0.001), 5.0);
+  EXPECT_EQ(metrics.end, MotionEnd::accumulates);
+  EXPECT_EQ(metrics.samples, 1);
+  for (const double value : {metrics.first_peak, metrics.steady_peak, metrics.force_rms})
+    EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(HybridMetrics, OfShortMotionsAreThoseOfTheBatch) {
+  auto motion = metric_motion(0.01, 0.0005);
+  motion.initial_state << 0.001, 0.0, 0.003, 0.0;
+  for (const double duration : {0.0, 0.009, 0.01, 0.02, 0.05})
+    expect_those_of_the_batch({motion}, duration);
+}
+
+/// The metrics by their definitions, from all samples of a motion of a built loop.
+MotionMetrics defined_metrics_of(const RealLoop& loop, double duration) {
+  test::RecordedMotion recorded{TrajectoryOutcome::completed, {}};
+  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
+    for (; not_before(duration, motion.time()); motion.advance())
+      recorded.samples.push_back(motion.sense());
+    return 0;
+  });
+  return test::metrics_by_definition(recorded, duration);
+}
+
+void expect_defined(const RealLoop& loop, double duration) {
+  const auto metrics = hybrid_metrics(loop, Vector<double, 4>::Zero(), duration);
+  const auto expected = defined_metrics_of(loop, duration);
+  EXPECT_GT(expected.steady_peak, 0.0);
+  EXPECT_TRUE(test::agree(metrics, expected, 1e-12, 0.0));
+}
+
+TEST(HybridMetrics, AreTheirDefinitionsOfLoopsAsTheyAreBuilt) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    for (const ContactLaw law : {ContactLaw::kollar, ContactLaw::immediate, ContactLaw::play,
+                                 ContactLaw::dead_zone, ContactLaw::none}) {
+      RealLoop loop = real_loop(metric_motion(0.001, 0.001).loop);
+      loop.backlash = {law, 0.001, 500.0, 1.0};
+      loop.switching = switching;
+      expect_defined(loop, 3.0);
+      loop.digital.limits.displacement_quantum = 1e-4;
+      loop.digital.limits.velocity = VelocitySensing::difference;
+      loop.digital.limits.largest_force = 0.4;
+      loop.digital.force.harmonics.push_back({0.2, 7.3, 1.0});
+      loop.digital.force.record = std::make_shared<RecordedForce>(
+          std::vector<double>{0.1, 1.0, 2.5}, std::vector<double>{0.1, -0.2, 0.3},
+          RecordInterpolation::linear);
+      loop.digital.hold = ForceHold::exact;
+      expect_defined(loop, 3.0);
+    }
+  }
+}
+
+TEST(HybridMetrics, OfAJitteringClockHaveItsTimes) {
+  RealLoop loop = real_loop(metric_motion(0.003, 0.0005).loop);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    loop.digital.jitter = {0.0014, seed};
+    // About a sample of the grid, before and after which the clock's may fall.
+    for (const double duration : {1.5, 1.5005, 1.4995, 1.5015}) expect_defined(loop, duration);
+  }
+}
+
+TEST(HybridMetrics, TheSamplesOfAJitteringClockAreThoseWithinTheDuration) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const SamplingClock clock(0.01, {0.0049, seed});
+    for (const double duration : {0.0, 0.002, 0.006, 0.012, 0.1, 0.104, 0.096, 7.0}) {
+      const auto span = detail::sample_span(clock, duration);
+      EXPECT_LE(clock.time(span.samples - 1), duration);
+      EXPECT_GT(clock.time(span.samples), duration);
+      EXPECT_TRUE(span.first_steady == span.samples ||
+                  clock.time(span.first_steady) >= 0.5 * duration);
+      EXPECT_TRUE(span.first_steady == 0 || clock.time(span.first_steady - 1) < 0.5 * duration);
+    }
+  }
+}
+
+TEST(HybridMetrics, ASaturatedDriveDeliversNoMore) {
+  RealLoop loop = real_loop(metric_motion(0.001, 0.0).loop);
+  const double free = hybrid_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak;
+  loop.digital.limits.largest_force = 0.5 * free;
+  EXPECT_EQ(hybrid_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak, 0.5 * free);
+}
+
+TEST(HybridMetrics, WithExactSwitchingTheDriveReversesTwiceInEachForcingPeriod) {
+  RealLoop loop = real_loop(metric_motion(0.001, 0.0005, ForceHold::exact).loop);
+  loop.switching = Switching::exact;
+  const auto metrics = hybrid_metrics(loop, Vector<double, 4>::Zero(), 20.0);
+  EXPECT_NEAR(metrics.reversals_per_s, 20.0, 0.2);
+  EXPECT_GT(metrics.engaged_fraction, 0.0);
+  EXPECT_LT(metrics.engaged_fraction, 1.0);
+}
+
+TEST(HybridMetrics, PauseIsCalledNowAndThenAndMayEndAll) {
+  const RealLoop loop = real_loop(metric_motion(0.001, 0.0).loop);
+  int pauses = 0;
+  hybrid_metrics(loop, Vector<double, 4>::Zero(), 40.0, [&] { ++pauses; });
+  EXPECT_EQ(pauses, 3) << "at samples 0, 16384 and 32768";
+  struct Ended {};
+  EXPECT_THROW(hybrid_metrics(loop, Vector<double, 4>::Zero(), 40.0, [] { throw Ended(); }), Ended);
+}
+
+TEST(HybridMetrics, RefuseWhatIsNotAdmissible) {
+  RealLoop loop = real_loop(metric_motion(0.001, 0.0).loop);
+  Vector<double, 4> state = Vector<double, 4>::Zero();
+  EXPECT_THROW(hybrid_metrics(loop, state, -1.0), InvalidParameter);
+  state[1] = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(hybrid_metrics(loop, state, 1.0), InvalidParameter);
+  state[1] = 0.0;
+  loop.backlash.width = -1.0;
+  EXPECT_THROW(hybrid_metrics(loop, state, 1.0), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast
