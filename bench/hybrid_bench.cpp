@@ -11,6 +11,7 @@
 
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "medians.hpp"
 #ifdef HOLDFAST_HAS_SUNDIALS
 #include "holdfast/sundials/switching_reference.hpp"

@@ -8,6 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/simd/lyapunov.hpp"
 #include "medians.hpp"
 #include "processor.hpp"

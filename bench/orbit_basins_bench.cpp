@@ -7,6 +7,7 @@
 
 #include "holdfast/orbit/orbit_verification.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/simd/basins.hpp"
 #include "medians.hpp"
 

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/simd/charts.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "medians.hpp"

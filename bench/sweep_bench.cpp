@@ -14,6 +14,7 @@
 
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/simd/motion_metrics.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
 #include "medians.hpp"

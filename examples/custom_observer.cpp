@@ -8,6 +8,7 @@
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 using namespace holdfast;
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "holdfast/ceres/decay_fit.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 using namespace holdfast;
 

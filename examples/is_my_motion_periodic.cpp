@@ -3,6 +3,7 @@
 
 #include "holdfast/chaos/event_classification.hpp"
 #include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 using namespace holdfast;
 

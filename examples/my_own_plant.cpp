@@ -6,6 +6,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "holdfast/core/axis.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 
 int main() {

@@ -1,4 +1,5 @@
 #include "holdfast/ceres/decay_fit.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

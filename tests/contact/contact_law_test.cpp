@@ -1,4 +1,5 @@
 #include "holdfast/contact/contact_law.hpp"
+#include "holdfast/control/loop_input.hpp"
 
 #include <gtest/gtest.h>
 

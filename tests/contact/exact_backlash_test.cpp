@@ -1,4 +1,5 @@
 #include "holdfast/contact/exact_backlash.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

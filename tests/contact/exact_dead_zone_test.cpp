@@ -1,4 +1,5 @@
 #include "holdfast/contact/exact_dead_zone.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/excitation/forcing.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

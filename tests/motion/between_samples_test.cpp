@@ -1,4 +1,5 @@
 #include "holdfast/motion/between_samples.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/motion/no_event_bound.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

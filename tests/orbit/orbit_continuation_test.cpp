@@ -1,4 +1,5 @@
 #include "holdfast/orbit/orbit_continuation.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/phase_space/orbit_diagram.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/phase_space/poincare_section.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,6 +11,7 @@
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "property/loop_case.hpp"
 
 namespace holdfast {

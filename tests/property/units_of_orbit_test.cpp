@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "property/units_case.hpp"
 
 namespace holdfast {

@@ -1,4 +1,5 @@
 #include "holdfast/simd/basins.hpp"
+#include "holdfast/control/loop_input.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
 #include "holdfast/simd/lyapunov.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

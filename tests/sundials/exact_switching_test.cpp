@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/sundials/switching_reference.hpp"
 #include "support/extended_switching.hpp"
 #include "support/random.hpp"

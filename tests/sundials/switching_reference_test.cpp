@@ -1,4 +1,5 @@
 #include "holdfast/sundials/switching_reference.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

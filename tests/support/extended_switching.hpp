@@ -8,6 +8,7 @@
 
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::test {
 

@@ -14,6 +14,7 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/reduction.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "support/digits.hpp"
 
 namespace holdfast::cable_digits {

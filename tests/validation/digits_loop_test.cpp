@@ -10,6 +10,7 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/max_delay.hpp"

@@ -13,6 +13,7 @@
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {

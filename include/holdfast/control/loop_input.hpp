@@ -3,20 +3,31 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/plant/ports.hpp"
 
 namespace holdfast {
 
 /// The force held over the sample, F_j = F_m cos(ω t_j): cosine = c_d, sine = 0.
 /// Source: Kollár 2022, Eq. (13).
-template <class Scalar>
-HarmonicInput<Scalar> held_harmonic(const SampledLoop<Scalar>& loop) {
-  return {loop.held_excitation, Vector<Scalar, 4>::Zero()};
+template <class Scalar, int States>
+HarmonicInput<Scalar, States> held_harmonic(const SampledLoop<Scalar, States>& loop) {
+  return {loop.held_excitation, Vector<Scalar, States>::Zero(loop.held_excitation.size())};
+}
+
+/// The exact integral of the harmonic force over a sampling period of a plant.
+template <class Plant, class Scalar = ScalarOf<Plant>>
+HarmonicInput<Scalar, states_of<Plant>> exact_harmonic(
+    const Plant& plant, const detail::Undeduced<Scalar>& sampling_period,
+    const detail::Undeduced<Scalar>& angular_frequency) {
+  return exact_harmonic<Scalar, states_of<Plant>>(plant.state_matrix(), plant.excitation_input(),
+                                                  sampling_period, angular_frequency);
 }
 
 /// The input for either hold of the force.
-template <class Scalar, template <class> class Plant>
-HarmonicInput<Scalar> harmonic_input(const Plant<Scalar>& plant, const SampledLoop<Scalar>& loop,
-                                     ForceHold hold, const Scalar& angular_frequency) {
+template <class Plant, class Scalar = ScalarOf<Plant>>
+HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
+    const Plant& plant, const SampledLoop<Scalar, states_of<Plant>>& loop, ForceHold hold,
+    const detail::Undeduced<Scalar>& angular_frequency) {
   return hold == ForceHold::sampled
              ? held_harmonic(loop)
              : exact_harmonic(plant, loop.sampling.period, angular_frequency);

@@ -4,7 +4,7 @@
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/plant/ports.hpp"
 
 namespace holdfast {
 
@@ -32,34 +32,48 @@ inline void validate(const Sampling<double>& sampling) {
 ///
 /// With z̃_j = [z_j; u_{j−1}] the step is z̃_{j+1} = S z̃_j + [c_d; 0] F_j outside the backlash and
 /// S* z̃_j + [c_d; 0] F_j inside. δ = τ gives the matrices printed in Kollár 2022, Eqs. (13)–(14); δ
-/// = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md).
-template <class Scalar>
+/// = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md). A delay of
+/// more than one sample is in control/loop_map.hpp.
+/// @tparam States  N, the order of the plant; 4 is that of the two masses, Eigen::Dynamic any
+template <class Scalar, int States = 4>
 struct SampledLoop {
   Sampling<Scalar> sampling;          ///< the τ and δ that the matrices below belong to
-  Matrix<Scalar, 4> transition;       ///< A_d, 4 × 4
-  Matrix<Scalar, 4> increment;        ///< A_d − I, 4 × 4, to full relative accuracy for any τ
-  Vector<Scalar, 4> previous_force;   ///< Γ₁, 4 × 1: response per newton of u_{j−1}
-  Vector<Scalar, 4> present_force;    ///< Γ₀, 4 × 1: response per newton of u_j
-  Vector<Scalar, 4> held_excitation;  ///< c_d, 4 × 1: response per newton of F held over the sample
+  Matrix<Scalar, States> transition;  ///< A_d, N × N
+  Matrix<Scalar, States> increment;   ///< A_d − I, N × N, to full relative accuracy for any τ
+  Vector<Scalar, States> previous_force;   ///< Γ₁, N × 1: response per newton of u_{j−1}
+  Vector<Scalar, States> present_force;    ///< Γ₀, N × 1: response per newton of u_j
+  Vector<Scalar, States> held_excitation;  ///< c_d, N × 1: response per newton of F held over τ
 
-  /// S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], the control force being transmitted.
-  Matrix<Scalar, 5> engaged_map(const PdGains<Scalar>& gains) const {
-    Matrix<Scalar, 5> map = backlash_map();
-    map.template topLeftCorner<4, 4>() += present_force * gains.feedback_row();
-    map.template bottomLeftCorner<1, 4>() = gains.feedback_row();
+  /// S of Eq. (14) for any δ, 5 × 5: [A_d + Γ₀ K, Γ₁; K, 0], the control force being transmitted;
+  /// of the two masses, whose K is [P, D, 0, 0].
+  Matrix<Scalar, larger_size(States, 1)> engaged_map(const PdGains<Scalar>& gains) const {
+    static_assert(States == 4, "the feedback row of another plant comes from its ports");
+    return engaged_map_for(gains.feedback_row());
+  }
+
+  /// S for any feedback u = K z, (N + 1) × (N + 1).
+  /// @param feedback  K, 1 × N
+  Matrix<Scalar, larger_size(States, 1)> engaged_map_for(
+      const RowVector<Scalar, States>& feedback) const {
+    const Eigen::Index n = transition.rows();
+    Matrix<Scalar, larger_size(States, 1)> map = backlash_map();
+    map.template topLeftCorner<States, States>(n, n) += present_force * feedback;
+    map.template bottomLeftCorner<1, States>(1, n) = feedback;
     return map;
   }
 
-  /// S* of Eq. (14) for any δ, 5 × 5: [A_d, Γ₁; 0, 0], the drive being in its backlash.
-  Matrix<Scalar, 5> backlash_map() const {
-    Matrix<Scalar, 5> map = Matrix<Scalar, 5>::Zero();
-    map.template topLeftCorner<4, 4>() = transition;
-    map.template topRightCorner<4, 1>() = previous_force;
+  /// S* of Eq. (14) for any δ, (N + 1) × (N + 1): [A_d, Γ₁; 0, 0], the drive being in its backlash.
+  Matrix<Scalar, larger_size(States, 1)> backlash_map() const {
+    const Eigen::Index n = transition.rows();
+    Matrix<Scalar, larger_size(States, 1)> map =
+        Matrix<Scalar, larger_size(States, 1)>::Zero(n + 1, n + 1);
+    map.template topLeftCorner<States, States>(n, n) = transition;
+    map.template topRightCorner<States, 1>(n, 1) = previous_force;
     return map;
   }
 };
 
-/// The sampled loop of a linear plant with four states.
+/// The sampled loop of a linear plant.
 ///
 /// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the
 /// period, every matrix of the loop is a product: A_d − I = A Φ(τ), Γ₀ = Φ(τ−δ) b, Γ₁ = e^{A(τ−δ)}
@@ -68,23 +82,26 @@ struct SampledLoop {
 /// @param sampling  0 ≤ δ ≤ τ; τ = 0, no time at all, gives the identity
 /// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`
 /// @throws InvalidParameter where the sampling is another or the state matrix is not finite
-template <class Scalar, template <class> class Plant>
-SampledLoop<Scalar> sampled_loop(const Plant<Scalar>& plant, const Sampling<Scalar>& sampling) {
-  const Matrix<Scalar, 4> a = plant.state_matrix();
+template <class Plant, class Scalar = ScalarOf<Plant>>
+SampledLoop<Scalar, states_of<Plant>> sampled_loop(
+    const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
+  constexpr int states = states_of<Plant>;
+  const Matrix<Scalar, states> a = plant.state_matrix();
   require_finite("entries of the plant's state matrix", static_cast<double>(a.sum()), "");
   const auto period = static_cast<double>(sampling.period);
   require_non_negative("sampling period tau", period, "s");
   require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
                  period);
-  const Matrix<Scalar, 4> identity = Matrix<Scalar, 4>::Identity();
-  const Vector<Scalar, 4> b = plant.control_input();
-  const auto before = zero_order_hold<Scalar, 4, 4>(a, identity, sampling.processing_delay);
-  const auto after =
-      zero_order_hold<Scalar, 4, 4>(a, identity, sampling.period - sampling.processing_delay);
-  const Matrix<Scalar, 4> integral = after.input + after.transition * before.input;
-  const Matrix<Scalar, 4> increment = a * integral;
+  const Matrix<Scalar, states> identity = Matrix<Scalar, states>::Identity(a.rows(), a.cols());
+  const Vector<Scalar, states> b = plant.control_input();
+  const auto before =
+      zero_order_hold<Scalar, states, states>(a, identity, sampling.processing_delay);
+  const auto after = zero_order_hold<Scalar, states, states>(
+      a, identity, sampling.period - sampling.processing_delay);
+  const Matrix<Scalar, states> integral = after.input + after.transition * before.input;
+  const Matrix<Scalar, states> increment = a * integral;
 
-  SampledLoop<Scalar> loop;
+  SampledLoop<Scalar, states> loop;
   loop.sampling = sampling;
   loop.transition = identity + increment;
   loop.increment = increment;

@@ -19,7 +19,7 @@ struct HeldStep {
 ///
 ///     exp([A B; 0 0] h) = [e^{Ah}, ∫₀ʰ e^{As} ds B; 0, I]
 ///
-/// @param a      A, States × States (1/s)
+/// @param a      A, States × States (1/s); either size may be Eigen::Dynamic
 /// @param b      B, States × Inputs
 /// @param period h (s), finite, ≥ 0; h = 0 gives the identity and a zero input
 /// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE TAC 23
@@ -28,16 +28,17 @@ template <class Scalar, int States, int Inputs>
 HeldStep<Scalar, States, Inputs> zero_order_hold(const Matrix<Scalar, States>& a,
                                                  const Matrix<Scalar, States, Inputs>& b,
                                                  const Scalar& period) {
+  const Eigen::Index n = a.rows(), m = b.cols();
   if (period == Scalar(0)) {
-    return {Matrix<Scalar, States>::Identity(), Matrix<Scalar, States, Inputs>::Zero()};
+    return {Matrix<Scalar, States>::Identity(n, n), Matrix<Scalar, States, Inputs>::Zero(n, m)};
   }
-  Matrix<Scalar, States + Inputs> augmented;
-  augmented.setZero();
-  augmented.template topLeftCorner<States, States>() = a * period;
-  augmented.template topRightCorner<States, Inputs>() = b * period;
-  const Matrix<Scalar, States + Inputs> exponential = detail::balanced_exponential(augmented);
-  return {exponential.template topLeftCorner<States, States>(),
-          exponential.template topRightCorner<States, Inputs>()};
+  constexpr int size = Inputs == Eigen::Dynamic ? Eigen::Dynamic : larger_size(States, Inputs);
+  Matrix<Scalar, size> augmented = Matrix<Scalar, size>::Zero(n + m, n + m);
+  augmented.template topLeftCorner<States, States>(n, n) = a * period;
+  augmented.template topRightCorner<States, Inputs>(n, m) = b * period;
+  const Matrix<Scalar, size> exponential = detail::balanced_exponential(augmented);
+  return {exponential.template topLeftCorner<States, States>(n, n),
+          exponential.template topRightCorner<States, Inputs>(n, m)};
 }
 
 }  // namespace holdfast

@@ -17,6 +17,11 @@ using RowVector = Eigen::Matrix<Scalar, 1, Size>;
 template <class Scalar, int Rows, int Columns = Rows>
 using Matrix = Eigen::Matrix<Scalar, Rows, Columns>;
 
+/// A size of a matrix that is `more` larger than another; dynamic where that is.
+constexpr int larger_size(int size, int more) {
+  return size == Eigen::Dynamic ? Eigen::Dynamic : size + more;
+}
+
 /// π to the precision of the number type (30 digits are given).
 template <class Scalar>
 inline constexpr Scalar pi = Scalar(3.14159265358979323846264338328L);

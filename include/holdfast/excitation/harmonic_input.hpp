@@ -13,15 +13,15 @@ enum class ForceHold {
   exact,    ///< integrated exactly
 };
 
-/// How a harmonic force F(t) = F_m cos(ω t) enters one sampling period.
+/// How a harmonic force F(t) = F_m cos(ω t) enters one sampling period of a plant of order N.
 ///
 ///     z_{j+1} = … + F_m (cosine · cos(ω t_j) + sine · sin(ω t_j))
 ///
 /// Both holds of the force share this form, so one stepper serves both.
-template <class Scalar>
+template <class Scalar, int States = 4>
 struct HarmonicInput {
-  Vector<Scalar, 4> cosine;  ///< 4 × 1, per newton
-  Vector<Scalar, 4> sine;    ///< 4 × 1, per newton
+  Vector<Scalar, States> cosine;  ///< N × 1, per newton
+  Vector<Scalar, States> sine;    ///< N × 1, per newton
 };
 
 /// The exact integral of the harmonic force over the sample, ∫₀^τ e^{A(τ−s)} c cos(ω(t_j + s)) ds.
@@ -32,35 +32,32 @@ struct HarmonicInput {
 ///     d/dt [z; cos ωt; sin ωt] = [A c 0; 0 0 −ω; 0 ω 0] [z; cos ωt; sin ωt]
 ///
 /// Differs from the held force by O(τ) in phase and O(τ²) in amplitude as τ → 0.
-/// @param a                  A, 4 × 4 (1/s)
-/// @param c                  4 × 1, per newton of F
+/// @param a                  A, N × N (1/s)
+/// @param c                  N × 1, per newton of F
 /// @param period             τ (s), ≥ 0
 /// @param angular_frequency  ω = 2π f (rad/s), finite
-template <class Scalar>
-HarmonicInput<Scalar> exact_harmonic(const Matrix<Scalar, 4>& a, const Vector<Scalar, 4>& c,
-                                     const Scalar& period, const Scalar& angular_frequency) {
-  Matrix<Scalar, 6> generator = Matrix<Scalar, 6>::Zero();
-  generator.template topLeftCorner<4, 4>() = a;
-  generator.template block<4, 1>(0, 4) = c;
-  generator(4, 5) = -angular_frequency;
-  generator(5, 4) = angular_frequency;
-  const Matrix<Scalar, 6> exponential =
-      detail::balanced_exponential(Matrix<Scalar, 6>(generator * period));
-  return {exponential.template block<4, 1>(0, 4), exponential.template block<4, 1>(0, 5)};
-}
-
-/// The same for a plant over a sampling period.
-template <class Scalar, template <class> class Plant>
-HarmonicInput<Scalar> exact_harmonic(const Plant<Scalar>& plant, const Scalar& sampling_period,
-                                     const Scalar& angular_frequency) {
-  return exact_harmonic<Scalar>(plant.state_matrix(), plant.excitation_input(), sampling_period,
-                                angular_frequency);
+template <class Scalar, int States>
+HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
+                                             const Vector<Scalar, States>& c, const Scalar& period,
+                                             const Scalar& angular_frequency) {
+  constexpr int size = larger_size(States, 2);
+  const Eigen::Index n = a.rows();
+  Matrix<Scalar, size> generator = Matrix<Scalar, size>::Zero(n + 2, n + 2);
+  generator.template topLeftCorner<States, States>(n, n) = a;
+  generator.template block<States, 1>(0, n, n, 1) = c;
+  generator(n, n + 1) = -angular_frequency;
+  generator(n + 1, n) = angular_frequency;
+  const Matrix<Scalar, size> exponential =
+      detail::balanced_exponential(Matrix<Scalar, size>(generator * period));
+  return {exponential.template block<States, 1>(0, n, n, 1),
+          exponential.template block<States, 1>(0, n + 1, n, 1)};
 }
 
 /// The input of a harmonic force whose phase is ahead by `angle` (rad):
 /// g_c cos(θ + angle) + g_s sin(θ + angle) = cosine' cos θ + sine' sin θ.
-template <class Scalar>
-HarmonicInput<Scalar> ahead_by(const Scalar& angle, const HarmonicInput<Scalar>& input) {
+template <class Scalar, int States>
+HarmonicInput<Scalar, States> ahead_by(const Scalar& angle,
+                                       const HarmonicInput<Scalar, States>& input) {
   using std::cos;
   using std::sin;
   const Scalar cosine = cos(angle), sine = sin(angle);

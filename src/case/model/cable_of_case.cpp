@@ -6,6 +6,7 @@
 
 #include "case/case_keys.hpp"
 #include "holdfast/cable/modes.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 

@@ -5,6 +5,7 @@
 #include "case/case_keys.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 

@@ -14,6 +14,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "io/text/table.hpp"

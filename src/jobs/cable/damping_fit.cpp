@@ -15,6 +15,7 @@
 
 #ifdef HOLDFAST_HAS_CERES
 #include "holdfast/ceres/decay_fit.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #endif
 
 namespace holdfast::program {

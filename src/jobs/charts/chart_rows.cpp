@@ -8,6 +8,7 @@
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/mobius_zhukovsky.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/charts/row_blocks.hpp"

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "case/model/loop_of_case.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"

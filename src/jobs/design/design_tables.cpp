@@ -4,6 +4,7 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/control/gains.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"

@@ -6,6 +6,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"

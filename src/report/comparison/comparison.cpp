@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"

@@ -11,6 +11,7 @@
 #include "holdfast/cable/stiffness_reading.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/reduction.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "jobs/cable/cable_decay.hpp"
 #include "jobs/cable/damping_fit.hpp"
 #include "process/errors.hpp"

@@ -10,6 +10,7 @@
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/phase_space/coverage.hpp"
 #include "holdfast/phase_space/deviation.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "report/comparison/comparison_tools.hpp"
 
 namespace holdfast::program {

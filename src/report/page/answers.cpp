@@ -10,6 +10,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "io/text/text.hpp"

@@ -13,6 +13,7 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/plant/energy.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
 #include "support/kollar_case.hpp"

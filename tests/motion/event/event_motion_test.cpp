@@ -1,4 +1,5 @@
 #include "holdfast/motion/event_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include "holdfast/contact/exact_backlash.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast::test {

@@ -11,6 +11,7 @@
 #include "holdfast/contact/exact_backlash.hpp"
 #include "holdfast/contact/exact_dead_zone.hpp"
 #include "holdfast/motion/event_motion.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
 #include "support/kollar_case.hpp"

@@ -8,7 +8,7 @@
 
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/plant/two_mass.hpp"
 

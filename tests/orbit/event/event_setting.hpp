@@ -12,6 +12,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "support/random.hpp"
 
 namespace holdfast::test {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random_loop.hpp"

@@ -1,4 +1,5 @@
 #include "holdfast/stability/boundary/boundary_features.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

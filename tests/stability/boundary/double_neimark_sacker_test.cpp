@@ -1,4 +1,5 @@
 #include "holdfast/stability/boundary/double_neimark_sacker.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/stability/boundary/root_pair_curve.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "holdfast/math/poly/positive_roots.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/arc_crossing.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"

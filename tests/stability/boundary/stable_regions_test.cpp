@@ -1,4 +1,5 @@
 #include "holdfast/stability/boundary/stable_regions.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 
 #include <gtest/gtest.h>

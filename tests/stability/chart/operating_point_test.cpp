@@ -1,4 +1,5 @@
 #include "holdfast/stability/chart/operating_point.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/stability/design/minimax_amplitude.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

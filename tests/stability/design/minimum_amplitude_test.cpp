@@ -1,4 +1,6 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "holdfast/stability/margins/slow_sampling.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

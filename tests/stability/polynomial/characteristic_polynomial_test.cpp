@@ -1,4 +1,5 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

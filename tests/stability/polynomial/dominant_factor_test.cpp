@@ -1,4 +1,5 @@
 #include "holdfast/stability/polynomial/dominant_factor.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

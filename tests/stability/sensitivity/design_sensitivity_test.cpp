@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"

@@ -18,11 +18,12 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
   using std::exp2;
   using std::log2;
   using std::round;
-  Vector<Scalar, Size> factors = Vector<Scalar, Size>::Ones();
+  const auto size = static_cast<int>(matrix.rows());
+  Vector<Scalar, Size> factors = Vector<Scalar, Size>::Ones(size);
   for (int sweep = 0; sweep < 4; ++sweep) {
-    for (int i = 0; i < Size; ++i) {
+    for (int i = 0; i < size; ++i) {
       Scalar row(0), column(0);
-      for (int j = 0; j < Size; ++j) {
+      for (int j = 0; j < size; ++j) {
         if (j == i) continue;
         row += abs(matrix(i, j)) * factors[j] / factors[i];
         column += abs(matrix(j, i)) * factors[i] / factors[j];

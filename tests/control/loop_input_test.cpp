@@ -1,4 +1,5 @@
 #include "holdfast/control/loop_input.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>
 

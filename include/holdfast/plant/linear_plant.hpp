@@ -1,0 +1,189 @@
+#pragma once
+
+#include <cmath>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// A linear plant of order N between a drive and a conductor:
+///
+///     ẋ = A x + b s + b_u u + c F,    s = f x + g u  where the drive transmits,  s = 0 in its gap
+///
+/// u is the computer's command, s the force (N) that conductor and absorber feel of it. An ideal
+/// drive has s = u (f = 0, g = 1, b_u = 0); one that lags has states of its own, which the command
+/// moves through b_u and from which f reads the force. What is measured, and what the gap sees, are
+/// ports of the plant: no coordinate has a fixed place.
+/// @tparam States  N; Eigen::Dynamic where it is known at run time alone
+template <class Number, int States = Eigen::Dynamic>
+struct LinearPlant {
+  Matrix<Number, States> released_matrix;  ///< A, N × N (1/s), no force being transmitted
+  Vector<Number, States> force_input;      ///< b, N × 1 per newton of s
+  Vector<Number, States> command_input;    ///< b_u, N × 1 per newton of u; 0 of an ideal drive
+  Vector<Number, States> excitation;       ///< c, N × 1 per newton of F
+  RowVector<Number, States> drive_force;   ///< f, 1 × N; 0 of an ideal drive
+  Number direct_transmission;              ///< g: 1 of an ideal drive, 0 of one that lags
+  Ports<Number, States> connections;       ///< what is measured, and what the gap sees
+
+  /// A + b f, N × N: the state while the drive transmits.
+  Matrix<Number, States> state_matrix() const {
+    return released_matrix + force_input * drive_force;
+  }
+  /// b_u + g b, N × 1 per newton of the command while the drive transmits.
+  Vector<Number, States> control_input() const {
+    return command_input + direct_transmission * force_input;
+  }
+  /// c, N × 1 per newton of F.
+  const Vector<Number, States>& excitation_input() const { return excitation; }
+  /// What is measured, and what the gap sees.
+  const Ports<Number, States>& ports() const { return connections; }
+  /// N.
+  Eigen::Index order() const { return released_matrix.rows(); }
+};
+
+/// The two masses as a plant of order 4, x = [z₁, ż₁, z₂, ż₂].
+template <class Scalar>
+LinearPlant<Scalar, 4> linear_plant(const TwoDof<Scalar>& plant) {
+  return {plant.state_matrix(),     plant.control_input(),        Vector<Scalar, 4>::Zero(),
+          plant.excitation_input(), RowVector<Scalar, 4>::Zero(), Scalar(1),
+          two_mass_ports<Scalar>()};
+}
+
+namespace detail {
+
+/// The plant with `More` further states that nothing moves yet, behind its own.
+template <int More, class Scalar, int States>
+LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant) {
+  constexpr int size = larger_size(States, More);
+  const Eigen::Index n = plant.order();
+  const auto column = [&](const Vector<Scalar, States>& of) {
+    Vector<Scalar, size> result = Vector<Scalar, size>::Zero(n + More);
+    result.template head<States>(n) = of;
+    return result;
+  };
+  const auto row = [&](const RowVector<Scalar, States>& of) {
+    return RowVector<Scalar, size>(column(of.transpose()).transpose());
+  };
+  Matrix<Scalar, size> matrix = Matrix<Scalar, size>::Zero(n + More, n + More);
+  matrix.template topLeftCorner<States, States>(n, n) = plant.released_matrix;
+  const Ports<Scalar, States>& ports = plant.connections;
+  return {
+      matrix,
+      column(plant.force_input),
+      column(plant.command_input),
+      column(plant.excitation),
+      row(plant.drive_force),
+      plant.direct_transmission,
+      {row(ports.displacement), row(ports.velocity), row(ports.measured_displacement),
+       row(ports.measured_velocity), row(ports.relative_displacement), row(ports.relative_velocity),
+       column(ports.displacement_lift), column(ports.velocity_lift)}};
+}
+
+}  // namespace detail
+
+/// The plant behind a measurement filter of first order:
+///
+///     ż_f = ω_f (z − z_f);   the computer reads z_f and ż_f
+///
+/// One state more. @param cutoff  ω_f / 2π (Hz), > 0
+/// @throws InvalidParameter for another cutoff
+template <class Scalar, int States>
+LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(
+    const LinearPlant<Scalar, States>& plant, const Scalar& cutoff) {
+  require_positive("measurement filter", static_cast<double>(cutoff), "Hz");
+  const Eigen::Index n = plant.order();
+  const Scalar rate = Scalar(2) * pi<Scalar> * cutoff;
+  auto filtered = detail::enlarged<1>(plant);
+  filtered.released_matrix.row(n) = rate * filtered.connections.measured_displacement;
+  filtered.released_matrix(n, n) = -rate;
+  filtered.connections.measured_velocity = filtered.released_matrix.row(n);
+  filtered.connections.measured_displacement.setZero();
+  filtered.connections.measured_displacement[n] = Scalar(1);
+  return filtered;
+}
+
+/// The plant driven by a motor that follows its command with a lag of first order,
+/// ṡ = ω_d (u − s). One state more, s (N).
+/// @param plant      with an ideal drive
+/// @param bandwidth  ω_d / 2π (Hz), > 0
+/// @throws InvalidParameter for another bandwidth
+template <class Scalar, int States>
+LinearPlant<Scalar, larger_size(States, 1)> with_drive_lag(const LinearPlant<Scalar, States>& plant,
+                                                           const Scalar& bandwidth) {
+  require_positive("drive bandwidth", static_cast<double>(bandwidth), "Hz");
+  const Eigen::Index n = plant.order();
+  const Scalar rate = Scalar(2) * pi<Scalar> * bandwidth;
+  auto driven = detail::enlarged<1>(plant);
+  driven.released_matrix(n, n) = -rate;
+  driven.command_input[n] = rate;
+  driven.drive_force[n] = Scalar(1);
+  driven.direct_transmission = Scalar(0);
+  return driven;
+}
+
+/// The plant driven by a motor that follows its command with a lag of second order,
+/// s̈ = ω_d² (u − s) − 2 ζ_d ω_d ṡ. Two states more, s (N) and ṡ/ω_d (N).
+/// @param plant      with an ideal drive
+/// @param bandwidth  ω_d / 2π (Hz), > 0
+/// @param damping    ζ_d, > 0
+/// @throws InvalidParameter outside these ranges
+template <class Scalar, int States>
+LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Scalar, States>& plant,
+                                                           const Scalar& bandwidth,
+                                                           const Scalar& damping) {
+  require_positive("drive bandwidth", static_cast<double>(bandwidth), "Hz");
+  require_positive("drive damping", static_cast<double>(damping), "");
+  const Eigen::Index n = plant.order();
+  const Scalar rate = Scalar(2) * pi<Scalar> * bandwidth;
+  auto driven = detail::enlarged<2>(plant);
+  driven.released_matrix(n, n + 1) = rate;
+  driven.released_matrix(n + 1, n) = -rate;
+  driven.released_matrix(n + 1, n + 1) = Scalar(-2) * damping * rate;
+  driven.command_input[n + 1] = rate;
+  driven.drive_force[n] = Scalar(1);
+  driven.direct_transmission = Scalar(0);
+  return driven;
+}
+
+/// Refuses a plant that a loop cannot be closed on.
+/// @throws InvalidParameter unless all is finite, the sizes agree, and the force of the drive moves
+/// its own gap (Δz̈ answers to s at once: rᵀb ≠ 0 of the relative velocity r)
+template <int States>
+void validate(const LinearPlant<double, States>& plant) {
+  const Eigen::Index n = plant.order();
+  const bool sized = plant.released_matrix.cols() == n && plant.force_input.size() == n &&
+                     plant.command_input.size() == n && plant.excitation.size() == n &&
+                     plant.drive_force.size() == n && plant.ports().displacement.size() == n;
+  if (!sized || n < 1)
+    throw InvalidParameter("order of the plant", static_cast<double>(n), "",
+                           "the same of all its matrices, at least 1");
+  require_finite("entries of the plant",
+                 plant.state_matrix().sum() + plant.control_input().sum() + plant.excitation.sum(),
+                 "");
+  const double answer = plant.ports().relative_velocity.dot(plant.force_input);
+  if (!(std::abs(answer) > 0.0))
+    throw InvalidParameter("relative acceleration per newton of the drive", answer, "1/kg",
+                           "unlike zero");
+}
+
+/// The same numbers in another number type, for instance `long double`.
+template <class To, class From, int States>
+LinearPlant<To, States> converted(const LinearPlant<From, States>& plant) {
+  const Ports<From, States>& ports = plant.connections;
+  return {
+      plant.released_matrix.template cast<To>(),
+      plant.force_input.template cast<To>(),
+      plant.command_input.template cast<To>(),
+      plant.excitation.template cast<To>(),
+      plant.drive_force.template cast<To>(),
+      To(plant.direct_transmission),
+      {ports.displacement.template cast<To>(), ports.velocity.template cast<To>(),
+       ports.measured_displacement.template cast<To>(), ports.measured_velocity.template cast<To>(),
+       ports.relative_displacement.template cast<To>(), ports.relative_velocity.template cast<To>(),
+       ports.displacement_lift.template cast<To>(), ports.velocity_lift.template cast<To>()}};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <type_traits>
+
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+template <class Type>
+struct Identity {
+  using type = Type;
+};
+
+/// A parameter type from which a template argument is not deduced: braces may stand for it.
+template <class Type>
+using Undeduced = typename Identity<Type>::type;
+
+template <class Plant>
+using StateMatrixOf = std::decay_t<decltype(std::declval<const Plant&>().state_matrix())>;
+
+template <class Plant, class = void>
+struct HasPorts : std::false_type {};
+template <class Plant>
+struct HasPorts<Plant, std::void_t<decltype(std::declval<const Plant&>().ports())>>
+    : std::true_type {};
+
+}  // namespace detail
+
+/// The number type of a plant.
+template <class Plant>
+using ScalarOf = typename detail::StateMatrixOf<Plant>::Scalar;
+
+/// N, the order of a plant; Eigen::Dynamic where it is known at run time alone.
+template <class Plant>
+inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime;
+
+/// The state of a plant, N × 1.
+template <class Plant>
+using StateOf = Vector<ScalarOf<Plant>, states_of<Plant>>;
+
+/// Where a loop is connected to a plant of order N: what its sensors read, what is asked of the
+/// conductor, and what the drive's gap sees. Rows are functionals of the state x, 1 × N.
+template <class Scalar, int States>
+struct Ports {
+  RowVector<Scalar, States> displacement;           ///< z (m) of the conductor at the absorber
+  RowVector<Scalar, States> velocity;               ///< ż (m/s)
+  RowVector<Scalar, States> measured_displacement;  ///< what P multiplies (m): z, or filtered
+  RowVector<Scalar, States> measured_velocity;      ///< what D multiplies (m/s): ż, or filtered
+  RowVector<Scalar, States> relative_displacement;  ///< Δz (m), absorber against conductor
+  RowVector<Scalar, States> relative_velocity;      ///< Δż (m/s)
+  Vector<Scalar, States> displacement_lift;  ///< e_z, N × 1: moves Δz by 1 m, and Δż not at all
+  Vector<Scalar, States> velocity_lift;  ///< e_v, N × 1: changes Δż by 1 m/s, and Δz not at all
+
+  /// K = P h_z + D h_v, 1 × N, so that u = K x.
+  RowVector<Scalar, States> feedback_row(const Scalar& proportional,
+                                         const Scalar& differential) const {
+    return proportional * measured_displacement + differential * measured_velocity;
+  }
+};
+
+/// The ports of a state that begins with [z₁, ż₁, z₂, ż₂], the two masses'; those of a plant that
+/// says nothing of its own.
+template <class Scalar, int States = 4>
+Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
+  const auto unit = [&](Eigen::Index k) {
+    return RowVector<Scalar, States>(RowVector<Scalar, States>::Unit(states, k));
+  };
+  return {unit(0),
+          unit(1),
+          unit(0),
+          unit(1),
+          unit(2) - unit(0),
+          unit(3) - unit(1),
+          unit(2).transpose(),
+          unit(3).transpose()};
+}
+
+/// The ports of a plant: its own, or those of the two masses where it has four states and no
+/// `ports()`.
+template <class Plant>
+Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
+  if constexpr (detail::HasPorts<Plant>::value) {
+    return plant.ports();
+  } else {
+    static_assert(states_of<Plant> == 4, "a plant of another order says where its ports are");
+    return two_mass_ports<ScalarOf<Plant>>();
+  }
+}
+
+}  // namespace holdfast
