@@ -5,6 +5,7 @@
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/loop_map.hpp"
 #include "holdfast/control/quantiser.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/control/sampling_clock.hpp"

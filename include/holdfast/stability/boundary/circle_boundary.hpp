@@ -1,0 +1,151 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
+#include "holdfast/stability/response/loop_response.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// The boundary of a loop of any order, angle by angle.
+template <class Scalar>
+class CircleBoundary {
+ public:
+  CircleBoundary(const LoopMap<Scalar>& map, const ProportionalRange& range)
+      : response_(map), range_(range) {
+    for (const std::complex<Scalar>& root : balanced_eigenvalues(map.open_map))
+      if (root.imag() > Scalar(0)) pole_angles_.push_back(std::arg(root));
+  }
+
+  /// The gains with a root pair e^{±iθ}: P = Im G_v / Im(Ḡ_z G_v), D = −Im G_z / Im(Ḡ_z G_v).
+  std::optional<PdGains<Scalar>> gains_at(const Scalar& angle) const {
+    const CommandResponse<Scalar> g = response_.at_angle(angle);
+    const Scalar determinant = std::imag(std::conj(g.displacement) * g.velocity);
+    const PdGains<Scalar> gains{g.velocity.imag() / determinant,
+                                -g.displacement.imag() / determinant};
+    if (!std::isfinite(gains.proportional) || !std::isfinite(gains.differential))
+      return std::nullopt;
+    return gains;
+  }
+
+  /// The line of gains with the root 1 or −1, by its two ends within the range.
+  void append_line(BoundaryCurve curve, std::vector<BoundaryPoint<Scalar>>& points) const {
+    const Scalar angle = curve == BoundaryCurve::plus_one ? Scalar(0) : pi<Scalar>;
+    const CommandResponse<Scalar> g = response_.at_angle(angle);
+    const Scalar by_p = g.displacement.real(), by_d = g.velocity.real();
+    const Scalar lower(range_.lower), upper(range_.upper);
+    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+    if (std::abs(by_d) > Scalar(1e-9) * response_size()) {
+      for (const Scalar& p : {lower, upper})
+        points.push_back({curve, angle, {p, (Scalar(1) - p * by_p) / by_d}});
+    } else if (const Scalar p = Scalar(1) / by_p; p >= lower && p <= upper) {
+      points.push_back({curve, angle, {p, -infinity}});
+      points.push_back({curve, angle, {p, infinity}});
+    }
+  }
+
+  /// The curve of root pairs within the range, by ascending angle.
+  void append_curve(std::vector<BoundaryPoint<Scalar>>& points) const {
+    std::vector<Scalar> angles = starting_angles();
+    for (std::size_t k = 0; k + 1 < angles.size(); ++k) {
+      append(angles[k], points);
+      refine(angles[k], angles[k + 1], 0, points);
+    }
+  }
+
+ private:
+  /// max |G_v| at the poles' angles: what a value of G_v is small against.
+  Scalar response_size() const {
+    Scalar largest = std::abs(response_.at_angle(pi<Scalar> / Scalar(2)).velocity);
+    for (const Scalar& angle : pole_angles_)
+      largest = std::max(largest, std::abs(response_.at_angle(angle).velocity));
+    return largest;
+  }
+
+  bool within(const PdGains<Scalar>& gains) const {
+    return gains.proportional >= Scalar(range_.lower) && gains.proportional <= Scalar(range_.upper);
+  }
+
+  /// Close together about each pole, towards 0 and towards π, where the curve moves fast.
+  std::vector<Scalar> starting_angles() const {
+    std::vector<Scalar> angles;
+    std::vector<Scalar> centres = pole_angles_;
+    centres.push_back(Scalar(0));
+    centres.push_back(pi<Scalar>);
+    for (const Scalar& centre : centres) {
+      for (Scalar offset = Scalar(1e-6); offset < pi<Scalar>; offset *= Scalar(1.2)) {
+        for (const Scalar angle : {centre - offset, centre + offset})
+          if (angle > Scalar(0) && angle < pi<Scalar>) angles.push_back(angle);
+      }
+    }
+    std::sort(angles.begin(), angles.end());
+    return angles;
+  }
+
+  void append(const Scalar& angle, std::vector<BoundaryPoint<Scalar>>& points) const {
+    const auto gains = gains_at(angle);
+    if (gains && within(*gains)) points.push_back({BoundaryCurve::complex_pair, angle, *gains});
+  }
+
+  /// Halves an interval of angles while its middle is off the chord by more than a 500th of the
+  /// range of P, and where one end alone lies in the range.
+  void refine(const Scalar& left, const Scalar& right, int depth,
+              std::vector<BoundaryPoint<Scalar>>& points) const {
+    constexpr int deepest = 14;
+    if (depth == deepest) return;
+    const Scalar middle = left + (right - left) / Scalar(2);
+    const auto a = gains_at(left), b = gains_at(right), m = gains_at(middle);
+    if (!a || !b || !m) return;
+    const int inside = int(within(*a)) + int(within(*b)) + int(within(*m));
+    if (inside == 0) return;
+    const Scalar off = std::abs(m->proportional - (a->proportional + b->proportional) / Scalar(2));
+    const Scalar off_d =
+        std::abs(m->differential - (a->differential + b->differential) / Scalar(2));
+    const Scalar width = Scalar(range_.upper - range_.lower);
+    const Scalar size_d =
+        std::max({std::abs(a->differential), std::abs(b->differential), std::abs(m->differential)});
+    if (inside == 3 && off <= Scalar(0.002) * width && off_d <= Scalar(0.002) * size_d) return;
+    refine(left, middle, depth + 1, points);
+    if (within(*m)) points.push_back({BoundaryCurve::complex_pair, middle, *m});
+    refine(middle, right, depth + 1, points);
+  }
+
+  LoopResponse<Scalar> response_;
+  ProportionalRange range_;
+  std::vector<Scalar> pole_angles_;
+};
+
+}  // namespace detail
+
+/// The boundary of stability of a loop of any order over a range of P: the lines of the roots 1 and
+/// −1 (their two ends), then the curve of root pairs e^{±iθ} by ascending angle.
+///
+/// 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} are two real linear equations in P and D, of which
+/// every angle gives one point (`LoopResponse`). The points lie as close together as the curve's
+/// bends need; its crossings with a line of constant P or D are in `circle_crossings`.
+/// @param map    the loop
+/// @param range  P (N/m), its ends included
+/// @throws InvalidParameter unless range.lower < range.upper, both finite
+template <class Scalar>
+std::vector<BoundaryPoint<Scalar>> stability_boundary(const LoopMap<Scalar>& map,
+                                                      const ProportionalRange& range) {
+  validate(range);
+  const detail::CircleBoundary<Scalar> boundary(map, range);
+  std::vector<BoundaryPoint<Scalar>> points;
+  boundary.append_line(BoundaryCurve::plus_one, points);
+  boundary.append_line(BoundaryCurve::minus_one, points);
+  boundary.append_curve(points);
+  return points;
+}
+
+}  // namespace holdfast

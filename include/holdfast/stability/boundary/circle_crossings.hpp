@@ -1,0 +1,201 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/response/loop_response.hpp"
+
+namespace holdfast {
+
+/// A value of a gain at which a root of the loop lies on the unit circle.
+struct GainCrossing {
+  double gain;   ///< P (N/m) or D (N s/m), finite
+  double angle;  ///< θ (rad) of the root e^{±iθ}, 0 … π
+};
+
+/// Which of the two gains varies while the other is held.
+enum class FreeGain {
+  proportional,  ///< P
+  differential,  ///< D
+};
+
+namespace detail {
+
+/// Where the free gain is real on the circle: x(θ) = (1 − y G_held)/G_free, and Im x(θ) = 0.
+template <class Scalar>
+class FreeGainOnCircle {
+ public:
+  FreeGainOnCircle(const LoopMap<Scalar>& map, FreeGain free, const PdGains<Scalar>& gains)
+      : response_(map), free_(free), gains_(gains) {}
+
+  /// x(θ); its imaginary part vanishes at a crossing.
+  std::complex<Scalar> at(const Scalar& angle) const {
+    const CommandResponse<Scalar> g = response_.at_angle(angle);
+    return free_ == FreeGain::differential
+               ? (Scalar(1) - gains_.proportional * g.displacement) / g.velocity
+               : (Scalar(1) - gains_.differential * g.velocity) / g.displacement;
+  }
+
+  /// The zero of Im x near an angle that is almost one, by the secant method; the angle itself
+  /// where that leads away.
+  Scalar polished(const Scalar& angle) const {
+    Scalar before = angle * (Scalar(1) - Scalar(1e-7)), here = angle;
+    Scalar value_before = at(before).imag(), value = at(here).imag();
+    for (int step = 0; step < 6 && value != value_before && value != Scalar(0); ++step) {
+      const Scalar next = here - value * (here - before) / (value - value_before);
+      if (!(std::abs(next - angle) < Scalar(1e-3) * angle)) return angle;
+      before = here;
+      value_before = value;
+      here = next;
+      value = at(here).imag();
+    }
+    return here;
+  }
+
+ private:
+  LoopResponse<Scalar> response_;
+  FreeGain free_;
+  PdGains<Scalar> gains_;
+};
+
+/// The angles θ > 0 of the eigenvalues e^{iθ} of a pencil, det(M − λ L) = 0, or of what lies within
+/// 10⁻⁴ of the circle as λ = (w + a)/(1 + a w) sees it.
+///
+/// The change of variable turns the circle into itself and the pencil into the matrix
+/// (L − a M)⁻¹(M − a L) with the eigenvalues w: those at 0 and ∞, which come in blocks, go to −a
+/// and −1/a, where they do no harm, and an a near 1 spreads what crowds about λ = 1.
+/// @param spread  (1 − a)/(1 + a), 0 … 1
+template <class Scalar>
+std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
+                                     const Matrix<Scalar, Eigen::Dynamic>& l, Scalar spread) {
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
+  const Scalar a = (Scalar(1) - spread) / (Scalar(1) + spread);
+  const Square turned = (l - a * m).partialPivLu().solve(m - a * l);
+  std::vector<Scalar> angles;
+  for (const std::complex<Scalar>& w : balanced_eigenvalues<Scalar, Eigen::Dynamic>(turned)) {
+    if (w.imag() > Scalar(0) && std::abs(std::abs(w) - Scalar(1)) < Scalar(1e-4))
+      angles.push_back(std::arg((w + a) / (Scalar(1) + a * w)));
+  }
+  return angles;
+}
+
+/// The pencil M − λ L whose eigenvalues on the circle are the crossings.
+/// @param s, b, h  map, command and reading of the loop, balanced; b and h in any unit
+template <class Scalar>
+std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossing_pencil(
+    const Matrix<Scalar, Eigen::Dynamic>& s, const Vector<Scalar, Eigen::Dynamic>& b,
+    const RowVector<Scalar, Eigen::Dynamic>& h) {
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
+  const Eigen::Index n = s.rows();
+  const Vector<Scalar, Eigen::Dynamic> command = b / b.norm();
+  const RowVector<Scalar, Eigen::Dynamic> row = h / h.norm();
+  Square m = Square::Zero(2 * n + 1, 2 * n + 1), l = m;
+  m.topLeftCorner(n, n) = s;
+  m.col(2 * n).head(n) = command;
+  m.block(n, n, n, n).setIdentity();
+  m.row(2 * n).head(n) = row;
+  m.row(2 * n).segment(n, n) = -row;
+  l.topLeftCorner(n, n).setIdentity();
+  l.block(n, n, n, n) = s;
+  l.col(2 * n).segment(n, n) = command;
+  return {m, l};
+}
+
+}  // namespace detail
+
+/// All values of one gain, the other being held, at which a loop of any order has a root on the
+/// unit circle; ascending.
+///
+/// With the held gain in the loop, S = S₀ + s K_held, the free gain x has a root at λ where
+/// x g(λ) = 1, g = h (λI − S)⁻¹ s. On the circle x is real where g(λ) = g(1/λ), which are the
+/// eigenvalues of a pencil of size 2n + 1, n = N + k:
+///
+///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
+///
+/// All of them are found at once, so that none can be stepped over; those next to the circle count,
+/// since double ones leave it by the root of round-off, and are then polished on it; one that is
+/// none only splits an interval. λ = ±1 are always among the solutions and are added by
+/// themselves. Cost: the eigenvalues of one matrix of size 2n + 1, about 10 (2n + 1)³
+/// multiply-adds.
+template <class Scalar>
+std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain free,
+                                           const PdGains<Scalar>& gains) {
+  const bool by_d = free == FreeGain::differential;
+  const BalancedMatrix<Scalar, Eigen::Dynamic> similar(
+      map.closed_map(by_d ? PdGains<Scalar>{gains.proportional, Scalar(0)}
+                          : PdGains<Scalar>{Scalar(0), gains.differential}));
+  const auto pencil = detail::crossing_pencil<Scalar>(
+      similar.balanced, similar.factors.cwiseInverse().cwiseProduct(map.command),
+      (by_d ? map.velocity : map.displacement).cwiseProduct(similar.factors.transpose()));
+
+  const detail::FreeGainOnCircle<Scalar> on_circle(map, free, gains);
+  std::vector<GainCrossing> crossings;
+  const auto add = [&](Scalar angle) {
+    const Scalar gain = on_circle.at(angle).real();
+    if (std::isfinite(gain)) crossings.push_back({gain, angle});
+  };
+  add(Scalar(0));
+  add(pi<Scalar>);
+  const Scalar speed = map.increment.diagonal().cwiseAbs().maxCoeff();
+  for (const Scalar& angle : detail::angles_on_circle<Scalar>(
+           pencil.first, pencil.second, std::clamp(speed / Scalar(4), Scalar(1e-4), Scalar(0.5))))
+    add(on_circle.polished(angle));
+  std::sort(crossings.begin(), crossings.end(),
+            [](const GainCrossing& a, const GainCrossing& b) { return a.gain < b.gain; });
+  return crossings;
+}
+
+/// The open intervals of one gain, the other being held, in which a loop of any order is stable.
+///
+/// Between neighbouring crossings the number of roots outside the circle cannot change: the
+/// eigenvalues of the map in the middle of each gap decide it. Gaps that touch and are both stable
+/// are joined where the loop is stable between them too.
+/// @param map    the loop
+/// @param free   the gain that varies
+/// @param gains  the other one; the value of the free one does not matter
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain free,
+                                           const PdGains<Scalar>& gains) {
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  const auto stable_at = [&](Scalar x) {
+    const PdGains<Scalar> pair = free == FreeGain::differential
+                                     ? PdGains<Scalar>{gains.proportional, x}
+                                     : PdGains<Scalar>{x, gains.differential};
+    return spectral_radius(map.closed_map(pair)) < Scalar(1);
+  };
+  std::vector<Scalar> ends;
+  for (const GainCrossing& crossing : circle_crossings(map, free, gains))
+    if (ends.empty() || crossing.gain > ends.back()) ends.push_back(crossing.gain);
+  if (ends.empty()) {
+    if (stable_at(Scalar(0))) return {{-infinity, infinity}};
+    return {};
+  }
+  const Scalar reach = std::max({std::abs(ends.front()), std::abs(ends.back()), Scalar(1e-300)});
+  std::vector<Interval<Scalar>> stable;
+  for (std::size_t gap = 0; gap <= ends.size(); ++gap) {
+    const Scalar lower = gap == 0 ? -infinity : ends[gap - 1];
+    const Scalar upper = gap == ends.size() ? infinity : ends[gap];
+    const Scalar inside = gap == 0             ? upper - reach
+                          : gap == ends.size() ? lower + reach
+                                               : lower + (upper - lower) / Scalar(2);
+    if (!stable_at(inside)) continue;
+    if (!stable.empty() && stable.back().upper == lower && stable_at(lower))
+      stable.back().upper = upper;
+    else
+      stable.push_back({lower, upper});
+  }
+  return stable;
+}
+
+}  // namespace holdfast

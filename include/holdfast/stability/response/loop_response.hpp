@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// What a loop's computer measures per newton of its own command, at one λ.
+template <class Scalar>
+struct CommandResponse {
+  std::complex<Scalar> displacement;  ///< G_z(λ) (m/N)
+  std::complex<Scalar> velocity;      ///< G_v(λ) (m/(N s))
+};
+
+/// The zero-order-hold transfer functions of a loop of any order,
+///
+///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
+///
+/// from the command to what P and D multiply: the characteristic equation of the loop is
+/// 1 − P G_z(λ) − D G_v(λ) = 0. S₀ − I is brought to Hessenberg form once, H = Qᵀ(S₀ − I)Q; a value
+/// costs the elimination of one subdiagonal, about 4 n² complex multiply-adds, n = N + k.
+/// Source: A. J. Laub, Efficient multivariable frequency response computations, IEEE TAC 26 (1981).
+template <class Scalar>
+class LoopResponse {
+ public:
+  using Complex = std::complex<Scalar>;  ///< of λ and of what is returned
+
+  /// @param map  the loop, whose gains do not matter
+  explicit LoopResponse(const LoopMap<Scalar>& map);
+
+  /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
+  CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const;
+
+  /// G_z and G_v at λ = e^{iθ}.
+  /// @param angle  θ (rad), 0 … π
+  CommandResponse<Scalar> at_angle(const Scalar& angle) const {
+    const Scalar half_sine = std::sin(angle / Scalar(2));
+    return at_distance_from_one({Scalar(-2) * half_sine * half_sine, std::sin(angle)});
+  }
+
+ private:
+  Matrix<Scalar, Eigen::Dynamic> hessenberg_;       // Qᵀ (S₀ − I) Q
+  Vector<Scalar, Eigen::Dynamic> command_;          // Qᵀ s
+  RowVector<Scalar, Eigen::Dynamic> displacement_;  // h_z Q
+  RowVector<Scalar, Eigen::Dynamic> velocity_;      // h_v Q
+};
+
+template <class Scalar>
+LoopResponse<Scalar>::LoopResponse(const LoopMap<Scalar>& map) {
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
+  const Eigen::HessenbergDecomposition<Square> reduced(map.increment);
+  const Square q = reduced.matrixQ();
+  hessenberg_ = reduced.matrixH();
+  command_ = q.transpose() * map.command;
+  displacement_ = map.displacement * q;
+  velocity_ = map.velocity * q;
+}
+
+template <class Scalar>
+CommandResponse<Scalar> LoopResponse<Scalar>::at_distance_from_one(const Complex& mu) const {
+  const Eigen::Index n = hessenberg_.rows();
+  // Column-major and upper triangular but for one diagonal: Gauss with exchange of neighbours.
+  Matrix<Complex, Eigen::Dynamic> rows = -hessenberg_.template cast<Complex>();
+  rows.diagonal().array() += mu;
+  Vector<Complex, Eigen::Dynamic> solution = command_.template cast<Complex>();
+  for (Eigen::Index k = 0; k + 1 < n; ++k) {
+    if (std::norm(rows(k + 1, k)) > std::norm(rows(k, k))) {
+      rows.row(k).tail(n - k).swap(rows.row(k + 1).tail(n - k));
+      std::swap(solution[k], solution[k + 1]);
+    }
+    if (rows(k + 1, k) == Complex(0)) continue;
+    const Complex factor = rows(k + 1, k) / rows(k, k);
+    rows.row(k + 1).tail(n - k - 1) -= factor * rows.row(k).tail(n - k - 1);
+    solution[k + 1] -= factor * solution[k];
+  }
+  for (Eigen::Index k = n - 1; k >= 0; --k) {
+    solution[k] /= rows(k, k);
+    solution.head(k) -= solution[k] * rows.col(k).head(k);
+  }
+  return {(displacement_.template cast<Complex>() * solution).value(),
+          (velocity_.template cast<Complex>() * solution).value()};
+}
+
+}  // namespace holdfast
