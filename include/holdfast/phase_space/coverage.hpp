@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast {
 
