@@ -75,6 +75,12 @@ TEST(LyapunovRun, EndsWhenTheLargestExponentIsAccurate) {
   EXPECT_GT(finer.samples, result.samples);
 }
 
+TEST(LyapunovRun, IsJudgedFirstByTheFewestBatches) {
+  const auto result = run_of(flickering(0.011), {100000, 0, 1e3});
+  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
+  EXPECT_EQ(result.samples, ContactWords::length * static_cast<std::int64_t>(batches_to_judge));
+}
+
 TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {
   EXPECT_TRUE(run_of(flickering(0.001), {200000, 2000}).sign_is_known());
   EXPECT_FALSE(run_of(flickering(0.011), {12}).sign_is_known()) << "too short to have an error";

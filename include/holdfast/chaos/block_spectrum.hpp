@@ -57,17 +57,7 @@ class ContactSpectrum {
   /// @param words  of the loop whose S and S* are the tangents
   /// @param scope  of `largest` the spectrum shows −∞ for all exponents but the first
   explicit ContactSpectrum(std::shared_ptr<const ContactWords> words,
-                           LyapunovScope scope = LyapunovScope::all)
-      : words_(std::move(words)), sums_(ContactWords::length) {
-    const int wanted = scope == LyapunovScope::largest ? 1 : 5;
-    columns_ = std::min(wanted, words_->largest_rank());
-    const Number one(1), zero(0);
-    for (int i = 0; i < 5; ++i)
-      alive_[static_cast<std::size_t>(i)] = i < columns_ ? one > zero : one < zero;
-    const Vector<Number, 5> logarithms =
-        words_->scale().array().log().matrix().template cast<Number>();
-    remainder_ = -logarithms;
-  }
+                           LyapunovScope scope = LyapunovScope::all);
 
   /// Takes the contacts of the next `ContactWords::length` samples.
   void push(const Words& words) {
@@ -78,26 +68,11 @@ class ContactSpectrum {
 
   /// Forgets all but the directions of the tangent vectors after the words pushed and the word
   /// `open`, of any length: the exponents are those of what comes from here on.
-  void restart(const Words& open) {
-    close_with(open);
-    remainder_ = -Orthogonal(*this).logarithms;
-    sums_ = BatchSums<Number, 5>(ContactWords::length);
-    logarithms_ = Vector<Number, 5>::Constant(Number(0));
-    samples_ = 0;
-    plan();
-  }
+  void restart(const Words& open);
 
   /// The spectra of all lanes over the words pushed and the word `open`, of any length.
   std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> spectra(
-      const Words& open = no_contacts<Number>()) const {
-    ContactSpectrum closed = *this;
-    closed.close_with(open);
-    const Orthogonal orthogonal(closed);
-    std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> result;
-    for (std::size_t lane = 0; lane < result.size(); ++lane)
-      result[lane] = closed.read(orthogonal, lane);
-    return result;
-  }
+      const Words& open = no_contacts<Number>()) const;
 
   /// That of the first lane.
   LyapunovSpectrum<double, 5> spectrum(const Words& open = no_contacts<Number>()) const {
@@ -166,24 +141,7 @@ class ContactSpectrum {
     return LyapunovSpectrum<double, 5>(state);
   }
 
-  void close_block() {
-    if (words_->reach() == 4) {
-      advance_columns<4>();
-    } else {
-      advance_columns<5>();
-    }
-    samples_ += pending_samples_;
-    count_ = 0;
-    pending_samples_ = 0;
-    while (columns_ > 1 && !any(alive_[static_cast<std::size_t>(columns_ - 1)])) --columns_;
-    if (samples_ >= sums_.steps_left()) {
-      take_logarithms();
-      sums_.add(logarithms_, samples_);
-      logarithms_ = Vector<Number, 5>::Constant(Number(0));
-      samples_ = 0;
-    }
-    plan();
-  }
+  void close_block();
 
   template <int Reach>
   void advance_columns() {
@@ -324,5 +282,70 @@ class ContactSpectrum {
   BatchSums<Number, 5> sums_;
   Vector<Number, 5> remainder_;  // −ln of the stretches from balanced coordinates at the start
 };
+
+template <class Number>
+ContactSpectrum<Number>::ContactSpectrum(std::shared_ptr<const ContactWords> words,
+                                         LyapunovScope scope)
+    : words_(std::move(words)), sums_(ContactWords::length) {
+  const int wanted = scope == LyapunovScope::largest ? 1 : 5;
+  columns_ = std::min(wanted, words_->largest_rank());
+  const Number one(1), zero(0);
+  for (int i = 0; i < 5; ++i)
+    alive_[static_cast<std::size_t>(i)] = i < columns_ ? one > zero : one < zero;
+  const Vector<Number, 5> logarithms =
+      words_->scale().array().log().matrix().template cast<Number>();
+  remainder_ = -logarithms;
+}
+
+template <class Number>
+void ContactSpectrum<Number>::restart(const Words& open) {
+  close_with(open);
+  remainder_ = -Orthogonal(*this).logarithms;
+  sums_ = BatchSums<Number, 5>(ContactWords::length);
+  logarithms_ = Vector<Number, 5>::Constant(Number(0));
+  samples_ = 0;
+  plan();
+}
+
+template <class Number>
+std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> ContactSpectrum<Number>::spectra(
+    const Words& open) const {
+  ContactSpectrum closed = *this;
+  closed.close_with(open);
+  const Orthogonal orthogonal(closed);
+  std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> result;
+  for (std::size_t lane = 0; lane < result.size(); ++lane)
+    result[lane] = closed.read(orthogonal, lane);
+  return result;
+}
+
+template <class Number>
+void ContactSpectrum<Number>::close_block() {
+  if (words_->reach() == 4) {
+    advance_columns<4>();
+  } else {
+    advance_columns<5>();
+  }
+  samples_ += pending_samples_;
+  count_ = 0;
+  pending_samples_ = 0;
+  while (columns_ > 1 && !any(alive_[static_cast<std::size_t>(columns_ - 1)])) --columns_;
+  if (samples_ >= sums_.steps_left()) {
+    take_logarithms();
+    sums_.add(logarithms_, samples_);
+    logarithms_ = Vector<Number, 5>::Constant(Number(0));
+    samples_ = 0;
+  }
+  plan();
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template ContactSpectrum<double>::ContactSpectrum(std::shared_ptr<const ContactWords>,
+                                                         LyapunovScope);
+extern template void ContactSpectrum<double>::restart(const Words&);
+extern template std::array<LyapunovSpectrum<double, 5>, 1> ContactSpectrum<double>::spectra(
+    const Words&) const;
+extern template void ContactSpectrum<double>::close_block();
+#endif
 
 }  // namespace holdfast

@@ -180,8 +180,8 @@ inline std::optional<double> extent_growth(const std::vector<double>& series) {
   return extent_of(series, size - quarter, size) / first;
 }
 
-inline SpectralEvidence spectral_evidence(const std::vector<double>& series,
-                                          const EvidencePlan& plan) {
+template <class Series>
+SpectralEvidence spectral_evidence(const Series& series, const EvidencePlan& plan) {
   const std::size_t size = series.size();
   const auto whole = amplitude_spectrum(series, 1.0, SpectralWindow::rectangular);
   const auto narrow = amplitude_spectrum(series, 1.0, SpectralWindow::hann);

@@ -151,32 +151,6 @@ inline std::optional<EvidencePlan> evidence_plan(const RealLoop& loop) {
   return plan;
 }
 
-/// Weighs the evidence of a motion under a recorded force, or with samples that stray.
-///
-/// Its spectrum, its 0–1 test and its repetitions are those of the forcing as much as its own, and
-/// a forcing that does not repeat is no sum of incommensurate harmonics. So nothing is called
-/// quasi-periodic. Divergence stands, and so does chaos, by an exponent above zero. Where the
-/// samples stray nothing is called periodic but rest; a recurrence under a recorded force is one of
-/// the series. Else an exponent below zero decides, whatever the rest: neighbours come together
-/// under one and the same forcing, so that the motion follows it.
-inline Verdict judge_irregularly_forced(const MotionEvidence& evidence, bool samples_stray) {
-  Verdict verdict = judge(evidence);
-  const bool repeats = verdict.kind == MotionKind::periodic;
-  if (verdict.kind == MotionKind::diverges || verdict.kind == MotionKind::chaotic) return verdict;
-  if (repeats && (!samples_stray || verdict.period == 1)) return verdict;
-  if (evidence.forcing_periods && *evidence.forcing_periods < fewest_forcing_periods)
-    return verdict;
-  const EvidenceWords words(evidence);
-  if (evidence.largest_exponent && evidence.largest_exponent->negative()) {
-    return {MotionKind::irregular_contracting, 0,
-            "Neighbours come together and follow a forcing or samples that do not repeat: " +
-                words.all() + words.switching() + "."};
-  }
-  if (verdict.kind == MotionKind::undecided) return verdict;
-  return undecided("The forcing or the samples do not repeat, and the exponent does not decide",
-                   words);
-}
-
 inline Verdict undecided_since(const std::string& why) { return {MotionKind::undecided, 0, why}; }
 
 /// The verdict of a motion by its samples.
@@ -242,5 +216,10 @@ HybridVerdict classify_motion(const Loop& loop, const Vector<double, 4>& initial
     return found;
   });
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HybridVerdict classify_motion(const RealLoop&, const Vector<double, 4>&,
+                                              const OrbitLimits&);
+#endif
 
 }  // namespace holdfast

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
@@ -18,10 +17,11 @@ namespace detail {
 
 /// An orthogonal basis in which no map of a loop has an invariant or an annihilated direction along
 /// an axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
-inline Matrix<double, 7> oblique_basis() {
-  Vector<double, 7> normal;
+template <class Scalar = double>
+Matrix<Scalar, 7> oblique_basis() {
+  Vector<Scalar, 7> normal;
   for (int i = 0; i < 7; ++i) normal[i] = std::sqrt(i + 1.0);
-  return Matrix<double, 7>::Identity() - normal * normal.transpose() * (2.0 / normal.squaredNorm());
+  return Matrix<Scalar, 7>::Identity() - normal * normal.transpose() * (2.0 / normal.squaredNorm());
 }
 
 }  // namespace detail
@@ -92,33 +92,36 @@ class HybridLyapunov {
 
 namespace detail {
 
-/// The five leading exponents of a spectrum.
-inline LyapunovResult leading_exponents(LyapunovOutcome outcome,
-                                        const LyapunovSpectrum<double, 7>& spectrum,
-                                        const LyapunovRun& run) {
-  LyapunovResult result{outcome, spectrum.exponents().head<5>(),
-                        spectrum.cautious_standard_errors().head<5>(), spectrum.steps()};
-  if (run.scope == LyapunovScope::largest) {
-    result.exponents.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
-    result.standard_errors.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
-  }
-  return result;
-}
+/// The average of run_average() over the tangents of a motion.
+/// @tparam Lyapunov  HybridLyapunov of the motion
+template <class Lyapunov>
+class TangentAverage {
+ public:
+  /// @param pause  called every 2¹² samples
+  TangentAverage(Lyapunov& lyapunov, const std::function<void()>& pause)
+      : lyapunov_(lyapunov), pause_(pause) {}
 
-/// Takes up to `samples` samples. @return whether the motion kept within the range of the numbers
-template <class Motion, class Ends>
-bool run_until(Motion& motion, std::int64_t samples, const std::function<void()>& pause,
-               const Ends& ends) {
-  constexpr std::int64_t samples_between_pauses = 1 << 12;
-  for (std::int64_t taken = 0; taken < samples; ++taken) {
-    if (pause && taken % samples_between_pauses == 0) pause();
-    motion.sense();
-    if (!std::isfinite(motion.state().sum())) return false;
-    motion.advance();
-    if (ends()) break;
+  template <class Ends>
+  bool take(std::int64_t samples, const Ends& ends) {
+    constexpr std::int64_t samples_between_pauses = 1 << 12;
+    for (std::int64_t taken = 0; taken < samples; ++taken) {
+      if (pause_ && taken % samples_between_pauses == 0) pause_();
+      lyapunov_.sense();
+      if (!std::isfinite(lyapunov_.state().sum())) return false;
+      lyapunov_.advance();
+      if (ends()) break;
+    }
+    return true;
   }
-  return true;
-}
+
+  void restart() { lyapunov_.restart(); }
+  const auto& spectrum() const { return lyapunov_.spectrum(); }
+  std::size_t complete_batches() const { return spectrum().complete_batches(); }
+
+ private:
+  Lyapunov& lyapunov_;
+  const std::function<void()>& pause_;
+};
 
 }  // namespace detail
 
@@ -139,25 +142,8 @@ LyapunovResult run_hybrid_lyapunov(HybridMotion<Contact>& motion, const Lyapunov
                                    const std::function<void()>& pause = {}) {
   validate(run);
   HybridLyapunov<Contact> lyapunov(motion);
-  const bool settled = detail::run_until(lyapunov, run.discard, pause, [] { return false; });
-  lyapunov.restart();
-  if (!settled)
-    return detail::leading_exponents(LyapunovOutcome::diverged, lyapunov.spectrum(), run);
-
-  std::size_t judged = 0;
-  bool accurate = false;
-  const bool stayed = detail::run_until(lyapunov, run.most_samples, pause, [&] {
-    const LyapunovSpectrum<double, 7>& spectrum = lyapunov.spectrum();
-    const std::size_t batches = spectrum.complete_batches();
-    if (batches == judged || batches < batches_to_judge || run.standard_error == 0) return false;
-    judged = batches;
-    accurate = accurate_enough(spectrum.cautious_standard_errors().head<5>(), run);
-    return accurate;
-  });
-  const auto outcome = !stayed    ? LyapunovOutcome::diverged
-                       : accurate ? LyapunovOutcome::accurate
-                                  : LyapunovOutcome::sample_limit;
-  return detail::leading_exponents(outcome, lyapunov.spectrum(), run);
+  detail::TangentAverage<HybridLyapunov<Contact>> average(lyapunov, pause);
+  return detail::run_average(average, run);
 }
 
 }  // namespace holdfast

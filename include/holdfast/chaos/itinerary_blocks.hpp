@@ -54,22 +54,14 @@ class ContactWords {
 
   /// @param engaged   S
   /// @param backlash  S*
-  ContactWords(const Matrix<double, 5>& engaged, const Matrix<double, 5>& backlash)
-      : scale_(balancing<double, 5>(engaged.cwiseAbs() + backlash.cwiseAbs())) {
-    maps_[0] = maps_[1] = Map::Identity();
-    ranks_[0] = ranks_[1] = 5;
-    add_contact(2, backlash);
-    add_contact(3, engaged);
-    for (std::size_t word = 4; word < words; ++word) {
-      maps_[word] = maps_[2 + word % 2] * maps_[word / 2];
-      ranks_[word] = std::min(ranks_[2 + word % 2], ranks_[word / 2]);
-    }
-    reach_ = engaged.col(4).isZero(0.0) && backlash.col(4).isZero(0.0) ? 4 : 5;
-  }
+  /// @tparam Scalar  `double`; a template so that only who calls it compiles it
+  template <class Scalar>
+  ContactWords(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash);
 
   /// @param tangent_loop  whose S and S* are the tangents
   /// @param gains         P (N/m) and D (N s/m)
-  ContactWords(const SampledLoop<double>& tangent_loop, const PdGains<double>& gains)
+  template <class Scalar>
+  ContactWords(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : ContactWords(tangent_loop.engaged_map(gains), tangent_loop.backlash_map()) {}
 
   /// T⁻¹ M T, M the product of the word's maps, the last sample's leftmost.
@@ -90,8 +82,9 @@ class ContactWords {
  private:
   static constexpr std::size_t words = std::size_t{2} << length;
 
-  void add_contact(std::size_t word, const Matrix<double, 5>& map) {
-    ranks_[word] = static_cast<int>(Eigen::FullPivLU<Matrix<double, 5>>(map).rank());
+  template <class Scalar>
+  void add_contact(std::size_t word, const Matrix<Scalar, 5>& map) {
+    ranks_[word] = static_cast<int>(Eigen::FullPivLU<Matrix<Scalar, 5>>(map).rank());
     maps_[word] = scale_.cwiseInverse().asDiagonal() * map * scale_.asDiagonal();
   }
 
@@ -100,6 +93,20 @@ class ContactWords {
   std::array<int, words> ranks_{};
   int reach_ = 5;
 };
+
+template <class Scalar>
+ContactWords::ContactWords(const Matrix<Scalar, 5>& engaged, const Matrix<Scalar, 5>& backlash)
+    : scale_(balancing<Scalar, 5>(engaged.cwiseAbs() + backlash.cwiseAbs())) {
+  maps_[0] = maps_[1] = Map::Identity();
+  ranks_[0] = ranks_[1] = 5;
+  add_contact(2, backlash);
+  add_contact(3, engaged);
+  for (std::size_t word = 4; word < words; ++word) {
+    maps_[word] = maps_[2 + word % 2] * maps_[word / 2];
+    ranks_[word] = std::min(ranks_[2 + word % 2], ranks_[word / 2]);
+  }
+  reach_ = engaged.col(4).isZero(0.0) && backlash.col(4).isZero(0.0) ? 4 : 5;
+}
 
 /// Whether a word is one of the longest.
 constexpr bool is_whole(ContactWord word) { return word >> ContactWords::length != 0; }
@@ -128,5 +135,9 @@ class LaneMaps {
  private:
   const ContactWords::Map& map_;
 };
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template ContactWords::ContactWords(const Matrix<double, 5>&, const Matrix<double, 5>&);
+#endif
 
 }  // namespace holdfast

@@ -17,28 +17,30 @@ namespace holdfast {
 /// The consistent tangent comes from the loop of the motion itself. Kollár 2022 prints S and S*
 /// with δ = τ beside a trajectory with δ = 0; passing the loop of δ = τ here gives the exponents of
 /// Table 2.
+/// @tparam Scalar  `double`, that of the loop
+template <class Scalar>
 class LyapunovObserver {
  public:
   /// @param tangent_loop  whose S and S* are the tangents
   /// @param gains         P (N/m) and D (N s/m) of the motion
-  LyapunovObserver(const SampledLoop<double>& tangent_loop, const PdGains<double>& gains)
+  LyapunovObserver(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
       : engine_(std::make_shared<const ContactWords>(tangent_loop, gains)) {}
 
   /// Takes the contact of the next sample, and nothing else of it.
-  void operator()(const MotionSample<double>& sample) {
+  void operator()(const MotionSample<Scalar>& sample) {
     open_[0] = followed_by(open_[0], sample.engaged);
     if (!is_whole(open_[0])) return;
     engine_.push(open_);
-    open_ = no_contacts<double>();
+    open_ = no_contacts<Scalar>();
   }
 
   /// The spectrum over the samples seen so far, as of QR at every one of them. Reading it, however
   /// often, changes nothing.
-  LyapunovSpectrum<double, 5> spectrum() const { return engine_.spectrum(open_); }
+  LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
 
  private:
-  ContactSpectrum<double> engine_;
-  LaneWords<double> open_ = no_contacts<double>();
+  ContactSpectrum<Scalar> engine_;
+  LaneWords<Scalar> open_ = no_contacts<Scalar>();
 };
 
 }  // namespace holdfast

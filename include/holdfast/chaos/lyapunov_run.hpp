@@ -64,18 +64,22 @@ struct LyapunovResult {
 inline constexpr std::size_t batches_to_judge = 32;
 
 /// Whether a spectrum is known as well as a run asks for.
-inline bool accurate_enough(const Vector<double, 5>& standard_errors, const LyapunovRun& run) {
+/// @param standard_errors  of λ₁ … λ₅
+template <class Scalar>
+bool accurate_enough(const Vector<Scalar, 5>& standard_errors, const LyapunovRun& run) {
   const bool all = run.judged == LyapunovScope::all && run.scope == LyapunovScope::all;
   const double error = all ? standard_errors.maxCoeff() : standard_errors[0];
   return error <= run.standard_error && !standard_errors.hasNaN();
 }
 
-/// What a run makes of a spectrum.
-inline LyapunovResult lyapunov_result(LyapunovOutcome outcome,
-                                      const LyapunovSpectrum<double, 5>& spectrum,
-                                      const LyapunovRun& run) {
-  LyapunovResult result{outcome, spectrum.exponents(), spectrum.cautious_standard_errors(),
-                        spectrum.steps()};
+/// The five leading exponents of a spectrum as the result of a run.
+/// @tparam Size  ≥ 5
+template <int Size>
+LyapunovResult lyapunov_result(LyapunovOutcome outcome,
+                               const LyapunovSpectrum<double, Size>& spectrum,
+                               const LyapunovRun& run) {
+  LyapunovResult result{outcome, spectrum.exponents().template head<5>(),
+                        spectrum.cautious_standard_errors().template head<5>(), spectrum.steps()};
   if (run.scope == LyapunovScope::largest) {
     result.exponents.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
     result.standard_errors.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -84,6 +88,48 @@ inline LyapunovResult lyapunov_result(LyapunovOutcome outcome,
 }
 
 namespace detail {
+
+/// Tells when a run that averages exponents has new batches to be judged by.
+class JudgingTimes {
+ public:
+  explicit JudgingTimes(const LyapunovRun& run) : asked_(run.standard_error > 0) {}
+
+  /// Whether the exponents are to be judged now. @param batches  complete so far
+  bool have_come(std::size_t batches) {
+    if (batches == judged_ || batches < batches_to_judge || !asked_) return false;
+    judged_ = batches;
+    return true;
+  }
+
+ private:
+  bool asked_;
+  std::size_t judged_ = 0;
+};
+
+/// Averages exponents over a run: leaves out the first samples, then goes on until the mean is
+/// accurate enough, the samples are at an end or the motion diverges.
+/// @param average  take(samples, ends) takes up to so many samples, fewer where `ends()` says so at
+///                 one of them, and tells whether the motion kept within the range of numbers;
+///                 restart(), spectrum() and complete_batches() are those of the exponents
+template <class Average>
+LyapunovResult run_average(Average& average, const LyapunovRun& run) {
+  const bool settled = average.take(run.discard, [] { return false; });
+  average.restart();
+  if (!settled) return lyapunov_result(LyapunovOutcome::diverged, average.spectrum(), run);
+  JudgingTimes judging(run);
+  bool accurate = false;
+  const bool stayed = average.take(run.most_samples, [&] {
+    if (!judging.have_come(average.complete_batches())) return false;
+    const Vector<double, 5> errors =
+        average.spectrum().cautious_standard_errors().template head<5>();
+    accurate = accurate_enough(errors, run);
+    return accurate;
+  });
+  const auto outcome = !stayed    ? LyapunovOutcome::diverged
+                       : accurate ? LyapunovOutcome::accurate
+                                  : LyapunovOutcome::sample_limit;
+  return lyapunov_result(outcome, average.spectrum(), run);
+}
 
 /// The contacts of the next `samples` samples of a motion; fewer if it diverges.
 template <class Motion>
@@ -118,6 +164,37 @@ OpenContacts run_contacts(Motion& motion, std::int64_t samples, const Take& take
   return {no_contacts<double>(), false};
 }
 
+/// The average of run_average() over the contacts of a motion.
+template <class Motion>
+class ContactAverage {
+ public:
+  ContactAverage(Motion& motion, const std::shared_ptr<const ContactWords>& words,
+                 LyapunovScope scope)
+      : motion_(motion), spectrum_(words, scope) {}
+
+  template <class Ends>
+  bool take(std::int64_t samples, const Ends& ends) {
+    const OpenContacts open = run_contacts(motion_, samples, [&](const auto& word) {
+      spectrum_.push(word);
+      return !ends();
+    });
+    open_ = open.word;
+    return !open.diverged;
+  }
+
+  void restart() {
+    spectrum_.restart(open_);
+    open_ = no_contacts<double>();
+  }
+  auto spectrum() const { return spectrum_.spectrum(open_); }
+  std::size_t complete_batches() const { return spectrum_.complete_batches(); }
+
+ private:
+  Motion& motion_;
+  ContactSpectrum<double> spectrum_;
+  LaneWords<double> open_ = no_contacts<double>();
+};
+
 }  // namespace detail
 
 /// The Lyapunov exponents of the sampled loop with backlash along a motion, from where it stands.
@@ -133,29 +210,8 @@ template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ContactWords>& words,
                             const LyapunovRun& run) {
   validate(run);
-  ContactSpectrum<double> spectrum(words, run.scope);
-  const auto discarded = detail::run_contacts(motion, run.discard, [&](const auto& word) {
-    spectrum.push(word);
-    return true;
-  });
-  spectrum.restart(discarded.word);
-  if (discarded.diverged)
-    return lyapunov_result(LyapunovOutcome::diverged, spectrum.spectrum(), run);
-
-  std::size_t judged = 0;
-  bool accurate = false;
-  const auto open = detail::run_contacts(motion, run.most_samples, [&](const auto& word) {
-    spectrum.push(word);
-    const std::size_t batches = spectrum.complete_batches();
-    if (batches == judged || batches < batches_to_judge || run.standard_error == 0) return true;
-    judged = batches;
-    accurate = accurate_enough(spectrum.spectrum().cautious_standard_errors(), run);
-    return !accurate;
-  });
-  const auto outcome = open.diverged ? LyapunovOutcome::diverged
-                       : accurate    ? LyapunovOutcome::accurate
-                                     : LyapunovOutcome::sample_limit;
-  return lyapunov_result(outcome, spectrum.spectrum(open.word), run);
+  detail::ContactAverage<Motion> average(motion, words, run.scope);
+  return detail::run_average(average, run);
 }
 
 }  // namespace holdfast

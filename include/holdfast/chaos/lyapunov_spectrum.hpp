@@ -44,38 +44,17 @@ class LyapunovSpectrum {
   explicit LyapunovSpectrum(const State& state) : state_(state) {}
 
   /// Rank of a map to working precision; find it once where the same map is pushed many times.
-  static int rank_of(const Matrix<Scalar, Size>& tangent) {
-    return static_cast<int>(Eigen::FullPivLU<Matrix<Scalar, Size>>(tangent).rank());
-  }
+  static int rank_of(const Matrix<Scalar, Size>& tangent);
 
   /// Takes one step with the tangent map `tangent` of known rank.
-  void push(const Matrix<Scalar, Size>& tangent, int rank) {
-    const Matrix<Scalar, Size> stretched = tangent * state_.basis;
-    const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
-    state_.basis = qr.householderQ();
-    state_.finite = std::min(state_.finite, rank);
-    Vector<Scalar, Size> logarithms = Vector<Scalar, Size>::Zero();
-    for (int i = 0; i < state_.finite; ++i) {
-      const Scalar stretch = std::abs(qr.matrixQR()(i, i));
-      if (stretch == Scalar(0)) {
-        state_.finite = i;
-        break;
-      }
-      logarithms[i] = std::log(stretch);
-    }
-    state_.sums.add(logarithms, 1);
-  }
+  void push(const Matrix<Scalar, Size>& tangent, int rank);
 
   /// The same, the map's rank found first.
   void push(const Matrix<Scalar, Size>& tangent) { push(tangent, rank_of(tangent)); }
 
   /// λ₁ … λ_Size per step, in the order of the QR (descending once converged); −∞ where exact, NaN
   /// before the first step.
-  Vector<Scalar, Size> exponents() const {
-    const Scalar steps_taken(static_cast<double>(steps()));
-    return with((state_.sums.totals() + state_.remainder) / steps_taken,
-                -std::numeric_limits<Scalar>::infinity());
-  }
+  Vector<Scalar, Size> exponents() const;
 
   /// Standard errors by batch means; 0 for an exact −∞, NaN while there are too few steps.
   Vector<Scalar, Size> standard_errors() const {
@@ -84,11 +63,7 @@ class LyapunovSpectrum {
 
   /// Standard errors that do not trust the batches to be longer than the correlation: the larger of
   /// those from the batches and, where there are eight or more, from pairs of them.
-  Vector<Scalar, Size> cautious_standard_errors() const {
-    if (state_.sums.complete_batches() < 8) return standard_errors();
-    const Vector<Scalar, Size> single = state_.sums.standard_errors(1);
-    return with(single.cwiseMax(state_.sums.standard_errors(2)), Scalar(0));
-  }
+  Vector<Scalar, Size> cautious_standard_errors() const;
 
   /// n, the number of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
@@ -111,5 +86,53 @@ class LyapunovSpectrum {
 
   State state_;
 };
+
+template <class Scalar, int Size>
+int LyapunovSpectrum<Scalar, Size>::rank_of(const Matrix<Scalar, Size>& tangent) {
+  return static_cast<int>(Eigen::FullPivLU<Matrix<Scalar, Size>>(tangent).rank());
+}
+
+template <class Scalar, int Size>
+void LyapunovSpectrum<Scalar, Size>::push(const Matrix<Scalar, Size>& tangent, int rank) {
+  const Matrix<Scalar, Size> stretched = tangent * state_.basis;
+  const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
+  state_.basis = qr.householderQ();
+  state_.finite = std::min(state_.finite, rank);
+  Vector<Scalar, Size> logarithms = Vector<Scalar, Size>::Zero();
+  for (int i = 0; i < state_.finite; ++i) {
+    const Scalar stretch = std::abs(qr.matrixQR()(i, i));
+    if (stretch == Scalar(0)) {
+      state_.finite = i;
+      break;
+    }
+    logarithms[i] = std::log(stretch);
+  }
+  state_.sums.add(logarithms, 1);
+}
+
+template <class Scalar, int Size>
+Vector<Scalar, Size> LyapunovSpectrum<Scalar, Size>::exponents() const {
+  const Scalar steps_taken(static_cast<double>(steps()));
+  return with((state_.sums.totals() + state_.remainder) / steps_taken,
+              -std::numeric_limits<Scalar>::infinity());
+}
+
+template <class Scalar, int Size>
+Vector<Scalar, Size> LyapunovSpectrum<Scalar, Size>::cautious_standard_errors() const {
+  if (state_.sums.complete_batches() < 8) return standard_errors();
+  const Vector<Scalar, Size> single = state_.sums.standard_errors(1);
+  return with(single.cwiseMax(state_.sums.standard_errors(2)), Scalar(0));
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template int LyapunovSpectrum<double, 5>::rank_of(const Matrix<double, 5>&);
+extern template void LyapunovSpectrum<double, 5>::push(const Matrix<double, 5>&, int);
+extern template Vector<double, 5> LyapunovSpectrum<double, 5>::exponents() const;
+extern template Vector<double, 5> LyapunovSpectrum<double, 5>::cautious_standard_errors() const;
+extern template int LyapunovSpectrum<double, 7>::rank_of(const Matrix<double, 7>&);
+extern template void LyapunovSpectrum<double, 7>::push(const Matrix<double, 7>&, int);
+extern template Vector<double, 7> LyapunovSpectrum<double, 7>::exponents() const;
+extern template Vector<double, 7> LyapunovSpectrum<double, 7>::cautious_standard_errors() const;
+#endif
 
 }  // namespace holdfast

@@ -140,7 +140,9 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
 /// samples say nothing new; compare it only at the same sampling period.
 /// @param sequence  64 … 10⁶ symbols
 /// @throws InvalidParameter for another number of symbols
-inline SwitchingComplexity switching_complexity(const std::vector<bool>& sequence) {
+/// @tparam Sequence  std::vector<bool>; a template so that only who calls it compiles it
+template <class Sequence = std::vector<bool>>
+SwitchingComplexity switching_complexity(const Sequence& sequence) {
   const double count = static_cast<double>(sequence.size());
   require_within("number of symbols", count, "", 64.0, 1e6);
   SwitchingComplexity result{};
@@ -149,12 +151,16 @@ inline SwitchingComplexity switching_complexity(const std::vector<bool>& sequenc
   while (result.block < 12 && std::exp2(static_cast<double>(result.block) + 2.0) * 32.0 <= count)
     ++result.block;
   // Both over the same places, so that the next symbol of each word is the only difference.
-  const std::vector<bool> without_last(sequence.begin(), sequence.end() - 1);
+  const Sequence without_last(sequence.begin(), sequence.end() - 1);
   result.entropy = std::fmax(
       0.0, block_entropy(sequence, result.block + 1) - block_entropy(without_last, result.block));
   for (std::size_t place = 1; place < sequence.size(); ++place)
     result.switches += sequence[place] != sequence[place - 1] ? 1U : 0U;
   return result;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SwitchingComplexity switching_complexity(const std::vector<bool>&);
+#endif
 
 }  // namespace holdfast

@@ -131,7 +131,9 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double share
 /// @param series       200 … 100 000 finite values
 /// @param frequencies  number of c, 1 … 1000
 /// @throws InvalidParameter for another number of samples or frequencies, or values not finite
-inline ZeroOneResult zero_one_test(const std::vector<double>& series, int frequencies = 100) {
+/// @tparam Series  std::vector<double>; a template so that only who calls it compiles it
+template <class Series = std::vector<double>>
+ZeroOneResult zero_one_test(const Series& series, int frequencies = 100) {
   require_within("number of samples", static_cast<double>(series.size()), "", 200.0, 1e5);
   require_within("number of frequencies", frequencies, "", 1.0, 1000.0);
   for (const double value : series) require_finite("value of the series", value, "");
@@ -150,5 +152,9 @@ inline ZeroOneResult zero_one_test(const std::vector<double>& series, int freque
           detail::quantile_of_sorted(correlations, 0.25),
           detail::quantile_of_sorted(correlations, 0.75), frequencies};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template ZeroOneResult zero_one_test(const std::vector<double>&, int);
+#endif
 
 }  // namespace holdfast

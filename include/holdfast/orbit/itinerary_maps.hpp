@@ -35,8 +35,7 @@ class ContactMaps {
  public:
   /// @param loop   its backlash width is not looked at
   /// @param ratio  f τ = p/q, of forcing_ratio()
-  ContactMaps(const ForcedLoop<Scalar>& loop, const Rational& ratio)
-      : ContactMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
+  ContactMaps(const ForcedLoop<Scalar>& loop, const Rational& ratio);
 
   /// S or S*, 5 × 5.
   const Matrix<Scalar, 5>& map(bool engaged) const { return engaged ? engaged_ : backlash_; }
@@ -68,29 +67,39 @@ class ContactMaps {
 
  private:
   ContactMaps(const SampledLoop<Scalar>& sampled, const ForcedLoop<Scalar>& loop,
-              const Rational& ratio)
-      : engaged_(sampled.engaged_map(loop.gains)),
-        backlash_(sampled.backlash_map()),
-        units_(plant_units(loop.plant.state_matrix(), loop.plant.excitation_input())),
-        forcing_(
-            harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency()),
-            loop.excitation.amplitude, ratio) {}
+              const Rational& ratio);
 
-  Scalar spread_of(const Matrix<Scalar, 5>& map) const {
-    using std::abs;
-    const Matrix<Scalar, 4> plant = in_units(map).template topLeftCorner<4, 4>();
-    const Eigen::FullPivLU<Matrix<Scalar, 4>> factors(plant);
-    Scalar smallest = factors.maxPivot();
-    for (int i = 0; i < factors.rank(); ++i)
-      smallest = std::min(smallest, Scalar(abs(factors.matrixLU()(i, i))));
-    return smallest > Scalar(0) ? Scalar(factors.maxPivot() / smallest) : Scalar(1);
-  }
+  Scalar spread_of(const Matrix<Scalar, 5>& map) const;
 
   Matrix<Scalar, 5> engaged_;
   Matrix<Scalar, 5> backlash_;
   Vector<Scalar, 5> units_;
   PeriodicForcing<Scalar> forcing_;
 };
+
+template <class Scalar>
+ContactMaps<Scalar>::ContactMaps(const ForcedLoop<Scalar>& loop, const Rational& ratio)
+    : ContactMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
+
+template <class Scalar>
+ContactMaps<Scalar>::ContactMaps(const SampledLoop<Scalar>& sampled, const ForcedLoop<Scalar>& loop,
+                                 const Rational& ratio)
+    : engaged_(sampled.engaged_map(loop.gains)),
+      backlash_(sampled.backlash_map()),
+      units_(plant_units(loop.plant.state_matrix(), loop.plant.excitation_input())),
+      forcing_(harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency()),
+               loop.excitation.amplitude, ratio) {}
+
+template <class Scalar>
+Scalar ContactMaps<Scalar>::spread_of(const Matrix<Scalar, 5>& map) const {
+  using std::abs;
+  const Matrix<Scalar, 4> plant = in_units(map).template topLeftCorner<4, 4>();
+  const Eigen::FullPivLU<Matrix<Scalar, 4>> factors(plant);
+  Scalar smallest = factors.maxPivot();
+  for (int i = 0; i < factors.rank(); ++i)
+    smallest = std::min(smallest, Scalar(abs(factors.matrixLU()(i, i))));
+  return smallest > Scalar(0) ? Scalar(factors.maxPivot() / smallest) : Scalar(1);
+}
 
 /// How many samples may be multiplied without losing the digits of what they contract most.
 template <class Scalar>
@@ -134,5 +143,12 @@ std::vector<AffineMap<Scalar>> affine_blocks(const ContactMaps<Scalar>& maps,
   }
   return blocks;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template ContactMaps<double>::ContactMaps(const ForcedLoop<double>&, const Rational&);
+extern template double ContactMaps<double>::spread_of(const Matrix<double, 5>&) const;
+extern template std::vector<AffineMap<double>> affine_blocks(const ContactMaps<double>&,
+                                                             const Contacts&);
+#endif
 
 }  // namespace holdfast

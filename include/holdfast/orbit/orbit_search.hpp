@@ -58,13 +58,15 @@ struct OrbitResult {
 namespace detail {
 
 /// The shortest period of which `contacts` and states are a whole number of repetitions.
-inline std::size_t shortest_period(const PeriodicOrbit& orbit) {
+/// @tparam Orbit  PeriodicOrbit
+template <class Orbit>
+std::size_t shortest_period(const Orbit& orbit) {
   const auto samples = orbit.contacts.size();
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   const StateExtent extent(orbit.states);
   for (std::size_t period = step; period < samples; period += step) {
     if (samples % period != 0) continue;
-    const Vector<double, 5> apart = orbit.states[period] - orbit.states.front();
+    const auto apart = (orbit.states[period] - orbit.states.front()).eval();
     if (extent.share_of(apart) > 1e-10) continue;
     if (std::equal(orbit.contacts.begin() + static_cast<std::ptrdiff_t>(period),
                    orbit.contacts.end(), orbit.contacts.begin()))
@@ -94,21 +96,8 @@ class OrbitSearch {
         motion_(motion),
         weights_(DeviationScale(loop).weights()) {}
 
-  OrbitResult run() {
-    if (limits_.most_samples == 0) limits_.most_samples = 8 * limits_.largest_period;
-    set_reference();
-    while (taken() + ratio_.denominator <= limits_.most_samples) {
-      take_coincidence();
-      if (limits_.watch) limits_.watch();
-      if (left_numbers()) return finish(OrbitOutcome::diverges);
-      if (is_captured()) return finish(OrbitOutcome::certified, shortest(*proposed_));
-      if (const auto result = look_for_return()) return *result;
-      if (taken() >= 2 * std::max(reference_taken_, ratio_.denominator)) set_reference();
-    }
-    if (proposed_) return finish(OrbitOutcome::approaching, shortest(*proposed_));
-    if (failed_) return finish(OrbitOutcome::not_reproduced, *failed_);
-    return finish(OrbitOutcome::none_found);
-  }
+  /// Looks until the orbit is found or the limits are reached.
+  OrbitResult run();
 
  private:
   std::int64_t taken() const { return static_cast<std::int64_t>(contacts_.size()); }
@@ -138,7 +127,7 @@ class OrbitSearch {
   }
 
   bool near_reference() const {
-    const Vector<double, 4> near = 1e-3 * largest_ + 1e-9 * largest_ever_;
+    const Vector<Scalar, 4> near = 1e-3 * largest_ + 1e-9 * largest_ever_;
     return motion_.law().inside() == reference_.backlash.inside &&
            ((motion_.state() - reference_.state).cwiseAbs().array() <= near.array()).all();
   }
@@ -185,14 +174,14 @@ class OrbitSearch {
   }
 
   /// As a share of the motion's extent.
-  double distance_from(const Vector<double, 4>& state) const {
-    return extent_.share_of<double, 4>(motion_.state() - state);
+  double distance_from(const Vector<Scalar, 4>& state) const {
+    return extent_.template share_of<Scalar, 4>(motion_.state() - state);
   }
 
   /// Whether the motion lies on the orbit but for what is still settling, keeps to its contacts for
   /// one more period and ends nearer to it.
   bool follows(const PeriodicOrbit& orbit) {
-    const Vector<double, 4> first = orbit.states.front().template head<4>();
+    const Vector<Scalar, 4> first = orbit.states.front().template head<4>();
     const double before = distance_from(first);
     const auto period = orbit.contacts.size();
     bool same_contacts = true;
@@ -237,16 +226,33 @@ class OrbitSearch {
   Contacts contacts_;
   Memory reference_{};
   std::int64_t reference_taken_ = 0;
-  Vector<double, 4> largest_ = Vector<double, 4>::Zero();
-  Vector<double, 4> largest_ever_ = Vector<double, 4>::Zero();
+  Vector<Scalar, 4> largest_ = Vector<Scalar, 4>::Zero();
+  Vector<Scalar, 4> largest_ever_ = Vector<Scalar, 4>::Zero();
   StateExtent extent_;  // of the motion
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
-  Vector<double, 6> weights_;
+  Vector<Scalar, 6> weights_;
   std::optional<PeriodicOrbit> proposed_;  // certified, and the motion not yet captured by it
   std::vector<CapturePoint> points_;       // of the proposed orbit
   std::optional<PeriodicOrbit> failed_;
 };
+
+template <class Scalar>
+OrbitResult OrbitSearch<Scalar>::run() {
+  if (limits_.most_samples == 0) limits_.most_samples = 8 * limits_.largest_period;
+  set_reference();
+  while (taken() + ratio_.denominator <= limits_.most_samples) {
+    take_coincidence();
+    if (limits_.watch) limits_.watch();
+    if (left_numbers()) return finish(OrbitOutcome::diverges);
+    if (is_captured()) return finish(OrbitOutcome::certified, shortest(*proposed_));
+    if (const auto result = look_for_return()) return *result;
+    if (taken() >= 2 * std::max(reference_taken_, ratio_.denominator)) set_reference();
+  }
+  if (proposed_) return finish(OrbitOutcome::approaching, shortest(*proposed_));
+  if (failed_) return finish(OrbitOutcome::not_reproduced, *failed_);
+  return finish(OrbitOutcome::none_found);
+}
 
 }  // namespace detail
 
@@ -277,5 +283,11 @@ OrbitResult find_periodic_orbit(const ForcedLoop<Scalar>& loop,
                                      periodically_forced_motion(loop, *ratio, initial_state))
       .run();
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitResult detail::OrbitSearch<double>::run();
+extern template OrbitResult find_periodic_orbit(const ForcedLoop<double>&, const Vector<double, 4>&,
+                                                const OrbitLimits&);
+#endif
 
 }  // namespace holdfast

@@ -106,4 +106,10 @@ OrbitCandidate orbit_of_contacts(const ForcedLoop<Scalar>& loop, const Rational&
   return {outcome, std::move(orbit)};
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitCandidate orbit_of_contacts(const ForcedLoop<double>&, const Rational&,
+                                                 const ContactMaps<double>&, const Contacts&,
+                                                 const Backlash<double>&);
+#endif
+
 }  // namespace holdfast

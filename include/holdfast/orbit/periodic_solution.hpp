@@ -112,4 +112,10 @@ std::optional<PeriodicSolution<Scalar>> periodic_solution(const ContactMaps<Scal
   return solution;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template EndRelation<double> relation_of_ends(const std::vector<AffineMap<double>>&);
+extern template std::optional<PeriodicSolution<double>> periodic_solution(
+    const ContactMaps<double>&, const Contacts&, const EndRelation<double>&);
+#endif
+
 }  // namespace holdfast

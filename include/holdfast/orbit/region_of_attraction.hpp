@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/core/types.hpp"
@@ -37,13 +39,28 @@ struct CapturePoint {
   double radius;                  ///< m, or m a metre of clearance; > 0
 };
 
+namespace detail {
+
+/// The number type of a loop such as ForcedLoop.
+template <class Loop>
+using ScalarOf = std::decay_t<decltype(std::declval<const Loop&>().sampling.period)>;
+
+}  // namespace detail
+
 /// The weights by which deviations of an orbit are measured.
+///
+///     DeviationScale(loop).weights();
+///
+/// @tparam Loop  ForcedLoop, or a loop with its members
+template <class Loop>
 struct DeviationScale {
-  double angular_frequency;  ///< ω (rad/s)
-  double stiffness;          ///< k₁ (N/m)
+  using Scalar = detail::ScalarOf<Loop>;
+
+  Scalar angular_frequency;  ///< ω (rad/s)
+  Scalar stiffness;          ///< k₁ (N/m)
 
   /// ω is √(k₁/m₁) where the excitation has no amplitude.
-  explicit DeviationScale(const ForcedLoop<double>& loop)
+  explicit DeviationScale(const Loop& loop)
       : angular_frequency(
             loop.excitation.amplitude > 0.0
                 ? loop.excitation.angular_frequency()
@@ -51,7 +68,7 @@ struct DeviationScale {
         stiffness(loop.plant.conductor_stiffness) {}
 
   /// Each in metres.
-  Vector<double, 6> weights() const {
+  Vector<Scalar, 6> weights() const {
     return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
   }
 };
@@ -101,21 +118,22 @@ struct DeviationSegment {
 };
 
 /// Follows deviations e = [e_z; e_u; e_gap], scaled to metres, along an orbit.
+template <class Scalar>
 class DeviationFlow {
  public:
-  DeviationFlow(const ForcedLoop<double>& loop, const ContactMaps<double>& maps,
-                const PeriodicOrbit& orbit)
+  template <class Loop>
+  DeviationFlow(const Loop& loop, const ContactMaps<Scalar>& maps, const PeriodicOrbit& orbit)
       : orbit_(orbit),
         weights_(DeviationScale(loop).weights()),
         pattern_(
-            switching_pattern(orbit.states, Backlash<double>(loop.backlash_width, orbit.memory))),
+            switching_pattern(orbit.states, Backlash<Scalar>(loop.backlash_width, orbit.memory))),
         lower_(pattern_.memory.lower),
         width_(loop.backlash_width),
         stays_inside_(pattern_.stays_inside()) {
     for (const bool engaged : {false, true}) {
-      Matrix<double, 6>& map = maps_[engaged ? 1 : 0];
+      Matrix<Scalar, 6>& map = maps_[engaged ? 1 : 0];
       map.setZero();
-      map.topLeftCorner<5, 5>() = maps.map(engaged);
+      map.template topLeftCorner<5, 5>() = maps.map(engaged);
       map = weights_.asDiagonal() * map * weights_.cwiseInverse().asDiagonal();
     }
   }
@@ -123,7 +141,7 @@ class DeviationFlow {
   /// The segment of the next `samples` samples.
   DeviationSegment next(std::int64_t samples) {
     DeviationSegment segment;
-    Matrix<double, 6> flow = Matrix<double, 6>::Identity();
+    Matrix<Scalar, 6> flow = Matrix<Scalar, 6>::Identity();
     for (std::int64_t k = 0; k < samples; ++k) {
       take_sample(flow, segment);
       if (++sample_ == orbit_.states.size()) sample_ = 0;
@@ -134,36 +152,36 @@ class DeviationFlow {
 
  private:
   /// Δz and Δż of a deviation as rows for scaled ones.
-  RowVector<double, 6> relative(int first) const {
-    RowVector<double, 6> row = RowVector<double, 6>::Zero();
+  RowVector<Scalar, 6> relative(int first) const {
+    RowVector<Scalar, 6> row = RowVector<Scalar, 6>::Zero();
     row[first] = -1.0 / weights_[first];
     row[first + 2] = 1.0 / weights_[first + 2];
     return row;
   }
 
-  void take_sample(Matrix<double, 6>& flow, DeviationSegment& segment) {
+  void take_sample(Matrix<Scalar, 6>& flow, DeviationSegment& segment) {
     const ContactDecision& decision = pattern_.decisions[sample_];
-    const Vector<double, 5>& state = orbit_.states[sample_];
-    const auto limit = [&](const RowVector<double, 6>& row, double distance) {
+    const Vector<Scalar, 5>& state = orbit_.states[sample_];
+    const auto limit = [&](const RowVector<Scalar, 6>& row, double distance) {
       segment.radius = std::min(segment.radius, distance / (row * flow).norm());
     };
     if (decision.velocity_sign != 0) limit(relative(1), std::abs(relative_velocity(state)));
-    const RowVector<double, 6> displacement = relative(0);
+    const RowVector<Scalar, 6> displacement = relative(0);
     if (decision.was_inside) limit(from_gap(displacement), distance_to_end(decision, state));
     const bool enters = !decision.was_inside && !decision.engaged;
     if (enters) enter(state);
-    Matrix<double, 6> map = maps_[decision.engaged ? 1 : 0];
+    Matrix<Scalar, 6> map = maps_[decision.engaged ? 1 : 0];
     if (enters) map.row(5) = displacement;
     if (decision.was_inside && !decision.engaged && !stays_inside_) map(5, 5) = 1.0;
     flow = map * flow;
   }
 
-  RowVector<double, 6> from_gap(RowVector<double, 6> displacement) const {
+  RowVector<Scalar, 6> from_gap(RowVector<Scalar, 6> displacement) const {
     displacement[5] = stays_inside_ ? 0.0 : -1.0;
     return displacement;
   }
 
-  double distance_to_end(const ContactDecision& decision, const Vector<double, 5>& state) const {
+  double distance_to_end(const ContactDecision& decision, const Vector<Scalar, 5>& state) const {
     if (stays_inside_) return 1.0;
     const double above = relative_displacement(state) - lower_;
     if (decision.exit_side < 0) return -above;
@@ -171,19 +189,19 @@ class DeviationFlow {
     return std::min(above, width_ - above);
   }
 
-  void enter(const Vector<double, 5>& state) {
+  void enter(const Vector<Scalar, 5>& state) {
     const std::size_t before = (sample_ + orbit_.states.size() - 1) % orbit_.states.size();
     const bool from_positive = pattern_.decisions[before].velocity_sign > 0;
     lower_ = relative_displacement(state) - (from_positive ? width_ : 0.0);
   }
 
   const PeriodicOrbit& orbit_;
-  Vector<double, 6> weights_;
+  Vector<Scalar, 6> weights_;
   SwitchingPattern pattern_;
   double lower_;
   double width_;
   bool stays_inside_;
-  std::array<Matrix<double, 6>, 2> maps_;
+  std::array<Matrix<Scalar, 6>, 2> maps_;
   std::size_t sample_ = 0;
 };
 
@@ -211,29 +229,24 @@ inline std::vector<double> capture_radii(const std::vector<DeviationSegment>& se
   return radii;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// The segments of one period, each of `length` coincidences but perhaps a shorter last one; or one
 /// segment of several whole periods.
-inline std::vector<DeviationSegment> deviation_segments(const ForcedLoop<double>& loop,
-                                                        const ContactMaps<double>& maps,
-                                                        const PeriodicOrbit& orbit,
-                                                        std::int64_t length) {
+template <class Loop, class Scalar>
+std::vector<DeviationSegment> deviation_segments(const Loop& loop, const ContactMaps<Scalar>& maps,
+                                                 const PeriodicOrbit& orbit, std::int64_t length) {
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t whole = std::max(orbit.period_samples() / step, length);
-  DeviationFlow flow(loop, maps, orbit);
+  DeviationFlow<Scalar> flow(loop, maps, orbit);
   std::vector<DeviationSegment> segments;
   for (std::int64_t done = 0; done < whole; done += length)
     segments.push_back(flow.next(step * std::min(length, whole - done)));
   return segments;
 }
 
-inline std::vector<CapturePoint> points_with_radii(const ForcedLoop<double>& loop,
-                                                   const PeriodicOrbit& orbit,
-                                                   std::int64_t samples_of_segment,
-                                                   const std::vector<double>& radii) {
+template <class Loop>
+std::vector<CapturePoint> points_with_radii(const Loop& loop, const PeriodicOrbit& orbit,
+                                            std::int64_t samples_of_segment,
+                                            const std::vector<double>& radii) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const auto& state : orbit.states) {
     lowest = std::min(lowest, relative_displacement(state));
@@ -241,7 +254,7 @@ inline std::vector<CapturePoint> points_with_radii(const ForcedLoop<double>& loo
   }
   const bool stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
   std::vector<CapturePoint> points;
-  Backlash<double> law(loop.backlash_width, orbit.memory);
+  Backlash<ScalarOf<Loop>> law(loop.backlash_width, orbit.memory);
   for (std::int64_t j = 0; j < orbit.period_samples(); ++j) {
     const auto& state = orbit.states[static_cast<std::size_t>(j)];
     if (j % samples_of_segment == 0) {
@@ -268,9 +281,10 @@ inline std::vector<CapturePoint> points_with_radii(const ForcedLoop<double>& loo
 /// @return in the order of the orbit; empty where no segments of up to 64 periods, or 10⁶ samples,
 ///         contract
 /// Work: about 300 multiply-adds a sample for every length of segment that is tried.
-inline std::vector<CapturePoint> capture_points(const ForcedLoop<double>& loop,
-                                                const PeriodicOrbit& orbit) {
-  const ContactMaps<double> maps(loop, orbit.ratio);
+/// @tparam Loop  ForcedLoop<double>; a template so that only who calls it compiles it
+template <class Loop>
+std::vector<CapturePoint> capture_points(const Loop& loop, const PeriodicOrbit& orbit) {
+  const ContactMaps<detail::ScalarOf<Loop>> maps(loop, orbit.ratio);
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t coincidences = orbit.period_samples() / step;
   // Segments of more than one period hold whole ones, to begin where they are used again.
@@ -284,5 +298,10 @@ inline std::vector<CapturePoint> capture_points(const ForcedLoop<double>& loop,
   }
   return {};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<CapturePoint> capture_points(const ForcedLoop<double>&,
+                                                         const PeriodicOrbit&);
+#endif
 
 }  // namespace holdfast

@@ -125,8 +125,9 @@ struct Borders {
 /// @param pattern  of the orbit, or of one that it is to be compared with
 /// @param states   z̃_j, one for each decision, of a motion that repeats them for ever
 /// @param width    r₀ (m)
-inline Borders borders_of(const SwitchingPattern& pattern,
-                          const std::vector<Vector<double, 5>>& states, double width) {
+template <class Scalar>
+Borders borders_of(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
+                   double width) {
   Borders nearest;
   double lower = pattern.memory.lower, upper = pattern.memory.upper;
   const std::size_t samples = states.size();

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 
@@ -63,10 +62,12 @@ bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
 }
 
 /// The different orbits of one loop, and the neighbourhoods from which motions tend to them.
+/// @tparam Loop  ForcedLoop<double>
+template <class Loop>
 class OrbitCatalogue {
  public:
   /// @param loop  of all orbits that will be added
-  explicit OrbitCatalogue(const ForcedLoop<double>& loop)
+  explicit OrbitCatalogue(const Loop& loop)
       : loop_(loop), weights_(DeviationScale(loop).weights()) {}
 
   /// @return the orbit's number, that of an earlier one of which it is a copy
@@ -108,7 +109,7 @@ class OrbitCatalogue {
     CapturePoint point;
   };
 
-  ForcedLoop<double> loop_;
+  Loop loop_;
   Vector<double, 6> weights_;
   std::vector<PeriodicOrbit> orbits_;
   std::vector<Entry> entries_;  // by z₁

@@ -158,7 +158,7 @@ class BasinSearch {
   ForcedLoop<double> loop_;
   OrbitLimits limits_;
   const Tiles& for_tiles_;
-  OrbitCatalogue catalogue_;
+  OrbitCatalogue<ForcedLoop<double>> catalogue_;
   std::vector<TravellingMotion> left_;
   std::vector<MotionFate> fates_;
 };

@@ -41,7 +41,9 @@ class Coverage {
   }
 
   /// Marks the cell of a sample's (z₁, ż₁); of one outside the window nothing.
-  void operator()(const MotionSample<double>& sample) {
+  /// @tparam Sample  MotionSample<double> or HybridSample
+  template <class Sample>
+  void operator()(const Sample& sample) {
     const double x = fraction(sample.state[0], window_.displacement_min, window_.displacement_max);
     const double y = fraction(sample.state[1], window_.velocity_min, window_.velocity_max);
     if (!(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0)) return;

@@ -30,6 +30,8 @@ namespace detail {
 
 /// The different orbits of one RealLoop, by their points at the coincidences of sampling and
 /// forcing.
+/// @tparam Orbit  HybridOrbit
+template <class Orbit>
 class HybridCatalogue {
  public:
   /// A point of an orbit.
@@ -39,7 +41,7 @@ class HybridCatalogue {
   };
 
   /// @return the orbit's number, that of an earlier one of which it is a copy
-  int add(HybridOrbit orbit) {
+  int add(Orbit orbit) {
     for (std::size_t k = 0; k < orbits_.size(); ++k)
       if (is_phase_shifted_copy(orbits_[k], orbit)) return static_cast<int>(k);
     const int number = static_cast<int>(orbits_.size());
@@ -53,7 +55,7 @@ class HybridCatalogue {
     return number;
   }
 
-  const std::vector<HybridOrbit>& orbits() const { return orbits_; }
+  const std::vector<Orbit>& orbits() const { return orbits_; }
 
   /// Within so many samples most motions that come to one of the orbits are near it.
   double patience() const { return patience_; }
@@ -84,7 +86,7 @@ class HybridCatalogue {
     Place place;
   };
 
-  void add_places(const HybridOrbit& orbit, int number, double extent) {
+  void add_places(const Orbit& orbit, int number, double extent) {
     const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
     for (std::size_t sample = 0; sample < orbit.states.size(); sample += step)
       entries_.push_back({orbit.states[sample][0], {number, sample}});
@@ -94,12 +96,12 @@ class HybridCatalogue {
   }
 
   /// Samples in which a deviation shrinks by 10⁸, and a few periods.
-  static double samples_to_come(const HybridOrbit& orbit) {
+  static double samples_to_come(const Orbit& orbit) {
     const double periods = std::log(1e8) / -orbit.multipliers.front().log_modulus;
     return static_cast<double>(orbit.period_samples()) * (8.0 + std::ceil(periods));
   }
 
-  std::vector<HybridOrbit> orbits_;
+  std::vector<Orbit> orbits_;
   std::vector<Vector<double, 4>> extents_;  // of each orbit
   std::vector<Entry> entries_;              // by displacement
   double largest_reach_ = 0.0;
@@ -109,10 +111,12 @@ class HybridCatalogue {
 /// A motion that may come to an orbit of a catalogue.
 template <class Contact>
 class CatalogueWalk {
+  using Catalogue = HybridCatalogue<HybridOrbit>;
+
  public:
   /// @param start  at a coincidence of sampling and forcing
   CatalogueWalk(const HybridMotion<Contact>& start, const Rational& ratio,
-                const HybridCatalogue& catalogue)
+                const Catalogue& catalogue)
       : catalogue_(catalogue), motion_(start, ratio.denominator) {}
 
   /// @return the number of the orbit that it comes to; −1: none in so many samples
@@ -127,7 +131,7 @@ class CatalogueWalk {
   }
 
  private:
-  using Place = HybridCatalogue::Place;
+  using Place = Catalogue::Place;
 
   const Vector<double, 4>& state() const { return motion_.motion().state(); }
 
@@ -165,7 +169,7 @@ class CatalogueWalk {
     return keeps;
   }
 
-  const HybridCatalogue& catalogue_;
+  const Catalogue& catalogue_;
   RepeatingMotion<Contact> motion_;
   std::int64_t taken_ = 0;
 };
@@ -242,7 +246,7 @@ class HybridBasinSearch {
   Rational ratio_;
   OrbitLimits limits_;
   const Tiles& for_tiles_;
-  HybridCatalogue catalogue_;
+  HybridCatalogue<HybridOrbit> catalogue_;
 };
 
 }  // namespace detail

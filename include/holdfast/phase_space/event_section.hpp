@@ -28,10 +28,12 @@ struct KnownVelocity {
   double sign = 0.0;  ///< the sign that Δż keeps all through it, ±1; 0: not told
 };
 
-inline KnownVelocity known_velocity(const Guards& guards) {
+/// @tparam ContactGuards  Guards
+template <class ContactGuards>
+KnownVelocity known_velocity(const ContactGuards& guards) {
   KnownVelocity known;
   for (int g = 0; g < guards.count; ++g) {
-    const Guard& guard = guards.guard[static_cast<std::size_t>(g)];
+    const auto& guard = guards.guard[static_cast<std::size_t>(g)];
     if (guard.state == velocity_row() * guard.state[3]) {
       known.zeros = std::max(known.zeros, guard.zeros);
       if (!guard.unsigned_yet) known.sign = guard.state[3];

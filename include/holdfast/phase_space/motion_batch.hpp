@@ -121,10 +121,11 @@ class MotionBatch {
   ///                   `samples` samples, a whole number of coincidences
   /// @param count      number of motions, ≥ 0
   /// @param samples    ≥ 1
-  /// @param catalogue  of orbits of the same loop
+  /// @param catalogue  OrbitCatalogue of orbits of the same loop
   /// @throws InvalidParameter for less than one sample
+  template <class Catalogue>
   void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
-           const OrbitCatalogue& catalogue) {
+           const Catalogue& catalogue) {
     require_positive("number of samples", static_cast<double>(samples), "");
     // Looking costs about as much as twenty samples of all lanes.
     const std::int64_t looks_every = (63 / ratio_.denominator + 1) * ratio_.denominator;
@@ -161,7 +162,8 @@ class MotionBatch {
   }
 
   /// Whether a lane's motion has ended, or its samples have.
-  bool look(std::size_t lane, const OrbitCatalogue& catalogue) {
+  template <class Catalogue>
+  bool look(std::size_t lane, const Catalogue& catalogue) {
     Place& place = places_[lane];
     if (place.motion == nullptr) return false;
     TravellingMotion& motion = *place.motion;

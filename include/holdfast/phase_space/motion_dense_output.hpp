@@ -10,9 +10,11 @@
 namespace holdfast::detail {
 
 /// A motion of the paper's model, one sample at a time, and the way between the samples.
+/// @tparam Loop  ForcedLoop<double>
+template <class Loop>
 class SampledWay {
  public:
-  SampledWay(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state)
+  SampledWay(const Loop& loop, const Vector<double, 4>& initial_state)
       : between_(loop), motion_(harmonically_forced_motion(loop, initial_state)) {}
 
   MotionSample<double> sense() {

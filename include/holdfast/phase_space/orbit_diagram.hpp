@@ -41,7 +41,9 @@ struct StrobePoint {
 namespace detail {
 
 /// A size that no bounded motion reaches: 10¹² times all that sets its scale.
-inline double divergence_bound(const RealLoop& loop, const Vector<double, 4>& state) {
+/// @tparam Loop  RealLoop
+template <class Loop>
+double divergence_bound(const Loop& loop, const Vector<double, 4>& state) {
   const ComposedForce& force = loop.digital.force;
   double largest = 0.0;
   if (force.record)
@@ -81,10 +83,10 @@ bool show_strobes(Way& way, const DiagramQuestion& question, double forcing_peri
   return true;
 }
 
-template <class Observer>
-bool show_strobes(const ForcedLoop<double>& loop, const DiagramQuestion& question,
+template <class Scalar, class Observer>
+bool show_strobes(const ForcedLoop<Scalar>& loop, const DiagramQuestion& question,
                   Vector<double, 4>& state, Observer&& observer) {
-  SampledWay way(loop, state);
+  SampledWay<ForcedLoop<Scalar>> way(loop, state);
   return show_strobes(way, question, 1.0 / loop.excitation.frequency,
                       divergence_bound(real_loop(loop), state), state, observer);
 }

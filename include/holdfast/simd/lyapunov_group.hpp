@@ -41,11 +41,9 @@ class LyapunovGroup {
     const Words discarded = advance(run_.discard, [] { return true; });
     for (std::size_t pack = 0; pack < packs_of_group; ++pack)
       spectra_[pack].restart(discarded[pack]);
-    std::size_t judged = 0;
+    holdfast::detail::JudgingTimes judging(run_);
     const Words open = advance(run_.most_samples, [&] {
-      const std::size_t batches = spectra_[0].complete_batches();
-      if (batches != judged && batches >= batches_to_judge && run_.standard_error > 0) judge();
-      judged = batches;
+      if (judging.have_come(spectra_[0].complete_batches())) judge();
       return running_ > 0;
     });
     for (std::size_t pack = 0; pack < packs_of_group; ++pack) {

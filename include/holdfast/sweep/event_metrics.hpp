@@ -45,12 +45,14 @@ inline MotionMetrics unfollowed_metrics(std::int64_t samples) {
 }
 
 /// Takes the samples of one motion, each into all that is kept of them.
+/// @tparam Scalar  `double`
+template <class Scalar>
 class HybridTrack {
  public:
   explicit HybridTrack(const SampleSpan& span) : span_(span) {}
 
   void observe(const HybridSample& sample) {
-    const double velocity = relative_velocity(sample.state);
+    const Scalar velocity = relative_velocity(sample.state);
     const bool reverses = is_reversal(previous_velocity_, velocity);
     previous_velocity_ = velocity;
     extremum_.observe(sample.state[0]);
@@ -76,10 +78,10 @@ class HybridTrack {
   }
 
   SampleSpan span_;
-  FirstExtremum<double> extremum_;
-  LoadExtent<double> load_;
-  SteadySums<double> steady_;
-  double previous_velocity_ = 0.0;
+  FirstExtremum<Scalar> extremum_;
+  LoadExtent<Scalar> load_;
+  SteadySums<Scalar> steady_;
+  Scalar previous_velocity_ = Scalar(0);
 };
 
 }  // namespace detail
@@ -101,15 +103,17 @@ class HybridTrack {
 /// @param pause          called every 2¹⁴ samples; may throw to end the motion
 /// @throws InvalidParameter where the loop or the duration is not admissible, or the state not
 /// finite
-inline MotionMetrics hybrid_metrics(const RealLoop& loop, const Vector<double, 4>& initial_state,
-                                    double duration, const std::function<void()>& pause = {}) {
+/// @tparam Loop  RealLoop; a template so that only who calls it compiles it
+template <class Loop>
+MotionMetrics hybrid_metrics(const Loop& loop, const Vector<double, 4>& initial_state,
+                             double duration, const std::function<void()>& pause = {}) {
   constexpr std::int64_t samples_between_pauses = 1 << 14;
   validate(loop);
   for (const double entry : initial_state) require_finite("initial state", entry, "SI");
   const SamplingClock clock(loop.digital.sampling.period, loop.digital.jitter);
   const detail::SampleSpan span = detail::sample_span(clock, duration);
   return with_motion(loop, initial_state, [&](auto motion) {
-    detail::HybridTrack track(span);
+    detail::HybridTrack<double> track(span);
     for (std::int64_t taken = 0; taken < span.samples; ++taken) {
       if (pause && taken % samples_between_pauses == 0) pause();
       if (!std::isfinite(motion.state().sum())) return track.diverged(taken);
@@ -120,5 +124,10 @@ inline MotionMetrics hybrid_metrics(const RealLoop& loop, const Vector<double, 4
     return track.completed(clock);
   });
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MotionMetrics hybrid_metrics(const RealLoop&, const Vector<double, 4>&, double,
+                                             const std::function<void()>&);
+#endif
 
 }  // namespace holdfast

@@ -22,7 +22,9 @@ class SweepMatrices {
     HarmonicInput<double> input;
   };
 
-  const Matrices& of(const ForcedLoop<double>& loop) {
+  /// @tparam Loop  ForcedLoop<double>; a template so that only who calls it compiles it
+  template <class Loop>
+  const Matrices& of(const Loop& loop) {
     const bool same_loop = known_ && numbers_of(known_->plant) == numbers_of(loop.plant) &&
                            known_->sampling.period == loop.sampling.period &&
                            known_->sampling.processing_delay == loop.sampling.processing_delay;

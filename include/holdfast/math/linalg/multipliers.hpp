@@ -147,4 +147,9 @@ std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, 
   return multipliers;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<Multiplier> multipliers_of_product(
+    const std::vector<Matrix<double, 5>>&);
+#endif
+
 }  // namespace holdfast

@@ -20,8 +20,9 @@ namespace holdfast {
 namespace detail {
 
 /// p′(x).
-inline Series derivative_of(const Series& p) {
-  Series slope = Series::Zero(std::max<Eigen::Index>(p.size() - 1, 1));
+template <class Coefficients>
+Coefficients derivative_of(const Coefficients& p) {
+  Coefficients slope = Coefficients::Zero(std::max<Eigen::Index>(p.size() - 1, 1));
   for (Eigen::Index k = 1; k < p.size(); ++k) slope[k - 1] = static_cast<double>(k) * p[k];
   return slope;
 }

@@ -23,7 +23,9 @@ namespace holdfast {
 
 /// The map X_0 → X_N of a motion, N a multiple of q, with its derivative, which includes the
 /// saltation at every switch; X as in HybridTangent.
-template <class Contact>
+/// @tparam Contact  of the motion
+/// @tparam Scalar   of X
+template <class Contact, class Scalar = double>
 class HybridReturn {
  public:
   /// X with the contact that goes with it.
@@ -50,14 +52,14 @@ class HybridReturn {
     std::optional<Point> best;
     for (int count = 0, failures = 0; count < most_iterations && failures < most_failures;
          ++count) {
-      Matrix<double, 7> map = Matrix<double, 7>::Identity();
+      Matrix<Scalar, 7> map = Matrix<Scalar, 7>::Identity();
       const Point end = follow(near, [&](const auto& tangent) {
         map = in_units(tangent.map()) * map;
         extent.include(motion_.motion().state());
       });
-      const Vector<double, 7> open = detail::difference(near, end);
+      const Vector<Scalar, 7> open = detail::difference(near, end);
       if (end.contact.mode() != near.contact.mode() || !open.allFinite()) return std::nullopt;
-      const Vector<double, 4> gap(open[gap_row], 0.0, 0.0, 0.0);
+      const Vector<Scalar, 4> gap(open[gap_row], 0.0, 0.0, 0.0);
       const double distance = std::max(extent.share_of(open), extent.share_of(gap));
       failures = distance < 0.5 * least ? 0 : failures + 1;
       if (distance < least) best = near;
@@ -83,12 +85,12 @@ class HybridReturn {
     const bool in_blocks = counting.size() <= 5;
     const bool gap_counts = std::count(counting.begin(), counting.end(), gap_row) > 0;
     const int most = in_blocks ? most_maps_in_a_block(counting) : std::numeric_limits<int>::max();
-    std::vector<Matrix<double, 7>> blocks;
+    std::vector<Matrix<Scalar, 7>> blocks;
     int maps = most, rank = 7;
     bool may_cut = true;
     follow(point, [&](const auto& tangent) {
       if (maps >= most && may_cut) {
-        blocks.emplace_back(Matrix<double, 7>::Identity());
+        blocks.emplace_back(Matrix<Scalar, 7>::Identity());
         maps = 0;
       }
       blocks.back() = in_units(tangent.map()) * blocks.back();
@@ -107,7 +109,7 @@ class HybridReturn {
  private:
   static constexpr int gap_row = 5;
 
-  Matrix<double, 7> in_units(const Matrix<double, 7>& map) const {
+  Matrix<Scalar, 7> in_units(const Matrix<Scalar, 7>& map) const {
     return units_.cwiseInverse().asDiagonal() * map * units_.asDiagonal();
   }
 
@@ -125,9 +127,9 @@ class HybridReturn {
     return motion_.point();
   }
 
-  static std::optional<Vector<double, 7>> correction_of(const Matrix<double, 7>& map,
-                                                        Vector<double, 7> open, bool gap_opens) {
-    Matrix<double, 7> closed = Matrix<double, 7>::Identity() - map;
+  static std::optional<Vector<Scalar, 7>> correction_of(const Matrix<Scalar, 7>& map,
+                                                        Vector<Scalar, 7> open, bool gap_opens) {
+    Matrix<Scalar, 7> closed = Matrix<Scalar, 7>::Identity() - map;
     if (!gap_opens) {
       closed.row(gap_row).setZero();
       closed.col(gap_row).setZero();
@@ -135,9 +137,9 @@ class HybridReturn {
       open[gap_row] = 0.0;
     }
     if (!closed.allFinite()) return std::nullopt;
-    const Eigen::FullPivLU<Matrix<double, 7>> factors(closed);
+    const Eigen::FullPivLU<Matrix<Scalar, 7>> factors(closed);
     if (!factors.isInvertible()) return std::nullopt;
-    return Vector<double, 7>(factors.solve(open));
+    return Vector<Scalar, 7>(factors.solve(open));
   }
 
   std::vector<int> counting_coordinates(const Point& point, bool gap_opens) const {
@@ -159,21 +161,21 @@ class HybridReturn {
     return static_cast<int>(std::clamp(maps, 1.0, 16.0));
   }
 
-  static std::vector<Matrix<double, 5>> restricted(const std::vector<Matrix<double, 7>>& blocks,
+  static std::vector<Matrix<Scalar, 5>> restricted(const std::vector<Matrix<Scalar, 7>>& blocks,
                                                    const std::vector<int>& counting) {
-    std::vector<Matrix<double, 5>> result;
+    std::vector<Matrix<Scalar, 5>> result;
     result.reserve(blocks.size());
     const auto size = static_cast<Eigen::Index>(counting.size());
-    for (const Matrix<double, 7>& block : blocks) {
-      result.emplace_back(Matrix<double, 5>::Zero());
+    for (const Matrix<Scalar, 7>& block : blocks) {
+      result.emplace_back(Matrix<Scalar, 5>::Zero());
       result.back().topLeftCorner(size, size) = block(counting, counting);
     }
     return result;
   }
 
-  static std::vector<Multiplier> eigenvalues(const Matrix<double, 7>& map,
+  static std::vector<Multiplier> eigenvalues(const Matrix<Scalar, 7>& map,
                                              const std::vector<int>& counting) {
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(map(counting, counting), false);
+    const Eigen::EigenSolver<Matrix<Scalar, Eigen::Dynamic>> solver(map(counting, counting), false);
     std::vector<Multiplier> found;
     for (const std::complex<double>& value : solver.eigenvalues())
       found.push_back({std::log(std::abs(value)), std::arg(value)});
@@ -184,7 +186,7 @@ class HybridReturn {
 
   RepeatingMotion<Contact> motion_;
   std::int64_t samples_;
-  Vector<double, 7> units_;  // of X
+  Vector<Scalar, 7> units_;  // of X
 };
 
 }  // namespace holdfast

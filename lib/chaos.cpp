@@ -1,0 +1,41 @@
+// Explicit instantiations of chaos for double.
+
+#include "holdfast/chaos/block_spectrum.hpp"
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/itinerary_blocks.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/switching_complexity.hpp"
+#include "holdfast/chaos/zero_one_test.hpp"
+
+namespace holdfast {
+
+template ContactSpectrum<double>::ContactSpectrum(std::shared_ptr<const ContactWords>,
+                                                  LyapunovScope);
+template void ContactSpectrum<double>::restart(const Words&);
+template std::array<LyapunovSpectrum<double, 5>, 1> ContactSpectrum<double>::spectra(
+    const Words&) const;
+template void ContactSpectrum<double>::close_block();
+
+template HybridVerdict classify_motion(const RealLoop&, const Vector<double, 4>&,
+                                       const OrbitLimits&);
+
+template ContactWords::ContactWords(const Matrix<double, 5>&, const Matrix<double, 5>&);
+
+template int LyapunovSpectrum<double, 5>::rank_of(const Matrix<double, 5>&);
+template void LyapunovSpectrum<double, 5>::push(const Matrix<double, 5>&, int);
+template Vector<double, 5> LyapunovSpectrum<double, 5>::exponents() const;
+template Vector<double, 5> LyapunovSpectrum<double, 5>::cautious_standard_errors() const;
+template int LyapunovSpectrum<double, 7>::rank_of(const Matrix<double, 7>&);
+template void LyapunovSpectrum<double, 7>::push(const Matrix<double, 7>&, int);
+template Vector<double, 7> LyapunovSpectrum<double, 7>::exponents() const;
+template Vector<double, 7> LyapunovSpectrum<double, 7>::cautious_standard_errors() const;
+
+template MotionVerdict classify_motion(const ForcedLoop<double>&, const Vector<double, 4>&,
+                                       const OrbitLimits&);
+
+template SwitchingComplexity switching_complexity(const std::vector<bool>&);
+
+template ZeroOneResult zero_one_test(const std::vector<double>&, int);
+
+}  // namespace holdfast

@@ -1,0 +1,10 @@
+// Explicit instantiations of sweep for double.
+
+#include "holdfast/sweep/event_metrics.hpp"
+
+namespace holdfast {
+
+template MotionMetrics hybrid_metrics(const RealLoop&, const Vector<double, 4>&, double,
+                                      const std::function<void()>&);
+
+}  // namespace holdfast
