@@ -24,12 +24,13 @@ Vector<Scalar, 2> bar_pull(const Vector<Scalar, 2>& reach, double length, double
 }
 
 /// ∂(T n)/∂reach = (EA/l₀) n nᵀ + (T/l)(I − n nᵀ) (N/m), symmetric.
-inline Matrix<double, 2> bar_stiffness(const Vector<double, 2>& reach, double length,
-                                       double axial_stiffness) {
-  const Matrix<double, 2> along = reach * reach.transpose() / reach.squaredNorm();
-  return axial_stiffness / length * along + bar_tension<double>(reach, length, axial_stiffness) /
+template <class Scalar>
+Matrix<Scalar, 2> bar_stiffness(const Vector<Scalar, 2>& reach, double length,
+                                double axial_stiffness) {
+  const Matrix<Scalar, 2> along = reach * reach.transpose() / reach.squaredNorm();
+  return axial_stiffness / length * along + bar_tension<Scalar>(reach, length, axial_stiffness) /
                                                 reach.norm() *
-                                                (Matrix<double, 2>::Identity() - along);
+                                                (Matrix<Scalar, 2>::Identity() - along);
 }
 
 /// A cable as N elastic bars between N + 1 nodes, the outer two being the supports.
@@ -37,16 +38,18 @@ inline Matrix<double, 2> bar_stiffness(const Vector<double, 2>& reach, double le
 /// The bars' unstretched lengths add up to the cable's; a node lies at the absorber's material
 /// point, and on either side of it the bars are equal. Positions are 2 × (N − 1), a column
 /// [x, y]ᵀ (m) per free node, y downward.
-class BarChain {
+/// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
+template <class Real>
+class BasicBarChain {
  public:
   /// Columns of free nodes' positions (m) or velocities (m/s).
-  using Nodes = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+  using Nodes = Eigen::Matrix<Real, 2, Eigen::Dynamic>;
 
   /// @param conductor  admissible in the sense of `validate`
   /// @param position   x_p (m), inside the span: where a node is to lie in the bare cable
   /// @param elements   N, ≥ 2
   /// @throws InvalidParameter otherwise
-  BarChain(const Conductor<double>& conductor, double position, int elements);
+  BasicBarChain(const Conductor<Real>& conductor, Real position, int elements);
 
   /// N, the number of bars.
   int elements() const { return static_cast<int>(lengths_.size()); }
@@ -55,14 +58,14 @@ class BarChain {
   /// Index of the free node at the absorber's place.
   int loaded_node() const { return loaded_node_; }
   /// l₀ (m) of bar e, between the free nodes e − 1 and e.
-  double length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
+  Real length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
   /// EA (N), of every bar.
-  double axial_stiffness() const { return cable_.axial_stiffness(); }
+  Real axial_stiffness() const { return cable_.axial_stiffness(); }
   /// The cable that the bars stand for.
-  const Conductor<double>& conductor() const { return conductor_; }
+  const Conductor<Real>& conductor() const { return conductor_; }
 
   /// Lumped mass (kg) of a free node: half of each of its two bars.
-  double mass(int node) const {
+  Real mass(int node) const {
     return conductor_.mass_per_length * 0.5 * (length(node) + length(node + 1));
   }
 
@@ -77,40 +80,38 @@ class BarChain {
   }
 
   /// Smallest tension (N) of all bars; not positive where the chain is slack.
-  double smallest_tension(const Nodes& nodes) const {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int e = 0; e < elements(); ++e)
-      smallest =
-          std::min(smallest, bar_tension<double>(reach(nodes, e), length(e), axial_stiffness()));
-    return smallest;
-  }
+  Real smallest_tension(const Nodes& nodes) const;
 
   /// Where the exact statics put the nodes with a load P (N) at the absorber's place: the first
   /// guess for the chain's own equilibrium.
-  Nodes catenary_positions(double load) const;
+  Nodes catenary_positions(Real load) const;
 
  private:
-  static const Conductor<double>& checked(const Conductor<double>& conductor, double position,
-                                          int elements) {
+  static const Conductor<Real>& checked(const Conductor<Real>& conductor, Real position,
+                                        int elements) {
     validate(conductor);
     require_inside_span(position, conductor.span);
     require_within("number of elements", elements, "", 2, 1000000);
     return conductor;
   }
 
-  Conductor<double> conductor_;
-  HangingCable<double> cable_;
-  double place_;
+  Conductor<Real> conductor_;
+  HangingCable<Real> cable_;
+  Real place_;
   int loaded_node_;
-  std::vector<double> lengths_;
+  std::vector<Real> lengths_;
 };
 
-inline BarChain::BarChain(const Conductor<double>& conductor, double position, int elements)
+/// The chain in `double`.
+using BarChain = BasicBarChain<double>;
+
+template <class Real>
+BasicBarChain<Real>::BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
     : conductor_(checked(conductor, position, elements)),
       cable_(conductor),
       place_(cable_.material_coordinate(position)),
       loaded_node_(0) {
-  const double whole = cable_.unstretched_length();
+  const Real whole = cable_.unstretched_length();
   const int left =
       std::clamp(static_cast<int>(std::lround(elements * place_ / whole)), 1, elements - 1);
   loaded_node_ = left - 1;
@@ -118,15 +119,28 @@ inline BarChain::BarChain(const Conductor<double>& conductor, double position, i
   lengths_.resize(static_cast<std::size_t>(elements), (whole - place_) / (elements - left));
 }
 
-inline BarChain::Nodes BarChain::catenary_positions(double load) const {
-  const LoadedCable<double> loaded = cable_.under_load(load, place_);
+template <class Real>
+Real BasicBarChain<Real>::smallest_tension(const Nodes& nodes) const {
+  Real smallest = std::numeric_limits<Real>::infinity();
+  for (int e = 0; e < elements(); ++e)
+    smallest = std::min(smallest, bar_tension<Real>(reach(nodes, e), length(e), axial_stiffness()));
+  return smallest;
+}
+
+template <class Real>
+typename BasicBarChain<Real>::Nodes BasicBarChain<Real>::catenary_positions(Real load) const {
+  const LoadedCable<Real> loaded = cable_.under_load(load, place_);
   Nodes nodes(2, free_nodes());
-  double s = 0.0;
+  Real s = 0.0;
   for (int node = 0; node < free_nodes(); ++node) {
     s += length(node);
     nodes.col(node) = cable_.point(loaded, load, place_, s);
   }
   return nodes;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class BasicBarChain<double>;
+#endif
 
 }  // namespace holdfast

@@ -34,13 +34,14 @@ struct ElementsModes {
 namespace detail {
 
 /// Mass matrix (kg) of the chain with fixed supports, 2(N − 1) square.
-inline Eigen::MatrixXd mass_matrix(const BarChain& chain, MassModel model) {
+template <class Real>
+Matrix<Real, Eigen::Dynamic> mass_matrix(const BasicBarChain<Real>& chain, MassModel model) {
   const int size = 2 * chain.free_nodes();
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  Matrix<Real, Eigen::Dynamic> matrix = Matrix<Real, Eigen::Dynamic>::Zero(size, size);
   for (int e = 0; e < chain.elements(); ++e) {
-    const double mass = chain.conductor().mass_per_length * chain.length(e);
-    const double own = mass * (model == MassModel::lumped ? 0.5 : 1.0 / 3.0);
-    const double shared = model == MassModel::lumped ? 0.0 : mass / 6.0;
+    const Real mass = chain.conductor().mass_per_length * chain.length(e);
+    const Real own = mass * (model == MassModel::lumped ? 0.5 : 1.0 / 3.0);
+    const Real shared = model == MassModel::lumped ? 0.0 : mass / 6.0;
     for (int i = 0; i < 2; ++i) {
       const int left = 2 * (e - 1) + i, right = 2 * e + i;
       if (e > 0) matrix(left, left) += own;
@@ -54,8 +55,10 @@ inline Eigen::MatrixXd mass_matrix(const BarChain& chain, MassModel model) {
 }
 
 /// Share of φᵀ M φ of a shape's displacements along the span.
-inline double along_share(const Eigen::MatrixXd& mass, const Eigen::VectorXd& shape) {
-  Eigen::VectorXd along = shape;
+template <class Real>
+Real along_share(const Matrix<Real, Eigen::Dynamic>& mass,
+                 const Vector<Real, Eigen::Dynamic>& shape) {
+  Vector<Real, Eigen::Dynamic> along = shape;
   for (Eigen::Index k = 1; k < along.size(); k += 2) along[k] = 0.0;
   return along.dot(mass * along) / shape.dot(mass * shape);
 }
@@ -75,20 +78,22 @@ inline ModeFamily family_of(const Eigen::VectorXd& shape) {
 /// K φ = ω² M φ with the tangent stiffness K of the equilibrium (dense, so N up to about 1000).
 /// @throws InvalidParameter for an inadmissible conductor, an odd or small number of elements, or
 /// a count outside 1 … 2(N − 1)
-inline ElementsModes elements_modes(const Conductor<double>& conductor, int elements, int count,
-                                    MassModel model = MassModel::lumped) {
+template <class Real>
+ElementsModes elements_modes(const Conductor<Real>& conductor, int elements, int count,
+                             MassModel model = MassModel::lumped) {
+  using Square = Matrix<Real, Eigen::Dynamic>;
   if (elements < 2 || elements % 2 != 0)
     throw InvalidParameter("number of elements", elements, "", "even and >= 2");
   require_within("number of modes", count, "", 1, 2.0 * (elements - 1));
-  const BarChain chain(conductor, conductor.span / 2, elements);
+  const BasicBarChain<Real> chain(conductor, conductor.span / 2, elements);
   const ChainEquilibrium rest = chain_equilibrium(chain, 0.0);
   ElementsModes result{rest.outcome, {}};
   if (rest.outcome != EquilibriumOutcome::converged) return result;
-  const Eigen::MatrixXd mass = detail::mass_matrix(chain, model);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      Eigen::MatrixXd(tangent_stiffness(chain, rest.nodes)), mass);
+  const Square mass = detail::mass_matrix(chain, model);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Square> solver(
+      Square(tangent_stiffness(chain, rest.nodes)), mass);
   for (int k = 0; k < count; ++k) {
-    Eigen::VectorXd shape = solver.eigenvectors().col(k);
+    Vector<Real, Eigen::Dynamic> shape = solver.eigenvectors().col(k);
     const double along = detail::along_share(mass, shape);
     shape /= shape.cwiseAbs().maxCoeff();
     // Every bar is in tension, so no eigenvalue is negative but by round-off.
@@ -98,5 +103,9 @@ inline ElementsModes elements_modes(const Conductor<double>& conductor, int elem
   }
   return result;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template ElementsModes elements_modes(const Conductor<double>&, int, int, MassModel);
+#endif
 
 }  // namespace holdfast

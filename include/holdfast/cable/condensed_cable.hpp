@@ -171,4 +171,8 @@ typename CondensedCable<Sines>::Equilibrium CondensedCable<Sines>::equilibrium(d
   return result;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class CondensedCable<>;
+#endif
+
 }  // namespace holdfast

@@ -52,19 +52,26 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
 /// State: [x, y, ẋ, ẏ] (m, m/s) per free node, and behind the loaded node of the spring–mass
 /// reading its two states [a, ȧ], a (m) counted like the node's drop from the equilibrium. The
 /// Jacobian's entries lie within `half_bandwidth()` of the diagonal.
-class CableElements {
+/// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
+template <class Real>
+class BasicCableElements {
  public:
+  /// Columns of free nodes' positions (m).
+  using Nodes = typename BasicBarChain<Real>::Nodes;
+  /// A state of `states()` numbers.
+  using States = Vector<Real, Eigen::Dynamic>;
+
   /// @param conductor  admissible in the sense of `validate`
   /// @param position   x_p (m) of the absorber, inside the span
   /// @param elements   N, ≥ 2
   /// @param absorber   on the node at x_p
   /// @param damping    of the cable; both factors ≥ 0
   /// @throws InvalidParameter otherwise, or for an absorber outside its ranges
-  CableElements(const Conductor<double>& conductor, double position, int elements,
-                const HangingAbsorber& absorber, const RayleighDamping& damping);
+  BasicCableElements(const Conductor<Real>& conductor, Real position, int elements,
+                     const HangingAbsorber& absorber, const RayleighDamping& damping);
 
   /// The cable's bars and nodes, without absorber and damping.
-  const BarChain& chain() const { return chain_; }
+  const BasicBarChain<Real>& chain() const { return chain_; }
   /// Number of states.
   int states() const { return 4 * chain_.free_nodes() + (sprung() ? 2 : 0); }
   /// 7; 9 with the two further states of the spring–mass.
@@ -76,11 +83,11 @@ class CableElements {
   /// The state at rest under a further force (N) at the absorber's place, and whether that and the
   /// equilibrium with the weight alone were found.
   struct Start {
-    Eigen::VectorXd state;       ///< of states() numbers, at rest; of use where it converged
+    States state;                ///< of states() numbers, at rest; of use where it converged
     EquilibriumOutcome outcome;  ///< converged where both were found
   };
   /// @param force  N, downward positive, beside the weight of the absorber
-  Start held_by(double force) const;
+  Start held_by(Real force) const;
 
   /// Drop (m) of the absorber's node from the equilibrium.
   template <class State>
@@ -94,24 +101,24 @@ class CableElements {
 
   /// Calls set(row, column, value) for every entry of ∂rate/∂state that can differ from zero.
   template <class Set>
-  void jacobian(const double* state, Set&& set) const;
+  void jacobian(const Real* state, Set&& set) const;
 
   /// Kinetic and elastic energy and that of the weights (J), up to a constant; constant along an
   /// undamped motion.
-  double energy(const Eigen::VectorXd& state) const;
+  Real energy(const States& state) const;
 
   /// The smallest tension (N) of the bars: the cable is one while it is positive.
-  double margin(const double* state) const { return chain_.smallest_tension(positions(state)); }
+  Real margin(const Real* state) const { return chain_.smallest_tension(positions(state)); }
 
   /// Positions of the free nodes.
-  BarChain::Nodes positions(const double* state) const;
+  Nodes positions(const Real* state) const;
 
  private:
   bool sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
   int first_state(int node) const {
     return 4 * node + (sprung() && node > chain_.loaded_node() ? 2 : 0);
   }
-  double inertia(int node) const {
+  Real inertia(int node) const {
     const bool carries =
         node == chain_.loaded_node() && absorber_.reading == AbsorberReading::rigid_mass;
     return chain_.mass(node) + (carries ? absorber_.mass : 0.0);
@@ -134,14 +141,17 @@ class CableElements {
   /// The spring's entries but those that the loaded node has without it.
   template <class Set>
   void spring_jacobian(Set&& set) const;
-  double resting_load() const { return absorber_.mass * chain_.conductor().gravity; }
+  Real resting_load() const { return absorber_.mass * chain_.conductor().gravity; }
 
-  BarChain chain_;
+  BasicBarChain<Real> chain_;
   HangingAbsorber absorber_;
   RayleighDamping damping_;
   ChainEquilibrium rest_;
-  std::vector<Matrix<double, 2>> bar_damping_;  // β k_e at rest, per bar
+  std::vector<Matrix<Real, 2>> bar_damping_;  // β k_e at rest, per bar
 };
+
+/// The elements in `double`.
+using CableElements = BasicCableElements<double>;
 
 // ---------------------------------------------------------------------------------------------
 
@@ -155,9 +165,10 @@ inline void validate(const HangingAbsorber& absorber) {
   require_non_negative("absorber damping c2", absorber.damping, "N s/m");
 }
 
-inline CableElements::CableElements(const Conductor<double>& conductor, double position,
-                                    int elements, const HangingAbsorber& absorber,
-                                    const RayleighDamping& damping)
+template <class Real>
+BasicCableElements<Real>::BasicCableElements(const Conductor<Real>& conductor, Real position,
+                                             int elements, const HangingAbsorber& absorber,
+                                             const RayleighDamping& damping)
     : chain_(conductor, position, elements), absorber_(absorber), damping_(damping) {
   validate(absorber);
   require_non_negative("mass factor alpha", damping.mass_factor, "1/s");
@@ -169,12 +180,13 @@ inline CableElements::CableElements(const Conductor<double>& conductor, double p
         bar_stiffness(chain_.reach(rest_.nodes, e), chain_.length(e), chain_.axial_stiffness()));
 }
 
-inline CableElements::Start CableElements::held_by(double force) const {
+template <class Real>
+typename BasicCableElements<Real>::Start BasicCableElements<Real>::held_by(Real force) const {
   const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
   const bool found = rest_.outcome == EquilibriumOutcome::converged;
-  Start start{Eigen::VectorXd::Zero(states()), found ? held.outcome : rest_.outcome};
+  Start start{States::Zero(states()), found ? held.outcome : rest_.outcome};
   for (int node = 0; node < chain_.free_nodes(); ++node)
-    start.state.segment<2>(first_state(node)) = held.nodes.col(node);
+    start.state.template segment<2>(first_state(node)) = held.nodes.col(node);
   if (sprung()) {
     const int own = first_state(chain_.loaded_node()) + 4;
     start.state[own] = displacement(start.state);
@@ -182,8 +194,10 @@ inline CableElements::Start CableElements::held_by(double force) const {
   return start;
 }
 
+template <class Real>
 template <class Scalar>
-CableElements::NodeMotion<Scalar> CableElements::motion_of(const Scalar* state, int node) const {
+typename BasicCableElements<Real>::template NodeMotion<Scalar> BasicCableElements<Real>::motion_of(
+    const Scalar* state, int node) const {
   const Scalar zero(0);
   if (node < 0) return {{zero, zero}, {zero, zero}};
   if (node == chain_.free_nodes()) {
@@ -193,10 +207,11 @@ CableElements::NodeMotion<Scalar> CableElements::motion_of(const Scalar* state, 
   return {{own[0], own[1]}, {own[2], own[3]}};
 }
 
+template <class Real>
 template <class Scalar>
-Vector<Scalar, 2> CableElements::pull_of(int bar, const NodeMotion<Scalar>& left,
-                                         const NodeMotion<Scalar>& right) const {
-  const Matrix<double, 2>& damper = bar_damping_[static_cast<std::size_t>(bar)];
+Vector<Scalar, 2> BasicCableElements<Real>::pull_of(int bar, const NodeMotion<Scalar>& left,
+                                                    const NodeMotion<Scalar>& right) const {
+  const Matrix<Real, 2>& damper = bar_damping_[static_cast<std::size_t>(bar)];
   const Vector<Scalar, 2> closing = right.velocity - left.velocity;
   const Vector<Scalar, 2> damping(damper(0, 0) * closing[0] + damper(0, 1) * closing[1],
                                   damper(1, 0) * closing[0] + damper(1, 1) * closing[1]);
@@ -204,8 +219,9 @@ Vector<Scalar, 2> CableElements::pull_of(int bar, const NodeMotion<Scalar>& left
          damping;
 }
 
+template <class Real>
 template <class Scalar>
-Scalar CableElements::spring_rate(const Scalar* state, Scalar* rate_of_state) const {
+Scalar BasicCableElements<Real>::spring_rate(const Scalar* state, Scalar* rate_of_state) const {
   const int own = first_state(chain_.loaded_node());
   const Scalar lag = state[own + 4] - displacement(state);
   const Scalar closing_speed = state[own + 5] - state[own + 3];
@@ -215,8 +231,9 @@ Scalar CableElements::spring_rate(const Scalar* state, Scalar* rate_of_state) co
   return spring;
 }
 
+template <class Real>
 template <class Scalar>
-void CableElements::rate(const Scalar* state, Scalar* rate_of_state) const {
+void BasicCableElements<Real>::rate(const Scalar* state, Scalar* rate_of_state) const {
   // Each bar is computed once: it pulls its left node forth and its right node back.
   NodeMotion<Scalar> here = motion_of(state, 0);
   Vector<Scalar, 2> pull_before = pull_of(0, motion_of(state, -1), here);
@@ -239,11 +256,12 @@ void CableElements::rate(const Scalar* state, Scalar* rate_of_state) const {
   }
 }
 
+template <class Real>
 template <class Set>
-void CableElements::spring_jacobian(Set&& set) const {
+void BasicCableElements<Real>::spring_jacobian(Set&& set) const {
   const int own = first_state(chain_.loaded_node());
-  const double node = inertia(chain_.loaded_node()), mass = absorber_.mass;
-  const double stiffness = absorber_.stiffness, damping = absorber_.damping;
+  const Real node = inertia(chain_.loaded_node()), mass = absorber_.mass;
+  const Real stiffness = absorber_.stiffness, damping = absorber_.damping;
   set(own + 3, own + 4, stiffness / node);
   set(own + 3, own + 5, damping / node);
   set(own + 4, own + 5, 1.0);
@@ -253,16 +271,17 @@ void CableElements::spring_jacobian(Set&& set) const {
   set(own + 5, own + 5, -damping / mass);
 }
 
+template <class Real>
 template <class Set>
-void CableElements::jacobian(const double* state, Set&& set) const {
-  const BarChain::Nodes nodes = positions(state);
+void BasicCableElements<Real>::jacobian(const Real* state, Set&& set) const {
+  const Nodes nodes = positions(state);
   const auto stiffness = [&](int e) {
     return bar_stiffness(chain_.reach(nodes, e), chain_.length(e), chain_.axial_stiffness());
   };
   const auto damper = [&](int e) { return bar_damping_[static_cast<std::size_t>(e)]; };
   // Acceleration of a node by the places and velocities of a node.
-  const auto blocks = [&](int of, int by, const Matrix<double, 2>& place,
-                          const Matrix<double, 2>& velocity) {
+  const auto blocks = [&](int of, int by, const Matrix<Real, 2>& place,
+                          const Matrix<Real, 2>& velocity) {
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) {
         set(first_state(of) + 2 + i, first_state(by) + j, place(i, j));
@@ -270,14 +289,14 @@ void CableElements::jacobian(const double* state, Set&& set) const {
       }
     }
   };
-  Matrix<double, 2> before = stiffness(0);
+  Matrix<Real, 2> before = stiffness(0);
   for (int node = 0; node < chain_.free_nodes(); ++node) {
     const int own = first_state(node);
-    const double inverse = 1.0 / inertia(node);
-    const Matrix<double, 2> behind = stiffness(node + 1);
-    Matrix<double, 2> place = -inverse * (before + behind);
-    Matrix<double, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
-                                 damping_.mass_factor * Matrix<double, 2>::Identity();
+    const Real inverse = 1.0 / inertia(node);
+    const Matrix<Real, 2> behind = stiffness(node + 1);
+    Matrix<Real, 2> place = -inverse * (before + behind);
+    Matrix<Real, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
+                               damping_.mass_factor * Matrix<Real, 2>::Identity();
     if (sprung() && node == chain_.loaded_node()) {
       place(1, 1) -= inverse * absorber_.stiffness;
       velocity(1, 1) -= inverse * absorber_.damping;
@@ -293,29 +312,36 @@ void CableElements::jacobian(const double* state, Set&& set) const {
   }
 }
 
-inline BarChain::Nodes CableElements::positions(const double* state) const {
-  BarChain::Nodes nodes(2, chain_.free_nodes());
+template <class Real>
+typename BasicCableElements<Real>::Nodes BasicCableElements<Real>::positions(
+    const Real* state) const {
+  Nodes nodes(2, chain_.free_nodes());
   for (int node = 0; node < chain_.free_nodes(); ++node)
     nodes.col(node) << state[first_state(node)], state[first_state(node) + 1];
   return nodes;
 }
 
-inline double CableElements::energy(const Eigen::VectorXd& state) const {
-  const BarChain::Nodes nodes = positions(state.data());
-  double sum = -resting_load() * nodes(1, chain_.loaded_node());
+template <class Real>
+Real BasicCableElements<Real>::energy(const States& state) const {
+  const Nodes nodes = positions(state.data());
+  Real sum = -resting_load() * nodes(1, chain_.loaded_node());
   for (int node = 0; node < chain_.free_nodes(); ++node) {
-    sum += 0.5 * inertia(node) * state.segment<2>(first_state(node) + 2).squaredNorm();
+    sum += 0.5 * inertia(node) * state.template segment<2>(first_state(node) + 2).squaredNorm();
     sum -= chain_.mass(node) * chain_.conductor().gravity * nodes(1, node);
   }
   for (int e = 0; e < chain_.elements(); ++e) {
-    const double stretch = chain_.reach(nodes, e).norm() - chain_.length(e);
+    const Real stretch = chain_.reach(nodes, e).norm() - chain_.length(e);
     sum += 0.5 * chain_.axial_stiffness() / chain_.length(e) * stretch * stretch;
   }
   if (!sprung()) return sum;
   const int own = first_state(chain_.loaded_node());
-  const double lag = state[own + 4] - displacement(state);
+  const Real lag = state[own + 4] - displacement(state);
   return sum + 0.5 * absorber_.stiffness * lag * lag +
          0.5 * absorber_.mass * state[own + 5] * state[own + 5];
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class BasicCableElements<double>;
+#endif
 
 }  // namespace holdfast

@@ -251,4 +251,9 @@ class CatenaryPointLoad {
   Scalar place_, bare_drop_, lowest_load_;
 };
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class HangingCable<double>;
+extern template class CatenaryPointLoad<double>;
+#endif
+
 }  // namespace holdfast

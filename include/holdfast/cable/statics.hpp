@@ -87,13 +87,19 @@ inline StaticsFromRest<IrvinePointLoad<double>> irvine_statics(const Conductor<d
 
 /// The exact statics at the absorber's place.
 /// @throws InvalidParameter for an inadmissible conductor, place or mass (kg)
-inline StaticsFromRest<CatenaryPointLoad<double>> exact_statics(const Conductor<double>& conductor,
-                                                                double position,
-                                                                double absorber_mass) {
+template <class Scalar>
+StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>& conductor,
+                                                         double position, double absorber_mass) {
   validate(conductor);
   require_inside_span(position, conductor.span);
   require_non_negative("absorber mass m2", absorber_mass, "kg");
   return {{conductor, position}, absorber_mass * conductor.gravity};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class StaticsFromRest<CatenaryPointLoad<double>>;
+extern template StaticsFromRest<CatenaryPointLoad<double>> exact_statics(const Conductor<double>&,
+                                                                         double, double);
+#endif
 
 }  // namespace holdfast

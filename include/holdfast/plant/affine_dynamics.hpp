@@ -15,8 +15,9 @@ struct AffineDynamics {
 
 /// ‖A‖ in the balanced coordinates (1/s, largest row sum): the size of A that the powers of A h
 /// show, whatever the units of the state.
-inline double balanced_norm(const Matrix<double, 4>& a) {
-  return BalancedMatrix<double, 4>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();
+template <class Scalar>
+Scalar balanced_norm(const Matrix<Scalar, 4>& a) {
+  return BalancedMatrix<Scalar, 4>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 }  // namespace holdfast

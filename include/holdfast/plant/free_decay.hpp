@@ -59,7 +59,8 @@ struct RelativeDecay {
 
 /// The crossings and peaks of the plant's decay from 1 m, sampled 400 times in the period of both
 /// masses on the conductor's spring, over four such periods.
-inline DecayEvents free_decay_events(const TwoDof<double>& plant) {
+template <class Scalar>
+DecayEvents free_decay_events(const TwoDof<Scalar>& plant) {
   constexpr int samples_per_period = 400, periods = 4;
   const double period =
       2.0 * pi<double> *
@@ -67,7 +68,7 @@ inline DecayEvents free_decay_events(const TwoDof<double>& plant) {
   DecayRecord record;
   for (int k = 0; k <= periods * samples_per_period; ++k)
     record.times.push_back(k * period / samples_per_period);
-  record.displacements = free_decay(plant, 1.0, record.times);
+  record.displacements = free_decay(plant, Scalar(1), record.times);
   return decay_events(record);
 }
 
@@ -103,5 +104,9 @@ std::optional<RelativeDecay<Scalar>> relative_decay(const TwoDof<Scalar>& plant,
   decay.logarithmic_decrement = logarithmic_decrement(peaks);
   return decay;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template DecayEvents free_decay_events(const TwoDof<double>&);
+#endif
 
 }  // namespace holdfast

@@ -103,7 +103,8 @@ Scalar reduced_conductor_mass(const FrequencyReduction<Scalar>& asked,
 /// 1/ω₁ − 1/ω₂ ≥ √(m₂/k₁); otherwise the outcome says so and names the largest m₂ and the smallest
 /// k₁ that have one.
 /// @throws InvalidParameter unless all inputs are finite and > 0 and the frequencies ascend
-inline ReductionResult reduce_to_frequencies(const FrequencyReduction<double>& asked);
+template <class Scalar = double>
+ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked);
 
 /// c₁ = 2 m₁ ω ζ (N s/m), Eq. (3), ω = √(k₁/m₁) of the conductor without absorber.
 /// @throws InvalidParameter for non-positive m₁, k₁ or ζ outside 0 … 1
@@ -120,30 +121,35 @@ inline double conductor_damping(double conductor_mass, double conductor_stiffnes
 namespace detail {
 
 /// A number that carries its derivatives by ln k₁, ln m₂, ln ω₁, ln ω₂.
-using ReductionDual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 4, 1>>;
+template <class Scalar>
+using ReductionDual = Eigen::AutoDiffScalar<Vector<Scalar, 4>>;
 
-inline FrequencyReduction<ReductionDual> logarithmic_seeds(
-    const FrequencyReduction<double>& asked) {
-  const auto seed = [](double value, int index) {
-    return ReductionDual(value, value * Eigen::Matrix<double, 4, 1>::Unit(index));
+template <class Scalar>
+FrequencyReduction<ReductionDual<Scalar>> logarithmic_seeds(
+    const FrequencyReduction<Scalar>& asked) {
+  const auto seed = [](const Scalar& value, int index) {
+    return ReductionDual<Scalar>(value, value * Vector<Scalar, 4>::Unit(index));
   };
   return {seed(asked.conductor_stiffness, 0), seed(asked.absorber_mass, 1),
           seed(asked.first_frequency, 2), seed(asked.second_frequency, 3)};
 }
 
-inline ReducedMasses reduced_masses(const FrequencyReduction<double>& asked, bool larger) {
+template <class Scalar>
+ReducedMasses reduced_masses(const FrequencyReduction<Scalar>& asked, bool larger) {
   const auto seeded = logarithmic_seeds(asked);
-  const ReductionDual stiffness = absorber_stiffness_root(seeded, larger);
-  const ReductionDual mass = reduced_conductor_mass(seeded, stiffness);
+  const ReductionDual<Scalar> stiffness = absorber_stiffness_root(seeded, larger);
+  const ReductionDual<Scalar> mass = reduced_conductor_mass(seeded, stiffness);
   const double damping_condition =
-      0.5 * (mass.derivatives() / mass.value() + Eigen::Matrix<double, 4, 1>::Unit(0)).lpNorm<1>();
-  return {stiffness.value(), mass.value(), stiffness.derivatives().lpNorm<1>() / stiffness.value(),
-          mass.derivatives().lpNorm<1>() / mass.value(), damping_condition};
+      0.5 * (mass.derivatives() / mass.value() + Vector<Scalar, 4>::Unit(0)).template lpNorm<1>();
+  return {stiffness.value(), mass.value(),
+          stiffness.derivatives().template lpNorm<1>() / stiffness.value(),
+          mass.derivatives().template lpNorm<1>() / mass.value(), damping_condition};
 }
 
 }  // namespace detail
 
-inline ReductionResult reduce_to_frequencies(const FrequencyReduction<double>& asked) {
+template <class Scalar>
+ReductionResult reduce_to_frequencies(const FrequencyReduction<Scalar>& asked) {
   require_positive("conductor stiffness k1", asked.conductor_stiffness, "N/m");
   require_positive("absorber mass m2", asked.absorber_mass, "kg");
   require_positive("first frequency", asked.first_frequency, "Hz");
@@ -167,5 +173,9 @@ inline ReductionResult reduce_to_frequencies(const FrequencyReduction<double>& a
   result.solutions = {detail::reduced_masses(asked, false), detail::reduced_masses(asked, true)};
   return result;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template ReductionResult reduce_to_frequencies(const FrequencyReduction<double>&);
+#endif
 
 }  // namespace holdfast

@@ -36,8 +36,9 @@ struct SpectralLine {
 /// Work: N log N where N has small prime factors only, N times the largest factor otherwise.
 /// @return N/2 + 1 lines at k / (N τ)
 /// @throws InvalidParameter for fewer than two or more than 10⁹ samples, or τ ≤ 0
-inline std::vector<SpectralLine> amplitude_spectrum(std::vector<double> signal,
-                                                    double sampling_period, SpectralWindow window) {
+template <class Scalar = double>
+std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double sampling_period,
+                                             SpectralWindow window) {
   require_positive("sampling period tau", sampling_period, "s");
   const std::size_t size = signal.size();
   require_within("number of samples", static_cast<double>(size), "", 2.0, 1e9);
@@ -48,8 +49,8 @@ inline std::vector<SpectralLine> amplitude_spectrum(std::vector<double> signal,
     signal[n] *= weight;
     weight_sum += weight;
   }
-  std::vector<std::complex<double>> transform;
-  Eigen::FFT<double> fft;
+  std::vector<std::complex<Scalar>> transform;
+  Eigen::FFT<Scalar> fft;
   fft.fwd(transform, signal);
 
   std::vector<SpectralLine> lines(size / 2 + 1);
@@ -80,5 +81,10 @@ inline std::int64_t whole_period_samples(std::int64_t available, double frequenc
   if (common == 0 || common > available) return available;
   return available - available % common;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<SpectralLine> amplitude_spectrum(std::vector<double>, double,
+                                                             SpectralWindow);
+#endif
 
 }  // namespace holdfast

@@ -106,4 +106,11 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(
   return points;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<BoundaryPoint<double>> stability_boundary(
+    const AffinePolynomial<double, 4>&, const ProportionalRange&);
+extern template std::vector<BoundaryPoint<double>> stability_boundary(
+    const AffinePolynomial<double, 5>&, const ProportionalRange&);
+#endif
+
 }  // namespace holdfast

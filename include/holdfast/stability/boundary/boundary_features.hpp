@@ -194,4 +194,11 @@ std::vector<BoundaryFeature<Scalar>> boundary_features(
   return features;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<BoundaryFeature<double>> boundary_features(
+    const AffinePolynomial<double, 4>&, const GainWindow&);
+extern template std::vector<BoundaryFeature<double>> boundary_features(
+    const AffinePolynomial<double, 5>&, const GainWindow&);
+#endif
+
 }  // namespace holdfast

@@ -127,4 +127,19 @@ std::vector<Interval<Scalar>> stable_proportional_gains(
   return stable_intervals<Scalar, 6>(q.base + differential_gain * q.differential, q.proportional);
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<Interval<double>> stable_intervals(const Vector<double, 5>&,
+                                                               const Vector<double, 5>&);
+extern template std::vector<Interval<double>> stable_intervals(const Vector<double, 6>&,
+                                                               const Vector<double, 6>&);
+extern template std::vector<Interval<double>> stable_differential_gains(
+    const AffinePolynomial<double, 4>&, const double&);
+extern template std::vector<Interval<double>> stable_differential_gains(
+    const AffinePolynomial<double, 5>&, const double&);
+extern template std::vector<Interval<double>> stable_proportional_gains(
+    const AffinePolynomial<double, 4>&, const double&);
+extern template std::vector<Interval<double>> stable_proportional_gains(
+    const AffinePolynomial<double, 5>&, const double&);
+#endif
+
 }  // namespace holdfast

@@ -198,4 +198,15 @@ std::vector<GainRegion<Scalar>> stable_regions(const AffinePolynomial<Scalar, De
   return regions;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 4>&,
+                                                             const GainWindow&);
+extern template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 5>&,
+                                                             const GainWindow&);
+extern template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 4>&,
+                                                               const GainWindow&);
+extern template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 5>&,
+                                                               const GainWindow&);
+#endif
+
 }  // namespace holdfast

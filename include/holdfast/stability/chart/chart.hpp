@@ -95,4 +95,9 @@ std::vector<std::uint8_t> stability_chart(const AffinePolynomial<double, Degree>
   return stable;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class StabilityRows<4>;
+extern template class StabilityRows<5>;
+#endif
+
 }  // namespace holdfast

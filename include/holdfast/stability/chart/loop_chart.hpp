@@ -75,8 +75,13 @@ AffineLine<Degree> along(LoopParameter gain, const AffinePolynomial<double, Degr
 }
 
 /// The characteristic polynomial of a point's loop in powers of λ − 1, for any gains.
-inline AffinePolynomial<double, 5> characteristic_polynomial(const LoopPoint& point) {
+template <class Scalar = double>
+AffinePolynomial<Scalar, 5> characteristic_polynomial(const LoopPoint& point) {
   return characteristic_polynomial(sampled_loop(point.plant, point.sampling));
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template AffinePolynomial<double, 5> characteristic_polynomial(const LoopPoint&);
+#endif
 
 }  // namespace holdfast

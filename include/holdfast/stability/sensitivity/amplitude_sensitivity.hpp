@@ -24,11 +24,12 @@ struct AmplitudeSensitivity {
 namespace detail {
 
 /// The squared amplitude ratio N(D)/M(D) and how its coefficients move.
+template <class Scalar>
 class MovingRatio {
  public:
-  using Complex = std::complex<double>;
+  using Complex = std::complex<Scalar>;
 
-  MovingRatio(const ResponsePhasors<double>& phasors, double proportional_gain)
+  MovingRatio(const ResponsePhasors<Scalar>& phasors, const Scalar& proportional_gain)
       : phasors_(phasors), proportional_gain_(proportional_gain) {
     slope_ = phasors.numerator_slope();
     below_ = 1.0 - proportional_gain * phasors.control_displacement;
@@ -36,11 +37,11 @@ class MovingRatio {
               std::norm(phasors.force_displacement) * squares(below_, -phasors.control_velocity)};
   }
 
-  const RatioOfQuadratics<double>& ratio() const { return ratio_; }
+  const RatioOfQuadratics<Scalar>& ratio() const { return ratio_; }
 
   /// The rates of both quadratics' coefficients, from the phasors' rates and that of P.
-  RatioOfQuadratics<double> rate(const ResponsePhasors<double>& rates,
-                                 double proportional_rate) const {
+  RatioOfQuadratics<Scalar> rate(const ResponsePhasors<Scalar>& rates,
+                                 const Scalar& proportional_rate) const {
     const auto& [t1, t2, f1, f2] = phasors_;
     const auto& [t1_rate, t2_rate, f1_rate, f2_rate] = rates;
     const Complex slope_rate = t1_rate * f2 + t1 * f2_rate - t2_rate * f1 - t2 * f1_rate;
@@ -52,35 +53,37 @@ class MovingRatio {
 
  private:
   /// Coefficients of |a + x b|² and their rates.
-  static Vector<double, 3> squares(const Complex& a, const Complex& b) {
+  static Vector<Scalar, 3> squares(const Complex& a, const Complex& b) {
     return {std::norm(a), 2.0 * (std::conj(a) * b).real(), std::norm(b)};
   }
-  static Vector<double, 3> square_rates(const Complex& a, const Complex& b, const Complex& a_rate,
+  static Vector<Scalar, 3> square_rates(const Complex& a, const Complex& b, const Complex& a_rate,
                                         const Complex& b_rate) {
     return {2.0 * (std::conj(a) * a_rate).real(),
             2.0 * (std::conj(a_rate) * b + std::conj(a) * b_rate).real(),
             2.0 * (std::conj(b) * b_rate).real()};
   }
 
-  ResponsePhasors<double> phasors_;
-  double proportional_gain_;
+  ResponsePhasors<Scalar> phasors_;
+  Scalar proportional_gain_;
   Complex slope_, below_;
-  RatioOfQuadratics<double> ratio_;
+  RatioOfQuadratics<Scalar> ratio_;
 };
 
 /// The rates of the phasors by the carried parameters.
-inline std::array<ResponsePhasors<double>, carried_parameters> phasor_rates(
-    const TwoDof<double>& plant, const SampledLoop<double>& loop, ForceHold hold,
-    const HarmonicInput<double>& input, const ResponseRates& response, double omega) {
-  std::array<ResponsePhasors<double>, carried_parameters> result;
+/// @param response  `ResponseRates` of the loop, the input and ω
+template <class Scalar, class Response>
+std::array<ResponsePhasors<Scalar>, carried_parameters> phasor_rates(
+    const TwoDof<Scalar>& plant, const SampledLoop<Scalar>& loop, ForceHold hold,
+    const HarmonicInput<Scalar>& input, const Response& response, const Scalar& omega) {
+  std::array<ResponsePhasors<Scalar>, carried_parameters> result;
   const auto rates = loop_rates(plant, loop);
   const auto by_plant = plant_rates(plant);
   for (std::size_t i = 0; i < result.size(); ++i) {
-    HarmonicInput<double> input_rate{rates[i].held_excitation, Vector<double, 4>::Zero()};
-    std::complex<double> lambda_rate(0.0);
+    HarmonicInput<Scalar> input_rate{rates[i].held_excitation, Vector<Scalar, 4>::Zero()};
+    std::complex<Scalar> lambda_rate(0.0);
     if (i == 6) {
       input_rate = input_rate_by_period(plant, loop, hold, input, omega);
-      lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
+      lambda_rate = std::complex<Scalar>(0.0, omega) * response.lambda();
     } else if (i < 6 && hold == ForceHold::exact) {
       input_rate = exact_input_rate_by_plant(plant, by_plant[i], loop.sampling.period, omega);
     }
@@ -90,29 +93,32 @@ inline std::array<ResponsePhasors<double>, carried_parameters> phasor_rates(
 }
 
 /// ∂ of the ratio at a held D, and of the stationary D, by all parameters.
+template <class Scalar>
 struct RatioEntries {
-  Entries ratio;       ///< entry 9: by D
-  Entries stationary;  ///< of the D at which the ratio is stationary
+  Vector<Scalar, loop_parameters> ratio;       ///< entry 9: by D
+  Vector<Scalar, loop_parameters> stationary;  ///< of the D at which the ratio is stationary
 };
 
-inline RatioEntries ratio_entries(
-    const MovingRatio& moving, const std::array<ResponsePhasors<double>, carried_parameters>& rates,
-    double d) {
-  const RatioOfQuadratics<double>& square = moving.ratio();
-  const double n = evaluate(square.numerator, d), m = evaluate(square.denominator, d);
-  const double ratio = std::sqrt(n / m);
-  const Vector<double, 3> s = square.slope_numerator();
-  const double s_slope = s[1] + 2.0 * s[2] * d;
-  RatioEntries entries{Entries::Zero(), Entries::Zero()};
+template <class Scalar>
+RatioEntries<Scalar> ratio_entries(
+    const MovingRatio<Scalar>& moving,
+    const std::array<ResponsePhasors<Scalar>, carried_parameters>& rates, const Scalar& d) {
+  const RatioOfQuadratics<Scalar>& square = moving.ratio();
+  const Scalar n = evaluate(square.numerator, d), m = evaluate(square.denominator, d);
+  const Scalar ratio = std::sqrt(n / m);
+  const Vector<Scalar, 3> s = square.slope_numerator();
+  const Scalar s_slope = s[1] + 2.0 * s[2] * d;
+  RatioEntries<Scalar> entries{Vector<Scalar, loop_parameters>::Zero(),
+                               Vector<Scalar, loop_parameters>::Zero()};
   for (int i = 0; i < 9; ++i) {
     const auto change = i < carried_parameters
                             ? moving.rate(rates[static_cast<std::size_t>(i)], 0.0)
                             : moving.rate({}, 1.0);
     entries.ratio[i] =
         0.5 * ratio * (evaluate(change.numerator, d) / n - evaluate(change.denominator, d) / m);
-    const Vector<double, 3> s_rate =
-        RatioOfQuadratics<double>{change.numerator, square.denominator}.slope_numerator() +
-        RatioOfQuadratics<double>{square.numerator, change.denominator}.slope_numerator();
+    const Vector<Scalar, 3> s_rate =
+        RatioOfQuadratics<Scalar>{change.numerator, square.denominator}.slope_numerator() +
+        RatioOfQuadratics<Scalar>{square.numerator, change.denominator}.slope_numerator();
     entries.stationary[i] = -evaluate(s_rate, d) / s_slope;
   }
   entries.ratio[9] = 0.5 * ratio * evaluate(s, d) / (n * m);
@@ -133,28 +139,37 @@ inline RatioEntries ratio_entries(
 ///                           (`with_tuned_gain`)
 /// @param proportional_gain  P (N/m), finite
 /// @throws InvalidParameter outside the admissible ranges
-inline AmplitudeSensitivity amplitude_sensitivity(const TwoDof<double>& plant,
-                                                  const AmplitudeQuestion& question,
-                                                  double frequency, double proportional_gain) {
+template <class Scalar>
+AmplitudeSensitivity amplitude_sensitivity(const TwoDof<Scalar>& plant,
+                                           const AmplitudeQuestion& question, double frequency,
+                                           double proportional_gain) {
   const auto least = least_amplitude(plant, question, frequency, proportional_gain);
-  const detail::Entries none = detail::Entries::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (!std::isfinite(least.differential_gain))
-    return {least.outcome, sensitivity_of(none), sensitivity_of(none)};
+  if (!std::isfinite(least.differential_gain)) {
+    const auto none = sensitivity_of(
+        Vector<Scalar, loop_parameters>::Constant(std::numeric_limits<Scalar>::quiet_NaN()));
+    return {least.outcome, none, none};
+  }
   const double omega = 2.0 * pi<double> * frequency, d = least.differential_gain;
   const auto loop = sampled_loop(plant, question.sampling);
   const auto input = harmonic_input(plant, loop, question.hold, omega);
   const ResponseRates response(loop, input, omega);
   auto [ratio, gain] = detail::ratio_entries(
-      detail::MovingRatio(response.phasors(), proportional_gain),
+      detail::MovingRatio<Scalar>(response.phasors(), proportional_gain),
       detail::phasor_rates(plant, loop, question.hold, input, response, omega), d);
   if (least.outcome == LeastAmplitudeOutcome::edge) {
-    gain =
-        entries_of(boundary_gain_sensitivity(plant, question.sampling, {proportional_gain, d},
-                                             BoundaryGain::differential, question.largest_radius));
+    gain = entries_of<Scalar>(
+        boundary_gain_sensitivity(plant, question.sampling, {proportional_gain, d},
+                                  BoundaryGain::differential, question.largest_radius));
     ratio += ratio[9] * gain;
   }
   ratio[9] = 0.0;
   return {least.outcome, sensitivity_of(ratio), sensitivity_of(gain)};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template AmplitudeSensitivity amplitude_sensitivity(const TwoDof<double>&,
+                                                           const AmplitudeQuestion&, double,
+                                                           double);
+#endif
 
 }  // namespace holdfast

@@ -22,17 +22,18 @@ namespace detail {
 
 /// The gradient of what is zero at τ*: 1 − min ρ where stability limits it, 1 less the least
 /// amplitude ratio where attenuation does; NaN where it has none.
-inline Entries reserve_gradient(const TwoDof<double>& plant, const MaxDelayQuestion& question,
-                                const MaxDelay& answer) {
+template <class Scalar>
+Entries<> reserve_gradient(const TwoDof<Scalar>& plant, const MaxDelayQuestion& question,
+                           const MaxDelay& answer) {
   const auto sampling = question.sampling(answer.sampling_period);
   const double p = question.proportional_gain;
   if (answer.limit == MaxDelayLimit::attenuation)
-    return entries_of(
+    return entries_of<Scalar>(
         amplitude_sensitivity(plant, {sampling, question.hold}, question.frequency, p).ratio);
   const auto least = least_radius_sensitivity(plant, sampling, {p, answer.differential_gain});
   if (least.kind == LeastRadiusKind::fixed)
-    return Entries::Constant(std::numeric_limits<double>::quiet_NaN());
-  return entries_of(least.radius);
+    return Vector<Scalar, loop_parameters>::Constant(std::numeric_limits<double>::quiet_NaN());
+  return entries_of<Scalar>(least.radius);
 }
 
 }  // namespace detail
@@ -51,20 +52,26 @@ inline Entries reserve_gradient(const TwoDof<double>& plant, const MaxDelayQuest
 /// @return zeros where `answer` is not `found`; NaN where the least radius at τ* has no sensitivity
 /// (`LeastRadiusKind::fixed`)
 /// @throws InvalidParameter outside the admissible ranges
-inline MaxDelaySensitivity max_delay_sensitivity(const TwoDof<double>& plant,
-                                                 const MaxDelayQuestion& question,
-                                                 const MaxDelay& answer) {
+template <class Scalar>
+MaxDelaySensitivity max_delay_sensitivity(const TwoDof<Scalar>& plant,
+                                          const MaxDelayQuestion& question,
+                                          const MaxDelay& answer) {
   validate(plant);
   validate(question);
   const bool moves = answer.outcome == MaxDelayOutcome::found &&
                      answer.limit != MaxDelayLimit::nyquist &&
                      std::isfinite(answer.differential_gain);
   if (!moves) return {{}, 0.0};
-  const detail::Entries g = detail::reserve_gradient(plant, question, answer);
+  const auto g = detail::reserve_gradient(plant, question, answer);
   const double along = g[6] + question.delay_fraction * g[7];
-  detail::Entries result = -g / along;
+  auto result = (-g / along).eval();
   result[6] = result[7] = result[9] = 0.0;
   return {sensitivity_of(result), -answer.sampling_period * g[7] / along};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MaxDelaySensitivity max_delay_sensitivity(const TwoDof<double>&,
+                                                          const MaxDelayQuestion&, const MaxDelay&);
+#endif
 
 }  // namespace holdfast

@@ -35,12 +35,13 @@ struct LeastRadiusSensitivity {
 namespace detail {
 
 /// Which roots are active at the D of least radius, and the two equations that they give.
+template <int Carried>
 class ActiveRoots {
  public:
-  ActiveRoots(const RatedPolynomial& loop, const PdGains<double>& gains)
+  ActiveRoots(const RatedPolynomial<Carried>& loop, const PdGains<double>& gains)
       : polynomial_(loop.polynomial), centre_(loop.centre), gains_(gains) {
     // One of each pair, and both of a double real root, which round-off parts by its square root.
-    for (const LoopRoot& root : roots_of(loop, gains)) {
+    for (const auto& root : roots_of(loop, gains)) {
       if (root.offset.imag() >= -1e-6 * std::abs(root.offset)) roots_.push_back(root);
     }
     std::sort(roots_.begin(), roots_.end(),
@@ -56,22 +57,25 @@ class ActiveRoots {
   }
 
  private:
+  using Gradient = Entries<Carried>;
+  static constexpr int by_p_ = Carried, by_d_ = Carried + 1;  // entries of a gradient
+
   double modulus() const { return std::abs(roots_.front().value()); }
 
-  LeastRadiusSensitivity answer(LeastRadiusKind kind, Entries logarithm, Entries gain) const {
-    logarithm[9] = gain[9] = 0.0;
+  LeastRadiusSensitivity answer(LeastRadiusKind kind, Gradient logarithm, Gradient gain) const {
+    logarithm[by_d_] = gain[by_d_] = 0.0;
     return {kind, sensitivity_of(logarithm * modulus()), sensitivity_of(gain)};
   }
 
   /// ln|λ₁| = ln|λ₂| gives ∂D, and with it either gives the radius.
   std::optional<LeastRadiusSensitivity> of_balanced_roots(double closeness) const {
-    const Entries first = pull(roots_.front());
+    const Gradient first = pull(roots_.front());
     for (std::size_t k = 1; k < roots_.size(); ++k) {
-      const Entries other = pull(roots_[k]);
+      const Gradient other = pull(roots_[k]);
       if (roots_.front().radius_offset() - roots_[k].radius_offset() > closeness) break;
-      if (!(first[9] * other[9] < 0.0)) continue;
-      const Entries gain = -(first - other) / (first[9] - other[9]);
-      return answer(LeastRadiusKind::balanced, first + first[9] * gain, gain);
+      if (!(first[by_d_] * other[by_d_] < 0.0)) continue;
+      const Gradient gain = follow(first - other, by_d_);
+      return answer(LeastRadiusKind::balanced, first + first[by_d_] * gain, gain);
     }
     return std::nullopt;
   }
@@ -91,8 +95,8 @@ class ActiveRoots {
     if (!(std::abs(gains.differential - gains_.differential) <= 1e-4 * natural_gain(gains, mu)))
       return std::nullopt;
     const auto factors = double_root_matrix(gains, mu).partialPivLu();
-    Entries logarithm, gain;
-    for (int i = 0; i < loop_parameters - 1; ++i) {
+    Gradient logarithm, gain;
+    for (int i = 0; i < by_d_; ++i) {
       const Vector<double, 2> change = factors.solve(-double_root_residual(partial(gains, i), mu));
       logarithm[i] = change[0] / (centre_ + mu);
       gain[i] = change[1];
@@ -102,7 +106,7 @@ class ActiveRoots {
 
   /// The middle of two real roots, or of a pair about to become real, at the largest modulus.
   bool near_double_root(double closeness, double& mu) const {
-    const LoopRoot& lead = roots_.front();
+    const MovingRoot<Carried>& lead = roots_.front();
     mu = lead.offset.real();
     if (lead.offset.imag() != 0.0) return lead.offset.imag() < closeness;
     for (std::size_t k = 1; k < roots_.size(); ++k) {
@@ -116,24 +120,24 @@ class ActiveRoots {
   /// |D|, or the change of D that parts a double root by its own size, whichever is larger.
   double natural_gain(const PdGains<double>& gains, double mu) const {
     const auto curvature = derivative<double, 5>(derivative<double, 6>(values_at(gains)));
-    const auto by_d = values_of<carried_parameters, 5>(polynomial_.differential);
+    const auto by_d = values_of<Carried, 5>(polynomial_.differential);
     return std::max(std::abs(gains.differential),
                     std::abs(0.5 * evaluate(curvature, mu) * mu * mu / evaluate(by_d, mu)));
   }
 
   Polynomial<double, 5> values_at(const PdGains<double>& gains) const {
-    return values_of<carried_parameters, 5>(rated_at(gains));
+    return values_of<Carried, 5>(rated_at(gains));
   }
 
-  Polynomial<Rated<carried_parameters>, 5> rated_at(const PdGains<double>& gains) const {
-    using Number = Rated<carried_parameters>;
+  Polynomial<Rated<Carried>, 5> rated_at(const PdGains<double>& gains) const {
+    using Number = Rated<Carried>;
     return polynomial_.at(PdGains<Number>{Number(gains.proportional), Number(gains.differential)});
   }
 
-  /// ∂p/∂x as a polynomial; x = P is entry 8.
+  /// ∂p/∂x as a polynomial; x = P is entry `by_p_`.
   Polynomial<double, 5> partial(const PdGains<double>& gains, int entry) const {
-    if (entry == 8) return values_of<carried_parameters, 5>(polynomial_.proportional);
-    return rate_of<carried_parameters, 5>(rated_at(gains), entry);
+    if (entry == by_p_) return values_of<Carried, 5>(polynomial_.proportional);
+    return rate_of<Carried, 5>(rated_at(gains), entry);
   }
 
   static Vector<double, 2> double_root_residual(const Polynomial<double, 5>& p, double mu) {
@@ -142,7 +146,7 @@ class ActiveRoots {
 
   Matrix<double, 2> double_root_matrix(const PdGains<double>& gains, double mu) const {
     const Polynomial<double, 4> slope = derivative<double, 6>(values_at(gains));
-    const Polynomial<double, 5> d = values_of<carried_parameters, 5>(polynomial_.differential);
+    const Polynomial<double, 5> d = values_of<Carried, 5>(polynomial_.differential);
     Matrix<double, 2> matrix;
     matrix << evaluate(slope, mu), evaluate(d, mu), evaluate(derivative<double, 5>(slope), mu),
         evaluate(derivative<double, 6>(d), mu);
@@ -156,43 +160,41 @@ class ActiveRoots {
   /// @param shortfall  by how much ln|λ| may exceed that of the minimum nearby
   std::optional<LeastRadiusSensitivity> of_smooth_minimum(double shortfall) const {
     using Complex = std::complex<double>;
-    const LoopRoot& root = roots_.front();
+    const MovingRoot<Carried>& root = roots_.front();
     const Complex mu = root.offset, lambda = root.value(), by_d = root.rate_by_differential_gain;
     const Polynomial<double, 4> slope = derivative<double, 6>(values_at(gains_));
     const Complex p_l = evaluate(slope, mu), p_ll = evaluate(derivative<double, 5>(slope), mu);
     const auto& rated_d = polynomial_.differential;
-    const Complex p_ld =
-        evaluate(derivative<double, 6>(values_of<carried_parameters, 5>(rated_d)), mu);
+    const Complex p_ld = evaluate(derivative<double, 6>(values_of<Carried, 5>(rated_d)), mu);
     const auto mixed = [&](const Complex& by_x, const Complex& p_lx, const Complex& p_dx) {
       const Complex second = -(p_ll * by_d * by_x + p_ld * by_x + p_lx * by_d + p_dx) / p_l;
       return (second / lambda - by_d * by_x / (lambda * lambda)).real();
     };
-    const double slope_by_d = pull(root)[9], curvature = mixed(by_d, p_ld, 0.0);
+    const double slope_by_d = pull(root)[by_d_], curvature = mixed(by_d, p_ld, 0.0);
     if (!(curvature > 0.0) || slope_by_d * slope_by_d > 2.0 * shortfall * curvature)
       return std::nullopt;
-    Entries gain;
-    for (int i = 0; i < loop_parameters - 1; ++i) {
+    Gradient gain;
+    for (int i = 0; i < by_d_; ++i) {
       const Complex p_lx = evaluate(derivative<double, 6>(partial(gains_, i)), mu);
-      const Complex p_dx = i < carried_parameters
-                               ? Complex(evaluate(rate_of<carried_parameters, 5>(rated_d, i), mu))
-                               : Complex(0.0);
-      const Complex by_x = i < carried_parameters ? root.rates[i] : root.rate_by_proportional_gain;
+      const Complex p_dx =
+          i < Carried ? Complex(evaluate(rate_of<Carried, 5>(rated_d, i), mu)) : Complex(0.0);
+      const Complex by_x = i < Carried ? root.rates[i] : root.rate_by_proportional_gain;
       gain[i] = -mixed(by_x, p_lx, p_dx) / curvature;
     }
     return answer(LeastRadiusKind::smooth, pull(root), gain);
   }
 
   LeastRadiusSensitivity of_fixed() const {
-    const Entries none = Entries::Constant(std::numeric_limits<double>::quiet_NaN());
+    const Gradient none = Gradient::Constant(std::numeric_limits<double>::quiet_NaN());
     return {LeastRadiusKind::fixed,
             answer(LeastRadiusKind::fixed, pull(roots_.front()), none).radius,
             sensitivity_of(none)};
   }
 
-  AffinePolynomial<Rated<carried_parameters>, 5> polynomial_;
+  AffinePolynomial<Rated<Carried>, 5> polynomial_;
   double centre_;
   PdGains<double> gains_;
-  std::vector<LoopRoot> roots_;
+  std::vector<MovingRoot<Carried>> roots_;
 };
 
 }  // namespace detail
@@ -205,13 +207,20 @@ class ActiveRoots {
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
 /// @param gains     P and the D of `least_radius`, finite
 /// @throws InvalidParameter outside the admissible ranges
-inline LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<double>& plant,
-                                                       const Sampling<double>& sampling,
-                                                       const PdGains<double>& gains) {
+template <class Scalar>
+LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<Scalar>& plant,
+                                                const Sampling<double>& sampling,
+                                                const PdGains<double>& gains) {
   validate(plant);
   validate(sampling);
   validate(gains);
   return detail::ActiveRoots(detail::rated_polynomial(plant, sampling), gains).sensitivity();
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<double>&,
+                                                                const Sampling<double>&,
+                                                                const PdGains<double>&);
+#endif
 
 }  // namespace holdfast

@@ -38,8 +38,9 @@ struct LoopSensitivity {
 inline constexpr int loop_parameters = 10;
 
 /// The entries in the order of their declaration.
-inline Vector<double, loop_parameters> entries_of(const LoopSensitivity& s) {
-  Vector<double, loop_parameters> result;
+template <class Scalar = double>
+Vector<Scalar, loop_parameters> entries_of(const LoopSensitivity& s) {
+  Vector<Scalar, loop_parameters> result;
   result << s.conductor_mass, s.conductor_stiffness, s.conductor_damping, s.absorber_mass,
       s.absorber_stiffness, s.absorber_damping, s.sampling_period, s.processing_delay,
       s.proportional_gain, s.differential_gain;
@@ -47,8 +48,11 @@ inline Vector<double, loop_parameters> entries_of(const LoopSensitivity& s) {
 }
 
 /// The sensitivity with these entries.
-inline LoopSensitivity sensitivity_of(const Vector<double, loop_parameters>& entries) {
-  const auto& e = entries;
+/// @param entries  `loop_parameters` × 1, or an expression of that size
+template <class Derived>
+LoopSensitivity sensitivity_of(const Eigen::MatrixBase<Derived>& entries) {
+  static_assert(Derived::SizeAtCompileTime == loop_parameters, "one entry for each parameter");
+  const auto e = entries.eval();
   return {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7], e[8], e[9]};
 }
 
@@ -59,14 +63,15 @@ inline LoopSensitivity sensitivity_of(const Vector<double, loop_parameters>& ent
 /// @param sampling     τ (s) and δ (s) there
 /// @param gains        P (N/m) and D (N s/m) there
 /// @param value        y, not 0
-inline LoopSensitivity logarithmic(const LoopSensitivity& sensitivity, const TwoDof<double>& plant,
-                                   const Sampling<double>& sampling, const PdGains<double>& gains,
-                                   double value) {
-  const Vector<double, loop_parameters> parameters = entries_of(
+template <class Scalar>
+LoopSensitivity logarithmic(const LoopSensitivity& sensitivity, const TwoDof<Scalar>& plant,
+                            const Sampling<double>& sampling, const PdGains<double>& gains,
+                            double value) {
+  const auto parameters = entries_of<Scalar>(
       {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
        plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping, sampling.period,
        sampling.processing_delay, gains.proportional, gains.differential});
-  return sensitivity_of(entries_of(sensitivity).cwiseProduct(parameters) / value);
+  return sensitivity_of(entries_of<Scalar>(sensitivity).cwiseProduct(parameters) / value);
 }
 
 /// The sensitivity when P follows k₂ and m₂ by Eq. 6, P = k₂ − m₂ ω², instead of being held.
@@ -82,26 +87,32 @@ inline LoopSensitivity with_tuned_gain(LoopSensitivity sensitivity, double frequ
 
 namespace detail {
 
-using Entries = Vector<double, loop_parameters>;
 inline constexpr int carried_parameters = 8;  // the plant's six, τ and δ; the gains come from p
 using LoopRates = std::array<LoopRate, carried_parameters>;
 
+/// The derivatives by the parameters that a polynomial carries, then by P and by D.
+template <int Carried = carried_parameters>
+using Entries = Vector<double, Carried + 2>;
+
 /// The plant whose members carry their own derivatives, in the order of `LoopSensitivity`.
-inline TwoDof<Rated<6>> seeded(const TwoDof<double>& plant) {
-  const auto seed = [](double value, int index) { return Rated<6>(value, 6, index); };
+template <class Scalar>
+TwoDof<Rated<6>> seeded(const TwoDof<Scalar>& plant) {
+  const auto seed = [](const Scalar& value, int index) { return Rated<6>(value, 6, index); };
   return {seed(plant.conductor_mass, 0),     seed(plant.conductor_stiffness, 1),
           seed(plant.conductor_damping, 2),  seed(plant.absorber_mass, 3),
           seed(plant.absorber_stiffness, 4), seed(plant.absorber_damping, 5)};
 }
 
-inline std::array<PlantRate, 6> plant_rates(const TwoDof<double>& plant) {
-  const TwoDof<Rated<6>> carrying = seeded(plant);
+template <class Scalar>
+std::array<PlantRate, 6> plant_rates(const TwoDof<Scalar>& plant) {
+  const auto carrying = seeded(plant);
   std::array<PlantRate, 6> rates;
   for (int i = 0; i < 6; ++i) rates[static_cast<std::size_t>(i)] = plant_rate<6>(carrying, i);
   return rates;
 }
 
-inline LoopRates loop_rates(const TwoDof<double>& plant, const SampledLoop<double>& loop) {
+template <class Scalar>
+LoopRates loop_rates(const TwoDof<Scalar>& plant, const SampledLoop<Scalar>& loop) {
   LoopRates rates;
   const auto by_plant = plant_rates(plant);
   for (std::size_t i = 0; i < 6; ++i) rates[i] = rate_by_plant(plant, by_plant[i], loop.sampling);
@@ -111,13 +122,14 @@ inline LoopRates loop_rates(const TwoDof<double>& plant, const SampledLoop<doubl
 }
 
 /// The loop's polynomial with its derivatives, in powers of λ − centre.
+template <int Carried = carried_parameters>
 struct RatedPolynomial {
   double centre;  ///< that of `loop_polynomial`
-  AffinePolynomial<Rated<carried_parameters>, 5> polynomial;
+  AffinePolynomial<Rated<Carried>, 5> polynomial;
 };
 
-inline RatedPolynomial rated_polynomial(const TwoDof<double>& plant,
-                                        const Sampling<double>& sampling) {
+template <class Scalar>
+RatedPolynomial<> rated_polynomial(const TwoDof<Scalar>& plant, const Sampling<Scalar>& sampling) {
   const auto loop = sampled_loop(plant, sampling);
   const auto rated = rated_loop<carried_parameters>(loop, loop_rates(plant, loop));
   const double centre = loop_polynomial(loop).centre;
@@ -125,33 +137,37 @@ inline RatedPolynomial rated_polynomial(const TwoDof<double>& plant,
                                 : characteristic_polynomial(rated)};
 }
 
-using LoopRoot = MovingRoot<carried_parameters>;
-
-inline std::vector<LoopRoot> roots_of(const RatedPolynomial& loop, const PdGains<double>& gains) {
-  return moving_roots<carried_parameters>(loop.polynomial, gains, loop.centre);
+template <int Carried>
+std::vector<MovingRoot<Carried>> roots_of(const RatedPolynomial<Carried>& loop,
+                                          const PdGains<double>& gains) {
+  return moving_roots<Carried>(loop.polynomial, gains, loop.centre);
 }
 
 /// ∂ ln|λ| by every parameter.
-inline Entries pull(const LoopRoot& root) {
-  Entries result;
-  for (int i = 0; i < carried_parameters; ++i) result[i] = root.logarithmic_rate(root.rates[i]);
-  result[8] = root.logarithmic_rate(root.rate_by_proportional_gain);
-  result[9] = root.logarithmic_rate(root.rate_by_differential_gain);
+template <int Carried>
+Entries<Carried> pull(const MovingRoot<Carried>& root) {
+  Entries<Carried> result;
+  for (int i = 0; i < Carried; ++i) result[i] = root.logarithmic_rate(root.rates[i]);
+  result[Carried] = root.logarithmic_rate(root.rate_by_proportional_gain);
+  result[Carried + 1] = root.logarithmic_rate(root.rate_by_differential_gain);
   return result;
 }
 
 /// The root whose modulus is nearest to a radius.
-inline LoopRoot root_at_radius(const std::vector<LoopRoot>& roots, double radius) {
-  const auto distance = [radius](const LoopRoot& root) {
+template <int Carried>
+MovingRoot<Carried> root_at_radius(const std::vector<MovingRoot<Carried>>& roots, double radius) {
+  const auto distance = [radius](const auto& root) {
     return std::abs(root.excess() - (radius - 1.0));
   };
   return *std::min_element(roots.begin(), roots.end(),
                            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
 }
 
-/// How entry number `own` must follow the others to keep the root's modulus: −∂_x ln|λ| / ∂_own.
-inline Entries follow(const Entries& pull, int own) {
-  Entries result = -pull / pull[own];
+/// How entry number `own` must follow the others to keep the value of which this is the gradient,
+/// such as ln|λ| of a root: −∂_x / ∂_own, and 0 by itself.
+template <class Derived>
+typename Derived::PlainObject follow(const Eigen::MatrixBase<Derived>& gradient, int own) {
+  typename Derived::PlainObject result = -gradient / gradient[own];
   result[own] = 0.0;
   return result;
 }
@@ -177,10 +193,11 @@ enum class BoundaryGain { proportional, differential };
 /// @param gain      the one whose sensitivity is returned
 /// @param radius    of the boundary, > 0; 1 is that of stability
 /// @throws InvalidParameter outside the admissible ranges
-inline LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>& plant,
-                                                 const Sampling<double>& sampling,
-                                                 const PdGains<double>& gains, BoundaryGain gain,
-                                                 double radius = 1.0) {
+template <class Scalar>
+LoopSensitivity boundary_gain_sensitivity(const TwoDof<Scalar>& plant,
+                                          const Sampling<double>& sampling,
+                                          const PdGains<double>& gains, BoundaryGain gain,
+                                          double radius = 1.0) {
   validate(plant);
   validate(sampling);
   validate(gains);
@@ -193,9 +210,9 @@ inline LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>& plant,
 /// The sensitivity of the spectral radius ρ = max |λ|. Where two roots share the largest modulus ρ
 /// has no derivative; that of one of them is returned.
 /// @throws InvalidParameter outside the admissible ranges
-inline LoopSensitivity radius_sensitivity(const TwoDof<double>& plant,
-                                          const Sampling<double>& sampling,
-                                          const PdGains<double>& gains) {
+template <class Scalar>
+LoopSensitivity radius_sensitivity(const TwoDof<Scalar>& plant, const Sampling<double>& sampling,
+                                   const PdGains<double>& gains) {
   validate(plant);
   validate(sampling);
   validate(gains);
@@ -205,5 +222,14 @@ inline LoopSensitivity radius_sensitivity(const TwoDof<double>& plant,
       [](const auto& a, const auto& b) { return a.radius_offset() < b.radius_offset(); });
   return sensitivity_of(detail::pull(dominant) * std::abs(dominant.value()));
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>&,
+                                                          const Sampling<double>&,
+                                                          const PdGains<double>&, BoundaryGain,
+                                                          double);
+extern template LoopSensitivity radius_sensitivity(const TwoDof<double>&, const Sampling<double>&,
+                                                   const PdGains<double>&);
+#endif
 
 }  // namespace holdfast

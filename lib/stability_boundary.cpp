@@ -1,0 +1,39 @@
+// Explicit instantiations of stability/boundary for double.
+
+#include "holdfast/stability/boundary/boundary.hpp"
+#include "holdfast/stability/boundary/boundary_features.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/boundary/stable_regions.hpp"
+
+namespace holdfast {
+
+template std::vector<BoundaryPoint<double>> stability_boundary(const AffinePolynomial<double, 4>&,
+                                                               const ProportionalRange&);
+template std::vector<BoundaryPoint<double>> stability_boundary(const AffinePolynomial<double, 5>&,
+                                                               const ProportionalRange&);
+template std::vector<BoundaryFeature<double>> boundary_features(const AffinePolynomial<double, 4>&,
+                                                                const GainWindow&);
+template std::vector<BoundaryFeature<double>> boundary_features(const AffinePolynomial<double, 5>&,
+                                                                const GainWindow&);
+template std::vector<Interval<double>> stable_intervals(const Vector<double, 5>&,
+                                                        const Vector<double, 5>&);
+template std::vector<Interval<double>> stable_intervals(const Vector<double, 6>&,
+                                                        const Vector<double, 6>&);
+template std::vector<Interval<double>> stable_differential_gains(const AffinePolynomial<double, 4>&,
+                                                                 const double&);
+template std::vector<Interval<double>> stable_differential_gains(const AffinePolynomial<double, 5>&,
+                                                                 const double&);
+template std::vector<Interval<double>> stable_proportional_gains(const AffinePolynomial<double, 4>&,
+                                                                 const double&);
+template std::vector<Interval<double>> stable_proportional_gains(const AffinePolynomial<double, 5>&,
+                                                                 const double&);
+template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 4>&,
+                                                      const GainWindow&);
+template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 5>&,
+                                                      const GainWindow&);
+template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 4>&,
+                                                        const GainWindow&);
+template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 5>&,
+                                                        const GainWindow&);
+
+}  // namespace holdfast

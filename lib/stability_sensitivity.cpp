@@ -1,0 +1,22 @@
+// Explicit instantiations of stability/sensitivity for double.
+
+#include "holdfast/stability/sensitivity/amplitude_sensitivity.hpp"
+#include "holdfast/stability/sensitivity/max_delay_sensitivity.hpp"
+#include "holdfast/stability/sensitivity/minimum_radius_sensitivity.hpp"
+#include "holdfast/stability/sensitivity/sensitivity.hpp"
+
+namespace holdfast {
+
+template LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>&, const Sampling<double>&,
+                                                   const PdGains<double>&, BoundaryGain, double);
+template LoopSensitivity radius_sensitivity(const TwoDof<double>&, const Sampling<double>&,
+                                            const PdGains<double>&);
+template LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<double>&,
+                                                         const Sampling<double>&,
+                                                         const PdGains<double>&);
+template AmplitudeSensitivity amplitude_sensitivity(const TwoDof<double>&, const AmplitudeQuestion&,
+                                                    double, double);
+template MaxDelaySensitivity max_delay_sensitivity(const TwoDof<double>&, const MaxDelayQuestion&,
+                                                   const MaxDelay&);
+
+}  // namespace holdfast
