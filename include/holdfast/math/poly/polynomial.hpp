@@ -149,4 +149,13 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
   return result;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<std::complex<double>> roots(
+    const Eigen::MatrixBase<Polynomial<double, 2>>&, double);
+extern template std::vector<std::complex<double>> roots(
+    const Eigen::MatrixBase<Polynomial<double, 4>>&, double);
+extern template std::vector<std::complex<double>> roots(
+    const Eigen::MatrixBase<Polynomial<double, 5>>&, double);
+#endif
+
 }  // namespace holdfast

@@ -55,15 +55,17 @@ inline void validate(const MaxDelayQuestion& question) {
 namespace detail {
 
 /// What one sampling period offers at the question's P.
+template <class Scalar>
 struct DelayOffer {
-  std::vector<Interval<double>> stable;            ///< D that stabilise
-  std::optional<SteadyResponse<double>> response;  ///< nothing for the criterion `stable`
+  std::vector<Interval<Scalar>> stable;            ///< D that stabilise
+  std::optional<SteadyResponse<Scalar>> response;  ///< nothing for the criterion `stable`
 };
 
-inline DelayOffer delay_offer(const TwoDof<double>& plant, const MaxDelayQuestion& question,
-                              double sampling_period) {
+template <class Plant>
+DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayQuestion& question,
+                               double sampling_period) {
   const auto loop = sampled_loop(plant, question.sampling(sampling_period));
-  DelayOffer offer{
+  DelayOffer<double> offer{
       stable_differential_gains(characteristic_polynomial(loop), question.proportional_gain), {}};
   if (question.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
   const double omega = question.angular_frequency();
@@ -82,12 +84,15 @@ inline bool shows_vibration(const MaxDelayQuestion& question, double sampling_pe
 /// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
 /// those that stabilise and, to attenuate, those of them with an amplitude below that of no
 /// control.
+/// @tparam Plant           anything with `state_matrix()`, `control_input()` and
+///                         `excitation_input()`
 /// @param plant            within its ranges, which are not checked here
 /// @param question         within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
-inline std::vector<Interval<double>> feasible_differential_gains(const TwoDof<double>& plant,
-                                                                 const MaxDelayQuestion& question,
-                                                                 double sampling_period) {
+template <class Plant>
+std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
+                                                          const MaxDelayQuestion& question,
+                                                          double sampling_period) {
   if (!detail::shows_vibration(question, sampling_period)) return {};
   const auto offer = detail::delay_offer(plant, question, sampling_period);
   if (!offer.response) return offer.stable;
@@ -100,12 +105,15 @@ inline std::vector<Interval<double>> feasible_differential_gains(const TwoDof<do
 ///
 /// The stabilising gains are known as exact intervals (`stable_differential_gains`) and the least
 /// amplitude over them in closed form (`SteadyResponse`), so nothing is scanned over D.
+/// @tparam Plant           anything with `state_matrix()`, `control_input()` and
+///                         `excitation_input()`
 /// @param plant            within its ranges, which are not checked here
 /// @param question         within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
-inline std::optional<double> feasible_differential_gain(const TwoDof<double>& plant,
-                                                        const MaxDelayQuestion& question,
-                                                        double sampling_period) {
+template <class Plant>
+std::optional<double> feasible_differential_gain(const Plant& plant,
+                                                 const MaxDelayQuestion& question,
+                                                 double sampling_period) {
   if (!detail::shows_vibration(question, sampling_period)) return std::nullopt;
   const auto offer = detail::delay_offer(plant, question, sampling_period);
   if (offer.stable.empty()) return std::nullopt;
@@ -115,5 +123,13 @@ inline std::optional<double> feasible_differential_gain(const TwoDof<double>& pl
   if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
   return best.differential_gain;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<Interval<double>> feasible_differential_gains(const TwoDof<double>&,
+                                                                          const MaxDelayQuestion&,
+                                                                          double);
+extern template std::optional<double> feasible_differential_gain(const TwoDof<double>&,
+                                                                 const MaxDelayQuestion&, double);
+#endif
 
 }  // namespace holdfast

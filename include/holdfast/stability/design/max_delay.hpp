@@ -47,14 +47,15 @@ struct MaxDelay {
 namespace detail {
 
 /// Joins feasible periods to one another and finds where that ends.
+template <class Plant>
 class DelaySearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
-  DelaySearch(const TwoDof<double>& plant, const MaxDelayQuestion& question)
+  DelaySearch(const Plant& plant, const MaxDelayQuestion& question)
       : plant_(plant),
         question_(question),
-        path_(SamplingPath::of_period(plant, question.delay_fraction)) {}
+        path_(SamplingPath<Plant>::of_period(plant, question.delay_fraction)) {}
 
   MaxDelay answer() {
     feasible_ = std::min(question_.shortest_period, 1e-3 / question_.frequency);
@@ -212,9 +213,9 @@ class DelaySearch {
     return jump > 1e-3 ? MaxDelayLimit::stability : MaxDelayLimit::attenuation;
   }
 
-  TwoDof<double> plant_;
+  Plant plant_;
   MaxDelayQuestion question_;
-  SamplingPath path_;
+  SamplingPath<Plant> path_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
   double start_ = 0.0;     // D of least radius at a neighbouring period
@@ -230,11 +231,18 @@ class DelaySearch {
 /// that changes its sign there: 1 − min ρ over D (`least_radius`), or 1 less the least amplitude
 /// ratio over the stabilising D. The last stretch, from τ*/search_ratio on, is feasible at its ends
 /// and taken to be so in between. Source: Kollár 2022, Fig. 5.
+/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()` that
+///                `validate` checks
 /// @throws InvalidParameter for a plant or question outside the admissible ranges
-inline MaxDelay max_sampling_period(const TwoDof<double>& plant, const MaxDelayQuestion& question) {
+template <class Plant>
+MaxDelay max_sampling_period(const Plant& plant, const MaxDelayQuestion& question) {
   validate(plant);
   validate(question);
   return detail::DelaySearch(plant, question).answer();
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MaxDelay max_sampling_period(const TwoDof<double>&, const MaxDelayQuestion&);
+#endif
 
 }  // namespace holdfast

@@ -37,6 +37,8 @@ namespace detail {
 ///
 /// The minimum lies at an end of an admissible interval, where one quotient is stationary, or where
 /// two of them cross: roots of quadratics and quartics, collected as frequencies are added.
+/// @tparam Ratio  with `squared`, a quotient of quadratics in `double`, as `RatioAtFrequency`
+template <class Ratio>
 class WorstOfFrequencies {
  public:
   explicit WorstOfFrequencies(const std::vector<Interval<double>>& admissible)
@@ -47,9 +49,9 @@ class WorstOfFrequencies {
     }
   }
 
-  void add(const RatioAtFrequency& ratio) {
+  void add(const Ratio& ratio) {
     consider_roots(ratio.squared.slope_numerator());
-    for (const RatioAtFrequency& other : ratios_) {
+    for (const Ratio& other : ratios_) {
       consider_roots(Vector<double, 5>(
           multiply<double, 3, 3>(ratio.squared.numerator, other.squared.denominator) -
           multiply<double, 3, 3>(other.squared.numerator, ratio.squared.denominator)));
@@ -66,7 +68,7 @@ class WorstOfFrequencies {
     Least best{candidates_.front(), std::numeric_limits<double>::infinity()};
     for (const double d : candidates_) {
       double worst = 0.0;
-      for (const RatioAtFrequency& ratio : ratios_) worst = std::max(worst, ratio.squared.at(d));
+      for (const Ratio& ratio : ratios_) worst = std::max(worst, ratio.squared.at(d));
       if (worst < best.ratio) best = {d, worst};
     }
     best.ratio = std::sqrt(best.ratio);
@@ -86,7 +88,7 @@ class WorstOfFrequencies {
   }
 
   std::vector<Interval<double>> admissible_;
-  std::vector<RatioAtFrequency> ratios_;
+  std::vector<Ratio> ratios_;
   std::vector<double> candidates_;
 };
 
@@ -98,15 +100,16 @@ class WorstOfFrequencies {
 /// exactly and bounds the answer from below; the worst frequency of the whole band at that D
 /// bounds it from above and is added. Both bounds are returned: their gap is the error, up to what
 /// the search over frequencies misses (`AmplitudeBand`; peaks are resolved to 1e−9 of the band).
-/// @param plant              m, k and c of both masses, within their ranges
+/// @tparam Plant             anything with `state_matrix()`, `control_input()` and
+///                           `excitation_input()` that `validate` checks
+/// @param plant              within its ranges
 /// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param proportional_gain  P (N/m), finite
 /// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
 /// @throws InvalidParameter outside the admissible ranges
-inline LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>& plant,
-                                                 const AmplitudeQuestion& question,
-                                                 double proportional_gain,
-                                                 const FrequencyBand& band) {
+template <class Plant>
+LeastWorstAmplitude least_worst_amplitude(const Plant& plant, const AmplitudeQuestion& question,
+                                          double proportional_gain, const FrequencyBand& band) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(plant);
   validate(question);
@@ -117,7 +120,7 @@ inline LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>& plant,
       differential_gains_within_radius(loop, proportional_gain, question.largest_radius);
   if (admissible.empty()) return {LeastWorstOutcome::none, none, none, none, none, none};
   const AmplitudeBand amplitudes(plant, loop, question.hold, proportional_gain, band);
-  detail::WorstOfFrequencies chosen(admissible);
+  detail::WorstOfFrequencies<RatioAtFrequency> chosen(admissible);
   for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
   LeastWorstAmplitude result{LeastWorstOutcome::not_converged,
                              none,
@@ -143,5 +146,11 @@ inline LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>& plant,
   result.attenuation = attenuation(result.worst_ratio);
   return result;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>&,
+                                                          const AmplitudeQuestion&, double,
+                                                          const FrequencyBand&);
+#endif
 
 }  // namespace holdfast

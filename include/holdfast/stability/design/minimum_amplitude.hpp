@@ -54,14 +54,16 @@ inline void validate(const AmplitudeQuestion& question) {
 ///
 /// The admissible D are exact intervals, the amplitude over them is a quotient of two quadratics
 /// (`SteadyResponse::best_differential_gain`): nothing is scanned.
-/// @param plant              m, k and c of both masses, within their ranges
+/// @tparam Plant             anything with `state_matrix()`, `control_input()` and
+///                           `excitation_input()` that `validate` checks
+/// @param plant              within its ranges
 /// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite; Eq. (6) tunes it to f
 /// @throws InvalidParameter outside the admissible ranges
-inline LeastAmplitude least_amplitude(const TwoDof<double>& plant,
-                                      const AmplitudeQuestion& question, double frequency,
-                                      double proportional_gain) {
+template <class Plant>
+LeastAmplitude least_amplitude(const Plant& plant, const AmplitudeQuestion& question,
+                               double frequency, double proportional_gain) {
   validate(plant);
   validate(question);
   require_positive("frequency", frequency, "Hz");
@@ -85,5 +87,10 @@ inline LeastAmplitude least_amplitude(const TwoDof<double>& plant,
           best.differential_gain, best.ratio_to_uncontrolled,
           attenuation(best.ratio_to_uncontrolled)};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LeastAmplitude least_amplitude(const TwoDof<double>&, const AmplitudeQuestion&,
+                                               double, double);
+#endif
 
 }  // namespace holdfast

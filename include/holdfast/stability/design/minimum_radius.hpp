@@ -40,13 +40,14 @@ namespace detail {
 /// each level tested is a bound from above or from below on the global minimum. Levels to test
 /// come from ρ in the middle of the intervals and where the secants of their two ends meet, which
 /// are exact in the limit for a smooth minimum and for two branches that cross.
+/// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
+template <class Loop>
 class LeastRadiusSearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
   /// @param accuracy  what the margin may err by as a share of itself; 0 for all digits
-  LeastRadiusSearch(const LoopPolynomial<double>& loop, double proportional_gain,
-                    double accuracy = 0.0)
+  LeastRadiusSearch(const Loop& loop, double proportional_gain, double accuracy = 0.0)
       : loop_(loop), proportional_gain_(proportional_gain), accuracy_(accuracy) {}
 
   /// @param start  any D; the closer the quicker
@@ -143,7 +144,7 @@ class LeastRadiusSearch {
             interval};
   }
 
-  LoopPolynomial<double> loop_;
+  Loop loop_;
   double proportional_gain_, accuracy_;
   double lower_ = 0.0, upper_ = 0.0, previous_level_ = 0.0, probe_ = 0.0;
   Intervals intervals_, previous_;
@@ -157,15 +158,20 @@ class LeastRadiusSearch {
 /// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`). The least radius
 /// is the r at which it becomes empty. The leading coefficient does not contain D, so ρ grows
 /// without bound as |D| does and the minimum exists unless no coefficient contains D.
+/// @tparam Loop              any in `double` that has a `loop_polynomial`
 /// @param loop               of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
 /// @param start              a D (N s/m) to begin from, finite; any will do
 /// @throws InvalidParameter for gains that are not finite
-inline LeastRadius least_radius(const SampledLoop<double>& loop, double proportional_gain,
-                                double start = 0.0) {
+template <class Loop>
+LeastRadius least_radius(const Loop& loop, double proportional_gain, double start = 0.0) {
   require_finite("proportional gain P", proportional_gain, "N/m");
   require_finite("differential gain D", start, "N s/m");
   return detail::LeastRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LeastRadius least_radius(const SampledLoop<double>&, double, double);
+#endif
 
 }  // namespace holdfast

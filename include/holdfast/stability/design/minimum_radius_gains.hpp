@@ -44,22 +44,23 @@ inline void narrow(double& lower, double& upper, double low, double high) {
 /// A rectangle that holds all gains with all |λ′| < 1. The coefficient of λ′^k, an affine function
 /// b_k + P p_k + D d_k of the gains, is then within ± C(5, k): five strips, any two of which bound
 /// a parallelogram. Infinite where the strips are all parallel.
-inline GainWindow window_of_unit_radius(const AffinePolynomial<double, 5>& in_powers_of_mu) {
+template <class Scalar>
+GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of_mu) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto q = in_powers_of_mu.transformed(in_powers_of_lambda<double, 6>);
+  const auto q = in_powers_of_mu.transformed(in_powers_of_lambda<Scalar, 6>);
   GainWindow window{{-infinity, infinity}, {-infinity, infinity}};
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < i; ++j) {
-      const double pi = q.proportional[i], pj = q.proportional[j];
-      const double di = q.differential[i], dj = q.differential[j];
-      const double determinant = pi * dj - pj * di;
+      const Scalar pi = q.proportional[i], pj = q.proportional[j];
+      const Scalar di = q.differential[i], dj = q.differential[j];
+      const Scalar determinant = pi * dj - pj * di;
       // Cramer's rule with ± half-widths: the centre and the largest deviation from it.
-      const double wi = std::abs(q.base[5]) * binomial(5, i);
-      const double wj = std::abs(q.base[5]) * binomial(5, j);
-      const double p = (q.base[j] * di - q.base[i] * dj) / determinant;
-      const double d = (q.base[i] * pj - q.base[j] * pi) / determinant;
-      const double p_reach = (wi * std::abs(dj) + wj * std::abs(di)) / std::abs(determinant);
-      const double d_reach = (wj * std::abs(pi) + wi * std::abs(pj)) / std::abs(determinant);
+      const Scalar wi = std::abs(q.base[5]) * binomial(5, i);
+      const Scalar wj = std::abs(q.base[5]) * binomial(5, j);
+      const Scalar p = (q.base[j] * di - q.base[i] * dj) / determinant;
+      const Scalar d = (q.base[i] * pj - q.base[j] * pi) / determinant;
+      const Scalar p_reach = (wi * std::abs(dj) + wj * std::abs(di)) / std::abs(determinant);
+      const Scalar d_reach = (wj * std::abs(pi) + wi * std::abs(pj)) / std::abs(determinant);
       if (!std::isfinite(p_reach + d_reach + p + d)) continue;
       narrow(window.proportional.lower, window.proportional.upper, p - p_reach, p + p_reach);
       narrow(window.differential.lower, window.differential.upper, d - d_reach, d + d_reach);
@@ -75,11 +76,13 @@ inline GainWindow window_of_unit_radius(const AffinePolynomial<double, 5>& in_po
 /// set has gains there (`stable_intervals`). So each level tested is a bound from above or from
 /// below on the global minimum. Levels to test come from min ρ over D (`LeastRadiusSearch`) in the
 /// middle of the P intervals and where the secants of their ends meet.
+/// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
+template <class Loop>
 class LeastRadiusGainsSearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
-  explicit LeastRadiusGainsSearch(const LoopPolynomial<double>& loop) : loop_(loop) {}
+  explicit LeastRadiusGainsSearch(const Loop& loop) : loop_(loop) {}
 
   LeastRadiusGains run() {
     upper_ = loop_.radius_offset(best_);
@@ -191,7 +194,7 @@ class LeastRadiusGainsSearch {
     best_ = gains;
   }
 
-  LoopPolynomial<double> loop_;
+  Loop loop_;
   PdGains<double> best_{0.0, 0.0};
   double lower_ = 0.0, upper_ = 0.0, probe_ = 0.0;
   double accuracy_ = 1e-3;  // of the minima over D, a share of the margin
@@ -208,9 +211,15 @@ class LeastRadiusGainsSearch {
 /// it becomes empty. There two pairs often coincide; the roots then answer to the square root of a
 /// change of the gains, so that gains in `double` cannot hold the radius to better than about 1e−8.
 /// Where all roots of the plant have decayed to 1e−6 within a sample the outcome may be `open`.
-/// @param loop  of `sampled_loop`
-inline LeastRadiusGains least_radius_gains(const SampledLoop<double>& loop) {
+/// @tparam Loop  any in `double` that has a `loop_polynomial`
+/// @param loop   of `sampled_loop`
+template <class Loop>
+LeastRadiusGains least_radius_gains(const Loop& loop) {
   return detail::LeastRadiusGainsSearch(loop_polynomial(loop)).run();
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LeastRadiusGains least_radius_gains(const SampledLoop<double>&);
+#endif
 
 }  // namespace holdfast

@@ -78,8 +78,9 @@ struct MarginSearch {
 namespace detail {
 
 /// The end at which a root, the one nearest to the unit circle, crosses it.
-inline MarginEnd boundary_end(const SampledLoop<double>& loop, const PdGains<double>& gains,
-                              double position, double value) {
+template <class Loop>
+MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double position,
+                       double value) {
   std::complex<double> nearest(1.0);
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& mu : roots(characteristic_polynomial(loop).at(gains))) {
@@ -115,9 +116,9 @@ inline MarginEnd beyond_search(double position, double value) {
 
 /// Both ends of the interval that holds the value; undefined where none does.
 /// @param gains_at  value of the gain that varies → PdGains
-template <class GainsAt>
+template <class Loop, class GainsAt>
 TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double value,
-                         const SampledLoop<double>& loop, const GainsAt& gains_at) {
+                         const Loop& loop, const GainsAt& gains_at) {
   const auto end = [&](double position) {
     return std::isfinite(position) ? boundary_end(loop, gains_at(position), position, value)
                                    : no_boundary(position);
@@ -129,9 +130,10 @@ TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double 
 }
 
 /// Margins along a path through the samplings, the gains held.
+template <class Path>
 class PathMargin {
  public:
-  PathMargin(const SamplingPath& path, const PdGains<double>& gains, double value,
+  PathMargin(const Path& path, const PdGains<double>& gains, double value,
              const MarginSearch& search)
       : path_(path), gains_(gains), value_(value), search_(search) {}
 
@@ -156,14 +158,15 @@ class PathMargin {
   }
 
  private:
-  SamplingPath path_;
+  Path path_;
   PdGains<double> gains_;
   double value_;
   MarginSearch search_;
 };
 
 /// max Re s of the continuous loop, to which the sampled loop tends as τ → 0.
-inline double continuous_abscissa(const TwoDof<double>& plant, const PdGains<double>& gains) {
+template <class Plant>
+double continuous_abscissa(const Plant& plant, const PdGains<double>& gains) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const std::complex<double>& root : roots(characteristic_polynomial(plant).at(gains))) {
     largest = std::max(largest, root.real());
@@ -172,7 +175,8 @@ inline double continuous_abscissa(const TwoDof<double>& plant, const PdGains<dou
 }
 
 /// 2π over the least |s| of the plant without control, s.
-inline double slowest_mode_period(const TwoDof<double>& plant) {
+template <class Plant>
+double slowest_mode_period(const Plant& plant) {
   double slowest = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& root : roots(characteristic_polynomial(plant).base)) {
     slowest = std::min(slowest, std::abs(root));
@@ -180,8 +184,9 @@ inline double slowest_mode_period(const TwoDof<double>& plant) {
   return 2.0 * pi<double> / slowest;
 }
 
-inline TwoSidedMargin period_margin(const TwoDof<double>& plant, const Sampling<double>& sampling,
-                                    const PdGains<double>& gains, const MarginSearch& search) {
+template <class Plant>
+TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& sampling,
+                             const PdGains<double>& gains, const MarginSearch& search) {
   const double period = sampling.period, fraction = sampling.processing_delay / period;
   const double shortest = 1e-6 * period;
   const double longest =
@@ -192,15 +197,16 @@ inline TwoSidedMargin period_margin(const TwoDof<double>& plant, const Sampling<
   const MarginEnd no_longer = certain <= longest
                                   ? no_boundary(std::numeric_limits<double>::infinity())
                                   : beyond_search(longest, period);
-  const PathMargin margin(SamplingPath::of_period(plant, fraction), gains, period, search);
+  const PathMargin margin(SamplingPath<Plant>::of_period(plant, fraction), gains, period, search);
   const double limit = std::max(period, std::min(certain, longest));
   return {margin.towards(shortest, 0.05 * period, no_shorter),
           margin.towards(limit, 0.05 * period, no_longer)};
 }
 
-inline TwoSidedMargin delay_margin(const TwoDof<double>& plant, const Sampling<double>& sampling,
-                                   const PdGains<double>& gains, const MarginSearch& search) {
-  const PathMargin margin(SamplingPath::of_delay(plant, sampling.period), gains,
+template <class Plant>
+TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
+                            const PdGains<double>& gains, const MarginSearch& search) {
+  const PathMargin margin(SamplingPath<Plant>::of_delay(plant, sampling.period), gains,
                           sampling.processing_delay, search);
   const auto to = [&](double limit) {
     return margin.towards(limit, 0.05 * sampling.period, no_boundary(limit));
@@ -223,15 +229,16 @@ inline void validate(const MarginSearch& search) {
 /// (`first_exit`), and the crossing of the unit circle is then found by a bracketing root finder on
 /// ρ − 1. Towards τ = 0 the continuous loop decides; towards τ = ∞ stability may be certain
 /// (`SlowSamplingBound`).
-/// @param plant     m, k and c of both masses, within their ranges
+/// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()` that
+///                  `validate` checks
+/// @param plant     within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
 /// @param gains     P (N/m) and D (N s/m), finite
 /// @param search    of the walks along τ and δ; D and P need none
 /// @throws InvalidParameter for a plant, sampling, gains or search outside their ranges
-inline StabilityMargins stability_margins(const TwoDof<double>& plant,
-                                          const Sampling<double>& sampling,
-                                          const PdGains<double>& gains,
-                                          const MarginSearch& search = {}) {
+template <class Plant>
+StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& sampling,
+                                   const PdGains<double>& gains, const MarginSearch& search = {}) {
   validate(plant);
   validate(sampling);
   validate(gains);
@@ -259,5 +266,10 @@ inline StabilityMargins stability_margins(const TwoDof<double>& plant,
           detail::period_margin(plant, sampling, gains, search),
           detail::delay_margin(plant, sampling, gains, search)};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template StabilityMargins stability_margins(const TwoDof<double>&, const Sampling<double>&,
+                                                   const PdGains<double>&, const MarginSearch&);
+#endif
 
 }  // namespace holdfast

@@ -16,21 +16,21 @@ namespace holdfast {
 
 /// A line through the samplings of one plant, along which a single number varies: the period τ, the
 /// delay keeping its share of it, or the delay δ at a fixed period.
+/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+template <class Plant>
 class SamplingPath {
  public:
   /// τ varies, δ = delay_fraction · τ.
   /// @param plant           within its ranges, which are not checked here
   /// @param delay_fraction  0 … 1
-  static SamplingPath of_period(const TwoDof<double>& plant, double delay_fraction) {
+  static SamplingPath of_period(const Plant& plant, double delay_fraction) {
     return {plant, 0.0, delay_fraction};
   }
 
   /// δ varies from 0 to τ.
   /// @param plant   within its ranges, which are not checked here
   /// @param period  τ (s), > 0
-  static SamplingPath of_delay(const TwoDof<double>& plant, double period) {
-    return {plant, period, 0.0};
-  }
+  static SamplingPath of_delay(const Plant& plant, double period) { return {plant, period, 0.0}; }
 
   /// The sampling at a position (s): τ, or δ at the fixed period.
   Sampling<double> at(double position) const {
@@ -42,11 +42,7 @@ class SamplingPath {
   SampledLoop<double> loop_at(double position) const { return sampled_loop(plant_, at(position)); }
 
   /// How the loop's matrices move along the path, per second of it.
-  LoopRate rate(const SampledLoop<double>& loop) const {
-    const LoopRate by_delay = rate_by_delay(plant_, loop);
-    if (fixed_period_ > 0.0) return by_delay;
-    return rate_by_period(plant_, loop).plus(by_delay, delay_fraction_);
-  }
+  LoopRate rate(const SampledLoop<double>& loop) const;
 
   /// The loop's roots λ and how they move along the path. Stable ⇔ all inside the unit circle.
   ///
@@ -56,40 +52,14 @@ class SamplingPath {
   ///     ln λ(τ + Δ) = (σ + σ′Δ)(τ + Δ),   σ′ = (λ′/λ − σ)/τ
   ///
   /// and of the branches of the logarithm the one is meant whose σ is nearest to λ′/λ.
-  MovingPoints roots_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const {
-    const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}));
-    MovingPoints result;
-    for (const MovingRoot<1>& root : moving_roots<1>(polynomial, gains)) {
-      const std::complex<double> value = root.value();
-      const bool spiral = varies_period() && std::abs(value) > 0.3;
-      MovingPoint point{value, finite(root.rates[0]), 0.0, spiral, root.excess()};
-      if (spiral) {
-        const double period = loop.sampling.period;
-        point.rate /= value;
-        const double turns =
-            std::round((point.rate.imag() * period - std::arg(value)) / (2.0 * pi<double>));
-        const std::complex<double> sigma =
-            std::complex<double>(root.logarithm(), std::arg(value) + 2.0 * pi<double> * turns) /
-            period;
-        point.bend = (point.rate - sigma) / period;
-      }
-      result.push_back(point);
-    }
-    return result;
-  }
+  MovingPoints roots_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
 
   /// The roots, and beside them what vanishes where a real root passes −1: Π (1 + λ_i) = −p(−1).
   ///
   /// A pair that meets on the real axis near −1, sends one root through −1 and takes it back leaves
   /// no trace in the roots' speeds before and after; that product is smooth all the way. It is
   /// watched as the point 1 − Π, which lies inside as long as the product is positive.
-  WatchedPoints watched_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const {
-    const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}))
-                                .at({Rated<1>(gains.proportional), Rated<1>(gains.differential)});
-    const double product = -evaluate(values_of<1, 5>(polynomial), -2.0);
-    const double slope = -evaluate(rate_of<1, 5>(polynomial, 0), -2.0);
-    return {roots_at(loop, gains), {MovingPoint{1.0 - product, -slope, 0.0, false, -product}}};
-  }
+  WatchedPoints watched_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
 
   /// True on a path of τ, false on one of δ.
   bool varies_period() const { return !(fixed_period_ > 0.0); }
@@ -100,12 +70,57 @@ class SamplingPath {
     return std::isfinite(rate.real()) && std::isfinite(rate.imag()) ? rate : 0.0;
   }
 
-  SamplingPath(const TwoDof<double>& plant, double fixed_period, double delay_fraction)
+  SamplingPath(const Plant& plant, double fixed_period, double delay_fraction)
       : plant_(plant), fixed_period_(fixed_period), delay_fraction_(delay_fraction) {}
 
-  TwoDof<double> plant_;
+  Plant plant_;
   double fixed_period_;  // 0 where the period varies
   double delay_fraction_;
 };
+
+template <class Plant>
+LoopRate SamplingPath<Plant>::rate(const SampledLoop<double>& loop) const {
+  const LoopRate by_delay = rate_by_delay(plant_, loop);
+  if (fixed_period_ > 0.0) return by_delay;
+  return rate_by_period(plant_, loop).plus(by_delay, delay_fraction_);
+}
+
+template <class Plant>
+MovingPoints SamplingPath<Plant>::roots_at(const SampledLoop<double>& loop,
+                                           const PdGains<double>& gains) const {
+  const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}));
+  MovingPoints result;
+  for (const MovingRoot<1>& root : moving_roots<1>(polynomial, gains)) {
+    const std::complex<double> value = root.value();
+    const bool spiral = varies_period() && std::abs(value) > 0.3;
+    MovingPoint point{value, finite(root.rates[0]), 0.0, spiral, root.excess()};
+    if (spiral) {
+      const double period = loop.sampling.period;
+      point.rate /= value;
+      const double turns =
+          std::round((point.rate.imag() * period - std::arg(value)) / (2.0 * pi<double>));
+      const std::complex<double> sigma =
+          std::complex<double>(root.logarithm(), std::arg(value) + 2.0 * pi<double> * turns) /
+          period;
+      point.bend = (point.rate - sigma) / period;
+    }
+    result.push_back(point);
+  }
+  return result;
+}
+
+template <class Plant>
+WatchedPoints SamplingPath<Plant>::watched_at(const SampledLoop<double>& loop,
+                                              const PdGains<double>& gains) const {
+  const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}))
+                              .at({Rated<1>(gains.proportional), Rated<1>(gains.differential)});
+  const double product = -evaluate(values_of<1, 5>(polynomial), -2.0);
+  const double slope = -evaluate(rate_of<1, 5>(polynomial, 0), -2.0);
+  return {roots_at(loop, gains), {MovingPoint{1.0 - product, -slope, 0.0, false, -product}}};
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class SamplingPath<TwoDof<double>>;
+#endif
 
 }  // namespace holdfast

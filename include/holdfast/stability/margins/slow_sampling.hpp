@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
@@ -31,30 +33,18 @@ namespace holdfast {
 /// constant force between the masses does not move the conductor.
 class SlowSamplingBound {
  public:
+  /// @tparam Plant          anything with `state_matrix()` and `control_input()`
   /// @param plant           within its ranges, which are not checked here
   /// @param gains           P (N/m) and D (N s/m), finite
   /// @param delay_fraction  φ, 0 … 1, kept while τ varies
-  SlowSamplingBound(const TwoDof<double>& plant, const PdGains<double>& gains,
-                    double delay_fraction)
-      : delay_fraction_(delay_fraction) {
-    const Resolvent<double, 4> plain = resolvent<double, 4>(plant.state_matrix());
-    const auto numerator = plain.between(gains.feedback_row(), plant.control_input());
-    const auto slope = derivative<double, 5>(plain.determinant);
-    const auto poles = roots(plain.determinant);
-    for (int i = 0; i < 4; ++i) {
-      const std::complex<double> pole = poles[static_cast<std::size_t>(i)];
-      decay_[i] = -pole.real();
-      if (!(decay_[i] > 1e-12 * std::abs(pole))) decay_[i] = 0.0;  // undamped but for round-off
-      weight_[i] = std::abs(evaluate(numerator, pole) / (pole * evaluate(slope, pole)));
-    }
-    static_gain_ = std::abs(numerator[0] / plain.determinant[0]);
-  }
+  template <class Plant>
+  SlowSamplingBound(const Plant& plant, const PdGains<double>& gains, double delay_fraction);
 
   /// The bound on |L| over |λ| ≥ 1 at a sampling period (s), > 0; infinite for an undamped mode.
   double at(double period) const {
     const double share = delay_fraction_ == 1.0 ? 1.0 : 1.0 - delay_fraction_;
     double bound = static_gain_;
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < weight_.size(); ++i) {
       if (weight_[i] == 0.0) continue;
       if (decay_[i] == 0.0) return std::numeric_limits<double>::infinity();
       bound += 2.0 * weight_[i] * std::exp(-decay_[i] * share * period) /
@@ -66,17 +56,39 @@ class SlowSamplingBound {
   /// A period (s) from which on every longer one is stable; infinite where the bound shows none.
   double certain_from() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (!(decay_.minCoeff() > 0.0)) return infinity;
-    double period = 1.0 / decay_.maxCoeff();
+    const auto [slowest, fastest] = std::minmax_element(decay_.begin(), decay_.end());
+    if (!(*slowest > 0.0)) return infinity;
+    double period = 1.0 / *fastest;
     while (std::isfinite(period) && !(at(period) < 1.0)) period *= 2.0;
     return std::isfinite(period) ? period : infinity;
   }
 
  private:
   double delay_fraction_;
-  double static_gain_ = 0.0;                              // |g|
-  Vector<double, 4> decay_ = Vector<double, 4>::Zero();   // a_i
-  Vector<double, 4> weight_ = Vector<double, 4>::Zero();  // |c_i|
+  double static_gain_ = 0.0;    // |g|
+  std::vector<double> decay_;   // a_i
+  std::vector<double> weight_;  // |c_i|
 };
+
+template <class Plant>
+SlowSamplingBound::SlowSamplingBound(const Plant& plant, const PdGains<double>& gains,
+                                     double delay_fraction)
+    : delay_fraction_(delay_fraction) {
+  const auto plain = resolvent(plant.state_matrix());
+  const auto numerator = plain.between(gains.feedback_row(), plant.control_input());
+  const auto slope = derivative(plain.determinant);
+  for (const std::complex<double>& pole : roots(plain.determinant)) {
+    const double decay = -pole.real();
+    decay_.push_back(decay > 1e-12 * std::abs(pole) ? decay
+                                                    : 0.0);  // or undamped but for round-off
+    weight_.push_back(std::abs(evaluate(numerator, pole) / (pole * evaluate(slope, pole))));
+  }
+  static_gain_ = std::abs(numerator[0] / plain.determinant[0]);
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SlowSamplingBound::SlowSamplingBound(const TwoDof<double>&, const PdGains<double>&,
+                                                     double);
+#endif
 
 }  // namespace holdfast

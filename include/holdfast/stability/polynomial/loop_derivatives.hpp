@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <unsupported/Eigen/AutoDiff>
 
 #include "holdfast/control/sampled_loop.hpp"
@@ -16,26 +18,31 @@ template <int Directions>
 using Rated = Eigen::AutoDiffScalar<Vector<double, Directions>>;
 
 /// How fast the matrices of the sampled loop move with one parameter: their derivatives.
-struct LoopRate {
-  Matrix<double, 4> transition = Matrix<double, 4>::Zero();       ///< of A_d, per unit
-  Vector<double, 4> previous_force = Vector<double, 4>::Zero();   ///< of Γ₁
-  Vector<double, 4> present_force = Vector<double, 4>::Zero();    ///< of Γ₀
-  Vector<double, 4> held_excitation = Vector<double, 4>::Zero();  ///< of c_d
+template <class Scalar>
+struct BasicLoopRate {
+  Matrix<Scalar, 4> transition = Matrix<Scalar, 4>::Zero();       ///< of A_d, per unit
+  Vector<Scalar, 4> previous_force = Vector<Scalar, 4>::Zero();   ///< of Γ₁
+  Vector<Scalar, 4> present_force = Vector<Scalar, 4>::Zero();    ///< of Γ₀
+  Vector<Scalar, 4> held_excitation = Vector<Scalar, 4>::Zero();  ///< of c_d
 
   /// The rate along two parameters at once.
-  LoopRate plus(const LoopRate& other, double share) const {
+  BasicLoopRate plus(const BasicLoopRate& other, const Scalar& share) const {
     return {transition + share * other.transition, previous_force + share * other.previous_force,
             present_force + share * other.present_force,
             held_excitation + share * other.held_excitation};
   }
 };
 
+/// The derivatives of a loop in `double`.
+using LoopRate = BasicLoopRate<double>;
+
 /// By τ at a fixed δ, per second:
 ///
 ///     A_d′ = A A_d,   Γ₁′ = A Γ₁,   Γ₀′ = e^{A(τ−δ)} b = b + A Γ₀,   c_d′ = A_d c
-template <template <class> class Plant>
-LoopRate rate_by_period(const Plant<double>& plant, const SampledLoop<double>& loop) {
-  const Matrix<double, 4> a = plant.state_matrix();
+/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+template <class Plant, class Scalar>
+BasicLoopRate<Scalar> rate_by_period(const Plant& plant, const SampledLoop<Scalar>& loop) {
+  const Matrix<Scalar, 4> a = plant.state_matrix();
   return {a * loop.transition, a * loop.previous_force,
           plant.control_input() + a * loop.present_force,
           loop.transition * plant.excitation_input()};
@@ -44,22 +51,27 @@ LoopRate rate_by_period(const Plant<double>& plant, const SampledLoop<double>& l
 /// By δ at a fixed τ, per second:
 ///
 ///     Γ₀′ = −e^{A(τ−δ)} b = −b − A Γ₀,   Γ₁′ = A_d b − A Γ₁
-template <template <class> class Plant>
-LoopRate rate_by_delay(const Plant<double>& plant, const SampledLoop<double>& loop) {
-  const Matrix<double, 4> a = plant.state_matrix();
-  const Vector<double, 4> b = plant.control_input();
-  LoopRate rate;
+/// @tparam Plant  anything with `state_matrix()` and `control_input()`
+template <class Plant, class Scalar>
+BasicLoopRate<Scalar> rate_by_delay(const Plant& plant, const SampledLoop<Scalar>& loop) {
+  const Matrix<Scalar, 4> a = plant.state_matrix();
+  const Vector<Scalar, 4> b = plant.control_input();
+  BasicLoopRate<Scalar> rate;
   rate.present_force = -b - a * loop.present_force;
   rate.previous_force = loop.transition * b - a * loop.previous_force;
   return rate;
 }
 
 /// Derivatives of a plant's A, b and c by one of its parameters.
-struct PlantRate {
-  Matrix<double, 4> state_matrix;      ///< A′, 4 × 4, per unit of the parameter
-  Vector<double, 4> control_input;     ///< b′, 4 × 1
-  Vector<double, 4> excitation_input;  ///< c′, 4 × 1
+template <class Scalar>
+struct BasicPlantRate {
+  Matrix<Scalar, 4> state_matrix;      ///< A′, 4 × 4, per unit of the parameter
+  Vector<Scalar, 4> control_input;     ///< b′, 4 × 1
+  Vector<Scalar, 4> excitation_input;  ///< c′, 4 × 1
 };
+
+/// The derivatives of a plant in `double`.
+using PlantRate = BasicPlantRate<double>;
 
 /// By parameter number `direction` of a plant whose members carry their derivatives.
 template <int Directions, template <class> class Plant>
@@ -76,37 +88,36 @@ namespace detail {
 ///     d/dt [x′; x] = [A A′; 0 A] [x′; x] + [b′ c′; b c] w
 ///
 /// so that one exponential of twice the size has the derivatives in its upper blocks.
-inline HeldStep<double, 8, 2> held_with_rate(const Matrix<double, 4>& a, const Vector<double, 4>& b,
-                                             const Vector<double, 4>& c, const PlantRate& rate,
-                                             double duration) {
-  Matrix<double, 8> generator = Matrix<double, 8>::Zero();
-  generator.topLeftCorner<4, 4>() = a;
-  generator.bottomRightCorner<4, 4>() = a;
-  generator.topRightCorner<4, 4>() = rate.state_matrix;
-  Matrix<double, 8, 2> inputs;
-  inputs << rate.control_input, rate.excitation_input, b, c;
-  return zero_order_hold<double, 8, 2>(generator, inputs, duration);
+template <class Plant, class Scalar>
+HeldStep<Scalar, 8, 2> held_with_rate(const Plant& plant, const BasicPlantRate<Scalar>& rate,
+                                      const Scalar& duration) {
+  const Matrix<Scalar, 4> a = plant.state_matrix();
+  Matrix<Scalar, 8> generator = Matrix<Scalar, 8>::Zero();
+  generator.template topLeftCorner<4, 4>() = a;
+  generator.template bottomRightCorner<4, 4>() = a;
+  generator.template topRightCorner<4, 4>() = rate.state_matrix;
+  Matrix<Scalar, 8, 2> inputs;
+  inputs << rate.control_input, rate.excitation_input, plant.control_input(),
+      plant.excitation_input();
+  return zero_order_hold<Scalar, 8, 2>(generator, inputs, duration);
 }
 
 }  // namespace detail
 
 /// By a parameter of the plant, from the derivatives of A, b and c by it.
 /// Source: C. F. Van Loan, IEEE TAC 23 (1978); the derivative of e^{Ah} is its upper right block.
-template <template <class> class Plant>
-LoopRate rate_by_plant(const Plant<double>& plant, const PlantRate& rate,
-                       const Sampling<double>& sampling) {
-  const Matrix<double, 4> a = plant.state_matrix();
-  const auto hold = [&](double duration) {
-    return detail::held_with_rate(a, plant.control_input(), plant.excitation_input(), rate,
-                                  duration);
-  };
-  const HeldStep<double, 8, 2> before = hold(sampling.processing_delay);
-  const HeldStep<double, 8, 2> after = hold(sampling.period - sampling.processing_delay);
+template <class Plant, class Scalar>
+BasicLoopRate<Scalar> rate_by_plant(const Plant& plant, const BasicPlantRate<Scalar>& rate,
+                                    const Sampling<Scalar>& sampling) {
+  const Scalar rest = sampling.period - sampling.processing_delay;
+  const auto before = detail::held_with_rate(plant, rate, sampling.processing_delay);
+  const auto after = detail::held_with_rate(plant, rate, rest);
   // Values and derivatives of the products: the block form multiplies like the matrices themselves.
-  const Matrix<double, 8> transition = after.transition * before.transition;
-  const Matrix<double, 8, 2> late = after.transition * before.input;
-  return {transition.topRightCorner<4, 4>(), late.col(0).head<4>(), after.input.col(0).head<4>(),
-          after.input.col(1).head<4>() + late.col(1).head<4>()};
+  const Matrix<Scalar, 8> transition = after.transition * before.transition;
+  const Matrix<Scalar, 8, 2> late = after.transition * before.input;
+  return {transition.template topRightCorner<4, 4>(), late.col(0).template head<4>(),
+          after.input.col(0).template head<4>(),
+          after.input.col(1).template head<4>() + late.col(1).template head<4>()};
 }
 
 /// The loop whose matrices carry their derivatives, for the kernels that take any number type.
@@ -133,5 +144,12 @@ SampledLoop<Rated<Directions>> rated_loop(const SampledLoop<double>& loop,
   carry(rated.held_excitation, loop.held_excitation, &LoopRate::held_excitation);
   return rated;
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LoopRate rate_by_period(const TwoDof<double>&, const SampledLoop<double>&);
+extern template LoopRate rate_by_delay(const TwoDof<double>&, const SampledLoop<double>&);
+extern template LoopRate rate_by_plant(const TwoDof<double>&, const PlantRate&,
+                                       const Sampling<double>&);
+#endif
 
 }  // namespace holdfast

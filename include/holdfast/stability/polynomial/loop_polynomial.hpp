@@ -116,4 +116,11 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(const SampledLoop
   return polynomial.differential_gains_within(proportional_gain, radius - polynomial.centre);
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template struct LoopPolynomial<double>;
+extern template LoopPolynomial<double> loop_polynomial(const SampledLoop<double>&);
+extern template std::vector<Interval<double>> differential_gains_within_radius(
+    const SampledLoop<double>&, const double&, const double&);
+#endif
+
 }  // namespace holdfast

@@ -51,6 +51,8 @@ struct WorstFrequency {
 /// known in advance with their widths, so that the grid over the band is fine where it has to be:
 /// uniform, refined about the zeros, and for each D about the loop's roots. The highest points of
 /// the grid are then refined by golden-section search.
+/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+template <class Plant>
 class AmplitudeBand {
  public:
   /// Solves for the steady response at each frequency of the grid, 401 and those about the zeros.
@@ -59,59 +61,14 @@ class AmplitudeBand {
   /// @param hold               how the excitation enters a sample
   /// @param proportional_gain  P (N/m), finite
   /// @param band               within its range (`validate`), which is not checked here
-  AmplitudeBand(const TwoDof<double>& plant, const SampledLoop<double>& loop, ForceHold hold,
-                double proportional_gain, const FrequencyBand& band)
-      : plant_(plant),
-        loop_(loop),
-        hold_(hold),
-        proportional_gain_(proportional_gain),
-        band_(band),
-        polynomial_(characteristic_polynomial(loop)) {
-    std::vector<double> frequencies;
-    for (int k = 0; k <= uniform_; ++k)
-      frequencies.push_back(band.lower + (band.upper - band.lower) * k / uniform_);
-    append_about(uncontrolled_zeros(), frequencies);
-    std::sort(frequencies.begin(), frequencies.end());
-    for (const double frequency : frequencies) grid_.push_back(at(frequency));
-  }
+  AmplitudeBand(const Plant& plant, const SampledLoop<double>& loop, ForceHold hold,
+                double proportional_gain, const FrequencyBand& band);
 
   /// The squared ratio at one frequency of the band.
-  RatioAtFrequency at(double frequency) const {
-    const double omega = 2.0 * pi<double> * frequency;
-    const SteadyResponse<double> response(loop_, harmonic_input(plant_, loop_, hold_, omega),
-                                          omega);
-    return {frequency, response.squared_ratio(proportional_gain_)};
-  }
+  RatioAtFrequency at(double frequency) const;
 
   /// Where in the band the ratio is largest at one D.
-  WorstFrequency worst(double differential_gain) const {
-    std::vector<RatioAtFrequency> points = grid_;
-    std::vector<double> near_roots;
-    append_about(roots(polynomial_.at({proportional_gain_, differential_gain})), near_roots);
-    for (const double frequency : near_roots) points.push_back(at(frequency));
-    std::sort(points.begin(), points.end(),
-              [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
-    // Of two points an ulp apart only one is a local maximum, and looks to one side alone.
-    const auto same = [this](const auto& a, const auto& b) {
-      return b.frequency - a.frequency < 1e-12 * band_.upper;
-    };
-    points.erase(std::unique(points.begin(), points.end(), same), points.end());
-    std::vector<double> values;
-    values.reserve(points.size());
-    for (const RatioAtFrequency& point : points) values.push_back(value(point, differential_gain));
-    const double highest = *std::max_element(values.begin(), values.end());
-    WorstFrequency worst{band_.lower, -1.0};
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const std::size_t left = k == 0 ? 0 : k - 1, right = std::min(k + 1, points.size() - 1);
-      if (!(values[k] >= 0.5 * highest && values[k] >= values[left] && values[k] >= values[right]))
-        continue;
-      const auto peak = refined(points[left].frequency, points[k].frequency,
-                                points[right].frequency, differential_gain);
-      if (peak.ratio > worst.ratio) worst = peak;
-    }
-    worst.ratio = std::sqrt(worst.ratio);
-    return worst;
-  }
+  WorstFrequency worst(double differential_gain) const;
 
  private:
   static constexpr int uniform_ = 400;
@@ -123,44 +80,16 @@ class AmplitudeBand {
   }
 
   /// Zeros of the uncontrolled amplitude to the held force, in powers of λ − 1.
-  std::vector<std::complex<double>> uncontrolled_zeros() const {
-    const auto open_loop = resolvent<double, 4>(loop_.increment);
-    return roots(open_loop.between(RowVector<double, 4>::Unit(0), loop_.held_excitation), 1e-14);
-  }
+  std::vector<std::complex<double>> uncontrolled_zeros() const;
 
   /// Frequencies about those of roots near the unit circle, spaced by their distance from it.
   void append_about(const std::vector<std::complex<double>>& from_one,
-                    std::vector<double>& frequencies) const {
-    const double unit = 2.0 * pi<double> * loop_.sampling.period;
-    for (const std::complex<double>& mu : from_one) {
-      if (mu.imag() < 0.0) continue;  // its conjugate has the same frequency
-      const double centre = std::abs(std::arg(1.0 + mu)) / unit;
-      const double width = std::max(std::abs(std::abs(1.0 + mu) - 1.0) / unit, 1e-9 * band_.upper);
-      for (const double step : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
-        for (const double frequency : {centre - step * width, centre + step * width}) {
-          if (frequency > band_.lower && frequency < band_.upper) frequencies.push_back(frequency);
-        }
-      }
-    }
-  }
+                    std::vector<double>& frequencies) const;
 
   /// The highest point between two neighbours of a grid point that is higher than both.
-  WorstFrequency refined(double left, double middle, double right, double differential_gain) const {
-    constexpr double golden = 0.61803398874989485;
-    WorstFrequency best{middle, value(at(middle), differential_gain)};
-    double low = left, high = right;
-    while (high - low > 1e-9 * band_.upper) {
-      const double inner = high - golden * (high - low), outer = low + golden * (high - low);
-      const double at_inner = value(at(inner), differential_gain);
-      const double at_outer = value(at(outer), differential_gain);
-      if (at_inner > best.ratio) best = {inner, at_inner};
-      if (at_outer > best.ratio) best = {outer, at_outer};
-      (at_inner > at_outer ? high : low) = at_inner > at_outer ? outer : inner;
-    }
-    return best;
-  }
+  WorstFrequency refined(double left, double middle, double right, double differential_gain) const;
 
-  TwoDof<double> plant_;
+  Plant plant_;
   SampledLoop<double> loop_;
   ForceHold hold_;
   double proportional_gain_;
@@ -168,5 +97,103 @@ class AmplitudeBand {
   AffinePolynomial<double, 5> polynomial_;
   std::vector<RatioAtFrequency> grid_;
 };
+
+template <class Plant>
+AmplitudeBand<Plant>::AmplitudeBand(const Plant& plant, const SampledLoop<double>& loop,
+                                    ForceHold hold, double proportional_gain,
+                                    const FrequencyBand& band)
+    : plant_(plant),
+      loop_(loop),
+      hold_(hold),
+      proportional_gain_(proportional_gain),
+      band_(band),
+      polynomial_(characteristic_polynomial(loop)) {
+  std::vector<double> frequencies;
+  for (int k = 0; k <= uniform_; ++k)
+    frequencies.push_back(band.lower + (band.upper - band.lower) * k / uniform_);
+  append_about(uncontrolled_zeros(), frequencies);
+  std::sort(frequencies.begin(), frequencies.end());
+  for (const double frequency : frequencies) grid_.push_back(at(frequency));
+}
+
+template <class Plant>
+RatioAtFrequency AmplitudeBand<Plant>::at(double frequency) const {
+  const double omega = 2.0 * pi<double> * frequency;
+  const SteadyResponse<double> response(loop_, harmonic_input(plant_, loop_, hold_, omega), omega);
+  return {frequency, response.squared_ratio(proportional_gain_)};
+}
+
+template <class Plant>
+WorstFrequency AmplitudeBand<Plant>::worst(double differential_gain) const {
+  std::vector<RatioAtFrequency> points = grid_;
+  std::vector<double> near_roots;
+  append_about(roots(polynomial_.at({proportional_gain_, differential_gain})), near_roots);
+  for (const double frequency : near_roots) points.push_back(at(frequency));
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  // Of two points an ulp apart only one is a local maximum, and looks to one side alone.
+  const auto same = [this](const auto& a, const auto& b) {
+    return b.frequency - a.frequency < 1e-12 * band_.upper;
+  };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  std::vector<double> values;
+  values.reserve(points.size());
+  for (const RatioAtFrequency& point : points) values.push_back(value(point, differential_gain));
+  const double highest = *std::max_element(values.begin(), values.end());
+  WorstFrequency worst{band_.lower, -1.0};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t left = k == 0 ? 0 : k - 1, right = std::min(k + 1, points.size() - 1);
+    if (!(values[k] >= 0.5 * highest && values[k] >= values[left] && values[k] >= values[right]))
+      continue;
+    const auto peak = refined(points[left].frequency, points[k].frequency, points[right].frequency,
+                              differential_gain);
+    if (peak.ratio > worst.ratio) worst = peak;
+  }
+  worst.ratio = std::sqrt(worst.ratio);
+  return worst;
+}
+
+template <class Plant>
+std::vector<std::complex<double>> AmplitudeBand<Plant>::uncontrolled_zeros() const {
+  const auto open_loop = resolvent<double, 4>(loop_.increment);
+  return roots(open_loop.between(RowVector<double, 4>::Unit(0), loop_.held_excitation), 1e-14);
+}
+
+template <class Plant>
+void AmplitudeBand<Plant>::append_about(const std::vector<std::complex<double>>& from_one,
+                                        std::vector<double>& frequencies) const {
+  const double unit = 2.0 * pi<double> * loop_.sampling.period;
+  for (const std::complex<double>& mu : from_one) {
+    if (mu.imag() < 0.0) continue;  // its conjugate has the same frequency
+    const double centre = std::abs(std::arg(1.0 + mu)) / unit;
+    const double width = std::max(std::abs(std::abs(1.0 + mu) - 1.0) / unit, 1e-9 * band_.upper);
+    for (const double step : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+      for (const double frequency : {centre - step * width, centre + step * width}) {
+        if (frequency > band_.lower && frequency < band_.upper) frequencies.push_back(frequency);
+      }
+    }
+  }
+}
+
+template <class Plant>
+WorstFrequency AmplitudeBand<Plant>::refined(double left, double middle, double right,
+                                             double differential_gain) const {
+  constexpr double golden = 0.61803398874989485;
+  WorstFrequency best{middle, value(at(middle), differential_gain)};
+  double low = left, high = right;
+  while (high - low > 1e-9 * band_.upper) {
+    const double inner = high - golden * (high - low), outer = low + golden * (high - low);
+    const double at_inner = value(at(inner), differential_gain);
+    const double at_outer = value(at(outer), differential_gain);
+    if (at_inner > best.ratio) best = {inner, at_inner};
+    if (at_outer > best.ratio) best = {outer, at_outer};
+    (at_inner > at_outer ? high : low) = at_inner > at_outer ? outer : inner;
+  }
+  return best;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class AmplitudeBand<TwoDof<double>>;
+#endif
 
 }  // namespace holdfast

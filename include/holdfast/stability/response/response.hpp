@@ -68,23 +68,7 @@ class SteadyResponse {
   /// @param input              `held_harmonic` or `exact_harmonic` of the same loop and ω
   /// @param angular_frequency  ω (rad/s), > 0
   SteadyResponse(const SampledLoop<Scalar>& loop, const HarmonicInput<Scalar>& input,
-                 const Scalar& angular_frequency) {
-    // (λ − 1) I − (A_d − I): both parts small and accurate where sampling is fast.
-    const Scalar angle = angular_frequency * loop.sampling.period;
-    const Scalar half_sine = std::sin(angle / Scalar(2));
-    const Complex lambda = std::polar(Scalar(1), angle);
-    const Complex from_one(Scalar(-2) * half_sine * half_sine, std::sin(angle));
-    const Matrix<Complex, 4> resolvent =
-        from_one * Matrix<Complex, 4>::Identity() - loop.increment.template cast<Complex>();
-    Matrix<Complex, 4, 2> sources;
-    sources.col(0) = loop.present_force.template cast<Complex>() +
-                     loop.previous_force.template cast<Complex>() / lambda;
-    sources.col(1) =
-        input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
-    const Matrix<Complex, 4, 2> solution = resolvent.partialPivLu().solve(sources);
-    phasors_ = {solution(0, 0), solution(1, 0), solution(0, 1), solution(1, 1)};
-    numerator_slope_ = phasors_.numerator_slope();
-  }
+                 const Scalar& angular_frequency);
 
   /// The responses to unit forces, from which everything else follows.
   const ResponsePhasors<Scalar>& phasors() const { return phasors_; }
@@ -119,10 +103,7 @@ class SteadyResponse {
   /// @param proportional_gain  P (N/m), finite
   /// @param ratio              > 0
   std::vector<Interval<Scalar>> differential_gains_below(const Scalar& proportional_gain,
-                                                         const Scalar& ratio = Scalar(1)) const {
-    const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
-    return where_negative<Scalar>(square.numerator - ratio * ratio * square.denominator);
-  }
+                                                         const Scalar& ratio = Scalar(1)) const;
 
   /// A differential gain and the amplitude ratio that it gives.
   struct Best {
@@ -138,33 +119,11 @@ class SteadyResponse {
   /// quadratic; they and the finite interval ends are compared. An interval end is the limit of
   /// stable gains.
   Best best_differential_gain(const Scalar& proportional_gain,
-                              const std::vector<Interval<Scalar>>& intervals) const {
-    Best best;
-    const auto consider = [&](const Scalar& differential) {
-      if (!std::isfinite(differential)) return;
-      const Scalar ratio = ratio_to_uncontrolled({proportional_gain, differential});
-      if (ratio < best.ratio_to_uncontrolled) best = {differential, ratio};
-    };
-    for (const Interval<Scalar>& interval : intervals) {
-      consider(interval.lower);
-      consider(interval.upper);
-      for (const Scalar& stationary : stationary_differential_gains(proportional_gain)) {
-        if (interval.contains(stationary)) consider(stationary);
-      }
-    }
-    return best;
-  }
+                              const std::vector<Interval<Scalar>>& intervals) const;
 
  private:
   /// Roots of N′M − N M′ for |Z₁|² = N(D) / M(D), both quadratics in D.
-  std::vector<Scalar> stationary_differential_gains(const Scalar& proportional_gain) const {
-    const Vector<Scalar, 3> slope = squared_ratio(proportional_gain).slope_numerator();
-    std::vector<Scalar> result;
-    for (const Complex& root : roots(slope)) {
-      if (std::abs(root.imag()) <= Scalar(1e-9) * std::abs(root)) result.push_back(root.real());
-    }
-    return result;
-  }
+  std::vector<Scalar> stationary_differential_gains(const Scalar& proportional_gain) const;
 
   /// Coefficients of |a + x b|² = |a|² + 2 Re(ā b) x + |b|² x².
   static Vector<Scalar, 3> squared_modulus(const Complex& a, const Complex& b) {
@@ -174,5 +133,67 @@ class SteadyResponse {
   ResponsePhasors<Scalar> phasors_;
   Complex numerator_slope_;  // t₁ f₂ − t₂ f₁
 };
+
+template <class Scalar>
+SteadyResponse<Scalar>::SteadyResponse(const SampledLoop<Scalar>& loop,
+                                       const HarmonicInput<Scalar>& input,
+                                       const Scalar& angular_frequency) {
+  // (λ − 1) I − (A_d − I): both parts small and accurate where sampling is fast.
+  const Scalar angle = angular_frequency * loop.sampling.period;
+  const Scalar half_sine = std::sin(angle / Scalar(2));
+  const Complex lambda = std::polar(Scalar(1), angle);
+  const Complex from_one(Scalar(-2) * half_sine * half_sine, std::sin(angle));
+  const Matrix<Complex, 4> resolvent =
+      from_one * Matrix<Complex, 4>::Identity() - loop.increment.template cast<Complex>();
+  Matrix<Complex, 4, 2> sources;
+  sources.col(0) = loop.present_force.template cast<Complex>() +
+                   loop.previous_force.template cast<Complex>() / lambda;
+  sources.col(1) =
+      input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
+  const Matrix<Complex, 4, 2> solution = resolvent.partialPivLu().solve(sources);
+  phasors_ = {solution(0, 0), solution(1, 0), solution(0, 1), solution(1, 1)};
+  numerator_slope_ = phasors_.numerator_slope();
+}
+
+template <class Scalar>
+std::vector<Interval<Scalar>> SteadyResponse<Scalar>::differential_gains_below(
+    const Scalar& proportional_gain, const Scalar& ratio) const {
+  const RatioOfQuadratics<Scalar> square = squared_ratio(proportional_gain);
+  return where_negative<Scalar>(square.numerator - ratio * ratio * square.denominator);
+}
+
+template <class Scalar>
+typename SteadyResponse<Scalar>::Best SteadyResponse<Scalar>::best_differential_gain(
+    const Scalar& proportional_gain, const std::vector<Interval<Scalar>>& intervals) const {
+  Best best;
+  const auto consider = [&](const Scalar& differential) {
+    if (!std::isfinite(differential)) return;
+    const Scalar ratio = ratio_to_uncontrolled({proportional_gain, differential});
+    if (ratio < best.ratio_to_uncontrolled) best = {differential, ratio};
+  };
+  for (const Interval<Scalar>& interval : intervals) {
+    consider(interval.lower);
+    consider(interval.upper);
+    for (const Scalar& stationary : stationary_differential_gains(proportional_gain)) {
+      if (interval.contains(stationary)) consider(stationary);
+    }
+  }
+  return best;
+}
+
+template <class Scalar>
+std::vector<Scalar> SteadyResponse<Scalar>::stationary_differential_gains(
+    const Scalar& proportional_gain) const {
+  const Vector<Scalar, 3> slope = squared_ratio(proportional_gain).slope_numerator();
+  std::vector<Scalar> result;
+  for (const Complex& root : roots(slope)) {
+    if (std::abs(root.imag()) <= Scalar(1e-9) * std::abs(root)) result.push_back(root.real());
+  }
+  return result;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class SteadyResponse<double>;
+#endif
 
 }  // namespace holdfast

@@ -19,13 +19,14 @@ namespace holdfast {
 /// exact one by
 ///
 ///     cosine′ = A_d c + ω sine,   sine′ = −ω cosine
-template <template <class> class Plant>
-HarmonicInput<double> input_rate_by_period(const Plant<double>& plant,
-                                           const SampledLoop<double>& loop, ForceHold hold,
-                                           const HarmonicInput<double>& input,
-                                           double angular_frequency) {
-  const Vector<double, 4> late = loop.transition * plant.excitation_input();
-  if (hold == ForceHold::sampled) return {late, Vector<double, 4>::Zero()};
+///
+/// @tparam Plant  anything with `excitation_input()`
+template <class Plant, class Scalar>
+HarmonicInput<Scalar> input_rate_by_period(const Plant& plant, const SampledLoop<Scalar>& loop,
+                                           ForceHold hold, const HarmonicInput<Scalar>& input,
+                                           const Scalar& angular_frequency) {
+  const Vector<Scalar, 4> late = loop.transition * plant.excitation_input();
+  if (hold == ForceHold::sampled) return {late, Vector<Scalar, 4>::Zero()};
   return {late + angular_frequency * input.sine, -angular_frequency * input.cosine};
 }
 
@@ -35,21 +36,23 @@ HarmonicInput<double> input_rate_by_period(const Plant<double>& plant,
 /// @param rate               derivatives of A, b and c by the parameter
 /// @param sampling_period    τ (s), > 0
 /// @param angular_frequency  ω (rad/s)
-template <template <class> class Plant>
-HarmonicInput<double> exact_input_rate_by_plant(const Plant<double>& plant, const PlantRate& rate,
-                                                double sampling_period, double angular_frequency) {
-  Matrix<double, 12> generator = Matrix<double, 12>::Zero();
+template <class Plant, class Scalar>
+HarmonicInput<Scalar> exact_input_rate_by_plant(const Plant& plant,
+                                                const BasicPlantRate<Scalar>& rate,
+                                                const Scalar& sampling_period,
+                                                const Scalar& angular_frequency) {
+  Matrix<Scalar, 12> generator = Matrix<Scalar, 12>::Zero();
   for (const int corner : {0, 6}) {
-    generator.block<4, 4>(corner, corner) = plant.state_matrix();
-    generator.block<4, 1>(corner, corner + 4) = plant.excitation_input();
+    generator.template block<4, 4>(corner, corner) = plant.state_matrix();
+    generator.template block<4, 1>(corner, corner + 4) = plant.excitation_input();
     generator(corner + 4, corner + 5) = -angular_frequency;
     generator(corner + 5, corner + 4) = angular_frequency;
   }
-  generator.block<4, 4>(0, 6) = rate.state_matrix;
-  generator.block<4, 1>(0, 10) = rate.excitation_input;
-  const Matrix<double, 12> exponential =
-      detail::balanced_exponential(Matrix<double, 12>(generator * sampling_period));
-  return {exponential.block<4, 1>(0, 10), exponential.block<4, 1>(0, 11)};
+  generator.template block<4, 4>(0, 6) = rate.state_matrix;
+  generator.template block<4, 1>(0, 10) = rate.excitation_input;
+  const Matrix<Scalar, 12> exponential =
+      detail::balanced_exponential(Matrix<Scalar, 12>(generator * sampling_period));
+  return {exponential.template block<4, 1>(0, 10), exponential.template block<4, 1>(0, 11)};
 }
 
 /// How the phasors of the steady response move with one parameter:
@@ -57,62 +60,84 @@ HarmonicInput<double> exact_input_rate_by_plant(const Plant<double>& plant, cons
 ///     (λI − A_d) Z = Q   gives   (λI − A_d) Z′ = Q′ − (λ′I − A_d′) Z
 ///
 /// for both columns Q = [Γ₀ + Γ₁/λ, g] and their responses Z.
-class ResponseRates {
+template <class Scalar>
+class BasicResponseRates {
  public:
-  using Complex = std::complex<double>;  ///< the type of the phasors
+  using Complex = std::complex<Scalar>;  ///< the type of the phasors
 
   /// @param loop               of `sampled_loop`
   /// @param input              of the same loop and ω, held or exact
   /// @param angular_frequency  ω (rad/s), > 0
-  ResponseRates(const SampledLoop<double>& loop, const HarmonicInput<double>& input,
-                double angular_frequency)
-      : loop_(loop), angle_(angular_frequency * loop.sampling.period) {
-    lambda_ = std::polar(1.0, angle_);
-    const double half_sine = std::sin(angle_ / 2.0);
-    const Complex from_one(-2.0 * half_sine * half_sine, std::sin(angle_));
-    const Matrix<Complex, 4> system =
-        from_one * Matrix<Complex, 4>::Identity() - loop.increment.cast<Complex>();
-    factors_.compute(system);
-    response_ = factors_.solve(sources(loop.present_force, loop.previous_force, input));
-  }
+  BasicResponseRates(const SampledLoop<Scalar>& loop, const HarmonicInput<Scalar>& input,
+                     const Scalar& angular_frequency);
 
   /// The responses themselves, those of `SteadyResponse`.
-  ResponsePhasors<double> phasors() const { return phasors_of(response_); }
+  ResponsePhasors<Scalar> phasors() const { return phasors_of(response_); }
 
   /// The derivatives of the phasors along a parameter.
   /// @param rate         of the loop's matrices, per unit of the parameter
   /// @param input_rate   of the harmonic input, likewise
   /// @param lambda_rate  of λ = e^{iωτ}: iωλ by τ, 0 by the plant's parameters and by δ
-  ResponsePhasors<double> along(const LoopRate& rate, const HarmonicInput<double>& input_rate,
-                                const Complex& lambda_rate) const {
-    Matrix<Complex, 4, 2> right = sources(rate.present_force, rate.previous_force, input_rate);
-    right.col(0) -= loop_.previous_force.cast<Complex>() * (lambda_rate / (lambda_ * lambda_));
-    right -= lambda_rate * response_ - rate.transition.cast<Complex>() * response_;
-    return phasors_of(factors_.solve(right));
-  }
+  ResponsePhasors<Scalar> along(const BasicLoopRate<Scalar>& rate,
+                                const HarmonicInput<Scalar>& input_rate,
+                                const Complex& lambda_rate) const;
 
   /// λ = e^{iωτ}.
   const Complex& lambda() const { return lambda_; }
 
  private:
-  Matrix<Complex, 4, 2> sources(const Vector<double, 4>& present, const Vector<double, 4>& previous,
-                                const HarmonicInput<double>& input) const {
-    Matrix<Complex, 4, 2> result;
-    result.col(0) = present.cast<Complex>() + previous.cast<Complex>() / lambda_;
-    result.col(1) = input.cosine.cast<Complex>() - Complex(0, 1) * input.sine.cast<Complex>();
-    return result;
-  }
+  Matrix<Complex, 4, 2> sources(const Vector<Scalar, 4>& present, const Vector<Scalar, 4>& previous,
+                                const HarmonicInput<Scalar>& input) const;
 
-  static ResponsePhasors<double> phasors_of(const Matrix<Complex, 4, 2>& response) {
+  static ResponsePhasors<Scalar> phasors_of(const Matrix<Complex, 4, 2>& response) {
     return {response(0, 0), response(1, 0), response(0, 1), response(1, 1)};
   }
 
-  SampledLoop<double> loop_;
-  double angle_;
+  SampledLoop<Scalar> loop_;
+  Scalar angle_;
   Complex lambda_;
   Eigen::PartialPivLU<Matrix<Complex, 4>> factors_;
   Matrix<Complex, 4, 2> response_;
 };
+
+/// The derivatives of phasors in `double`.
+using ResponseRates = BasicResponseRates<double>;
+
+template <class Scalar>
+BasicResponseRates<Scalar>::BasicResponseRates(const SampledLoop<Scalar>& loop,
+                                               const HarmonicInput<Scalar>& input,
+                                               const Scalar& angular_frequency)
+    : loop_(loop), angle_(angular_frequency * loop.sampling.period) {
+  lambda_ = std::polar(Scalar(1), angle_);
+  const Scalar half_sine = std::sin(angle_ / Scalar(2));
+  const Complex from_one(Scalar(-2) * half_sine * half_sine, std::sin(angle_));
+  const Matrix<Complex, 4> system =
+      from_one * Matrix<Complex, 4>::Identity() - loop.increment.template cast<Complex>();
+  factors_.compute(system);
+  response_ = factors_.solve(sources(loop.present_force, loop.previous_force, input));
+}
+
+template <class Scalar>
+ResponsePhasors<Scalar> BasicResponseRates<Scalar>::along(const BasicLoopRate<Scalar>& rate,
+                                                          const HarmonicInput<Scalar>& input_rate,
+                                                          const Complex& lambda_rate) const {
+  Matrix<Complex, 4, 2> right = sources(rate.present_force, rate.previous_force, input_rate);
+  right.col(0) -=
+      loop_.previous_force.template cast<Complex>() * (lambda_rate / (lambda_ * lambda_));
+  right -= lambda_rate * response_ - rate.transition.template cast<Complex>() * response_;
+  return phasors_of(factors_.solve(right));
+}
+
+template <class Scalar>
+Matrix<std::complex<Scalar>, 4, 2> BasicResponseRates<Scalar>::sources(
+    const Vector<Scalar, 4>& present, const Vector<Scalar, 4>& previous,
+    const HarmonicInput<Scalar>& input) const {
+  Matrix<Complex, 4, 2> result;
+  result.col(0) = present.template cast<Complex>() + previous.template cast<Complex>() / lambda_;
+  result.col(1) =
+      input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
+  return result;
+}
 
 /// The complex amplitude of z₁ over that without control and its rate, from the phasors and theirs.
 struct AmplitudeRatio {
@@ -135,5 +160,16 @@ inline AmplitudeRatio amplitude_ratio(const ResponsePhasors<double>& phasors,
   const Complex value = above / (f1 * below);
   return {value, above_rate / (f1 * below) - value * (f1_rate / f1 + below_rate / below)};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HarmonicInput<double> input_rate_by_period(const TwoDof<double>&,
+                                                           const SampledLoop<double>&, ForceHold,
+                                                           const HarmonicInput<double>&,
+                                                           const double&);
+extern template HarmonicInput<double> exact_input_rate_by_plant(const TwoDof<double>&,
+                                                                const PlantRate&, const double&,
+                                                                const double&);
+extern template class BasicResponseRates<double>;
+#endif
 
 }  // namespace holdfast

@@ -1,0 +1,20 @@
+// Explicit instantiations of stability/polynomial for double.
+
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/loop_derivatives.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+
+namespace holdfast {
+
+template AffinePolynomial<double, 4> characteristic_polynomial(const TwoDof<double>&);
+template AffinePolynomial<double, 5> characteristic_polynomial(const SampledLoop<double>&);
+template struct LoopPolynomial<double>;
+template LoopPolynomial<double> loop_polynomial(const SampledLoop<double>&);
+template std::vector<Interval<double>> differential_gains_within_radius(const SampledLoop<double>&,
+                                                                        const double&,
+                                                                        const double&);
+template LoopRate rate_by_period(const TwoDof<double>&, const SampledLoop<double>&);
+template LoopRate rate_by_delay(const TwoDof<double>&, const SampledLoop<double>&);
+template LoopRate rate_by_plant(const TwoDof<double>&, const PlantRate&, const Sampling<double>&);
+
+}  // namespace holdfast
