@@ -5,7 +5,8 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/fit_question.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "io/file/input.hpp"
 #include "io/text/decay_file.hpp"
 #include "io/text/table.hpp"

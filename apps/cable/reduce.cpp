@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "io/text/table.hpp"
 #include "job.hpp"
 #include "jobs/cable/damping_fit.hpp"

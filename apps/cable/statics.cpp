@@ -1,5 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/elements_of_case.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"

@@ -1,5 +1,5 @@
 #include "case/axes/axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/gain_plane_tables.hpp"
 #include "process/errors.hpp"

@@ -1,5 +1,5 @@
 #include "holdfast/stability/margins/margins.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"

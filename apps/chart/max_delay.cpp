@@ -1,6 +1,6 @@
 #include "holdfast/stability/design/max_delay.hpp"
 #include "case/axes/axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "io/text/table.hpp"
 #include "job.hpp"

@@ -1,5 +1,6 @@
 #include "case/axes/axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/sampled_loop_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 

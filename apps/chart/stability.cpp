@@ -2,7 +2,8 @@
 
 #include "case/axes/axis.hpp"
 #include "case/axes/loop_axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/sampled_loop_of_case.hpp"
 #include "io/file/input.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"

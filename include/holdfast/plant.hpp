@@ -5,5 +5,6 @@
 #include "holdfast/plant/affine_dynamics.hpp"
 #include "holdfast/plant/energy.hpp"
 #include "holdfast/plant/free_decay.hpp"
+#include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "holdfast/plant/two_mass.hpp"

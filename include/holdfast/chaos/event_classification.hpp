@@ -243,4 +243,9 @@ HybridVerdict classify_motion(const Loop& loop, const Vector<double, 4>& initial
   });
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HybridVerdict classify_motion(const RealLoop&, const Vector<double, 4>&,
+                                              const OrbitLimits&);
+#endif
+
 }  // namespace holdfast

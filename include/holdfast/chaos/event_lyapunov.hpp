@@ -11,6 +11,9 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+#include "holdfast/motion/real_loop.hpp"
+#endif
 
 namespace holdfast {
 
@@ -159,5 +162,15 @@ LyapunovResult run_hybrid_lyapunov(HybridMotion<Contact>& motion, const Lyapunov
                                   : LyapunovOutcome::sample_limit;
   return detail::leading_exponents(outcome, lyapunov.spectrum(), run);
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<SampledContactMotion>&,
+                                                   const LyapunovRun&,
+                                                   const std::function<void()>&);
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactDeadZone>&, const LyapunovRun&,
+                                                   const std::function<void()>&);
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactBacklash>&, const LyapunovRun&,
+                                                   const std::function<void()>&);
+#endif
 
 }  // namespace holdfast

@@ -131,4 +131,9 @@ MotionVerdict classify_motion(const ForcedLoop<Scalar>& loop,
   return found;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MotionVerdict classify_motion(const ForcedLoop<double>&, const Vector<double, 4>&,
+                                              const OrbitLimits&);
+#endif
+
 }  // namespace holdfast

@@ -94,4 +94,8 @@ SampledLoop<Scalar> sampled_loop(const Plant<Scalar>& plant, const Sampling<Scal
   return loop;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
+#endif
+
 }  // namespace holdfast

@@ -278,4 +278,9 @@ OrbitResult find_periodic_orbit(const ForcedLoop<Scalar>& loop,
       .run();
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitResult find_periodic_orbit(const ForcedLoop<double>&, const Vector<double, 4>&,
+                                                const OrbitLimits&);
+#endif
+
 }  // namespace holdfast

@@ -6,7 +6,8 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "io/text/text.hpp"
 #include "jobs/cable/damping_fit.hpp"
 #include "jobs/charts/conditioning.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/case_keys.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
