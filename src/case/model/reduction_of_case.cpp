@@ -50,9 +50,4 @@ TwoDof<double> plant_without_absorber_damping(const Case& the_case) {
           0.0};
 }
 
-RayleighDamping rayleigh_damping_of(const Case& the_case) {
-  return rayleigh_damping(the_case.conductor.damping_ratio, the_case.reduction.first_frequency,
-                          the_case.reduction.second_frequency);
-}
-
 }  // namespace holdfast::program

@@ -16,7 +16,4 @@ ReductionResult reduction_of(const Case& the_case);
 /// Throws NoAnswer where no real plant has the two frequencies, saying what would have one.
 TwoDof<double> plant_without_absorber_damping(const Case& the_case);
 
-/// The damping ratio of the conductor at the two frequencies of [reduction].
-RayleighDamping rayleigh_damping_of(const Case& the_case);
-
 }  // namespace holdfast::program

@@ -2,7 +2,6 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/elements_of_case.hpp"
-#include "case/model/reduction_of_case.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
