@@ -189,7 +189,7 @@ constexpr std::array<NamedLaw, 5> named_laws = {{{"kollar", "kollar"},
                                                  {"dead_zone", "dead zone"},
                                                  {"none", "no backlash"}}};
 
-/// Places in `laws`.
+/// Places in `named_laws`.
 enum : std::size_t { play = 2, dead_zone = 3, no_backlash = 4 };
 
 Case with_law(Case the_case, const NamedLaw& law) {
@@ -207,8 +207,8 @@ std::vector<StudiedLaw> study_laws(const JobContext& context) {
   const Motions motions = study(loops, context.threads);
   write_motions(context, "switching-law-motions", motions);
   std::vector<StudiedLaw> studied;
-  for (std::size_t k = 0; k < laws.size(); ++k)
-    studied.push_back({laws[k].words, motions[2 * k], motions[2 * k + 1]});
+  for (std::size_t k = 0; k < named_laws.size(); ++k)
+    studied.push_back({named_laws[k].words, motions[2 * k], motions[2 * k + 1]});
   return studied;
 }
 
