@@ -1,6 +1,6 @@
 #include "cable_options.hpp"
 
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"

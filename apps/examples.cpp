@@ -14,7 +14,7 @@ struct Example {
 };
 
 /// Those of the whole program bear its name.
-constexpr Example examples[] = {
+constexpr Example known_examples[] = {
     {"holdfast", "report --output report", "everything about the built-in case on one page"},
     {"holdfast", "answers", "in words: does control help, which D, how slow, how much play?"},
     {"holdfast", "case --init my-cable.toml", "a commented case to start from"},
@@ -94,7 +94,7 @@ std::string examples_of(const std::string& name) {
   constexpr std::size_t longest_with_remark = 56;
   std::vector<const Example*> chosen;
   std::size_t width = 0;
-  for (const Example& example : examples) {
+  for (const Example& example : known_examples) {
     if (example.job != name) continue;
     chosen.push_back(&example);
     const std::size_t length = command_of(example).size();

@@ -75,7 +75,7 @@ void add_jobs(CLI::App& program) {
   add_texts(program);
 }
 
-std::vector<std::string> job_names(const CLI::App& program) {
+std::vector<std::string> words_of_jobs(const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::App* job : program.get_subcommands(nullptr)) names.push_back(job->get_name());
   return names;
@@ -92,7 +92,7 @@ std::string nearest_job(const std::vector<std::string>& jobs, const std::string&
 void check_job_name(const CLI::App& program, const std::vector<std::string>& arguments) {
   if (arguments.empty()) throw WrongInput("which job? holdfast --help lists them");
   const std::string& word = arguments.front();
-  const std::vector<std::string> jobs = job_names(program);
+  const std::vector<std::string> jobs = words_of_jobs(program);
   const bool is_job = std::find(jobs.begin(), jobs.end(), word) != jobs.end();
   if (is_job || word.rfind('-', 0) == 0) return;
   throw WrongInput("unknown job " + word + "; did you mean " + nearest_job(jobs, word) +

@@ -11,6 +11,22 @@ install(EXPORT holdfast_targets
   NAMESPACE holdfast::
   DESTINATION ${HOLDFAST_PACKAGE_DIR})
 
+# The compiled part is of one architecture, so it has an export of its own beside its library.
+set(HOLDFAST_COMPILED_TARGETS_FILE "")
+if(TARGET holdfast_compiled)
+  set(HOLDFAST_COMPILED_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/holdfast)
+  set(HOLDFAST_COMPILED_TARGETS_FILE ${HOLDFAST_COMPILED_DIR}/holdfast-compiled-targets.cmake)
+  install(TARGETS holdfast_compiled EXPORT holdfast_compiled_targets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT holdfast_compiled_targets
+    FILE holdfast-compiled-targets.cmake
+    NAMESPACE holdfast::
+    DESTINATION ${HOLDFAST_COMPILED_DIR})
+  export(EXPORT holdfast_compiled_targets
+    FILE ${PROJECT_BINARY_DIR}/holdfast-compiled-targets.cmake
+    NAMESPACE holdfast::)
+endif()
+
 configure_package_config_file(cmake/holdfast-config.cmake.in holdfast-config.cmake
   INSTALL_DESTINATION ${HOLDFAST_PACKAGE_DIR}
   NO_SET_AND_CHECK_MACRO)

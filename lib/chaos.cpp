@@ -1,7 +1,8 @@
-// Explicit instantiations of chaos for double.
+// Explicit instantiations of chaos for double, for every contact that a loop may have.
 
 #include "holdfast/chaos/block_spectrum.hpp"
 #include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/chaos/sampled_classification.hpp"
@@ -19,6 +20,13 @@ template void ContactSpectrum<double>::close_block();
 
 template HybridVerdict classify_motion(const RealLoop&, const Vector<double, 4>&,
                                        const OrbitLimits&);
+
+template LyapunovResult run_hybrid_lyapunov(HybridMotion<SampledContactMotion>&, const LyapunovRun&,
+                                            const std::function<void()>&);
+template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactDeadZone>&, const LyapunovRun&,
+                                            const std::function<void()>&);
+template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactBacklash>&, const LyapunovRun&,
+                                            const std::function<void()>&);
 
 template ContactWords::ContactWords(const Matrix<double, 5>&, const Matrix<double, 5>&);
 

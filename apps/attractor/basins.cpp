@@ -7,7 +7,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct BasinsOptions {
   BasinQuestion question{{}, 100'000};
 };
 
@@ -16,7 +16,7 @@ struct Options {
 void add_basins(CLI::App& program) {
   const Job job(program, "basins", question::attractor,
                 "Which attractor each initial state of a grid comes to");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BasinsOptions>();
   job->add_option("--axis", options->question.axes,
                   "KEY=MIN:MAX:COUNT, twice, of initial.z1, initial.v1, initial.z2, initial.v2")
       ->expected(1)

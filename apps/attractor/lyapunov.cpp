@@ -8,7 +8,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct LyapunovOptions {
   LyapunovQuestion question;
   bool history = false;
 };
@@ -18,7 +18,7 @@ struct Options {
 void add_lyapunov(CLI::App& program) {
   const Job job(program, "lyapunov", question::attractor,
                 "The five Lyapunov exponents of the motion");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LyapunovOptions>();
   LyapunovQuestion& asked = options->question;
   add_duration(job, asked.duration);
   CLI::Option* discard = job->add_option("--discard", asked.discard, "Left out at the start, s")

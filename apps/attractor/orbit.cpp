@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct OrbitOptions {
   std::int64_t largest_period = OrbitLimits{}.largest_period;
   bool trace = false;
   bool certificate = false;
@@ -19,7 +19,7 @@ struct Options {
   Switching switching = Switching::sampled;
 };
 
-void write_built(const JobContext& context, const Options& options) {
+void write_built(const JobContext& context, const OrbitOptions& options) {
   const RealLoop loop = real_loop_of(context.case_data, options.switching);
   if (options.follow) {
     throw WrongInput(
@@ -35,7 +35,7 @@ void write_built(const JobContext& context, const Options& options) {
   }
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const OrbitOptions& options) {
   if (!is_of_the_paper(context.case_data, options.switching)) {
     write_built(context, options);
     return;
@@ -56,7 +56,7 @@ void run(const JobContext& context, const Options& options) {
 void add_orbit(CLI::App& program) {
   const Job job(program, "orbit", question::attractor,
                 "The exact periodic orbit that the motion comes to, with its certificate");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<OrbitOptions>();
   add_largest_period(job, options->largest_period);
   CLI::Option* trace =
       job->add_flag("--trace", options->trace, "Its samples over one period, as simulate's");

@@ -9,7 +9,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct VerdictOptions {
   std::int64_t largest_period = OrbitLimits{}.largest_period;
   Switching switching = Switching::sampled;
 };
@@ -19,7 +19,7 @@ struct Options {
 void add_verdict(CLI::App& program) {
   const Job job(program, "verdict", question::attractor,
                 "What the motion is: periodic, quasi-periodic, chaotic, …, and what that rests on");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<VerdictOptions>();
   add_largest_period(job, options->largest_period);
   add_switching(job, options->switching);
   job->final_callback([job, options] {

@@ -11,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct CaseOptions {
   std::optional<std::string> begun;
   std::optional<std::string> checked;
 };
@@ -25,7 +25,7 @@ void write_case_file(const JobContext& context, const std::string& name) {
   file.commit();
 }
 
-void run(const Job& job, const Options& options) {
+void run(const Job& job, const CaseOptions& options) {
   if (options.begun && options.checked)
     throw WrongInput("--init begins a case file and --check explains one: give one of them");
   const JobContext context = job.context(PlantNeed::whole, options.checked);
@@ -38,7 +38,7 @@ void run(const Job& job, const Options& options) {
 void add_case(CLI::App& program) {
   const Job job(program, "case", question::case_file,
                 "Begins a case file, or explains every value of one and what follows from it");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CaseOptions>();
   job->add_option("--init", options->begun,
                   "Write the case, built-in or --case with --set, as a commented case file")
       ->type_name("FILE");

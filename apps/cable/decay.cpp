@@ -6,12 +6,12 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct DecayOptions {
   double force = 0.2;
   CableOptions cable;
 };
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const DecayOptions& options) {
   report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   Table table(context,
               {{"time_s", "s", "since the force was removed"},
@@ -32,7 +32,7 @@ void run(const JobContext& context, const Options& options) {
 void add_decay(CLI::App& program) {
   const Job job(program, "decay", question::cable,
                 "Vibration after a force is removed: continuous cable beside the plant");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DecayOptions>();
   job->add_option("--force", options->force,
                   "Force that is removed, N, downward, beyond the absorber's weight")
       ->check(number_from(-1e9, 1e9))

@@ -5,7 +5,8 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/fit_question.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "io/file/input.hpp"
 #include "io/text/decay_file.hpp"
 #include "io/text/table.hpp"
@@ -18,14 +19,14 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct FitOptions {
   std::optional<std::string> data;
   std::string parameters = "absorber_damping";
   std::optional<std::string> target;
   bool plain = false;
 };
 
-fit::DecayQuestion question_of(const Options& options) {
+fit::DecayQuestion question_of(const FitOptions& options) {
   fit::DecayQuestion question =
       fit_question(options.parameters, options.target.value_or("history"));
   question.robust = !options.plain;
@@ -62,7 +63,7 @@ std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& rec
 }
 
 /// All minima; where nothing but the case is given, those of `reduce`.
-std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const Options& options,
+std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitOptions& options,
                                          fit::DecayQuestion& question) {
   const TwoDof<double> plant = start_of(context.case_data);
   require_starts(question, plant);
@@ -81,7 +82,7 @@ std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const Option
   return minima;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const FitOptions& options) {
   fit::DecayQuestion question = question_of(options);
   if (options.data) require_not_overwritten(*options.data, context.output);
   Table table(
@@ -102,7 +103,7 @@ void run(const JobContext& context, const Options& options) {
 void add_fit(CLI::App& program) {
   const Job job(program, "fit", question::cable,
                 "Damping of the absorber (or more) from a decay record");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FitOptions>();
   job->add_option("--data", options->data,
                   "CSV file with columns time_s,displacement_m, the first row at rest; without it "
                   "the continuous cable of the case")

@@ -12,7 +12,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct ModesOptions {
   int count = 6;
   int elements = 200;
 };
@@ -26,7 +26,7 @@ std::vector<double> of_family(const ElementsModes& modes, ModeFamily family) {
   return frequencies;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const ModesOptions& options) {
   if (options.elements % 2 != 0 || options.elements < 4 * options.count)
     throw WrongInput("--elements = " + std::to_string(options.elements) + ": with --count = " +
                      std::to_string(options.count) + ", admissible is an even number from " +
@@ -60,7 +60,7 @@ void run(const JobContext& context, const Options& options) {
 void add_modes(CLI::App& program) {
   const Job job(program, "modes", question::cable,
                 "In-plane natural frequencies of the bare conductor");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ModesOptions>();
   job->add_option("--count", options->count, "How many, from the lowest")
       ->check(CLI::Range(1, 200))
       ->type_name("N")

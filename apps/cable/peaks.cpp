@@ -10,12 +10,12 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct PeaksOptions {
   std::string force = "-1:1:21";
   CableOptions cable;
 };
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const PeaksOptions& options) {
   report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   const Axis forces = parse_axis("--force", options.force);
   const double duration = 2.0 / context.case_data.reduction.first_frequency;
@@ -51,7 +51,7 @@ void run(const JobContext& context, const Options& options) {
 void add_peaks(CLI::App& program) {
   const Job job(program, "peaks", question::cable,
                 "First peak after a force is removed, over the force");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PeaksOptions>();
   options->cable.elements = 40;
   job.add_text("--force", options->force, "Forces that are removed, MIN:MAX:COUNT, N, downward");
   add_cable_options(job, options->cable, "two periods of reduction.first_frequency");

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "io/text/table.hpp"
 #include "job.hpp"
 #include "jobs/cable/damping_fit.hpp"
@@ -27,7 +28,7 @@ std::optional<AbsorberDampingFit> fitted_damping(const JobContext& context) {
   }
 }
 
-void run(const JobContext& context) {
+void tell_reduction(const JobContext& context) {
   report_warning(borrowed_cable_warning(context.case_data), context.quiet);
   report_warning(deep_cable_warning(context.case_data), context.quiet);
   report_warning(sensitive_reduction_warning(context.case_data), context.quiet);
@@ -47,7 +48,7 @@ void add_reduce(CLI::App& program) {
   const Job job(
       program, "reduce", question::cable,
       "The six parameters of the plant from conductor and absorber, and how sure each is");
-  job->final_callback([job] { run(job.context(PlantNeed::none)); });
+  job->final_callback([job] { tell_reduction(job.context(PlantNeed::none)); });
 }
 
 }  // namespace holdfast::program

@@ -1,5 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/elements_of_case.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"
@@ -10,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct StaticsOptions {
   std::string force = "-1:1:41";
   int elements = 100;
 };
@@ -23,7 +24,7 @@ double elements_displacement(const CableElements& cable, double force) {
   return cable.displacement(held.state);
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const StaticsOptions& options) {
   const Case& the_case = context.case_data;
   report_warning(borrowed_cable_warning(the_case), context.quiet);
   report_warning(deep_cable_warning(the_case), context.quiet);
@@ -55,7 +56,7 @@ void run(const JobContext& context, const Options& options) {
 void add_statics(CLI::App& program) {
   const Job job(program, "statics", question::cable,
                 "Force and displacement at the absorber, by four models");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StaticsOptions>();
   job.add_text("--force", options->force,
                "Forces beyond the absorber's weight, MIN:MAX:COUNT, N, downward");
   job->add_option("--elements", options->elements, "Bars of the continuous cable")

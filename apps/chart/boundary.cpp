@@ -1,5 +1,5 @@
 #include "case/axes/axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/gain_plane_tables.hpp"
 #include "process/errors.hpp"
@@ -7,25 +7,25 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct BoundaryOptions {
   std::string p = "-1000:200";
   std::string d = "-40:20";
   bool p_given = false, d_given = false, continuous = false;
   bool stable_interval = false, regions = false, features = false;
 };
 
-ProportionalRange proportional_range(const Options& options) {
+ProportionalRange proportional_range(const BoundaryOptions& options) {
   const Range range = parse_range("--p", options.p);
   return {range.min, range.max};
 }
 
-GainWindow window(const Options& options) {
+GainWindow window(const BoundaryOptions& options) {
   const Range d = parse_range("--d", options.d);
   return {proportional_range(options), {d.min, d.max}};
 }
 
 /// The gains of the options; the case's own where neither is given.
-FixedGains fixed_gains(const JobContext& context, const Options& options) {
+FixedGains fixed_gains(const JobContext& context, const BoundaryOptions& options) {
   const PdGains<double> own = gains_of(context.case_data);
   if (!options.p_given && !options.d_given) return {{own.proportional}, {own.differential}};
   FixedGains fixed;
@@ -34,7 +34,7 @@ FixedGains fixed_gains(const JobContext& context, const Options& options) {
   return fixed;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const BoundaryOptions& options) {
   const bool continuous = options.continuous;
   if (options.stable_interval) {
     write_stable_intervals(context, fixed_gains(context, options), continuous);
@@ -54,7 +54,7 @@ void run(const JobContext& context, const Options& options) {
 void add_boundary(CLI::App& program) {
   const Job job(program, "boundary", question::gains,
                 "Exact curves on which a characteristic root leaves the stable region");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BoundaryOptions>();
   job.add_text("--p", options->p,
                "Proportional gains P, MIN:MAX, N/m; with --stable-interval P or P,P,…");
   job.add_text("--d", options->d, "Window in D, MIN:MAX, N s/m; with --stable-interval D or D,D,…");

@@ -6,14 +6,14 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct DesignOptions {
   std::string frequency;
   std::string band;
   double largest_radius = 1.0;
   bool both_gains = false;
 };
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const DesignOptions& options) {
   if (options.both_gains) {
     write_best_pair(context);
   } else if (!options.band.empty()) {
@@ -31,7 +31,7 @@ void add_design(CLI::App& program) {
   const Job job(program, "design", question::gains,
                 "The best D: of least amplitude and of least spectral radius; one D for a band of "
                 "frequencies; the best P and D");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DesignOptions>();
   CLI::Option* frequency =
       job->add_option("--frequency", options->frequency,
                       "Excitation frequencies, MIN:MAX:COUNT, Hz, P tuned to each by Eq. 6; "

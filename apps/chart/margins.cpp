@@ -1,5 +1,5 @@
 #include "holdfast/stability/margins/margins.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"
@@ -35,7 +35,7 @@ void write(Table& table, const char* quantity, const char* unit, double value,
   row("above", margin.above);
 }
 
-void run(const JobContext& context) {
+void tell_margins(const JobContext& context) {
   const TwoDof<double> plant = plant_of(context.case_data);
   const Sampling<double> sampling = sampling_of(context.case_data);
   const PdGains<double> gains = gains_of(context.case_data);
@@ -69,7 +69,7 @@ void run(const JobContext& context) {
 void add_margins(CLI::App& program) {
   const Job job(program, "margins", question::gains,
                 "How far D, P, the sampling period and the delay are from instability");
-  job->final_callback([job] { run(job.context()); });
+  job->final_callback([job] { tell_margins(job.context()); });
 }
 
 }  // namespace holdfast::program

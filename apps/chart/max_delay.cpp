@@ -1,6 +1,6 @@
 #include "holdfast/stability/design/max_delay.hpp"
 #include "case/axes/axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "io/text/table.hpp"
 #include "job.hpp"
@@ -10,12 +10,12 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct MaxDelayOptions {
   std::string frequency = "3:60:58";
   std::string criterion = "attenuates";
 };
 
-MaxDelayQuestion question_of(const Case& the_case, const Options& options) {
+MaxDelayQuestion question_of(const Case& the_case, const MaxDelayOptions& options) {
   MaxDelayQuestion question;
   question.criterion =
       options.criterion == "stable" ? DelayCriterion::stable : DelayCriterion::attenuates;
@@ -24,7 +24,7 @@ MaxDelayQuestion question_of(const Case& the_case, const Options& options) {
   return question;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const MaxDelayOptions& options) {
   const TwoDof<double> plant = plant_of(context.case_data);
   const Axis axis = parse_axis("--frequency", options.frequency);
   MaxDelayQuestion question = question_of(context.case_data, options);
@@ -54,7 +54,7 @@ void add_max_delay(CLI::App& program) {
       program, "max-delay", question::delay,
       "Largest sampling period against excitation frequency, P tuned by Eq. 6; the processing "
       "delay keeps its fraction of the period");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MaxDelayOptions>();
   job.add_text("--frequency", options->frequency, "Excitation frequencies, MIN:MAX:COUNT, Hz");
   job->add_option("--criterion", options->criterion,
                   "stable: some D stabilises; attenuates: some stabilising D beats no control")

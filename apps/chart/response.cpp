@@ -1,17 +1,19 @@
 #include "case/axes/axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/sampled_loop_of_case.hpp"
+#include "holdfast/control/loop_input.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct ResponseOptions {
   std::string p = "-1000:200:61";
   std::string d = "-40:20:61";
 };
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const ResponseOptions& options) {
   const SampledLoop<double> loop = loop_of(context.case_data);
   const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
   const double omega = excitation.angular_frequency();
@@ -34,7 +36,7 @@ void run(const JobContext& context, const Options& options) {
 void add_response(CLI::App& program) {
   const Job job(program, "response", question::gains,
                 "Steady amplitude over the gains, without backlash, in closed form");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ResponseOptions>();
   job.add_text("--p", options->p, "Proportional gains P, MIN:MAX:COUNT, N/m");
   job.add_text("--d", options->d, "Differential gains D, MIN:MAX:COUNT, N s/m");
   job->final_callback([job, options] { run(job.context(), *options); });

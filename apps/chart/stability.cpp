@@ -2,7 +2,8 @@
 
 #include "case/axes/axis.hpp"
 #include "case/axes/loop_axis.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/sampled_loop_of_case.hpp"
 #include "io/file/input.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
@@ -10,7 +11,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct StabilityOptions {
   std::string p = "-1000:200:121";
   std::string d = "-40:20:121";
   std::vector<std::string> axes;
@@ -18,7 +19,7 @@ struct Options {
   bool radius = false;
 };
 
-std::vector<GridColumn> columns(const Options& options) {
+std::vector<GridColumn> columns(const StabilityOptions& options) {
   std::vector<GridColumn> result = {
       {{"stable", "", "1: asymptotically stable, 0: not", "integer"}, "unstable stable"}};
   if (!options.radius) return result;
@@ -30,7 +31,7 @@ std::vector<GridColumn> columns(const Options& options) {
   return result;
 }
 
-void run_over_gains(const JobContext& context, const Options& options) {
+void run_over_gains(const JobContext& context, const StabilityOptions& options) {
   const GainGrid grid{parse_axis("--p", options.p), parse_axis("--d", options.d)};
   GridTable table(context, {{"proportional_gain", "N/m", "P"}, grid.proportional},
                   {{"differential_gain", "N.s/m", "D"}, grid.differential}, columns(options));
@@ -45,7 +46,7 @@ void run_over_gains(const JobContext& context, const Options& options) {
   table.commit();
 }
 
-void run_over_axes(const JobContext& context, const Options& options) {
+void run_over_axes(const JobContext& context, const StabilityOptions& options) {
   const auto [chart, slow, fast] = loop_chart_of(context.case_data, options.axes);
   GridTable table(context, slow, fast, columns(options));
   append_sampled_chart(context, chart, options.radius, table);
@@ -56,7 +57,7 @@ void run_over_axes(const JobContext& context, const Options& options) {
 
 void add_stability(CLI::App& program) {
   const Job job(program, "stability", question::gains, "Chart of stable gains (P, D)");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StabilityOptions>();
   CLI::Option* p = job.add_text("--p", options->p, "Proportional gains P, MIN:MAX:COUNT, N/m");
   CLI::Option* d = job.add_text("--d", options->d, "Differential gains D, MIN:MAX:COUNT, N s/m");
   CLI::Option* continuous =

@@ -14,7 +14,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct CoverageOptions {
   std::optional<std::string> window;
   std::string durations = "10,100,1000";
   int cells = 50;
@@ -22,7 +22,7 @@ struct Options {
 };
 
 /// Given, or all that the motion sweeps in the second half of the shortest duration.
-PhaseWindow window_of(const JobContext& context, const Options& options, double duration) {
+PhaseWindow window_of(const JobContext& context, const CoverageOptions& options, double duration) {
   if (options.window) {
     const WindowOption given = parse_window("--window", *options.window);
     return {given.displacement.min, given.displacement.max, given.velocity.min, given.velocity.max};
@@ -37,7 +37,7 @@ PhaseWindow window_of(const JobContext& context, const Options& options, double 
   return {-extent.displacement(), extent.displacement(), -extent.velocity(), extent.velocity()};
 }
 
-std::vector<double> durations_of(const Options& options) {
+std::vector<double> durations_of(const CoverageOptions& options) {
   std::vector<double> durations = parse_list("--durations", options.durations);
   std::sort(durations.begin(), durations.end());
   if (durations.front() <= 0)
@@ -45,7 +45,7 @@ std::vector<double> durations_of(const Options& options) {
   return durations;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const CoverageOptions& options) {
   const std::vector<double> durations = durations_of(options);
   Coverage coverage(window_of(context, options, durations.front()),
                     static_cast<std::size_t>(options.cells));
@@ -69,7 +69,7 @@ void run(const JobContext& context, const Options& options) {
 void add_coverage(CLI::App& program) {
   const Job job(program, "coverage", question::attractor,
                 "How much of a phase-plane window the samples fill as time grows");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CoverageOptions>();
   job->add_option(
       "--window", options->window,
       "Z1MIN:Z1MAX:V1MIN:V1MAX, m and m/s (default: all that the steady motion sweeps)");

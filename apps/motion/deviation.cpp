@@ -9,13 +9,13 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct DeviationOptions {
   double offset = 1e-5;
   double duration = 10.0;
   Switching switching = Switching::sampled;
 };
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const DeviationOptions& options) {
   Table table(context, {{"time_s", "s", "t = j tau"},
                         {"z1_deviation_m", "m", "z1 of the neighbour minus z1 of the case"},
                         {"state_deviation", "",
@@ -41,7 +41,7 @@ void run(const JobContext& context, const Options& options) {
 void add_deviation(CLI::App& program) {
   const Job job(program, "deviation", question::attractor,
                 "How far two motions part that start close to each other");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DeviationOptions>();
   job->add_option("--offset", options->offset, "Start of the neighbour: z1 displaced by this, m")
       ->check(number_from(-1e6, 1e6))
       ->type_name("")

@@ -15,7 +15,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct DiagramOptions {
   std::string axis = "backlash.width=0:0.003:121";
   DiagramQuestion question;
   Switching switching = Switching::sampled;
@@ -32,7 +32,7 @@ std::vector<double> values_of(const Axis& axis, const std::string& text) {
   return values;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const DiagramOptions& options) {
   const auto [key, axis] = parse_key_axis("--axis", options.axis);
   case_value(context.case_data, key);  // throws where there is no such number
   const std::vector<double> values = values_of(axis, options.axis);
@@ -74,7 +74,7 @@ void run(const JobContext& context, const Options& options) {
 void add_diagram(CLI::App& program) {
   const Job job(program, "diagram", question::attractor,
                 "Orbit diagram: one state a forcing period against a key, up and back");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiagramOptions>();
   job.add_text("--axis", options->axis, "KEY=MIN:MAX:COUNT, the key that goes up and back");
   job->add_option("--transient", options->question.transient, "Left out at each value, s")
       ->check(number_from(0.0, 1e9))

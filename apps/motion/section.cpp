@@ -16,7 +16,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct SectionOptions {
   double duration = 60.0;
   double from = 30.0;
   Switching switching = Switching::sampled;
@@ -34,7 +34,7 @@ TrajectoryOutcome section_of(const Case&, HybridMotion<Contact>& motion, std::in
   return run_section(motion, samples, observer);
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const SectionOptions& options) {
   if (options.from > options.duration)
     throw WrongInput("--from lies after --duration: no point is left");
   Table table(context,
@@ -68,7 +68,7 @@ void run(const JobContext& context, const Options& options) {
 void add_section(CLI::App& program) {
   const Job job(program, "section", question::attractor,
                 "Poincaré section of the motion: the instants at which z2 - z1 turns");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SectionOptions>();
   add_duration(job, options->duration);
   add_from(job, options->from);
   add_switching(job, options->switching);

@@ -13,7 +13,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   double duration = 10.0;
   double from = 0.0;
   std::optional<std::string> kick;
@@ -21,7 +21,7 @@ struct Options {
   Switching switching = Switching::sampled;
 };
 
-std::optional<Kick> kick_of(const Options& options) {
+std::optional<Kick> kick_of(const SimulateOptions& options) {
   if (!options.kick) return std::nullopt;
   const KickOption kick = parse_kick("--kick", *options.kick);
   return Kick{kick.time, kick.displacement};
@@ -32,7 +32,7 @@ ContactMode mode_of(const MotionSample<double>& sample) {
   return sample.engaged ? ContactMode::engaged : ContactMode::gap;
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const SimulateOptions& options) {
   const std::optional<Kick> kick = kick_of(options);
   if (options.from > options.duration)
     throw WrongInput("--from lies after --duration: no row is left");
@@ -59,7 +59,7 @@ void run(const JobContext& context, const Options& options) {
 void add_simulate(CLI::App& program) {
   const Job job(program, "simulate", question::motion,
                 "Time history of the loop from its initial state");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   add_duration(job, options->duration);
   add_from(job, options->from);
   job->add_option("--kick", options->kick,

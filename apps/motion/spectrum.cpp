@@ -12,7 +12,7 @@
 namespace holdfast::program {
 namespace {
 
-struct Options {
+struct SpectrumOptions {
   double duration = 60.0;
   std::optional<double> discard;
   std::string window = "rectangular";
@@ -26,7 +26,7 @@ struct SteadyRecord {
 };
 
 /// z1 of the samples after the discarded time, cut to whole forcing and sampling periods.
-SteadyRecord steady_record(const JobContext& context, const Options& options) {
+SteadyRecord steady_record(const JobContext& context, const SpectrumOptions& options) {
   const double period = context.case_data.control.sampling_period;
   const double discard = options.discard.value_or(options.duration / 2.0);
   if (!(discard < options.duration)) throw WrongInput("--discard leaves nothing of --duration");
@@ -49,7 +49,7 @@ SteadyRecord steady_record(const JobContext& context, const Options& options) {
   return {record, digits ? digits->result() : TrustedDigits{}};
 }
 
-void run(const JobContext& context, const Options& options) {
+void run(const JobContext& context, const SpectrumOptions& options) {
   Table table(context,
               {{"frequency_Hz", "Hz", "frequency of the line"},
                {"amplitude_m", "m", "amplitude of z1: a sine of amplitude a on a line shows a"}});
@@ -67,7 +67,7 @@ void run(const JobContext& context, const Options& options) {
 void add_spectrum(CLI::App& program) {
   const Job job(program, "spectrum", question::attractor,
                 "Amplitude spectrum of z1 over a whole number of forcing periods");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SpectrumOptions>();
   add_duration(job, options->duration);
   job->add_option("--discard", options->discard,
                   "Transient left out at the start, s (default: half)")

@@ -6,6 +6,7 @@
 #include "holdfast/plant/energy.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "holdfast/plant/two_mass.hpp"

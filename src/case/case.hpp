@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/excitation/recorded_force.hpp"
+namespace holdfast {
+class RecordedForce;
+}
 
 namespace holdfast::program {
 

@@ -4,6 +4,7 @@
 
 #include "case/case_file.hpp"
 #include "case/force_record_file.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
 
 namespace holdfast::program {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/settled_plant.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "io/text/checksum.hpp"
 #include "io/text/text.hpp"

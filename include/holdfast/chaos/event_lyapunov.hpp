@@ -10,6 +10,9 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+#include "holdfast/motion/real_loop.hpp"
+#endif
 
 namespace holdfast {
 
@@ -145,5 +148,15 @@ LyapunovResult run_hybrid_lyapunov(HybridMotion<Contact>& motion, const Lyapunov
   detail::TangentAverage<HybridLyapunov<Contact>> average(lyapunov, pause);
   return detail::run_average(average, run);
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<SampledContactMotion>&,
+                                                   const LyapunovRun&,
+                                                   const std::function<void()>&);
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactDeadZone>&, const LyapunovRun&,
+                                                   const std::function<void()>&);
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactBacklash>&, const LyapunovRun&,
+                                                   const std::function<void()>&);
+#endif
 
 }  // namespace holdfast

@@ -111,4 +111,8 @@ SampledLoop<Scalar, states_of<Plant>> sampled_loop(
   return loop;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
+#endif
+
 }  // namespace holdfast

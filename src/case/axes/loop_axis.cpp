@@ -6,7 +6,7 @@
 #include "case/axes/axis.hpp"
 #include "case/axes/key_axis.hpp"
 #include "case/case_keys.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/sampled_loop_of_case.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 

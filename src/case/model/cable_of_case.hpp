@@ -4,11 +4,8 @@
 #include <utility>
 
 #include "case/case.hpp"
-#include "holdfast/cable/elements.hpp"
 #include "holdfast/cable/statics.hpp"
 #include "holdfast/cable/stiffness_reading.hpp"
-#include "holdfast/plant/reduction.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::program {
 
@@ -16,7 +13,7 @@ namespace holdfast::program {
 /// it.
 bool plant_is_reduced(const Case& the_case);
 
-/// The library's objects for [conductor], [absorber] and [reduction] of a case.
+/// The library's objects for [conductor], [absorber] and the readings of [reduction].
 Conductor<double> conductor_of(const Case& the_case);
 StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case);
 StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case);
@@ -29,22 +26,6 @@ void require_reading_range(const Case& the_case);
 
 /// k1 (N/m) from Eq. 1 with the case's reading. Throws what require_reading_range() throws.
 double conductor_stiffness_of(const Case& the_case);
-
-/// What the case asks of a reduction: k1 as it is read, m2 and the two natural frequencies.
-FrequencyReduction<double> reduction_question_of(const Case& the_case);
-
-/// m1 and k2 from that k1, the absorber's mass and the two frequencies of [reduction].
-ReductionResult reduction_of(const Case& the_case);
-
-/// m1, k1, c1, m2, k2 reduced from the conductor; c2 is 0 here.
-/// Throws NoAnswer where no real plant has the two frequencies, saying what would have one.
-TwoDof<double> plant_without_absorber_damping(const Case& the_case);
-
-/// The damping ratio of the conductor at the two frequencies of [reduction].
-RayleighDamping rayleigh_damping_of(const Case& the_case);
-
-/// The continuous cable; the spring and damper of `spring_mass` are those of [plant].
-CableElements elements_of(const Case& the_case, int elements, AbsorberReading reading);
 
 /// Frequencies (Hz) that a reduction takes when none are given: of Irvine's modes that move the
 /// absorber's place by a tenth of their largest displacement or more, the first and the sixth.

@@ -1,13 +1,7 @@
 #include "case/model/loop_of_case.hpp"
 
-#include <limits>
-
 #include "case/case_keys.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
-#include "holdfast/motion/trajectory.hpp"
-#include "holdfast/plant/two_mass.hpp"
-#include "io/text/text.hpp"
-#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -46,42 +40,6 @@ ComposedForce force_of(const Case& the_case) {
 
 }  // namespace
 
-TwoDof<double> plant_of(const Case& the_case) {
-  const auto& plant = the_case.plant;
-  return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
-          plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
-}
-
-PdGains<double> gains_of(const Case& the_case) {
-  return {resolved_proportional_gain(the_case), the_case.control.differential_gain};
-}
-
-Sampling<double> sampling_of(const Case& the_case) {
-  return {the_case.control.sampling_period, the_case.control.processing_delay};
-}
-
-SampledLoop<double> loop_of(const Case& the_case) {
-  return sampled_loop(plant_of(the_case), sampling_of(the_case));
-}
-
-LoopPoint loop_point_of(const Case& the_case) {
-  return {plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
-}
-
-HarmonicExcitation<double> excitation_of(const Case& the_case) {
-  const auto excitation = effective_excitation(the_case);
-  return {excitation.amplitude, excitation.frequency};
-}
-
-ForceHold force_hold_of(const Case& the_case) {
-  return effective_excitation(the_case).hold == "exact" ? ForceHold::exact : ForceHold::sampled;
-}
-
-Vector<double, 4> initial_state_of(const Case& the_case) {
-  const auto& initial = the_case.initial;
-  return {initial.z1, initial.v1, initial.z2, initial.v2};
-}
-
 ForcedLoop<double> forced_loop_of(const Case& the_case) {
   const double width = the_case.backlash.law == "none" ? 0.0 : the_case.backlash.width;
   return {plant_of(the_case),
@@ -94,20 +52,6 @@ ForcedLoop<double> forced_loop_of(const Case& the_case) {
 
 ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value) {
   return forced_loop_of(case_with(the_case, key, value));
-}
-
-double end_of_force(const Case& the_case) {
-  return the_case.force_record ? the_case.force_record->last_time()
-                               : std::numeric_limits<double>::infinity();
-}
-
-std::int64_t samples_of(const Case& the_case, double duration) {
-  const double end = end_of_force(the_case);
-  if (duration > end) {
-    throw WrongInput("the motion lasts " + format_number(duration) +
-                     " s, but the force in excitation.record ends at " + format_number(end) + " s");
-  }
-  return samples_within(duration, the_case.control.sampling_period);
 }
 
 SampledMotion<double> motion_of(const Case& the_case) {

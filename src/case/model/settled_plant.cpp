@@ -6,7 +6,8 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "io/text/text.hpp"
 #include "jobs/cable/damping_fit.hpp"
 #include "jobs/charts/conditioning.hpp"
@@ -79,7 +80,7 @@ std::string overruled_conductor_text(const Case& the_case) {
          " N/m, k2 = " + format_rounded(reduced.absorber_stiffness) + " N/m";
 }
 
-std::string joined(const std::vector<std::string>& texts) {
+std::string joined_texts(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() || text.empty() ? "" : "; ") + text;
   return all;
@@ -102,8 +103,8 @@ std::string settle_plant(Case& the_case) {
   take_plant(the_case, plant_without_absorber_damping(the_case));
   for (const CaseKey* key : given) *key->number(the_case) = *key->number(as_given);
   const std::string misfit = settle_damping(the_case);
-  return joined({partial_plant_text(given), misfit, sensitive_reduction_warning(the_case),
-                 distant_force_text(the_case)});
+  return joined_texts({partial_plant_text(given), misfit, sensitive_reduction_warning(the_case),
+                       distant_force_text(the_case)});
 }
 
 }  // namespace holdfast::program

@@ -1,6 +1,7 @@
 #include "io/file/metadata.hpp"
 
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
 #include "io/file/build_record.hpp"

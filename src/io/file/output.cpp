@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& shown, const std::string& why) {
+[[noreturn]] void refuse_path(const fs::path& shown, const std::string& why) {
   throw WrongInput("cannot write " + shown.string() + ": " + why);
 }
 
@@ -64,8 +64,9 @@ OutputFile::OutputFile(const std::optional<fs::path>& path) {
   struct stat status {};
   const bool exists = stat(path->c_str(), &status) == 0;
   if (!exists && errno != ENOENT) refuse_to_open(shown_, errno);
-  if ((exists && S_ISDIR(status.st_mode)) || !path->has_filename()) refuse(shown_, "is a folder");
-  if (exists && access(path->c_str(), W_OK) != 0) refuse(shown_, system_words(errno));
+  if ((exists && S_ISDIR(status.st_mode)) || !path->has_filename())
+    refuse_path(shown_, "is a folder");
+  if (exists && access(path->c_str(), W_OK) != 0) refuse_path(shown_, system_words(errno));
   if (exists && !S_ISREG(status.st_mode)) {
     open_device();
   } else {

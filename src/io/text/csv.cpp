@@ -207,7 +207,7 @@ void refuse_repeated_names(const std::vector<std::string>& names, const std::str
   }
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined_names(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
   return text;
@@ -223,7 +223,7 @@ std::size_t CsvTable::index(std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);
   if (found == names_.end()) {
     throw WrongInput(name_ + ": has no column \"" + std::string(column) + "\" but " +
-                     joined(names_));
+                     joined_names(names_));
   }
   return static_cast<std::size_t>(found - names_.begin());
 }

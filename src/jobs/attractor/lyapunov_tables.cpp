@@ -4,9 +4,10 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/motion_of_case.hpp"
-#include "compiled_once/hybrid_lyapunov.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/motion/real_loop.hpp"
 #include "io/text/table.hpp"
 #include "jobs/charts/conditioning.hpp"
 #include "jobs/motion/motion_run.hpp"

@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "case/model/loop_of_case.hpp"
-#include "compiled_once/verdict.hpp"
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "jobs/charts/conditioning.hpp"

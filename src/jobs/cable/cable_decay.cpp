@@ -1,6 +1,7 @@
 #include "jobs/cable/cable_decay.hpp"
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/elements_of_case.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"

@@ -1,8 +1,6 @@
 #include "jobs/cable/case_table.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
@@ -58,26 +57,15 @@ void add_gains(Derivations& derived, const Case& the_case, const TwoDof<double>&
        "N/m", "k2 - m2 (2 pi f)^2, Eq. 6: the absorber's own frequency becomes that of the force"});
 }
 
-/// The eigenvalues of the plant without control that oscillate, the slowest first.
-std::vector<std::complex<double>> modes_of(const TwoDof<double>& plant) {
-  const Eigen::EigenSolver<Matrix<double, 4>> solver(plant.state_matrix(), false);
-  std::vector<std::complex<double>> modes;
-  for (const std::complex<double>& value : solver.eigenvalues())
-    if (value.imag() > 0.0) modes.push_back(value);
-  std::sort(modes.begin(), modes.end(),
-            [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
-  return modes;
-}
-
 void add_modes(Derivations& derived, const TwoDof<double>& plant) {
   TwoDof<double> undamped = plant;
   undamped.conductor_damping = undamped.absorber_damping = 0.0;
-  const auto free = modes_of(undamped), damped = modes_of(plant);
+  const auto free = natural_modes(undamped), damped = natural_modes(plant);
   const auto frequency = [&](std::size_t k) {
-    return k < free.size() ? std::abs(free[k]) / (2.0 * pi<double>) : unknown;
+    return k < free.size() ? free[k].frequency() : unknown;
   };
   const auto damping = [&](std::size_t k) {
-    return damped.size() == 2 ? -damped[k].real() / std::abs(damped[k]) : unknown;
+    return damped.size() == 2 ? damped[k].damping_ratio() : unknown;
   };
   derived.push_back({"first_natural_frequency", frequency(0), "Hz",
                      "of conductor and absorber together, without damping and control"});

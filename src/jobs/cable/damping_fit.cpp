@@ -8,7 +8,6 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/loop_of_case.hpp"
 #include "io/text/text.hpp"
 #include "jobs/cable/cable_decay.hpp"
 #include "process/errors.hpp"

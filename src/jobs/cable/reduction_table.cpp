@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 
 namespace holdfast::program {
 namespace {

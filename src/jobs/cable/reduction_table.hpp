@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "jobs/cable/damping_fit.hpp"
 
 namespace holdfast::program {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/reduction_of_case.hpp"
 #include "holdfast/orbit/loop_orbit.hpp"
 #include "io/text/text.hpp"
 

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/sampled_loop_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
@@ -73,7 +74,7 @@ const GainName proportional{"proportional_gain", "P", "N/m"};
 const GainName differential{"differential_gain", "D", "N s/m"};
 
 /// The stable intervals of one gain at one value of the other.
-struct Answer {
+struct GainPlane {
   const GainName& gain;
   const GainName& fixed;
   double value;
@@ -86,9 +87,9 @@ struct Answer {
 };
 
 template <int Degree>
-std::vector<Answer> answers(const AffinePolynomial<Precise, Degree>& polynomial,
-                            const FixedGains& fixed) {
-  std::vector<Answer> result;
+std::vector<GainPlane> answers(const AffinePolynomial<Precise, Degree>& polynomial,
+                               const FixedGains& fixed) {
+  std::vector<GainPlane> result;
   for (const double p : fixed.proportional) {
     result.push_back(
         {differential, proportional, p, stable_differential_gains(polynomial, Precise(p))});
@@ -101,10 +102,10 @@ std::vector<Answer> answers(const AffinePolynomial<Precise, Degree>& polynomial,
 }
 
 /// The refusals of those without an interval, each on its own or, when there is no other, as one.
-void report_refusals(const std::vector<Answer>& all, bool quiet) {
+void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   std::vector<std::string> refusals;
   std::string together;
-  for (const Answer& answer : all) {
+  for (const GainPlane& answer : all) {
     if (!answer.intervals.empty()) continue;
     refusals.push_back(answer.refusal());
     together += (together.empty() ? "" : "; ") + answer.refusal();
@@ -163,15 +164,15 @@ void write_boundary_features(const JobContext& context, const GainWindow& window
 
 void write_stable_intervals(const JobContext& context, const FixedGains& fixed, bool continuous) {
   const Case& the_case = context.case_data;
-  const std::vector<Answer> all = continuous
-                                      ? answers(precise_continuous_polynomial(the_case), fixed)
-                                      : answers(precise_sampled_polynomial(the_case), fixed);
+  const std::vector<GainPlane> all = continuous
+                                         ? answers(precise_continuous_polynomial(the_case), fixed)
+                                         : answers(precise_sampled_polynomial(the_case), fixed);
   Table table(context, {{"gain", "", "the gain that the interval is of", "string"},
                         {"other_gain", "", "the other gain, held: P in N/m, D in N s/m"},
                         {"lower", "", "lower end: D in N s/m, P in N/m; -inf: none"},
                         {"upper", "", "upper end: D in N s/m, P in N/m; inf: none"}});
   report_refusals(all, context.quiet);
-  for (const Answer& answer : all) {
+  for (const GainPlane& answer : all) {
     for (const Interval<Precise>& interval : answer.intervals) {
       table.row(answer.gain.column, answer.value, static_cast<double>(interval.lower),
                 static_cast<double>(interval.upper));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/case_keys.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
@@ -20,7 +20,7 @@ namespace holdfast::program {
 namespace {
 
 /// One answer, its unit, and how it moves.
-struct Answer {
+struct Sensitivities {
   std::string name, unit;
   double value;
   LoopSensitivity sensitivity;
@@ -35,14 +35,14 @@ struct Question {
   ForceHold hold;
 };
 
-void add_radius(const Question& q, std::vector<Answer>& answers) {
+void add_radius(const Question& q, std::vector<Sensitivities>& answers) {
   const double excess = loop_polynomial(sampled_loop(q.plant, q.sampling)).excess(q.gains);
   answers.push_back(
       {"spectral_radius", "", 1.0 + excess, radius_sensitivity(q.plant, q.sampling, q.gains)});
 }
 
 /// The ends of the stable interval of D about the case's own.
-void add_stable_interval(const Question& q, std::vector<Answer>& answers) {
+void add_stable_interval(const Question& q, std::vector<Sensitivities>& answers) {
   const double p = q.gains.proportional;
   const auto polynomial = characteristic_polynomial(sampled_loop(q.plant, q.sampling));
   const auto add = [&](const char* name, double d) {
@@ -58,7 +58,7 @@ void add_stable_interval(const Question& q, std::vector<Answer>& answers) {
   }
 }
 
-void add_least_radius(const Question& q, std::vector<Answer>& answers) {
+void add_least_radius(const Question& q, std::vector<Sensitivities>& answers) {
   const double p = q.gains.proportional;
   const LeastRadius least = least_radius(sampled_loop(q.plant, q.sampling), p);
   const auto moved = least_radius_sensitivity(q.plant, q.sampling, {p, least.differential_gain});
@@ -67,7 +67,7 @@ void add_least_radius(const Question& q, std::vector<Answer>& answers) {
       {"least_radius_gain", "N.s/m", least.differential_gain, moved.differential_gain});
 }
 
-void add_least_amplitude(const Question& q, std::vector<Answer>& answers) {
+void add_least_amplitude(const Question& q, std::vector<Sensitivities>& answers) {
   const AmplitudeQuestion question{q.sampling, q.hold};
   const auto least = least_amplitude(q.plant, question, q.frequency, q.gains.proportional);
   if (!std::isfinite(least.differential_gain)) return;
@@ -78,7 +78,7 @@ void add_least_amplitude(const Question& q, std::vector<Answer>& answers) {
 }
 
 void add_largest_period(const Question& q, DelayCriterion criterion, const char* name,
-                        std::vector<Answer>& answers) {
+                        std::vector<Sensitivities>& answers) {
   MaxDelayQuestion question;
   question.frequency = q.frequency;
   question.proportional_gain = q.gains.proportional;
@@ -96,8 +96,8 @@ void add_largest_period(const Question& q, DelayCriterion criterion, const char*
   answers.push_back({name, "s", answer.sampling_period, sensitivity});
 }
 
-std::vector<Answer> answers_of(const Question& q) {
-  std::vector<Answer> answers;
+std::vector<Sensitivities> answers_of(const Question& q) {
+  std::vector<Sensitivities> answers;
   add_radius(q, answers);
   add_stable_interval(q, answers);
   add_least_radius(q, answers);
@@ -114,7 +114,7 @@ const char* const sensitivity_keys[loop_parameters] = {
     "control.sampling_period",  "control.processing_delay",  "control.proportional_gain",
     "control.differential_gain"};
 
-void write(Table& table, const Question& q, const Answer& answer, bool tuned) {
+void write(Table& table, const Question& q, const Sensitivities& answer, bool tuned) {
   const LoopSensitivity moved =
       tuned ? with_tuned_gain(answer.sensitivity, q.frequency) : answer.sensitivity;
   const auto slopes = entries_of(moved);
@@ -140,7 +140,7 @@ void write_sensitivities(const JobContext& context, bool tuned) {
                         {"derivative", "", "of the answer by the parameter, in their units"},
                         {"relative", "", "per cent of the answer per per cent of the parameter"}});
   const bool follows = tuned || the_case.control.proportional_gain_tuned;
-  for (const Answer& answer : answers_of(question)) write(table, question, answer, follows);
+  for (const Sensitivities& answer : answers_of(question)) write(table, question, answer, follows);
   table.commit();
 }
 

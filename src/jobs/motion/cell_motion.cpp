@@ -6,8 +6,9 @@
 #include <memory>
 
 #include "case/model/loop_of_case.hpp"
-#include "compiled_once/verdict.hpp"
+#include "holdfast/chaos/event_classification.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "jobs/charts/row_blocks.hpp"

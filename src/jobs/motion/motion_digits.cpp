@@ -19,7 +19,7 @@ SampledMotion<Wide> wide_motion(const ForcedLoop<double>& loop, const Vector<dou
 
 constexpr Wide largest_share = 1e-6L;  // of digits_taken_for_granted
 
-int whole(double digits) { return static_cast<int>(std::floor(digits)); }
+int whole_digits(double digits) { return static_cast<int>(std::floor(digits)); }
 
 /// The fewest of several quantities and the name of the one that has them.
 class Fewest {
@@ -30,7 +30,7 @@ class Fewest {
     least_ = digits;
     name_ = name;
   }
-  TrustedDigits result() const { return {whole(least_), std::nullopt, name_}; }
+  TrustedDigits result() const { return {whole_digits(least_), std::nullopt, name_}; }
 
  private:
   double least_ = most_trusted_digits;
@@ -82,7 +82,7 @@ MotionDigits::Wide MotionDigits::share_of(const Vector<double, 4>& state,
 
 TrustedDigits MotionDigits::result() const {
   const double digits = holdfast::trusted_digits(static_cast<double>(largest_), 0.0L, 1.0L);
-  return {whole(digits), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
+  return {whole_digits(digits), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
 }
 
 std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
@@ -124,7 +124,7 @@ TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switch
     wide_first.advance();
     wide_second.advance();
   }
-  return {whole(least), lost ? std::optional<double>(until) : std::nullopt, ""};
+  return {whole_digits(least), lost ? std::optional<double>(until) : std::nullopt, ""};
 }
 
 TrustedDigits trusted_digits_of_reduction(const FrequencyReduction<double>& asked) {

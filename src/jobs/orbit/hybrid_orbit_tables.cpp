@@ -3,7 +3,8 @@
 #include <optional>
 
 #include "case/model/loop_of_case.hpp"
-#include "compiled_once/hybrid_orbit.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "io/text/table.hpp"
 #include "jobs/charts/conditioning.hpp"
 #include "jobs/motion/motion_columns.hpp"

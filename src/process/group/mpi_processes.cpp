@@ -32,7 +32,7 @@ int rank_in(MPI_Comm processes) {
   return rank;
 }
 
-int size_of(MPI_Comm processes) {
+int number_of(MPI_Comm processes) {
   int size = 0;
   MPI_Comm_size(processes, &size);
   return size;
@@ -65,7 +65,7 @@ class MpiProcesses final : public ProcessGroup {
   MPI_Comm processes_ = copy_of(MPI_COMM_WORLD);
   MPI_Comm leaving_ = copy_of(MPI_COMM_WORLD);  // apart, lest a farewell meet an exchange
   const int rank_ = rank_in(processes_);
-  const int size_ = size_of(processes_);
+  const int size_ = number_of(processes_);
   mpi::Counter tickets_{session_, processes_};
   std::unique_ptr<mpi::Exchange> exchange_;
 };

@@ -2,12 +2,13 @@
 #include <string>
 #include <vector>
 
-#include "compiled_once/periodic_orbit.hpp"
 #include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/signal/spectrum.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/coverage.hpp"
 #include "holdfast/phase_space/deviation.hpp"
 #include "holdfast/plant/two_mass.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "case/model/cable_of_case.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "io/text/text.hpp"
 #include "jobs/cable/cable_decay.hpp"
 #include "report/figures/motion_figures.hpp"

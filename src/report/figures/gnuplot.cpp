@@ -18,7 +18,7 @@ namespace {
 
 // Colours of M. Okabe and K. Ito, told apart by all kinds of colour vision; dashes tell them apart
 // in grey.
-constexpr const char* style =
+constexpr const char* gnuplot_style =
     "set encoding utf8\n"
     "set datafile separator comma\n"
     "set datafile missing 'nan'\n"
@@ -107,7 +107,7 @@ std::string gnuplot_script(const Figure& figure) {
          " dynamic enhanced standalone font 'Helvetica,Arial,sans-serif,13' background rgb "
          "'white'\n" +
          "if (!exists('picture')) picture = 'pictures/" + figure.name +
-         ".svg'\nset output picture\n" + style + plot + "unset output\n";
+         ".svg'\nset output picture\n" + gnuplot_style + plot + "unset output\n";
 }
 
 void draw(const Figure& figure, const std::filesystem::path& folder) {

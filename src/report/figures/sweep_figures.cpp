@@ -6,7 +6,7 @@
 #include <string>
 
 #include "case/case_file.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "io/text/text.hpp"
 #include "report/page/success_map.hpp"
 

@@ -5,7 +5,7 @@
 namespace holdfast::program {
 namespace {
 
-constexpr const char* style = R"(
+constexpr const char* page_style = R"(
 :root { color-scheme: light dark; --ink: #1d2329; --soft: #5a646e; --paper: #ffffff; --line: #d8dee4;
         --good: #00664a; --bad: #a33b00; --code: #f4f6f8;
         --link: #0b5cad; }
@@ -181,7 +181,7 @@ std::string html_of(const Page& page) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      escaped(page.title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" +
+      escaped(page.title) + "</title>\n<style>" + page_style + "</style>\n</head>\n<body>\n<h1>" +
       escaped(page.title) + "</h1>\n<p>" + page.introduction + "</p>\n";
   html += contents_of(page);
   html += page.answers;

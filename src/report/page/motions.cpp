@@ -8,7 +8,8 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "compiled_once/verdict.hpp"
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/sampled_classification.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "io/text/text.hpp"
 #include "jobs/orbit/orbit_certificate.hpp"

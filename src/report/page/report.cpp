@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "case/case_file.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "io/file/input.hpp"
 #include "io/file/output.hpp"
 #include "io/text/text.hpp"

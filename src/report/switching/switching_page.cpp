@@ -28,7 +28,7 @@ std::size_t harmonics_of(const Case& the_case) {
   return real_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
 }
 
-double duration_of(const Case& the_case) {
+double studied_duration(const Case& the_case) {
   const double most_samples = std::min(5e5, 1e7 / static_cast<double>(harmonics_of(the_case)));
   return std::min({std::max(20.0, 200.0 * forcing_period(the_case)),
                    most_samples * the_case.control.sampling_period, end_of_force(the_case)});
@@ -59,14 +59,14 @@ std::vector<double> shown_sampling_periods(const Case& the_case) {
 }
 
 /// A little above a length, with one digit.
-double rounded_up(double length) {
+double rounded_up_length(double length) {
   const double unit = std::pow(10.0, std::floor(std::log10(length)));
   return std::ceil(1.02 * length / unit) * unit;
 }
 
 std::vector<double> shown_widths(const Case& the_case) {
-  const double swing = swing_without_control(the_case, duration_of(the_case));
-  const double widest = swing > 0.0 ? rounded_up(swing) : 1e-3;
+  const double swing = swing_without_control(the_case, studied_duration(the_case));
+  const double widest = swing > 0.0 ? rounded_up_length(swing) : 1e-3;
   std::vector<double> widths;
   for (int part = 0; part <= 30; ++part) widths.push_back(widest * part / 30.0);
   return with_own(widths, the_case.backlash.width);
@@ -79,7 +79,7 @@ Loops loops_over(const Case& the_case, const std::string& key, const std::vector
     for (const double value : values) {
       Case changed = the_case;
       set_case_value(changed, key, value);
-      loops.push_back({changed, reading, duration_of(changed)});
+      loops.push_back({changed, reading, studied_duration(changed)});
     }
   }
   return loops;
@@ -90,7 +90,7 @@ std::string milli(double value) { return rounded(1e3 * value, 4); }
 /// What the charts have in common, in words.
 std::string meaning_of_chart(const Case& the_case) {
   return " Above: largest |z₁| at all times in the second half of " +
-         rounded(duration_of(the_case), 4) +
+         rounded(studied_duration(the_case), 4) +
          " s or more; curves leave the picture at the top where the motion "
          "grows or diverges. Below: certified period over the "
          "shortest one, after which sampling and forcing coincide again; \"none\": no certified "
@@ -183,13 +183,13 @@ struct NamedLaw {
   const char* words;  // gnuplot would set what follows an underscore lower
 };
 
-constexpr std::array<NamedLaw, 5> laws = {{{"kollar", "kollar"},
-                                           {"immediate", "immediate"},
-                                           {"play", "play"},
-                                           {"dead_zone", "dead zone"},
-                                           {"none", "no backlash"}}};
+constexpr std::array<NamedLaw, 5> named_laws = {{{"kollar", "kollar"},
+                                                 {"immediate", "immediate"},
+                                                 {"play", "play"},
+                                                 {"dead_zone", "dead zone"},
+                                                 {"none", "no backlash"}}};
 
-/// Places in `laws`.
+/// Places in `named_laws`.
 enum : std::size_t { play = 2, dead_zone = 3, no_backlash = 4 };
 
 Case with_law(Case the_case, const NamedLaw& law) {
@@ -199,16 +199,16 @@ Case with_law(Case the_case, const NamedLaw& law) {
 
 std::vector<StudiedLaw> study_laws(const JobContext& context) {
   Loops loops;
-  for (const NamedLaw& law : laws) {
+  for (const NamedLaw& law : named_laws) {
     const Case changed = with_law(context.case_data, law);
     for (const std::size_t reading : {sampled_switching, exact_switching})
-      loops.push_back({changed, readings[reading], duration_of(changed)});
+      loops.push_back({changed, readings[reading], studied_duration(changed)});
   }
   const Motions motions = study(loops, context.threads);
   write_motions(context, "switching-law-motions", motions);
   std::vector<StudiedLaw> studied;
-  for (std::size_t k = 0; k < laws.size(); ++k)
-    studied.push_back({laws[k].words, motions[2 * k], motions[2 * k + 1]});
+  for (std::size_t k = 0; k < named_laws.size(); ++k)
+    studied.push_back({named_laws[k].words, motions[2 * k], motions[2 * k + 1]});
   return studied;
 }
 
@@ -264,7 +264,7 @@ SwitchingFigure write_laws(const JobContext& context, const std::vector<StudiedL
 
 /// What the charts show: half as much again as without control, and the case's own motions.
 ShownAmplitudes shown_amplitudes(const Case& the_case, const Motions& of_case) {
-  const double free = amplitude_without_control(the_case, duration_of(the_case));
+  const double free = amplitude_without_control(the_case, studied_duration(the_case));
   double largest = 1.5 * free;
   for (const StudiedMotion& motion : of_case)
     largest = std::fmax(largest, 1.2 * motion.steady.largest_displacement);
@@ -318,7 +318,7 @@ std::vector<StudiedLoop> loops_of_paper(const Case& the_case) {
 
 std::vector<StudiedLoop> loops_of_case(const Case& the_case) {
   Loops loops;
-  add_readings(loops, the_case, duration_of(the_case));
+  add_readings(loops, the_case, studied_duration(the_case));
   return loops;
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 using Motions = std::vector<StudiedMotion>;
 
-constexpr const char* none = "–";
+constexpr const char* no_number = "–";
 
-std::string millimetres(double length) { return rounded(1e3 * length, 4) + " mm"; }
+std::string in_millimetres(double length) { return rounded(1e3 * length, 4) + " mm"; }
 
 bool is_followed(const StudiedMotion& motion) {
   return !motion.steady.diverges && !motion.steady.accumulates;
@@ -29,15 +29,15 @@ std::string periods_text(const FoundPeriod& period) {
 
 std::string amplitude_text(const StudiedMotion& motion) {
   if (motion.steady.accumulates) return "not followed: its changes of contact accumulate";
-  return motion.steady.diverges ? "diverges" : millimetres(motion.steady.largest_displacement);
+  return motion.steady.diverges ? "diverges" : in_millimetres(motion.steady.largest_displacement);
 }
 
 /// By how much the first amplitude is above the second one: "+4.4 %".
 std::string change_text(const StudiedMotion& motion, const StudiedMotion& reference) {
-  if (!is_followed(motion) || !is_followed(reference)) return none;
+  if (!is_followed(motion) || !is_followed(reference)) return no_number;
   const double change =
       motion.steady.largest_displacement / reference.steady.largest_displacement - 1.0;
-  if (!std::isfinite(change)) return none;
+  if (!std::isfinite(change)) return no_number;
   return (change > 0.0 ? "+" : "") + rounded(100.0 * change, 2) + " %";
 }
 
@@ -102,7 +102,7 @@ std::string period_or_reason(const FoundPeriod& period) {
 }
 
 std::string multiplier_text(const FoundPeriod& period) {
-  return period.samples > 0 ? rounded(period.largest_multiplier, 3) : none;
+  return period.samples > 0 ? rounded(period.largest_multiplier, 3) : no_number;
 }
 
 std::string table_cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
@@ -128,9 +128,9 @@ std::string table_of_case(const Motions& of_case) {
             table_cell(hold_text(motion.loop.reading)) + table_cell(amplitude_text(motion)) +
             table_cell(change_text(motion, of_case[exact_switching])) +
             table_cell(no_period_text(motion.period)) +
-            table_cell(motion.period.samples > 0 ? periods_text(motion.period) : none) +
+            table_cell(motion.period.samples > 0 ? periods_text(motion.period) : no_number) +
             table_cell(multiplier_text(motion.period)) +
-            table_cell(is_followed(motion) ? phases_text(motion.steady) : none) + "</tr>\n";
+            table_cell(is_followed(motion) ? phases_text(motion.steady) : no_number) + "</tr>\n";
   }
   return table_of({"switching", "force", "largest |z₁|", "against exact switching", "verdict",
                    "period", "largest multiplier", "phases per half cycle"},
@@ -153,9 +153,9 @@ std::string case_part(const Motions& of_case) {
 std::string paper_cell(const StudiedMotion& motion) {
   if (!is_followed(motion)) return table_cell(amplitude_text(motion));
   const SteadyMotion& steady = motion.steady;
-  std::string html = "<td><strong>" + millimetres(steady.largest_of_samples) + "</strong>";
+  std::string html = "<td><strong>" + in_millimetres(steady.largest_of_samples) + "</strong>";
   if (steady.largest_displacement > 1.005 * steady.largest_of_samples)
-    html += ", between them up to " + millimetres(steady.largest_displacement);
+    html += ", between them up to " + in_millimetres(steady.largest_displacement);
   html += "<br>period: " + escaped(period_or_reason(motion.period));
   if (motion.period.samples > 0) html += ", multiplier " + multiplier_text(motion.period);
   return html + "<br>" + phases_text(steady) + "</td>";

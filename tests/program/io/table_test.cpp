@@ -1,6 +1,7 @@
 #include "io/text/table.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
 #include "io/file/metadata.hpp"

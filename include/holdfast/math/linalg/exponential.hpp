@@ -40,6 +40,11 @@ Matrix<Scalar, Size> balanced_exponential(const Matrix<Scalar, Size>& matrix) {
   return similar.restored(similar.balanced.exp());
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template Matrix<double, 5> balanced_exponential(const Matrix<double, 5>&);
+extern template Matrix<double, 6> balanced_exponential(const Matrix<double, 6>&);
+#endif
+
 }  // namespace detail
 
 }  // namespace holdfast

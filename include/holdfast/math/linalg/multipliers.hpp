@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/eigenvalues.hpp"
 
 namespace holdfast {
 
@@ -102,8 +102,7 @@ void append_multipliers(const Matrix<Scalar, 5>& turn, const ScaledTriangle<Scal
   for (int i = 0; i < size; ++i)
     stretch.row(i) *= triangle.signs[first + i] * std::exp(triangle.logarithms[first + i] - scale);
   const Block block = turn.block(first, first, size, size) * stretch;
-  const Eigen::EigenSolver<Block> solver(block, false);
-  for (const std::complex<Scalar>& value : solver.eigenvalues())
+  for (const std::complex<Scalar>& value : eigenvalues(block))
     multipliers.push_back({static_cast<double>(scale + std::log(std::abs(value))),
                            static_cast<double>(std::arg(value))});
 }

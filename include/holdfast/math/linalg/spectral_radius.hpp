@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <complex>
 #include <limits>
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/eigenvalues.hpp"
 
 namespace holdfast {
 
@@ -15,8 +15,7 @@ namespace detail {
 /// largest entry, and a loop holds forces beside displacements.
 template <class Scalar, int Size>
 Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Size>& matrix) {
-  return Eigen::EigenSolver<Matrix<Scalar, Size>>(BalancedMatrix(matrix).balanced, false)
-      .eigenvalues();
+  return eigenvalues(BalancedMatrix(matrix).balanced);
 }
 
 }  // namespace detail

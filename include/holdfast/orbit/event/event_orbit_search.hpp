@@ -228,4 +228,13 @@ HybridOrbitResult<Contact> find_hybrid_orbit(const HybridMotion<Contact>& start,
   return find_hybrid_orbit(start, *ratio, limits);
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HybridOrbitResult<SampledContactMotion> find_hybrid_orbit(
+    const HybridMotion<SampledContactMotion>&, const Rational&, const OrbitLimits&);
+extern template HybridOrbitResult<ExactDeadZone> find_hybrid_orbit(
+    const HybridMotion<ExactDeadZone>&, const Rational&, const OrbitLimits&);
+extern template HybridOrbitResult<ExactBacklash> find_hybrid_orbit(
+    const HybridMotion<ExactBacklash>&, const Rational&, const OrbitLimits&);
+#endif
+
 }  // namespace holdfast

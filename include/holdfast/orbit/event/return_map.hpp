@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
@@ -175,9 +175,9 @@ class HybridReturn {
 
   static std::vector<Multiplier> eigenvalues(const Matrix<Scalar, 7>& map,
                                              const std::vector<int>& counting) {
-    const Eigen::EigenSolver<Matrix<Scalar, Eigen::Dynamic>> solver(map(counting, counting), false);
     std::vector<Multiplier> found;
-    for (const std::complex<double>& value : solver.eigenvalues())
+    for (const std::complex<double>& value :
+         holdfast::eigenvalues(Eigen::MatrixXd(map(counting, counting))))
       found.push_back({std::log(std::abs(value)), std::arg(value)});
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.log_modulus > b.log_modulus; });

@@ -1,7 +1,5 @@
-#include "compiled_once/hybrid_orbit.hpp"
-
-#include "compiled_once/periodic_orbit.hpp"
-#include "compiled_once/sampled_loop.hpp"
+// Explicit instantiations of orbit/event, for every contact that a loop may have.
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 
 namespace holdfast {
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "case/case.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast::program {
+
+/// The library's objects for what a case file says of plant, control and excitation.
+TwoDof<double> plant_of(const Case& the_case);
+PdGains<double> gains_of(const Case& the_case);
+Sampling<double> sampling_of(const Case& the_case);
+HarmonicExcitation<double> excitation_of(const Case& the_case);
+ForceHold force_hold_of(const Case& the_case);
+Vector<double, 4> initial_state_of(const Case& the_case);
+
+/// Seconds that the case's force lasts: to the last row of its record; infinite without one.
+double end_of_force(const Case& the_case);
+
+/// Number of samples of a motion of the case at t = 0, τ, … up to the last one not after
+/// `duration`, s. Throws WrongInput where the recorded force of the case ends before.
+std::int64_t samples_of(const Case& the_case, double duration);
+
+}  // namespace holdfast::program
