@@ -4,11 +4,7 @@
 
 namespace holdfast {
 
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<SampledContactMotion>&, const LyapunovRun&,
-                                            const std::function<void()>&);
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactDeadZone>&, const LyapunovRun&,
-                                            const std::function<void()>&);
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactBacklash>&, const LyapunovRun&,
+template LyapunovResult run_hybrid_lyapunov(HybridMotion<DriveContact<>>&, const LyapunovRun&,
                                             const std::function<void()>&);
 
 }  // namespace holdfast

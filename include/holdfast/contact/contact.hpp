@@ -62,32 +62,32 @@ class DriveContact {
 
   /// How states of the plant are read.
   const PortReadings<Plant>& readings() const {
-    return std::visit([](const auto& law) -> const PortReadings<Plant>& { return law.readings(); },
-                      law_);
+    return asked(law_,
+                 [](const auto& law) -> const PortReadings<Plant>& { return law.readings(); });
   }
   /// How the state moves in one of the modes.
   DynamicsOf<Plant> dynamics(int mode) const {
-    return asked([&](const auto& law) { return law.dynamics(mode); });
+    return asked(law_, [&](const auto& law) { return law.dynamics(mode); });
   }
   /// The two masses whose energy bounds the motion in one of the modes.
   Plant plant(int mode) const {
-    return asked([&](const auto& law) -> Plant { return law.plant(mode); });
+    return asked(law_, [&](const auto& law) -> Plant { return law.plant(mode); });
   }
   /// Number of the present mode, 0 … `modes` − 1.
   int mode() const {
-    return asked([](const auto& law) { return law.mode(); });
+    return asked(law_, [](const auto& law) { return law.mode(); });
   }
   /// What the drive does in the present mode.
   ContactMode word() const {
-    return asked([](const auto& law) { return law.word(); });
+    return asked(law_, [](const auto& law) { return law.word(); });
   }
   /// u (N) as it goes to the drive.
   double commanded(double command) const {
-    return asked([&](const auto& law) { return law.commanded(command); });
+    return asked(law_, [&](const auto& law) { return law.commanded(command); });
   }
   /// What the drive transmits (N).
   double transmitted(const Instant& now) const {
-    return asked([&](const auto& law) { return law.transmitted(now); });
+    return asked(law_, [&](const auto& law) { return law.transmitted(now); });
   }
   /// Whether the command of the present sample takes effect: unless a law at samples found it not
   /// transmitted.
@@ -101,36 +101,36 @@ class DriveContact {
   }
   /// What ends the present mode.
   ModeGuards guards() const {
-    return asked([](const auto& law) { return law.guards(); });
+    return asked(law_, [](const auto& law) { return law.guards(); });
   }
 
   /// Takes a sample.
   void sample(const State& state) {
-    std::visit([&](auto& law) { law.sample(state); }, law_);
+    asked(law_, [&](auto& law) { law.sample(state); });
   }
   /// The force or the command has jumped, or may have.
   void jumped(const Instant& now) {
-    std::visit([&](auto& law) { law.jumped(now); }, law_);
+    asked(law_, [&](auto& law) { law.jumped(now); });
   }
   /// The conductor was displaced against the absorber.
   void displaced() {
-    std::visit([](auto& law) { law.displaced(); }, law_);
+    asked(law_, [](auto& law) { law.displaced(); });
   }
   /// Takes rounding out of a state of the present mode, which has come from another one in it.
   void keep(const State& before, State& after) const {
-    std::visit([&](const auto& law) { law.keep(before, after); }, law_);
+    asked(law_, [&](const auto& law) { law.keep(before, after); });
   }
   /// Some time has passed since the last change.
   void flowed() {
-    std::visit([](auto& law) { law.flowed(); }, law_);
+    asked(law_, [](auto& law) { law.flowed(); });
   }
   /// The sign, ±1, that a guard has taken whose sign was not known.
   void learn_sign(double sign) {
-    std::visit([&](auto& law) { law.learn_sign(sign); }, law_);
+    asked(law_, [&](auto& law) { law.learn_sign(sign); });
   }
   /// A guard has come to zero: the contact changes.
   void reached(int guard, Instant& now) {
-    std::visit([&](auto& law) { law.reached(guard, now); }, law_);
+    asked(law_, [&](auto& law) { law.reached(guard, now); });
   }
 
   /// Whether the drive's gap lies where it last reversed, and it is in it.
@@ -164,9 +164,12 @@ class DriveContact {
     return ExactBacklashOf<Plant>(plant, width);
   }
 
-  template <class Ask>
-  auto asked(const Ask& ask) const {
-    return std::visit(ask, law_);
+  /// std::visit without its way for a variant that holds nothing: this one always holds a law.
+  template <class AnyLaw, class Ask>
+  static decltype(auto) asked(AnyLaw& law, const Ask& ask) {
+    if (auto* play = std::get_if<0>(&law)) return ask(*play);
+    if (auto* sampled = std::get_if<2>(&law)) return ask(*sampled);
+    return ask(*std::get_if<1>(&law));
   }
 
   Law law_;
