@@ -44,17 +44,20 @@ namespace holdfast {
 /// A crossing that touches has no derivative; the entries are not finite then.
 /// Work per sample: 140 multiply-adds for each of its two parts; per change of contact 1500 more,
 /// most of them for a matrix exponential. Nothing is allocated.
-/// @tparam Contact  of the motion; ContactTangent tells what it has to offer
+/// @tparam Contact  of the motion; contact_tangent.hpp tells what it has to offer
 template <class Contact>
 class HybridTangent {
  public:
   /// Goes on from the sample that the motion has come to.
   explicit HybridTangent(const HybridMotion<Contact>& motion)
-      : sample_rank_(inputs(motion)), rank_(inputs(motion)) {
+      : sticking_(sticking_mode(motion.contact())),
+        sample_rank_(inputs(motion)),
+        rank_(inputs(motion)) {
     const Sampling<double>& sampling = motion.loop().sampling;
     lengths_ = {sampling.processing_delay, sampling.period - sampling.processing_delay};
     for (int mode = 0; mode < Contact::modes; ++mode) {
       dynamics_[at(mode)] = motion.dynamics(mode);
+      anchored_[at(mode)] = is_anchored(motion.contact(), mode);
       for (std::size_t part = 0; part < 2; ++part)
         steps_[part][at(mode)] = exponential(mode, lengths_[part]);
     }
@@ -110,7 +113,7 @@ class HybridTangent {
   /// command, guard −1, adds nothing.
   void switched(int from, int to, int guard, const ContactInstant& instant) {
     close_flow();
-    if (guard >= 0 && from != Tangent::sticking) cross(from, to, instant);
+    if (guard >= 0 && from != sticking_) cross(from, to, instant);
     enter(to);
     on_ranks([&](StructuralRank& rank) {
       if (!carries_anchor(to)) rank.end(Carried::anchor);
@@ -128,7 +131,6 @@ class HybridTangent {
   int rank_of_product() const { return rank_.rank(); }
 
  private:
-  using Tangent = ContactTangent<Contact>;
   using Step = HeldStep<double, 4, 1>;
   static constexpr int command_row = 4, anchor_row = 5, read_row = 6;
   /// Parts of the period whose lengths differ by less, in periods, are the same: the sum of several
@@ -136,19 +138,25 @@ class HybridTangent {
   static constexpr double same_length = 1e-13;
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
-  static constexpr int directions(int mode) { return mode == Tangent::sticking ? 3 : 4; }
+  int directions(int mode) const { return mode == sticking_ ? 3 : 4; }
 
   static unsigned inputs(const HybridMotion<Contact>& motion) {
     const unsigned always =
         static_cast<unsigned>(Carried::in_force) | static_cast<unsigned>(Carried::reading);
-    return Tangent::anchored(motion.contact().mode())
+    return is_anchored(motion.contact(), motion.contact().mode())
                ? always | static_cast<unsigned>(Carried::anchor)
                : always;
   }
 
   /// Whether g is not a function of z.
-  static constexpr bool carries_anchor(int mode) {
-    return Tangent::anchored(mode) && mode != Tangent::sticking;
+  bool carries_anchor(int mode) const { return anchored(mode) && mode != sticking_; }
+
+  bool anchored(int mode) const { return anchored_[at(mode)]; }
+
+  /// By z: of Δz − g where the mode is anchored and of Δz for stops; of Δż while a drive whose gap
+  /// moves is engaged.
+  Vector<double, 4> gradient(int from) const {
+    return sticking_ < 0 || anchored(from) ? displacement_row() : velocity_row();
   }
 
   template <class Note>
@@ -194,22 +202,22 @@ class HybridTangent {
 
   /// Keeps to what a mode holds: Δż = 0 and Δz = g in stick, no g while engaged.
   void enter(int mode) {
-    if (mode == Tangent::sticking) {
+    if (mode == sticking_) {
       map_.row(3) = map_.row(1).eval();
       map_.row(anchor_row) = map_.row(2) - map_.row(0);
     }
-    if (!Tangent::anchored(mode)) map_.row(anchor_row).setZero();
+    if (!anchored(mode)) map_.row(anchor_row).setZero();
   }
 
   void cross(int from, int to, const ContactInstant& instant) {
-    if (from == to && Tangent::anchored(from)) return anchor_anew();
+    if (from == to && anchored(from)) return anchor_anew();
     SurfaceCrossing<5> crossing;
     crossing.before << rate(from, instant), 0.0;
     crossing.after << rate(to, instant), 0.0;
-    crossing.gradient << Tangent::gradient(from).transpose(), Tangent::anchored(from) ? -1.0 : 0.0;
-    if (Tangent::anchored(from)) {
+    crossing.gradient << gradient(from).transpose(), anchored(from) ? -1.0 : 0.0;
+    if (anchored(from)) {
       on_ranks([](StructuralRank& rank) { rank.act(Carried::anchor); });
-    } else if (Tangent::anchored(to)) {
+    } else if (anchored(to)) {
       crossing.reset.row(4) << displacement_row().transpose(), 0.0;
     }
     Matrix<double, 5, 7> rows;
@@ -232,6 +240,8 @@ class HybridTangent {
            dynamics.force * instant.force;
   }
 
+  int sticking_;                               // the mode in which Δż = 0; −1: none
+  std::array<bool, Contact::modes> anchored_;  // whether the gap lies where the drive reversed
   std::array<AffineDynamics, Contact::modes> dynamics_;
   std::array<double, 2> lengths_;  // of the parts of the period before and after t_j + δ
   std::array<std::array<Step, Contact::modes>, 2> steps_;  // over them
