@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/charts/row_blocks.hpp"
+#include "kernels/pack_kernels.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {
@@ -60,6 +62,51 @@ class Block {
   std::vector<std::vector<double>> numbers_;
 };
 
+/// HurwitzRows on the packs of an instruction set.
+class HurwitzOnPacks {
+ public:
+  explicit HurwitzOnPacks(const PackKernels& kernels) : kernels_(&kernels) {}
+
+  void fill(const Vector<double, 6>& constant, const Vector<double, 6>& slope,
+            const std::vector<double>& values, std::uint8_t* stable) const {
+    kernels_->stable_line(constant, slope, values, stable);
+  }
+  void fill(const Eigen::Matrix<double, Eigen::Dynamic, 6>& table, std::uint8_t* stable) const {
+    kernels_->stable_table(table, stable);
+  }
+
+ private:
+  const PackKernels* kernels_;
+};
+
+template <int Degree>
+std::unique_ptr<RadiusKernel<Degree>> radius_kernel(const PackKernels& kernels) {
+  if constexpr (Degree == 5) {
+    return kernels.radius_of_degree_5();
+  } else {
+    return kernels.radius_of_degree_6();
+  }
+}
+
+/// RadiusBatch on the packs of an instruction set.
+template <int Degree>
+class RadiusOnPacks : public CopiedKernel<RadiusKernel<Degree>> {
+ public:
+  using Table = typename RadiusKernel<Degree>::Table;
+
+  explicit RadiusOnPacks(const PackKernels& kernels)
+      : CopiedKernel<RadiusKernel<Degree>>(radius_kernel<Degree>(kernels)) {}
+
+  std::int64_t most_rows() const { return this->kernel().most_rows(); }
+  void fill(const AffineLine<Degree>* lines, std::int64_t count, const Axis& values,
+            double* radius) {
+    this->kernel().fill(lines, count, values, radius);
+  }
+  void fill(const Table* tables, std::int64_t count, double* radius) {
+    this->kernel().fill(tables, count, radius);
+  }
+};
+
 /// Computes and appends all rows; `compute(kernel, row, count, offset, block)`.
 template <class Kernel, class Compute>
 void append_rows(const JobContext& context, std::int64_t rows, Block block, const Kernel& kernel,
@@ -75,29 +122,28 @@ void append_rows(const JobContext& context, std::int64_t rows, Block block, cons
 
 /// Both parts of a chart with the spectral radius.
 template <int Degree>
-struct RadiusKernel {
-  StabilityChartRows<ChartNumber> stability;
-  RadiusChartRows<ChartNumber, Degree> radius;
+struct RadiusKernels {
+  StabilityChartRows<double, HurwitzOnPacks> stability;
+  RadiusChartRows<double, Degree, RadiusOnPacks<Degree>> radius;
 
-  explicit RadiusKernel(const LoopChart& chart) : stability(chart), radius(chart) {}
+  RadiusKernels(const LoopChart& chart, const PackKernels& kernels)
+      : stability(chart, HurwitzOnPacks(kernels)), radius(chart, RadiusOnPacks<Degree>(kernels)) {}
 
   void fill(std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
     for (std::int64_t row = 0; row < count; ++row) {
       stability.fill(first + row, block.flags(offset + row));
     }
-    constexpr std::int64_t batch = RadiusChartRows<ChartNumber, Degree>::most_rows;
-    for (std::int64_t row = 0; row < count; row += batch) {
-      radius.fill(first + row, std::min(batch, count - row), block.numbers(0, offset + row));
-    }
+    radius.fill(first, count, block.numbers(0, offset));
   }
 };
 
 template <int Degree>
 void append_radius_chart(const JobContext& context, const LoopChart& chart, GridTable& table) {
+  using Kernels = RadiusKernels<Degree>;
   append_rows(context, chart.slow.values.count, Block(chart.fast.values.count, 1),
-              RadiusKernel<Degree>(chart), table,
-              [](RadiusKernel<Degree>& own, std::int64_t first, std::int64_t count,
-                 std::int64_t offset, Block& block) { own.fill(first, count, offset, block); });
+              Kernels(chart, pack_kernels(context.instructions)), table,
+              [](Kernels& own, std::int64_t first, std::int64_t count, std::int64_t offset,
+                 Block& block) { own.fill(first, count, offset, block); });
 }
 
 }  // namespace
@@ -106,9 +152,10 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
                           GridTable& table) {
   if (radius && has_processing_delay(chart)) return append_radius_chart<6>(context, chart, table);
   if (radius) return append_radius_chart<5>(context, chart, table);
-  using Kernel = StabilityChartRows<ChartNumber>;
+  using Kernel = StabilityChartRows<double, HurwitzOnPacks>;
   append_rows(
-      context, chart.slow.values.count, Block(chart.fast.values.count, 0), Kernel(chart), table,
+      context, chart.slow.values.count, Block(chart.fast.values.count, 0),
+      Kernel(chart, HurwitzOnPacks(pack_kernels(context.instructions))), table,
       [](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
         for (std::int64_t row = 0; row < count; ++row) {
           own.fill(first + row, block.flags(offset + row));
