@@ -56,13 +56,12 @@ TEST(Instructions, EachSetGivesTheSameChart) {
       0.0);
 }
 
-// The radius is right to 1e-10 in every cell (RadiusRows): where roots meet it amplifies rounding.
 TEST(Instructions, EachSetGivesTheSameRadii) {
-  expect_same_on_every_set("stability --radius --p -1000:200:37 --d -40:20:41", 1e-10);
+  expect_same_on_every_set("stability --radius --p -1000:200:37 --d -40:20:41", 1e-12);
   expect_same_on_every_set(
       "stability --radius --set control.processing_delay=0.0005 --axis "
       "control.sampling_period=0.001:0.03:29 --axis plant.absorber_mass=0.05:0.5:19",
-      1e-10);
+      1e-12);
 }
 
 TEST(Instructions, EachSetGivesTheSameSweepOfRegularMotions) {
