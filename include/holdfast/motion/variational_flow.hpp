@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
@@ -201,10 +202,7 @@ class HybridTangent {
     if (reads) rank.begin(Carried::reading);
   }
 
-  Step exponential(int mode, double length) const {
-    const Dynamics& dynamics = dynamics_[at(mode)];
-    return zero_order_hold<double, states, 1>(dynamics.state, dynamics.command, length);
-  }
+  Step exponential(int mode, double length) const;
 
   /// δz over what has flowed since the last change of anything.
   void close_flow() {
@@ -293,5 +291,17 @@ class HybridTangent {
   double open_begin_ = 0.0, open_length_ = 0.0;  // what has flowed, but is not in the map yet
   StructuralRank sample_rank_, rank_;
 };
+
+template <class Contact>
+typename HybridTangent<Contact>::Step HybridTangent<Contact>::exponential(int mode,
+                                                                          double length) const {
+  const Dynamics& dynamics = dynamics_[at(mode)];
+  return zero_order_hold<double, states, 1>(dynamics.state, dynamics.command, length);
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HeldStep<double, 4, 1> HybridTangent<DriveContact<>>::exponential(int,
+                                                                                  double) const;
+#endif
 
 }  // namespace holdfast
