@@ -14,6 +14,7 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/variational_flow.hpp"
 #include "holdfast/plant/decaying_norm.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -325,6 +326,54 @@ TEST(PlantOrder, OfSevenTendsToTheTwoMassesAsFilterAndDriveBecomeFast) {
     EXPECT_LT(apart[1], 0.2 * apart[0]);
     EXPECT_LT(apart[2], 0.2 * apart[1]);
   }
+}
+
+// The tangent over some samples, changes of contact included, against central differences of
+// motions that begin a little apart; δg is none while the drive is engaged at both ends.
+TEST(PlantOrder, OfSevenHasTheDerivativeOfItsMotion) {
+  const OrderSetting setting;
+  const Order7 plant = order_seven(setting.plant, setting.extras);
+  const auto loop = loop_of(setting, plant, ContactLaw::play, Switching::exact);
+  auto motion = event_motion(loop, State7::Zero());
+  int compared = 0;
+  for (int j = 0; j < 400; ++j) {
+    const auto before = motion;
+    constexpr int samples = 10;
+    HybridTangent<DriveContact<Order7>> tangent(motion);
+    Matrix<double, 10> map = Matrix<double, 10>::Identity();
+    auto ahead = motion;
+    const auto counted = ahead.counts().entered;
+    for (int k = 0; k < samples; ++k) {
+      ahead.sense();
+      tangent.begin_sample(ahead);
+      ahead.advance(tangent);
+      map = tangent.map() * map;
+    }
+    const bool engaged = before.contact().word() == ContactMode::engaged &&
+                         ahead.contact().word() == ContactMode::engaged;
+    motion.sense();
+    motion.advance();
+    if (!engaged || ahead.counts().entered == counted) continue;
+    const auto end_from = [&](double step, int k) {
+      auto other = before;
+      State7 state = before.state();
+      state[k] += step;
+      other.restore(before.index(), state, before.previous_command(), before.contact());
+      for (int i = 0; i < samples; ++i) {
+        other.sense();
+        other.advance();
+      }
+      return other.state();
+    };
+    for (const int k : {0, 1, 2, 3, 4, 5, 6}) {
+      const double step = 1e-7 * (k < 5 ? 0.1 : 1.0);
+      const State7 found = (end_from(step, k) - end_from(-step, k)) / (2.0 * step);
+      const State7 expected = map.col(k).head<7>();
+      EXPECT_LE((found - expected).norm(), 1e-3 * expected.norm() + 1e-4) << j << ", " << k;
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
 }
 
 TEST(PlantOrder, AKickMovesTheConductorAlone) {

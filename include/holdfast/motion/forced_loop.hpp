@@ -132,4 +132,11 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
           PortReadings<Plant>(loop.plant)};
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HarmonicallyForcedMotion<double> harmonically_forced_motion(
+    const ForcedLoop<double>&, const StateOf<TwoDof<double>>&);
+extern template PeriodicallyForcedMotion<double> periodically_forced_motion(
+    const ForcedLoop<double>&, const Rational&, const StateOf<TwoDof<double>>&);
+#endif
+
 }  // namespace holdfast

@@ -30,20 +30,7 @@ struct SegmentStepOf {
   /// @param begin      s from the sample
   /// @param length     s, ≥ 0
   SegmentStepOf(const AffineDynamicsOf<States>& dynamics, const std::vector<Harmonic>& harmonics,
-                double begin, double length) {
-    const Eigen::Index n = dynamics.state.rows();
-    const Matrix<double, States> identity = Matrix<double, States>::Identity(n, n);
-    const auto step = zero_order_hold<double, States, States>(dynamics.state, identity, length);
-    transition = step.transition;
-    command = step.input * dynamics.command;
-    drift = step.input * dynamics.drift;
-    held = step.input * dynamics.force;
-    for (const Harmonic& line : harmonics) {
-      const double angular = 2.0 * pi<double> * line.frequency;
-      const auto input = exact_harmonic<double>(dynamics.state, dynamics.force, length, angular);
-      lines.push_back(ahead_by(angular * begin + line.phase, input));
-    }
-  }
+                double begin, double length);
 
   /// The state (N × 1) at the end of the part.
   /// @param before      the state at its begin, N × 1
@@ -62,7 +49,30 @@ struct SegmentStepOf {
   }
 };
 
+template <int States>
+SegmentStepOf<States>::SegmentStepOf(const AffineDynamicsOf<States>& dynamics,
+                                     const std::vector<Harmonic>& harmonics, double begin,
+                                     double length) {
+  const Eigen::Index n = dynamics.state.rows();
+  const Matrix<double, States> identity = Matrix<double, States>::Identity(n, n);
+  const auto step = zero_order_hold<double, States, States>(dynamics.state, identity, length);
+  transition = step.transition;
+  command = step.input * dynamics.command;
+  drift = step.input * dynamics.drift;
+  held = step.input * dynamics.force;
+  for (const Harmonic& line : harmonics) {
+    const double angular = 2.0 * pi<double> * line.frequency;
+    const auto input = exact_harmonic<double>(dynamics.state, dynamics.force, length, angular);
+    lines.push_back(ahead_by(angular * begin + line.phase, input));
+  }
+}
+
 /// That of the two masses.
 using SegmentStep = SegmentStepOf<4>;
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SegmentStepOf<4>::SegmentStepOf(const AffineDynamicsOf<4>&,
+                                                const std::vector<Harmonic>&, double, double);
+#endif
 
 }  // namespace holdfast

@@ -46,6 +46,27 @@ class PortReadings {
     stop_relative_motion(x);
   }
 
+  /// What P multiplies, of deviations of the state as columns of a matrix, N × M. @return 1 × M
+  template <class Columns>
+  auto measured_displacements(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_displacement * x);
+  }
+  /// What D multiplies, of deviations likewise.
+  template <class Columns>
+  auto measured_velocities(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.measured_velocity * x);
+  }
+  /// Δz, of deviations likewise.
+  template <class Columns>
+  auto relative_displacements(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.relative_displacement * x);
+  }
+  /// Makes Δż zero of deviations likewise.
+  template <class Columns>
+  void stop_relative_motions(Columns&& x) const {
+    x -= ports_.velocity_lift * (ports_.relative_velocity * x).eval();
+  }
+
  private:
   Ports<Scalar, states_of<Plant>> ports_;
 };
@@ -85,6 +106,27 @@ class PortReadings<TwoDof<Number>> {
   void hold_relative_position(const State& before, State& x) const {
     x[2] = x[0] + relative_displacement(before);
     x[3] = x[1];
+  }
+
+  /// The first row of a matrix whose columns are deviations of the state, 4 × M. @return 1 × M
+  template <class Columns>
+  auto measured_displacements(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(0));
+  }
+  /// Its second row.
+  template <class Columns>
+  auto measured_velocities(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
+  }
+  /// Its third row less the first.
+  template <class Columns>
+  auto relative_displacements(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(2) - x.row(0));
+  }
+  /// Makes the last row the second.
+  template <class Columns>
+  void stop_relative_motions(Columns&& x) const {
+    x.row(3) = x.row(1).eval();
   }
 };
 
