@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 
 #include "case/axes/axis.hpp"
@@ -48,19 +47,11 @@ void run(const JobContext& context, const DiagramOptions& options) {
     table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
               point.state[2], point.state[3]);
   };
-  const auto along = [&](const auto& path) {
-    return run_orbit_diagram(path, values, initial_state_of(context.case_data), question, write);
-  };
-  const Case& given = context.case_data;
-  const auto of_the_paper = [&, name = key](double value) {
-    return is_of_the_paper(case_with(given, name, value), options.switching);
+  const auto path = [&, name = key](double value) {
+    return real_loop_with(context.case_data, name, value, options.switching);
   };
   const std::size_t diverged =
-      std::all_of(values.begin(), values.end(), of_the_paper)
-          ? along([&, name = key](double value) { return forced_loop_with(given, name, value); })
-          : along([&, name = key](double value) {
-              return real_loop_with(given, name, value, options.switching);
-            });
+      run_orbit_diagram(path, values, initial_state_of(context.case_data), question, write);
   table.commit();
   if (diverged > 0) {
     report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +

@@ -3,8 +3,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/phase_space/event_section.hpp"
-#include "holdfast/phase_space/poincare_section.hpp"
+#include "holdfast/phase_space/section.hpp"
 #include "io/text/table.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_digits.hpp"
@@ -21,18 +20,6 @@ struct SectionOptions {
   double from = 30.0;
   Switching switching = Switching::sampled;
 };
-
-template <class Observer>
-TrajectoryOutcome section_of(const Case& the_case, SampledMotion<double>& motion,
-                             std::int64_t samples, const Observer& observer) {
-  return run_section(forced_loop_of(the_case), motion, samples, observer);
-}
-
-template <class Contact, class Observer>
-TrajectoryOutcome section_of(const Case&, HybridMotion<Contact>& motion, std::int64_t samples,
-                             const Observer& observer) {
-  return run_section(motion, samples, observer);
-}
 
 void run(const JobContext& context, const SectionOptions& options) {
   if (options.from > options.duration)
@@ -52,12 +39,11 @@ void run(const JobContext& context, const SectionOptions& options) {
     table.row(point.time, point.state[0], point.state[1], point.state[2], point.rising ? 1 : 0,
               point.engaged ? 0 : 1);
   };
-  with_motion_of(context.case_data, {options.switching}, [&](auto motion) {
-    run_to_completion(motion, before, {});
-    require_completed(section_of(context.case_data, motion, samples - before, write),
-                      motion.time());
-    require_resolved(motion, context.quiet);
-  });
+  auto motion = event_motion(real_loop_of(context.case_data, options.switching),
+                             initial_state_of(context.case_data));
+  run_to_completion(motion, before, {});
+  require_completed(run_section(motion, samples - before, write), motion.time());
+  require_resolved(motion, context.quiet);
   tell_trust(context, table,
              trusted_digits_of_motion(context.case_data, options.switching, samples, options.from));
   table.commit();

@@ -2,7 +2,6 @@
 
 /// Motions of the loop: sampled map and event-driven flow.
 
-#include "holdfast/motion/between_samples.hpp"
 #include "holdfast/motion/contact_tangent.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/event_motion.hpp"

@@ -209,6 +209,8 @@ class EventMotion {
   double command() const { return command_; }
   /// The contact in its present mode.
   const Contact& contact() const { return contact_; }
+  /// How states of the plant are read.
+  const PortReadings<Plant>& readings() const { return readings_; }
   /// The controller with what it remembers of the past samples.
   const Controller& controller() const { return controller_; }
   /// The digital side and the excitation, as given.

@@ -116,6 +116,8 @@ class SampledMotion {
   const State& state() const { return state_; }
   /// The matrices of one sampling period.
   const Loop& loop() const { return loop_; }
+  /// How states of the plant are read.
+  const Readings& readings() const { return readings_; }
   /// The backlash with what it remembers.
   const Law& law() const { return law_; }
   /// The excitation, at the phase that the next `advance()` will use.

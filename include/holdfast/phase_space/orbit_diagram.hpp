@@ -1,20 +1,26 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
+#include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/real_loop.hpp"
-#include "holdfast/motion/sampled_motion.hpp"
-#include "holdfast/phase_space/motion_dense_output.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -32,24 +38,54 @@ inline void validate(const DiagramQuestion& question) {
 }
 
 /// One point of an orbit diagram.
-struct StrobePoint {
-  std::size_t index;        ///< of the parameter's value
-  bool upward;              ///< on the way up, the values in their order; else on the way back
-  Vector<double, 4> state;  ///< [z₁, ż₁, z₂, ż₂] at a whole number of forcing periods
+/// @tparam States  N, the order of the plant
+template <int States>
+struct StrobePointOf {
+  std::size_t index;             ///< of the parameter's value
+  bool upward;                   ///< on the way up, the values in their order; else on the way back
+  Vector<double, States> state;  ///< x, N × 1, at a whole number of forcing periods
 };
+
+/// That of the two masses, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
+using StrobePoint = StrobePointOf<4>;
 
 namespace detail {
 
+/// The loop as one that is built.
+template <class Plant>
+RealLoopOf<Plant> as_built(const ForcedLoop<double, Plant>& loop) {
+  return real_loop(loop);
+}
+template <class Plant>
+const RealLoopOf<Plant>& as_built(const RealLoopOf<Plant>& loop) {
+  return loop;
+}
+
+/// The plant of the loops on a path.
+template <class Path>
+using PlantOnPath = std::decay_t<decltype(std::declval<const Path&>()(0.0).plant)>;
+
+/// Scale of the static deflection (m) under a force (N).
+inline double static_deflection(const TwoDof<double>& plant, double force) {
+  return force / plant.conductor_stiffness;
+}
+/// That of a plant of order N: the largest entry of A⁻¹ c F, or of c F where A has no inverse.
+template <int States>
+double static_deflection(const LinearPlant<double, States>& plant, double force) {
+  const double bend =
+      plant.state_matrix().partialPivLu().solve(plant.excitation_input()).cwiseAbs().maxCoeff();
+  return force * (std::isfinite(bend) ? bend : plant.excitation_input().cwiseAbs().maxCoeff());
+}
+
 /// A size that no bounded motion reaches: 10¹² times all that sets its scale.
-/// @tparam Loop  RealLoop
-template <class Loop>
-double divergence_bound(const Loop& loop, const Vector<double, 4>& state) {
+template <class Plant>
+double divergence_bound(const RealLoopOf<Plant>& loop, const StateOf<Plant>& state) {
   const ComposedForce& force = loop.digital.force;
   double largest = 0.0;
   if (force.record)
     for (const double row : force.record->forces()) largest = std::max(largest, std::abs(row));
   for (const Harmonic& harmonic : force.harmonics) largest += harmonic.amplitude;
-  const double deflection = largest / loop.plant.conductor_stiffness;
+  const double deflection = static_deflection(loop.plant, largest);
   const double scale = deflection * (1.0 + force.highest_angular_frequency()) +
                        loop.backlash.width + state.cwiseAbs().maxCoeff();
   return 1e12 * std::max(scale, 1e-100);
@@ -59,22 +95,29 @@ double divergence_bound(const Loop& loop, const Vector<double, 4>& state) {
 /// them in `state`. @return false where it leaves the range of numbers
 /// @param forcing_period  s
 /// @param bound           of the state's entries
-template <class Way, class Observer>
-bool show_strobes(Way& way, const DiagramQuestion& question, double forcing_period, double bound,
-                  Vector<double, 4>& state, Observer&& observer) {
+template <class Contact, class Observer>
+bool show_strobes(EventMotion<Contact>& motion, const DiagramQuestion& question,
+                  double forcing_period, double bound, typename EventMotion<Contact>::State& state,
+                  Observer&& observer) {
   constexpr std::int64_t samples_between_looks = 1 << 14;
+  FlowTrace<Contact> between(motion);
   auto strobe = std::ceil(question.transient / forcing_period);
   for (int shown = 0; shown < question.strobes;) {
-    const MotionSample<double> sample = way.sense();
+    const auto sample = motion.sense();
     if (!(sample.state.cwiseAbs().maxCoeff() < bound)) return false;
     if (question.watch && sample.index % samples_between_looks == 0) question.watch();
     // A strobe that falls on a sample but for rounding is that sample.
-    const double period = way.period(), end = period * (1.0 - 1e-9);
+    const double period = motion.period(), end = period * (1.0 - 1e-9);
     double after = strobe * forcing_period - sample.time;
-    way.advance(after < end);
+    if (!(after < end)) {
+      motion.advance();
+      continue;
+    }
+    between.begin();
+    motion.advance(between);
     for (; shown < question.strobes && after < end; after += forcing_period) {
       const bool at_sample = after < 1e-9 * period;
-      state = at_sample ? sample.state : way.state(after);
+      state = at_sample ? sample.state : between.state(after);
       observer(state);
       ++shown;
       strobe += 1.0;
@@ -83,27 +126,18 @@ bool show_strobes(Way& way, const DiagramQuestion& question, double forcing_peri
   return true;
 }
 
-template <class Scalar, class Observer>
-bool show_strobes(const ForcedLoop<Scalar>& loop, const DiagramQuestion& question,
-                  Vector<double, 4>& state, Observer&& observer) {
-  SampledWay<ForcedLoop<Scalar>> way(loop, state);
-  return show_strobes(way, question, 1.0 / loop.excitation.frequency,
-                      divergence_bound(real_loop(loop), state), state, observer);
-}
-
+/// The same of the motion of a loop, from `state`.
 /// @throws InvalidParameter where the force has no harmonic
-template <class Observer>
-bool show_strobes(const RealLoop& loop, const DiagramQuestion& question, Vector<double, 4>& state,
-                  Observer&& observer) {
+template <class Plant, class Observer>
+bool show_strobes(const RealLoopOf<Plant>& loop, const DiagramQuestion& question,
+                  StateOf<Plant>& state, Observer&& observer) {
   const std::vector<Harmonic>& harmonics = loop.digital.force.harmonics;
   if (harmonics.empty())
     throw InvalidParameter("number of harmonics", 0.0, "",
                            ">= 1: the strobes are at whole periods of the first one");
-  return with_motion(loop, state, [&](auto motion) {
-    HybridWay way(motion);
-    return show_strobes(way, question, 1.0 / harmonics.front().frequency,
-                        divergence_bound(loop, state), state, observer);
-  });
+  auto motion = event_motion(loop, state);
+  return show_strobes(motion, question, 1.0 / harmonics.front().frequency,
+                      divergence_bound(loop, state), state, observer);
 }
 
 }  // namespace detail
@@ -113,36 +147,37 @@ bool show_strobes(const RealLoop& loop, const DiagramQuestion& question, Vector<
 /// excitation's peak. Where the two ways differ, attractors may coexist, if the transient is over
 /// and the strobes cover the period.
 ///
-/// The strobes of a RealLoop are at whole periods of the first harmonic of its force, from t = 0
-/// on; where there are more harmonics or a record, a motion begins with them at t = 0 again, and
-/// only a common period keeps their phases from one motion to the next.
+/// The strobes are at whole periods of the first harmonic of the force, from t = 0 on; where there
+/// are more harmonics or a record, a motion begins with them at t = 0 again, and only a common
+/// period keeps their phases from one motion to the next.
 ///
 /// The drive begins outside its backlash at each value (a dead zone where the state is), the
 /// computer without a memory of the past. A motion that diverges shows no more of itself, and
 /// the next one begins at the initial state.
-/// @param path           parameter ↦ ForcedLoop<double> or RealLoop
+/// @param path           parameter ↦ ForcedLoop<double, Plant> or RealLoopOf<Plant>, each of which
+///                       runs as the event-driven flow
 /// @param values         of the parameter, in their order
 /// @param initial_state  of the first motion
 /// @param question       how much is left out and shown at each value
 /// @param observer       called with each `StrobePoint`
 /// @return how many of the motions, two for each value, diverged
-/// @throws InvalidParameter where the question or a loop is not admissible, or the force of a
-/// RealLoop has no harmonic
+/// @throws InvalidParameter where the question or a loop is not admissible, or its force has no
+/// harmonic
 template <class Path, class Observer>
 std::size_t run_orbit_diagram(const Path& path, const std::vector<double>& values,
-                              const Vector<double, 4>& initial_state,
+                              const StateOf<detail::PlantOnPath<Path>>& initial_state,
                               const DiagramQuestion& question, Observer&& observer) {
+  using State = StateOf<detail::PlantOnPath<Path>>;
   validate(question);
-  Vector<double, 4> state = initial_state;
+  State state = initial_state;
   std::size_t diverged = 0;
   for (const bool upward : {true, false}) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::size_t index = upward ? k : values.size() - 1 - k;
       const auto loop = path(values[index]);
-      validate(loop);
       const bool bounded =
-          detail::show_strobes(loop, question, state, [&](const Vector<double, 4>& strobe) {
-            observer(StrobePoint{index, upward, strobe});
+          detail::show_strobes(detail::as_built(loop), question, state, [&](const State& strobe) {
+            observer(StrobePointOf<State::RowsAtCompileTime>{index, upward, strobe});
           });
       if (bounded) continue;
       state = initial_state;

@@ -19,6 +19,8 @@ class PortReadings {
 
   /// z of the conductor at the absorber (m).
   Scalar displacement(const State& x) const { return ports_.displacement.dot(x); }
+  /// ż there (m/s).
+  Scalar velocity(const State& x) const { return ports_.velocity.dot(x); }
   /// What P multiplies (m).
   Scalar measured_displacement(const State& x) const { return ports_.measured_displacement.dot(x); }
   /// What D multiplies (m/s).
@@ -61,6 +63,11 @@ class PortReadings {
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.relative_displacement * x);
   }
+  /// Δż, of deviations likewise.
+  template <class Columns>
+  auto relative_velocities(const Columns& x) const {
+    return (ports_.relative_velocity * x).eval();
+  }
   /// Makes Δż zero of deviations likewise.
   template <class Columns>
   void stop_relative_motions(Columns&& x) const {
@@ -85,6 +92,8 @@ class PortReadings<TwoDof<Number>> {
 
   /// z₁ (m).
   const Scalar& displacement(const State& x) const { return x[0]; }
+  /// ż₁ (m/s).
+  const Scalar& velocity(const State& x) const { return x[1]; }
   /// z₁ (m).
   const Scalar& measured_displacement(const State& x) const { return x[0]; }
   /// ż₁ (m/s).
@@ -122,6 +131,11 @@ class PortReadings<TwoDof<Number>> {
   template <class Columns>
   auto relative_displacements(const Columns& x) const {
     return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(2) - x.row(0));
+  }
+  /// Its last row less the second.
+  template <class Columns>
+  auto relative_velocities(const Columns& x) const {
+    return (x.row(3) - x.row(1)).eval();
   }
   /// Makes the last row the second.
   template <class Columns>

@@ -11,11 +11,11 @@
 
 #include "case/case_file.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "holdfast/motion/between_samples.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "process/errors.hpp"
 #include "report/switching/switching_words.hpp"
+#include "support/state_between_samples.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -88,19 +88,19 @@ TEST(SwitchingPage, LooksForTheLargestSampleAsTheMotionsShowIt) {
   }
 }
 
-// BetweenSamples has the state by matrix exponentials; 200 instants a sample miss a peak of
-// curvature ω² z₁ by (ω τ/400)²/2 of it, and no more.
+// With the state by matrix exponentials, 200 instants a sample miss a peak of curvature ω² z₁ by
+// (ω τ/400)²/2 of it, and no more.
 TEST(SwitchingPage, SeesThePeaksBetweenTheSamples) {
   const StudiedLoop studied = loop_of_paper(0.011, 0.002, program::sampled_and_held);
   const ForcedLoop<double> loop = program::forced_loop_of(studied.the_case);
-  const BetweenSamples between(loop);
   auto motion = harmonically_forced_motion(loop, program::initial_state_of(studied.the_case));
   double previous_force = 0.0, largest = 0.0;
   while (motion.time() < studied.duration - 0.011) {
     const MotionSample<double> sample = motion.sense();
     for (int part = 0; sample.time >= 0.5 * studied.duration && part <= 200; ++part) {
       const double after = 0.011 * part / 200.0;
-      largest = std::max(largest, std::abs(between.state(sample, previous_force, after)[0]));
+      const auto state = test::state_between_samples(loop, sample, previous_force, after);
+      largest = std::max(largest, std::abs(state[0]));
     }
     previous_force = sample.control_force;
     motion.advance();

@@ -10,15 +10,29 @@
 
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/math/roots/series.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "holdfast/phase_space/poincare_section.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/plant/port_readings.hpp"
 
 namespace holdfast {
+
+/// A point of the Poincaré section Δż = 0, where the absorber and the conductor have the same
+/// velocity: the drive reverses there.
+/// @tparam States  N, the order of the plant
+template <int States>
+struct SectionPointOf {
+  double time;                   ///< s
+  Vector<double, States> state;  ///< x, N × 1, with Δż = 0; of the two masses (m, m/s, m, m/s)
+  bool rising;                   ///< Δż goes from negative to positive
+  bool engaged;                  ///< the drive transmits from here on
+};
+
+/// That of the two masses, [z₁, ż₁, z₂, ż₂] with ż₂ = ż₁.
+using SectionPoint = SectionPointOf<4>;
 
 namespace detail {
 
@@ -28,17 +42,22 @@ struct KnownVelocity {
   double sign = 0.0;  ///< the sign that Δż keeps all through it, ±1; 0: not told
 };
 
-/// @tparam ContactGuards  Guards
-template <class ContactGuards>
-KnownVelocity known_velocity(const ContactGuards& guards) {
+/// @param guards    of the present mode
+/// @param readings  of the plant
+template <int States, class Readings>
+KnownVelocity known_velocity(const GuardsOf<States>& guards, const Readings& readings) {
+  const Vector<double, States> velocity = readings.velocity_row();
+  const Vector<double, States> displacement = readings.displacement_row();
   KnownVelocity known;
   for (int g = 0; g < guards.count; ++g) {
     const auto& guard = guards.guard[static_cast<std::size_t>(g)];
-    if (guard.state == velocity_row() * guard.state[3]) {
-      known.zeros = std::max(known.zeros, guard.zeros);
-      if (!guard.unsigned_yet) known.sign = guard.state[3];
-    } else if (guard.state == displacement_row() * guard.state[2]) {
-      known.zeros = std::max(known.zeros, guard.zeros - 1);
+    for (const double sign : {1.0, -1.0}) {
+      if (guard.state == sign * velocity) {
+        known.zeros = std::max(known.zeros, guard.zeros);
+        if (!guard.unsigned_yet) known.sign = sign;
+      } else if (guard.state == sign * displacement) {
+        known.zeros = std::max(known.zeros, guard.zeros - 1);
+      }
     }
   }
   return known;
@@ -52,16 +71,17 @@ inline double leading_sign(const Series& p) {
 }
 
 /// Follows the sign of Δż along a motion and shows where it changes: an observer of
-/// HybridMotion::advance.
+/// EventMotion::advance.
 template <class Contact, class Observer>
 class TurnFinder {
+  using Motion = EventMotion<Contact>;
   using Part = typename FlowTrace<Contact>::Part;
 
  public:
   /// Both must outlive the finder.
-  TurnFinder(const HybridMotion<Contact>& motion, Observer& observer)
+  TurnFinder(const Motion& motion, Observer& observer)
       : motion_(&motion), observer_(&observer), trace_(motion) {
-    const double velocity = relative_velocity(motion.state());
+    const double velocity = motion.readings().relative_velocity(motion.state());
     sign_ = velocity > 0.0 ? 1.0 : velocity < 0.0 ? -1.0 : 0.0;
   }
 
@@ -72,7 +92,7 @@ class TurnFinder {
   }
 
   void flowed(int mode, double begin, double length) {
-    KnownVelocity known = known_velocity(motion_->contact().guards());
+    KnownVelocity known = known_velocity(motion_->contact().guards(), motion_->readings());
     // Where changes of contact are no longer followed, Δż may pass zero in any mode.
     if (motion_->counts().accumulates) known.sign = 0.0;
     const std::size_t seen = trace_.parts().size();
@@ -83,7 +103,7 @@ class TurnFinder {
     }
   }
   void commanded() { trace_.commanded(); }
-  void switched(int from, int to, int guard, const ContactInstant& instant) {
+  void switched(int from, int to, int guard, const typename Motion::Instant& instant) {
     trace_.switched(from, to, guard, instant);
   }
 
@@ -112,10 +132,10 @@ class TurnFinder {
   /// @param zeros  of Δż and its derivatives at the beginning of the part
   void search(const Part& part, int zeros) {
     const auto& states = part.state.coefficients();
-    const double size = states.row(1).cwiseAbs().sum() + states.row(3).cwiseAbs().sum();
+    const double size = velocity_size(states);
     if (!(size > 0.0 && std::isfinite(size))) return;
     // In units of the velocities, whose squares might leave the range of numbers.
-    const Series velocity = (states.row(3) - states.row(1)).transpose() / size;
+    const Series velocity = motion_->readings().relative_velocities(states).transpose() / size;
     double x = 0.0;
     Series left = velocity;
     left.head(std::min<Eigen::Index>(zeros, left.size())).setZero();
@@ -135,12 +155,23 @@ class TurnFinder {
     }
   }
 
-  void show(const Part& part, double x, bool rising) {
-    (*observer_)(SectionPoint{time_ + part.begin + x * part.length, part.state.state(x), rising,
-                              part.mode == ContactMode::engaged});
+  /// Σ |r_i| Σ_k |x_ik| of the coefficients x of a state, Δż = r x: no Δż in the part is larger.
+  template <class Coefficients>
+  double velocity_size(const Coefficients& states) const {
+    const typename Motion::State row = motion_->readings().velocity_row();
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < row.size(); ++i)
+      if (row[i] != 0.0) size += std::abs(row[i]) * states.row(i).cwiseAbs().sum();
+    return size;
   }
 
-  const HybridMotion<Contact>* motion_;
+  void show(const Part& part, double x, bool rising) {
+    (*observer_)(SectionPointOf<Motion::states>{time_ + part.begin + x * part.length,
+                                                part.state.state(x), rising,
+                                                part.mode == ContactMode::engaged});
+  }
+
+  const Motion* motion_;
   Observer* observer_;
   FlowTrace<Contact> trace_;
   double time_ = 0.0;
@@ -153,6 +184,9 @@ class TurnFinder {
 /// samples as a first root of its Taylor series (math/roots/first_root.hpp), so that none is
 /// missed.
 ///
+///     auto motion = event_motion(real_loop(loop), Vector<double, 4>::Zero().eval());
+///     run_section(motion, samples, [](const SectionPoint& at) { … });
+///
 /// A stick, Δż = 0 for some time, is one point, at its beginning, whether Δz goes back or on
 /// afterwards; `rising` then tells that Δż came to zero from below. Where it goes on the next point
 /// has the same `rising`. A point is `engaged` where the drive transmits all of the command from
@@ -162,11 +196,11 @@ class TurnFinder {
 /// begin with a point.
 /// @param motion    before the first sample to be looked at; a further call goes on from there
 /// @param samples   how many sampling periods
-/// @param observer  called with each `SectionPoint`, in the order of time
+/// @param observer  called with each `SectionPointOf` the plant's order, in the order of time
 /// Work: a Taylor series (motion/taylor_step.hpp) and a root for every part of constant
 /// contact, beside the motion's own.
 template <class Contact, class Observer>
-TrajectoryOutcome run_section(HybridMotion<Contact>& motion, std::int64_t samples,
+TrajectoryOutcome run_section(EventMotion<Contact>& motion, std::int64_t samples,
                               Observer&& observer) {
   detail::TurnFinder<Contact, std::remove_reference_t<Observer>> turns(motion, observer);
   for (std::int64_t taken = 0; taken < samples; ++taken) {

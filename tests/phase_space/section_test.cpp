@@ -1,4 +1,4 @@
-#include "holdfast/phase_space/event_section.hpp"
+#include "holdfast/phase_space/section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,11 +15,13 @@
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/real_loop.hpp"
-#include "holdfast/phase_space/poincare_section.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/state_between_samples.hpp"
 
 namespace holdfast {
 namespace {
@@ -35,11 +37,12 @@ RealLoop section_loop(double period, double width, Switching switching,
   return loop;
 }
 
-std::vector<SectionPoint> hybrid_section_of(const RealLoop& loop, std::int64_t samples) {
-  std::vector<SectionPoint> points;
-  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
-    return run_section(motion, samples, [&](const SectionPoint& at) { points.push_back(at); });
-  });
+template <class Plant>
+auto section_of(const RealLoopOf<Plant>& loop, std::int64_t samples) {
+  using Point = SectionPointOf<states_of<Plant>>;
+  std::vector<Point> points;
+  auto motion = event_motion(loop, StateOf<Plant>::Zero().eval());
+  run_section(motion, samples, [&](const Point& at) { points.push_back(at); });
   return points;
 }
 
@@ -50,7 +53,7 @@ struct ScannedTurn {
 
 /// The turns of a motion by looking at `looks` instants of every sampling period.
 template <class Contact>
-std::vector<ScannedTurn> scanned_turns(HybridMotion<Contact> motion, std::int64_t samples,
+std::vector<ScannedTurn> scanned_turns(EventMotion<Contact> motion, std::int64_t samples,
                                        int looks) {
   std::vector<ScannedTurn> turns;
   FlowTrace<Contact> trace(motion);
@@ -62,9 +65,9 @@ std::vector<ScannedTurn> scanned_turns(HybridMotion<Contact> motion, std::int64_
     motion.advance(trace);
     for (int look = 1; look <= looks; ++look) {
       const double after = period * look / looks;
-      const Vector<double, 4> state = trace.state(after);
+      const auto state = trace.state(after);
       const bool sticks = trace.mode(after) == ContactMode::stick;
-      const double velocity = sticks ? 0.0 : relative_velocity(state);
+      const double velocity = sticks ? 0.0 : motion.readings().relative_velocity(state);
       if (!sticks && std::abs(velocity) < 1e-13 * state.cwiseAbs().maxCoeff()) continue;
       if (sign * velocity < 0.0 || (sticks && sign != 0.0)) turns.push_back({last, time + after});
       sign = velocity > 0.0 ? 1.0 : velocity < 0.0 ? -1.0 : 0.0;
@@ -76,11 +79,11 @@ std::vector<ScannedTurn> scanned_turns(HybridMotion<Contact> motion, std::int64_
 
 /// Every scanned turn is a point, and every other point belongs to a pair within one look, which
 /// the scan cannot see. @return how many such points there are
-std::size_t expect_scanned(const RealLoop& loop, std::int64_t samples, int looks) {
-  const std::vector<SectionPoint> points = hybrid_section_of(loop, samples);
+template <class Plant>
+std::size_t expect_scanned(const RealLoopOf<Plant>& loop, std::int64_t samples, int looks) {
+  const auto points = section_of(loop, samples);
   const std::vector<ScannedTurn> turns =
-      with_motion(loop, Vector<double, 4>::Zero(),
-                  [&](auto motion) { return scanned_turns(motion, samples, looks); });
+      scanned_turns(event_motion(loop, StateOf<Plant>::Zero().eval()), samples, looks);
   const double slack = 1e-9 * loop.digital.sampling.period;
   std::size_t next = 0, unseen = 0;
   for (const ScannedTurn& turn : turns) {
@@ -92,31 +95,37 @@ std::size_t expect_scanned(const RealLoop& loop, std::int64_t samples, int looks
   return unseen + (points.size() - std::min(next, points.size()));
 }
 
-TEST(HybridSection, OfTheLoopOfThePaperIsThatOfItsOwnFunction) {
+TEST(Section, OfTheLoopOfThePaperIsThatOfItsMatrixExponentials) {
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
     for (const double delay : {0.0, 0.004, 0.011}) {
-      ForcedLoop<double> loop{kollar2022_plant(), {0.011, delay}, {-100.0, -2.0},
-                              {0.5, 10.0},        0.002,          hold};
-      std::vector<SectionPoint> expected;
+      const ForcedLoop<double> loop{kollar2022_plant(), {0.011, delay}, {-100.0, -2.0},
+                                    {0.5, 10.0},        0.002,          hold};
+      const auto points = section_of(real_loop(loop), 3000);
       auto motion = harmonically_forced_motion(loop, Vector<double, 4>::Zero().eval());
-      run_section(loop, motion, 3000, [&](const SectionPoint& at) { expected.push_back(at); });
-      const auto points = hybrid_section_of(real_loop(loop), 3000);
-      ASSERT_GT(expected.size(), 300U);
-      ASSERT_EQ(points.size(), expected.size());
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        EXPECT_NEAR(points[k].time, expected[k].time, 1e-9);
-        EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-9);
-        EXPECT_EQ(points[k].rising, expected[k].rising) << points[k].time;
-        EXPECT_EQ(points[k].engaged, expected[k].engaged) << points[k].time;
+      std::size_t seen = 0, changes = 0;
+      for (int j = 0; j < 3000; ++j) {
+        const double before = motion.memory().previous_force;
+        const auto sample = motion.sense();
+        motion.advance();
+        if (relative_velocity(sample.state) * relative_velocity(motion.state()) < 0.0) ++changes;
+        for (; seen < points.size() && points[seen].time < motion.time(); ++seen) {
+          const double after = points[seen].time - sample.time;
+          const auto expected = test::state_between_samples(loop, sample, before, after);
+          EXPECT_LE((points[seen].state - expected).cwiseAbs().maxCoeff(), 1e-9);
+          EXPECT_EQ(points[seen].engaged, sample.engaged) << points[seen].time;
+        }
       }
+      EXPECT_EQ(seen, points.size());
+      EXPECT_GE(points.size(), changes);
+      EXPECT_GT(changes, 300U);
     }
   }
 }
 
-TEST(HybridSection, PointsLieOnItToRounding) {
+TEST(Section, PointsLieOnItToRounding) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const double period : {0.001, 0.011}) {
-      const auto points = hybrid_section_of(section_loop(period, 0.002, switching), 4000);
+      const auto points = section_of(section_loop(period, 0.002, switching), 4000);
       ASSERT_GT(points.size(), 70U);
       double largest = 0.0;
       for (const SectionPoint& point : points)
@@ -125,12 +134,31 @@ TEST(HybridSection, PointsLieOnItToRounding) {
         EXPECT_NEAR(points[k].state[3], points[k].state[1], 1e-14 * largest) << points[k].time;
         if (k == 0) continue;
         EXPECT_GT(points[k].time, points[k - 1].time);
+        if (switching == Switching::exact) continue;  // a stick need not turn Δz
+        EXPECT_NE(points[k].rising, points[k - 1].rising);
       }
     }
   }
 }
 
-TEST(HybridSection, NoTurnIsMissedAgainstADenseScan) {
+TEST(Section, RepeatsWithThePeriodOfTheOrbit) {
+  const ForcedLoop<double> loop{
+      kollar2022_plant(), {0.01, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, 0.002};
+  const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
+  ASSERT_EQ(found.outcome, OrbitOutcome::certified);
+  const auto points = section_of(real_loop(loop), 6000);
+  const double period = found.orbit->period();
+  std::size_t in_one_period = 0;
+  while (points[points.size() - 1 - in_one_period].time > points.back().time - period + 1e-7)
+    ++in_one_period;
+  for (std::size_t k = points.size() - 100; k < points.size(); ++k) {
+    const SectionPoint& earlier = points[k - in_one_period];
+    EXPECT_NEAR(points[k].time - earlier.time, period, 1e-9);
+    EXPECT_LE((points[k].state - earlier.state).norm(), 1e-9);
+  }
+}
+
+TEST(Section, NoTurnIsMissedAgainstADenseScan) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const double period : {0.001, 0.005, 0.011}) {
       for (const double width : {0.0, 0.0005, 0.002}) {
@@ -141,7 +169,7 @@ TEST(HybridSection, NoTurnIsMissedAgainstADenseScan) {
   }
 }
 
-TEST(HybridSection, NoTurnIsMissedOnAnyLoop) {
+TEST(Section, NoTurnIsMissedOnAnyLoop) {
   test::Random random(4711);
   for (int k = 0; k < 60; ++k) {
     RealLoop loop;
@@ -163,21 +191,50 @@ TEST(HybridSection, NoTurnIsMissedOnAnyLoop) {
   }
 }
 
-TEST(HybridSection, FindsAllTurnsOfALongSamplingPeriod) {
+TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const RealLoop loop = section_loop(0.001, 0.0005, switching);
+    const RealLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
+                                                  loop.backlash, loop.switching};
+    const auto expected = section_of(loop, 2000);
+    const auto points = section_of(same, 2000);
+    ASSERT_EQ(points.size(), expected.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      EXPECT_NEAR(points[k].time, expected[k].time, 1e-10);
+      EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-10);
+      EXPECT_EQ(points[k].rising, expected[k].rising);
+      EXPECT_EQ(points[k].engaged, expected[k].engaged);
+    }
+  }
+}
+
+TEST(Section, NoTurnIsMissedOfADriveWithStatesOfItsOwn) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const RealLoop loop = section_loop(0.005, 0.0005, switching);
+    const auto plant = with_drive_lag(linear_plant(loop.plant), 20.0);
+    const RealLoopOf<LinearPlant<double, 5>> lagging{plant, loop.digital, loop.backlash,
+                                                     loop.switching};
+    EXPECT_EQ(expect_scanned(lagging, 2000, 50), 0U);
+  }
+}
+
+TEST(Section, FindsAllTurnsOfALongSamplingPeriod) {
   // Without control the motion is the plant's response to 10 Hz once the transient is over; three
   // or four of its turns, 50 ms apart, fall into a sampling period of 170 ms.
-  RealLoop loop = section_loop(0.17, 0.0, Switching::exact);
-  loop.digital.gains = {0.0, 0.0};
-  const auto points = hybrid_section_of(loop, 300);
-  const double steady = 40.0, end = 51.0;
-  std::size_t seen = 0;
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    if (points[k - 1].time < steady) continue;
-    ++seen;
-    EXPECT_NEAR(points[k].time - points[k - 1].time, 0.05, 1e-9);
-    EXPECT_NE(points[k].rising, points[k - 1].rising);
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    RealLoop loop = section_loop(0.17, 0.0, switching);
+    loop.digital.gains = {0.0, 0.0};
+    const auto points = section_of(loop, 300);
+    const double steady = 40.0, end = 51.0;
+    std::size_t seen = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      if (points[k - 1].time < steady) continue;
+      ++seen;
+      EXPECT_NEAR(points[k].time - points[k - 1].time, 0.05, 1e-9);
+      EXPECT_NE(points[k].rising, points[k - 1].rising);
+    }
+    EXPECT_NEAR(static_cast<double>(seen), (end - steady) / 0.05, 1.0);
   }
-  EXPECT_NEAR(static_cast<double>(seen), (end - steady) / 0.05, 1.0);
 }
 
 /// Without damping, force and control, from rest in the shape of one of the plant's modes.
@@ -205,7 +262,7 @@ std::vector<SectionPoint> modal_section(std::size_t mode, int parts, int half_pe
   return points;
 }
 
-TEST(HybridSection, ATurnAtASampleIsOnePoint) {
+TEST(Section, ATurnAtASampleIsOnePoint) {
   // Δz turns every half period, where rounding decides whether that is before or after the sample.
   for (const std::size_t mode : {std::size_t{0}, std::size_t{1}}) {
     for (const int parts : {1, 2, 3, 7, 20}) {
@@ -222,7 +279,7 @@ TEST(HybridSection, ATurnAtASampleIsOnePoint) {
   }
 }
 
-TEST(HybridSection, AStickIsOnePointAtItsBeginning) {
+TEST(Section, AStickIsOnePointAtItsBeginning) {
   // Every reversal sticks in this motion; its sticks last longer than a sampling period.
   const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
   constexpr std::int64_t samples = 3000;
@@ -251,9 +308,9 @@ TEST(HybridSection, AStickIsOnePointAtItsBeginning) {
   for (const SectionPoint& point : points) EXPECT_FALSE(point.engaged);
 }
 
-TEST(HybridSection, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
+TEST(Section, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
   const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
-  const auto points = hybrid_section_of(loop, 30000);
+  const auto points = section_of(loop, 30000);
   ASSERT_GT(points.size(), 500U);
   for (std::size_t k = points.size() - 200; k < points.size(); ++k) {
     EXPECT_NEAR(points[k].time - points[k - 2].time, 0.1, 1e-9);
@@ -262,9 +319,9 @@ TEST(HybridSection, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
   }
 }
 
-TEST(HybridSection, GoesOnWhereItEnded) {
+TEST(Section, GoesOnWhereItEnded) {
   const RealLoop loop = section_loop(0.001, 0.002, Switching::exact);
-  const auto whole = hybrid_section_of(loop, 2000);
+  const auto whole = section_of(loop, 2000);
   std::vector<SectionPoint> pieces;
   with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
     for (int piece = 0; piece < 400; ++piece)
@@ -275,15 +332,15 @@ TEST(HybridSection, GoesOnWhereItEnded) {
   for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces[k].time, whole[k].time);
 }
 
-TEST(HybridSection, AMotionAtRestHasNoPoint) {
+TEST(Section, AMotionAtRestHasNoPoint) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     RealLoop loop = section_loop(0.001, 0.0005, switching);
     loop.digital.force.harmonics.clear();
-    EXPECT_TRUE(hybrid_section_of(loop, 1000).empty());
+    EXPECT_TRUE(section_of(loop, 1000).empty());
   }
 }
 
-TEST(HybridSection, ADivergingMotionEnds) {
+TEST(Section, ADivergingMotionEnds) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     RealLoop loop = section_loop(0.011, 0.0, switching);
     loop.digital.sampling.processing_delay = 0.011;
@@ -295,7 +352,7 @@ TEST(HybridSection, ADivergingMotionEnds) {
   }
 }
 
-TEST(HybridSection, TheRestOfAPolynomialIsItself) {
+TEST(Section, TheRestOfAPolynomialIsItself) {
   test::Random random(99);
   for (int trial = 0; trial < 200; ++trial) {
     Series p(1 + static_cast<Eigen::Index>(random.index(most_terms)));
