@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
@@ -76,6 +78,25 @@ TEST(Coverage, WhatIsOutOfRangeIsRefused) {
   }
   EXPECT_THROW(Coverage(frame, 0), InvalidParameter);
   EXPECT_THROW(Coverage(frame, 10'001), InvalidParameter);
+}
+
+TEST(Coverage, ReadsAPlantThroughItsPorts) {
+  // The ports of the two masses with the conductor's states at the end.
+  LinearPlant<double, 4> turned = linear_plant(kollar2022_plant());
+  turned.connections.displacement = RowVector<double, 4>::Unit(2);
+  turned.connections.velocity = RowVector<double, 4>::Unit(3);
+  CoverageOf<LinearPlant<double, 4>> coverage(frame, 4,
+                                              PortReadings<LinearPlant<double, 4>>(turned));
+  Coverage expected(frame, 4);
+  test::Random random(17);
+  for (int k = 0; k < 20; ++k) {
+    const double z = random.uniform(frame.displacement_min, frame.displacement_max);
+    const double v = random.uniform(frame.velocity_min, frame.velocity_max);
+    expected(at(z, v));
+    coverage(MotionSample<double>{0, 0.0, {0.0, 0.0, z, v}, 0.0, true});
+    EXPECT_EQ(coverage.visited(), expected.visited());
+  }
+  EXPECT_GT(expected.visited(), 5U);
 }
 
 }  // namespace

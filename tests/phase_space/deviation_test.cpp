@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {
@@ -62,6 +64,22 @@ TEST(Deviation, StopsWhereAMotionDiverges) {
   });
   EXPECT_EQ(outcome, TrajectoryOutcome::diverged);
   EXPECT_TRUE(all_finite);
+}
+
+TEST(Deviation, OfADriveWithStatesOfItsOwnIsThatOfTheConductor) {
+  const RealLoop ideal = real_loop(KollarCase{}.forced_loop());
+  const auto plant = with_drive_lag(linear_plant(ideal.plant), 20.0);
+  const RealLoopOf<LinearPlant<double, 5>> loop{plant, ideal.digital, ideal.backlash,
+                                                Switching::exact};
+  auto first = event_motion(loop, Vector<double, 5>::Zero().eval()), second = first;
+  second.displace_conductor(1e-5);
+  std::int64_t seen = 0;
+  run_deviation(first, second, 1000, [&](const Deviation& deviation) {
+    if (seen++ == 0) EXPECT_NEAR(deviation.displacement, 1e-5, 1e-20);
+    EXPECT_EQ(deviation.displacement, second.state()[0] - first.state()[0]);
+    EXPECT_EQ(deviation.state, (second.state() - first.state()).norm());
+  });
+  EXPECT_EQ(seen, 1000);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <set>
@@ -10,8 +11,10 @@
 #include <vector>
 
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
 #include "support/message_of.hpp"
+#include "support/state_between_samples.hpp"
 
 namespace holdfast {
 namespace {
@@ -86,19 +89,62 @@ std::vector<StrobePoint> built_diagram_of(double period, const std::vector<doubl
   return points;
 }
 
-TEST(OrbitDiagram, OfTheLoopOfThePaperAsItIsBuiltIsTheSame) {
+/// The strobes of one motion by the sampled map and matrix exponentials between its samples.
+std::vector<Vector<double, 4>> strobes_of(const ForcedLoop<double>& loop,
+                                          const DiagramQuestion& question,
+                                          const Vector<double, 4>& initial_state) {
+  std::vector<Vector<double, 4>> strobes;
+  auto motion = harmonically_forced_motion(loop, initial_state);
+  const auto first = static_cast<int>(std::ceil(question.transient * loop.excitation.frequency));
+  const double period = loop.sampling.period;
+  while (static_cast<int>(strobes.size()) < question.strobes) {
+    const double before = motion.memory().previous_force;
+    const auto sample = motion.sense();
+    const auto due = [&] {
+      const auto next = static_cast<double>(first + static_cast<int>(strobes.size()));
+      return std::max(next / loop.excitation.frequency - sample.time, 0.0);
+    };
+    while (due() < period * (1.0 - 1e-9) && static_cast<int>(strobes.size()) < question.strobes)
+      strobes.push_back(test::state_between_samples(loop, sample, before, due()));
+    motion.advance();
+  }
+  return strobes;
+}
+
+TEST(OrbitDiagram, StrobesAreThoseOfMatrixExponentials) {
   for (const double period : {0.001, 0.009}) {
     const std::vector<double> widths{0.0, 0.0005, 0.001};
     const DiagramQuestion question{20.0, 20};
-    const auto expected = diagram_of(period, widths, question);
-    const auto points = built_diagram_of(period, widths, question, [](RealLoop&) {});
-    ASSERT_EQ(points.size(), expected.size());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      EXPECT_EQ(points[k].index, expected[k].index);
-      EXPECT_EQ(points[k].upward, expected[k].upward);
-      EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-12) << k;
+    const auto points = diagram_of(period, widths, question);
+    ASSERT_EQ(points.size(), 2U * 3U * 20U);
+    Vector<double, 4> state = Vector<double, 4>::Zero();
+    for (std::size_t k = 0; k < points.size();) {
+      const auto expected =
+          strobes_of(diagram_loop(period, widths[points[k].index]), question, state);
+      state = points[k + expected.size() - 1].state;
+      for (const auto& strobe : expected) {
+        EXPECT_LE((points[k].state - strobe).cwiseAbs().maxCoeff(), 1e-11) << k;
+        ++k;
+      }
     }
   }
+}
+
+TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
+  const std::vector<double> widths{0.0, 0.0005};
+  const DiagramQuestion question{5.0, 20};
+  const auto expected = diagram_of(0.001, widths, question);
+  std::vector<StrobePoint> points;
+  const auto path = [](double width) {
+    const RealLoop loop = real_loop(diagram_loop(0.001, width));
+    return RealLoopOf<LinearPlant<double, 4>>{linear_plant(loop.plant), loop.digital, loop.backlash,
+                                              loop.switching};
+  };
+  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), question,
+                    [&](const StrobePoint& point) { points.push_back(point); });
+  ASSERT_EQ(points.size(), expected.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-11) << k;
 }
 
 TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {

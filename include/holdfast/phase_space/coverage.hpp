@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
-#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
-/// A rectangle of the phase plane (z₁, ż₁).
+/// A rectangle of the phase plane (z, ż) of the conductor at the absorber; of the two masses
+/// (z₁, ż₁).
 struct PhaseWindow {
-  double displacement_min,  ///< least z₁ (m), inside the window
-      displacement_max;     ///< largest z₁ (m), outside it, > displacement_min
-  double velocity_min,      ///< least ż₁ (m/s), inside the window
-      velocity_max;         ///< largest ż₁ (m/s), outside it, > velocity_min
+  double displacement_min,  ///< least z (m), inside the window
+      displacement_max;     ///< largest z (m), outside it, > displacement_min
+  double velocity_min,      ///< least ż (m/s), inside the window
+      velocity_max;         ///< largest ż (m/s), outside it, > velocity_min
 };
 
 /// @throws InvalidParameter unless both sides of the window are positive and finite
@@ -28,24 +30,30 @@ inline void validate(const PhaseWindow& window) {
 ///
 /// A motion that is topologically transitive would fill the window as time grows; a periodic one
 /// stops at the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
-class Coverage {
+/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+template <class Plant>
+class CoverageOf {
  public:
   /// @param window          with sides longer than zero
   /// @param cells_per_side  1 … 10 000; the window has its square of cells
+  /// @param readings        how states of the plant are read
   /// @throws InvalidParameter for an empty window or another number of cells
-  Coverage(const PhaseWindow& window, std::size_t cells_per_side)
-      : window_(window), side_(cells_per_side) {
+  CoverageOf(const PhaseWindow& window, std::size_t cells_per_side,
+             const PortReadings<Plant>& readings = PortReadings<Plant>())
+      : window_(window), side_(cells_per_side), readings_(readings) {
     validate(window);
     require_within("cells per side", static_cast<double>(cells_per_side), "", 1.0, 1e4);
     visited_cells_.assign(cells_per_side * cells_per_side, false);
   }
 
-  /// Marks the cell of a sample's (z₁, ż₁); of one outside the window nothing.
-  /// @tparam Sample  MotionSample<double> or HybridSample
+  /// Marks the cell of a sample's (z, ż); of one outside the window nothing.
+  /// @tparam Sample  MotionSample<double, N> or HybridSampleOf<N>
   template <class Sample>
   void operator()(const Sample& sample) {
-    const double x = fraction(sample.state[0], window_.displacement_min, window_.displacement_max);
-    const double y = fraction(sample.state[1], window_.velocity_min, window_.velocity_max);
+    const double x = fraction(readings_.displacement(sample.state), window_.displacement_min,
+                              window_.displacement_max);
+    const double y =
+        fraction(readings_.velocity(sample.state), window_.velocity_min, window_.velocity_max);
     if (!(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0)) return;
     const double side = static_cast<double>(side_);
     const std::size_t cell =
@@ -70,8 +78,12 @@ class Coverage {
 
   PhaseWindow window_;
   std::size_t side_;
+  PortReadings<Plant> readings_;
   std::vector<bool> visited_cells_;
   std::size_t visited_ = 0;
 };
+
+/// That of the two masses.
+using Coverage = CoverageOf<TwoDof<double>>;
 
 }  // namespace holdfast

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "holdfast/core/types.hpp"
 #include "holdfast/motion/trajectory.hpp"
 
 namespace holdfast {
@@ -11,14 +10,15 @@ namespace holdfast {
 /// How far two motions are apart at one sample.
 struct Deviation {
   double time;          ///< s
-  double displacement;  ///< z₁ of the second motion minus z₁ of the first (m)
-  double state;  ///< Euclidean norm of the difference of z = [z₁, ż₁, z₂, ż₂], SI numbers
+  double displacement;  ///< z of the second motion's conductor minus that of the first (m)
+  double state;         ///< Euclidean norm of the difference of the states, N × 1, SI numbers
 };
 
 /// Runs two motions of the same loop side by side and shows their deviation at each sample.
 ///
 /// Neighbours that separate exponentially are a mark of chaos; Kollár 2022, Fig. 11 starts them
 /// z₁₀,b − z₁₀,a = 10⁻⁵ m apart.
+/// @tparam Motion   SampledMotion or EventMotion, of a plant of any order
 /// @param first     before a sample, like `second`; both are left before the next one
 /// @param second    the motion whose deviation from the first is shown
 /// @param samples   how many are taken, fewer where the state leaves the range of numbers
@@ -29,9 +29,9 @@ TrajectoryOutcome run_deviation(Motion& first, Motion& second, std::int64_t samp
   for (std::int64_t taken = 0; taken < samples; ++taken) {
     const auto a = first.sense();
     const auto b = second.sense();
-    const Vector<double, 4> difference = b.state - a.state;
+    const auto difference = (b.state - a.state).eval();
     if (!std::isfinite(difference.sum())) return TrajectoryOutcome::diverged;
-    observer(Deviation{a.time, difference[0], difference.norm()});
+    observer(Deviation{a.time, first.readings().displacement(difference), difference.norm()});
     first.advance();
     second.advance();
   }
