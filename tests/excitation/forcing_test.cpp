@@ -10,6 +10,7 @@
 
 #include "holdfast/motion/forced_loop.hpp"
 #include "support/kollar_case.hpp"
+#include "support/random.hpp"
 
 namespace holdfast {
 namespace {
@@ -37,6 +38,25 @@ TEST(HarmonicForcing, IsTheDirectFormulaAtEverySample) {
       // The phase of sample j is rounded to some 1e-16 of its number of turns.
       const double rounding = 1e-14 + 4e-15 * 0.0031 * 7.3 * static_cast<double>(j);
       ASSERT_LE((forcing.next() - expected).norm(), rounding * size) << j;
+    }
+  }
+}
+
+TEST(TurningForcing, GivesWhatTheHarmonicOneDoesToTheLastBit) {
+  test::Random random(912);
+  for (const ForceHold hold : both_holds) {
+    for (int k = 0; k < 20; ++k) {
+      KollarCase which;
+      which.sampling_period = random.log_uniform(1e-4, 0.1);
+      which.excitation = {2.0, random.log_uniform(0.1, 100.0)};
+      const auto input = input_of(which, hold);
+      HarmonicForcing<double> harmonic(input, which.excitation, which.sampling_period);
+      TurningTable<double> table(input, which.excitation, which.sampling_period);
+      TurningForcing<double> turning(table);
+      for (int j = 0; j < 5000; ++j) {
+        if (j % 16 == 0) table.turn_to(j);
+        ASSERT_EQ(harmonic.next(), turning.next()) << j;
+      }
     }
   }
 }

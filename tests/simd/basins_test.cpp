@@ -75,7 +75,7 @@ TEST(PackedForcing, IsTheSameInEveryLane) {
   const ForcedLoop<double> loop = packed_loop(0.011, 0.0);
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
   PeriodicForcing<double> forcing(held_harmonic(sampled), 0.5, {11, 100});
-  PeriodicForcing<MotionPack> packed(held_harmonic(sampled), 0.5, {11, 100});
+  SharedForcing<MotionPack, PeriodicForcing<double>> packed(forcing);
   for (int j = 0; j < 250; ++j) {
     const Vector<double, 4> expected = forcing.next();
     const Vector<MotionPack, 4> found = packed.next();

@@ -74,6 +74,17 @@ struct SampledLoop {
   }
 };
 
+/// The same numbers in another number type, for instance in every lane of a pack.
+template <class To, class From, int States>
+SampledLoop<To, States> converted(const SampledLoop<From, States>& loop) {
+  return {{To(loop.sampling.period), To(loop.sampling.processing_delay)},
+          loop.transition.template cast<To>(),
+          loop.increment.template cast<To>(),
+          loop.previous_force.template cast<To>(),
+          loop.present_force.template cast<To>(),
+          loop.held_excitation.template cast<To>()};
+}
+
 /// The sampled loop of a linear plant.
 ///
 /// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the

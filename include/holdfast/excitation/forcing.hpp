@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/core/lanes.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
@@ -46,14 +45,27 @@ class HarmonicForcing {
   std::int64_t index_ = 0;
 };
 
+/// The same from a table that outlives it and is turned by the motion's driver, so that no sample
+/// asks whether it is to be turned.
+template <class Scalar>
+class TurningForcing {
+ public:
+  /// @param table  to be turned to each multiple of its `block` before that sample is advanced
+  explicit TurningForcing(const TurningTable<Scalar>& table) : table_(&table) {}
+
+  /// The addition (4 × 1) of the present sampling period; goes on to the next one.
+  Vector<Scalar, 4> next() { return table_->addition(index_++ % TurningTable<Scalar>::block); }
+
+ private:
+  const TurningTable<Scalar>* table_;
+  std::size_t index_ = 0;
+};
+
 /// The same where sampling and excitation coincide every q samples, f τ = p/q: a table of q
 /// additions, repeated for ever. Copies share the table.
-/// @tparam Scalar  a pack gets the same addition in every lane
 /// @tparam States  N, the order of the plant
-template <class Scalar, int States = 4>
+template <class Value, int States = 4>
 class PeriodicForcing {
-  using Value = typename Lanes<Scalar>::Value;
-
  public:
   /// @param input      g_c and g_s, N × 1 per newton
   /// @param amplitude  F_m (N)
@@ -69,10 +81,10 @@ class PeriodicForcing {
             std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}
 
   /// The addition (N × 1) of the present sampling period; goes on to the next one.
-  Vector<Scalar, States> next() {
+  const Vector<Value, States>& next() {
     const Vector<Value, States>& addition = (*additions_)[phase_];
     if (++phase_ == additions_->size()) phase_ = 0;
-    return addition.template cast<Scalar>();
+    return addition;
   }
 
   /// q.
@@ -102,6 +114,21 @@ class PeriodicForcing {
 
   std::shared_ptr<const std::vector<Vector<Value, States>>> additions_;
   std::size_t phase_ = 0;
+};
+
+/// A forcing of scalars that is the same in every lane of a pack.
+/// @tparam Forcing  HarmonicForcing<double> or PeriodicForcing<double>
+template <class Scalar, class Forcing>
+class SharedForcing {
+ public:
+  /// Goes on where `forcing` stands.
+  explicit SharedForcing(const Forcing& forcing) : forcing_(forcing) {}
+
+  /// The addition (N × 1) of the present sampling period; goes on to the next one.
+  auto next() { return forcing_.next().template cast<Scalar>().eval(); }
+
+ private:
+  Forcing forcing_;
 };
 
 }  // namespace holdfast

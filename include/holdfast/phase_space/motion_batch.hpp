@@ -10,6 +10,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 
@@ -80,21 +81,18 @@ class MemoryLanes {
   std::array<std::array<double, Lane::count>, 9> numbers_{};
 };
 
-/// The loop with the same numbers in every lane.
+/// The motion of a loop in as many lanes as `Scalar` has.
 template <class Scalar>
-PeriodicallyForcedMotion<Scalar> broadcast(const PeriodicallyForcedMotion<double>& motion,
-                                           const PdGains<double>& gains) {
-  const SampledLoop<double>& loop = motion.loop();
-  SampledLoop<Scalar> lanes;
-  lanes.sampling = {Scalar(loop.sampling.period), Scalar(loop.sampling.processing_delay)};
-  lanes.transition = loop.transition.template cast<Scalar>();
-  lanes.increment = loop.increment.template cast<Scalar>();
-  lanes.previous_force = loop.previous_force.template cast<Scalar>();
-  lanes.present_force = loop.present_force.template cast<Scalar>();
-  lanes.held_excitation = loop.held_excitation.template cast<Scalar>();
-  return {lanes,
+using BatchMotion =
+    SampledMotion<Scalar, Backlash<Scalar>, SharedForcing<Scalar, PeriodicForcing<double>>>;
+
+/// The same motion in every lane, from rest.
+template <class Scalar>
+BatchMotion<Scalar> broadcast(const PeriodicallyForcedMotion<double>& motion,
+                              const PdGains<double>& gains) {
+  return {converted<Scalar>(motion.loop()),
           {Scalar(gains.proportional), Scalar(gains.differential)},
-          PeriodicForcing<Scalar>(motion.forcing().additions()),
+          SharedForcing<Scalar, PeriodicForcing<double>>(motion.forcing()),
           Backlash<Scalar>(Scalar(motion.law().width())),
           Vector<Scalar, 4>::Constant(Scalar(0))};
 }
@@ -178,7 +176,7 @@ class MotionBatch {
   }
 
   Rational ratio_;
-  PeriodicallyForcedMotion<Scalar> motion_;
+  detail::BatchMotion<Scalar> motion_;
   detail::MemoryLanes<Scalar> lanes_;
   std::array<Place, Lane::count> places_;
 };

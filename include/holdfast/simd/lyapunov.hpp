@@ -20,7 +20,7 @@ namespace holdfast::simd {
 
 namespace detail {
 
-template <template <class> class Forcing>
+template <class Forcing>
 std::vector<LyapunovResult> lyapunov_spectra(const MotionFamily<Forcing>& family,
                                              const std::shared_ptr<const ContactWords>& words,
                                              const std::vector<Vector<double, 4>>& initial_states,
@@ -58,22 +58,20 @@ inline std::vector<LyapunovResult> lyapunov_spectra(
   validate(loop);
   validate(run);
   validate(tangent_sampling);
-  using Number = Pack<double>;
   const SampledLoop<double> sampled = sampled_loop(loop.plant, loop.sampling);
   const auto words =
       std::make_shared<const ContactWords>(sampled_loop(loop.plant, tangent_sampling), loop.gains);
   const HarmonicInput<double> input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
   if (const auto ratio = forcing_ratio(loop)) {
-    const PeriodicForcing<double> forcing(input, loop.excitation.amplitude, *ratio);
-    const detail::MotionFamily<PeriodicForcing> family{
-        sampled, loop, forcing, PeriodicForcing<Number>(forcing.additions())};
+    using Forcing = PeriodicForcing<double>;
+    const detail::MotionFamily<Forcing> family{sampled, loop,
+                                               Forcing(input, loop.excitation.amplitude, *ratio)};
     return detail::lyapunov_spectra(family, words, initial_states, run, threads);
   }
-  const HarmonicForcing<double> forcing(input, loop.excitation, loop.sampling.period);
-  const detail::MotionFamily<detail::SharedForcing> family{sampled, loop,
-                                                           detail::SharedForcing<double>(forcing),
-                                                           detail::SharedForcing<Number>(forcing)};
+  using Forcing = HarmonicForcing<double>;
+  const detail::MotionFamily<Forcing> family{sampled, loop,
+                                             Forcing(input, loop.excitation, loop.sampling.period)};
   return detail::lyapunov_spectra(family, words, initial_states, run, threads);
 }
 

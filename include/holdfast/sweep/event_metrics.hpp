@@ -12,8 +12,11 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/real_loop.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 
 namespace holdfast {
@@ -45,43 +48,43 @@ inline MotionMetrics unfollowed_metrics(std::int64_t samples) {
 }
 
 /// Takes the samples of one motion, each into all that is kept of them.
-/// @tparam Scalar  `double`
-template <class Scalar>
+template <class Plant>
 class HybridTrack {
- public:
-  explicit HybridTrack(const SampleSpan& span) : span_(span) {}
+  using Sample = HybridSampleOf<states_of<Plant>>;
 
-  void observe(const HybridSample& sample) {
-    const Scalar velocity = relative_velocity(sample.state);
+ public:
+  HybridTrack(const SampleSpan& span, const PortReadings<Plant>& readings)
+      : span_(span), readings_(readings) {}
+
+  void observe(const Sample& sample) {
+    const double velocity = readings_.relative_velocity(sample.state);
     const bool reverses = is_reversal(previous_velocity_, velocity);
     previous_velocity_ = velocity;
-    extremum_.observe(sample.state[0]);
-    load_.observe(sample.control_force, relative_displacement(sample.state));
+    observer_.observe_extremum(readings_.displacement(sample.state));
+    observer_.observe_load(sample, readings_);
     if (sample.index < span_.first_steady) return;
-    if (sample.index == span_.first_steady) steady_.restart(true, reverses);
-    steady_.observe(sample.state[0], sample.control_force, sample.engaged, reverses);
+    if (sample.index == span_.first_steady) observer_.begin_steady(true, reverses);
+    observer_.observe_steady(sample, readings_, reverses);
   }
 
   MotionMetrics completed(const SamplingClock& clock) const {
-    MotionMetrics metrics = completed_metrics(sums(span_.samples), span_);
+    const LaneSums sums = observer_.lane(0);
+    MotionMetrics metrics = completed_metrics(sums, span_);
     const double time = clock.time(span_.samples - 1) - clock.time(span_.first_steady);
-    if (time > 0.0) metrics.reversals_per_s = steady_.reversals / time;
+    if (time > 0.0) metrics.reversals_per_s = sums.steady.reversals / time;
     return metrics;
   }
 
   /// @param samples  with a finite state
-  MotionMetrics diverged(std::int64_t samples) const { return diverged_metrics(sums(samples)); }
-
- private:
-  LaneSums sums(std::int64_t samples) const {
-    return {extremum_.size(), load_.force(), load_.stroke(), static_cast<double>(samples), steady_};
+  MotionMetrics diverged(std::int64_t samples) const {
+    return diverged_metrics(observer_.lane(0), samples);
   }
 
+ private:
   SampleSpan span_;
-  FirstExtremum<Scalar> extremum_;
-  LoadExtent<Scalar> load_;
-  SteadySums<Scalar> steady_;
-  Scalar previous_velocity_ = Scalar(0);
+  PortReadings<Plant> readings_;
+  MetricObserver<double> observer_;
+  double previous_velocity_ = 0.0;
 };
 
 }  // namespace detail
@@ -98,31 +101,30 @@ class HybridTrack {
 /// Work: that of HybridMotion, and about 30 operations a sample. The loop over samples allocates
 /// nothing.
 /// @param loop           as it is built
-/// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+/// @param initial_state  x, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @param duration       s, ≥ 0
 /// @param pause          called every 2¹⁴ samples; may throw to end the motion
 /// @throws InvalidParameter where the loop or the duration is not admissible, or the state not
 /// finite
-/// @tparam Loop  RealLoop; a template so that only who calls it compiles it
-template <class Loop>
-MotionMetrics hybrid_metrics(const Loop& loop, const Vector<double, 4>& initial_state,
+/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+template <class Plant>
+MotionMetrics hybrid_metrics(const RealLoopOf<Plant>& loop, const StateOf<Plant>& initial_state,
                              double duration, const std::function<void()>& pause = {}) {
   constexpr std::int64_t samples_between_pauses = 1 << 14;
   validate(loop);
   for (const double entry : initial_state) require_finite("initial state", entry, "SI");
   const SamplingClock clock(loop.digital.sampling.period, loop.digital.jitter);
   const detail::SampleSpan span = detail::sample_span(clock, duration);
-  return with_motion(loop, initial_state, [&](auto motion) {
-    detail::HybridTrack<double> track(span);
-    for (std::int64_t taken = 0; taken < span.samples; ++taken) {
-      if (pause && taken % samples_between_pauses == 0) pause();
-      if (!std::isfinite(motion.state().sum())) return track.diverged(taken);
-      track.observe(motion.sense());
-      motion.advance();
-      if (motion.counts().accumulates) return detail::unfollowed_metrics(taken + 1);
-    }
-    return track.completed(clock);
-  });
+  auto motion = event_motion(loop, initial_state);
+  detail::HybridTrack<Plant> track(span, motion.readings());
+  for (std::int64_t taken = 0; taken < span.samples; ++taken) {
+    if (pause && taken % samples_between_pauses == 0) pause();
+    if (!std::isfinite(motion.state().sum())) return track.diverged(taken);
+    track.observe(motion.sense());
+    motion.advance();
+    if (motion.counts().accumulates) return detail::unfollowed_metrics(taken + 1);
+  }
+  return track.completed(clock);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

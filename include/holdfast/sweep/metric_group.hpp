@@ -13,11 +13,12 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/excitation/forcing.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/phasor_table.hpp"
 #include "holdfast/sweep/metric_lanes.hpp"
 #include "holdfast/sweep/metric_track.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
-#include "holdfast/sweep/phasor_forcing.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 
@@ -208,7 +209,7 @@ class MetricGroup {
     for (std::size_t k = 0; k < lanes; ++k) {
       if (!open_[k] || finite[k] != 0) continue;
       open_[k] = false;
-      results[numbers_[k]] = diverged_metrics(lane(k));
+      results[numbers_[k]] = diverged_metrics(lane(k), finite_samples(k));
     }
   }
 
@@ -223,7 +224,13 @@ class MetricGroup {
   }
 
   LaneSums lane(std::size_t k) const {
-    return lane_sums(tracks_[k / Lane::count], k % Lane::count);
+    return tracks_[k / Lane::count].observer().lane(k % Lane::count);
+  }
+
+  std::int64_t finite_samples(std::size_t k) const {
+    double values[Lane::count];
+    Lane::store(tracks_[k / Lane::count].finite_samples(), values);
+    return static_cast<std::int64_t>(values[k % Lane::count]);
   }
 
   /// One byte a lane of a mask of every track.

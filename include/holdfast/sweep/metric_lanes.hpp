@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "holdfast/core/lanes.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "holdfast/sweep/metric_track.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 
 namespace holdfast::detail {
@@ -35,28 +34,6 @@ inline SampleSpan sample_span(std::size_t motion, double duration, double period
   return span;
 }
 
-/// What the track of one lane holds.
-struct LaneSums {
-  double first_peak, force_peak, stroke, finite_samples;
-  SteadySums<double> steady;
-};
-
-template <class Scalar>
-LaneSums lane_sums(const MetricTrack<Scalar>& track, std::size_t lane) {
-  const auto number = [lane](const Scalar& pack) {
-    double values[Lanes<Scalar>::count];
-    Lanes<Scalar>::store(pack, values);
-    return values[lane];
-  };
-  const SteadySums<Scalar>& steady = track.steady();
-  return {number(track.extremum().size()),
-          number(track.load().force()),
-          number(track.load().stroke()),
-          number(track.finite_samples()),
-          {number(steady.peak), number(steady.squares), number(steady.force_squares),
-           number(steady.engaged), number(steady.reversals)}};
-}
-
 inline MotionMetrics completed_metrics(const LaneSums& sums, const SampleSpan& span) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   MotionMetrics metrics{
@@ -74,11 +51,12 @@ inline MotionMetrics completed_metrics(const LaneSums& sums, const SampleSpan& s
   return metrics;
 }
 
-inline MotionMetrics diverged_metrics(const LaneSums& sums) {
+/// @param samples  with a finite state
+inline MotionMetrics diverged_metrics(const LaneSums& sums, std::int64_t samples) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {MotionEnd::diverged,
-          static_cast<std::int64_t>(sums.finite_samples),
+          samples,
           sums.first_peak,
           infinity,
           infinity,

@@ -7,10 +7,10 @@
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
-#include "holdfast/sweep/phasor_forcing.hpp"
 
 namespace holdfast::detail {
 
@@ -42,27 +42,26 @@ class MetricTrack {
   Mask<Scalar> step() {
     const Scalar velocity_before = motion_.law().memory().previous_velocity;
     const auto sample = motion_.sense();
-    Scalar displacement = sample.state[0];
-    load_.observe(sample.control_force, relative_displacement(sample.state));
-    if constexpr (Steady) {
-      steady_.observe(displacement, sample.control_force, sample.engaged,
-                      is_reversal(velocity_before, relative_velocity(sample.state)));
-    }
+    Scalar displacement = motion_.readings().displacement(sample.state);
+    observer_.observe_load(sample, motion_.readings());
+    if constexpr (Steady)
+      observer_.observe_steady(sample, motion_.readings(),
+                               is_reversal(velocity_before, velocity(sample.state)));
     if constexpr (Divergence) {
       finite_ = finite_ & is_finite(sample.state);
       finite_samples_ = finite_samples_ + select(finite_, Scalar(1), Scalar(0));
       displacement =
           select(finite_, displacement, Scalar(std::numeric_limits<double>::quiet_NaN()));
     }
-    if constexpr (Extremum) extremum_.observe(displacement);
+    if constexpr (Extremum) observer_.observe_extremum(displacement);
     motion_.advance();
     return sample.engaged;
   }
 
   /// Begins the steady samples of the lanes in the mask at the present sample.
   void begin_steady(const Mask<Scalar>& lanes) {
-    steady_.restart(lanes, is_reversal(motion_.law().memory().previous_velocity,
-                                       relative_velocity(motion_.state())));
+    observer_.begin_steady(
+        lanes, is_reversal(motion_.law().memory().previous_velocity, velocity(motion_.state())));
   }
 
   /// Begins to look for divergence; until now every sample of the lanes that are looked at was
@@ -81,23 +80,23 @@ class MetricTrack {
     return result;
   }
 
-  Mask<Scalar> extremum_found() const { return extremum_.found(); }
+  Mask<Scalar> extremum_found() const { return observer_.extremum_found(); }
   Mask<Scalar> finite() const { return finite_; }
   const Scalar& finite_samples() const { return finite_samples_; }
-  const FirstExtremum<Scalar>& extremum() const { return extremum_; }
-  const LoadExtent<Scalar>& load() const { return load_; }
-  const SteadySums<Scalar>& steady() const { return steady_; }
+  const MetricObserver<Scalar>& observer() const { return observer_; }
 
  private:
+  Scalar velocity(const Vector<Scalar, 4>& state) const {
+    return motion_.readings().relative_velocity(state);
+  }
+
   static Mask<Scalar> is_finite(const Vector<Scalar, 4>& state) {
     const Scalar sum = state.sum();
     return Scalar(0) * sum == Scalar(0);
   }
 
   Motion motion_;
-  FirstExtremum<Scalar> extremum_;
-  LoadExtent<Scalar> load_;
-  SteadySums<Scalar> steady_;
+  MetricObserver<Scalar> observer_;
   Mask<Scalar> finite_ = Scalar(0) == Scalar(0);
   Scalar finite_samples_ = Scalar(0);
 };
