@@ -208,6 +208,19 @@ TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
   }
 }
 
+TEST(Section, OfALinearPlantGoesOnWhereItEndedInAStick) {
+  const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
+  const RealLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
+                                                loop.backlash, loop.switching};
+  const auto whole = section_of(same, 2000);
+  std::vector<SectionPoint> pieces;
+  auto motion = event_motion(same, Vector<double, 4>::Zero().eval());
+  for (int piece = 0; piece < 2000; ++piece)
+    run_section(motion, 1, [&](const SectionPoint& at) { pieces.push_back(at); });
+  ASSERT_EQ(pieces.size(), whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces[k].time, whole[k].time);
+}
+
 TEST(Section, NoTurnIsMissedOfADriveWithStatesOfItsOwn) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const RealLoop loop = section_loop(0.005, 0.0005, switching);

@@ -15,6 +15,7 @@
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "support/kollar_case.hpp"
@@ -240,6 +241,19 @@ TEST(HybridMetrics, RefuseWhatIsNotAdmissible) {
   state[1] = 0.0;
   loop.backlash.width = -1.0;
   EXPECT_THROW(hybrid_metrics(loop, state, 1.0), InvalidParameter);
+}
+
+TEST(HybridMetrics, OfTheTwoMassesAsALinearPlantAreTheSame) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const SweepMotion motion = metric_motion(0.001, 0.0005);
+    RealLoop loop = real_loop(motion.loop);
+    loop.switching = switching;
+    const RealLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
+                                                  loop.backlash, loop.switching};
+    SCOPED_TRACE(static_cast<int>(switching));
+    expect_same_motion(hybrid_metrics(same, motion.initial_state, 3.0),
+                       hybrid_metrics(loop, motion.initial_state, 3.0), motion, 3.0);
+  }
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ class TurnFinder {
   /// Both must outlive the finder.
   TurnFinder(const Motion& motion, Observer& observer)
       : motion_(&motion), observer_(&observer), trace_(motion) {
-    const double velocity = motion.readings().relative_velocity(motion.state());
+    const bool sticks = motion.contact().word() == ContactMode::stick;
+    const double velocity = sticks ? 0.0 : motion.readings().relative_velocity(motion.state());
     sign_ = velocity > 0.0 ? 1.0 : velocity < 0.0 ? -1.0 : 0.0;
   }
 

@@ -57,7 +57,7 @@ class HybridTrack {
       : span_(span), readings_(readings) {}
 
   void observe(const Sample& sample) {
-    const double velocity = readings_.relative_velocity(sample.state);
+    const double velocity = velocity_of(sample.state);
     const bool reverses = is_reversal(previous_velocity_, velocity);
     previous_velocity_ = velocity;
     observer_.observe_extremum(readings_.displacement(sample.state));
@@ -81,6 +81,18 @@ class HybridTrack {
   }
 
  private:
+  /// Δż; zero where the ports leave nothing of it but rounding, as in a stick. The two masses have
+  /// ż₂ = ż₁ there to the last bit.
+  double velocity_of(const StateOf<Plant>& state) const {
+    const double velocity = readings_.relative_velocity(state);
+    if constexpr (HasPorts<Plant>::value) {
+      constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+      const double size = readings_.velocity_row().cwiseAbs().dot(state.cwiseAbs());
+      if (std::abs(velocity) <= rounding * size) return 0.0;
+    }
+    return velocity;
+  }
+
   SampleSpan span_;
   PortReadings<Plant> readings_;
   MetricObserver<double> observer_;
