@@ -97,7 +97,7 @@ TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching
                                        std::int64_t samples, double from) {
   auto digits = digits_beside(the_case, {switching}, {}, from);
   if (!digits) return {};
-  auto motion = motion_of(the_case);
+  auto motion = event_motion(real_loop_of(the_case, switching), initial_state_of(the_case));
   run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
   return digits->result();
 }

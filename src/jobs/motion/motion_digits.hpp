@@ -54,8 +54,8 @@ class MotionDigits {
 std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
                                           const std::optional<Kick>& kick, double from);
 
-/// Digits of the first `samples` samples of that motion, which is run here; 17 where there is
-/// nothing that looks after them.
+/// Digits of the first `samples` samples of that motion as the event-driven flow, which is run
+/// here; 17 where there is nothing that looks after them.
 TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
                                        std::int64_t samples, double from);
 
