@@ -7,11 +7,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 
 namespace holdfast {
