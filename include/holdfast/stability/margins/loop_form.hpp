@@ -34,6 +34,31 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
                                         : stable_proportional_gains(polynomial, gains.differential);
 }
 
+/// The loop whose roots are those of another divided by r: stable where all of those have |λ| < r.
+/// @param offset  r − 1, above −1
+template <class Scalar>
+LoopMap<Scalar> at_radius(LoopMap<Scalar> map, const detail::Undeduced<Scalar>& offset) {
+  const Scalar radius = Scalar(1) + offset;
+  map.open_map /= radius;
+  map.command /= radius;
+  map.increment.diagonal().array() -= offset;
+  map.increment /= radius;
+  return map;
+}
+
+/// The open intervals of D (N s/m) at which every root of a loop of any order has |λ| < radius;
+/// radius 1 gives `stable_gains`.
+/// @param map                of `loop_map`
+/// @param proportional_gain  P (N/m), finite
+/// @param radius             > 0
+template <class Scalar>
+std::vector<Interval<Scalar>> differential_gains_within_radius(
+    const LoopMap<Scalar>& map, const detail::Undeduced<Scalar>& proportional_gain,
+    const detail::Undeduced<Scalar>& radius) {
+  return stable_gains(at_radius(map, radius - Scalar(1)), FreeGain::differential,
+                      {proportional_gain, Scalar(0)});
+}
+
 namespace detail {
 
 // What the searches ask of a loop, twice: of the two masses in closed form, of any order from its

@@ -14,6 +14,7 @@
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
@@ -125,6 +126,8 @@ void SlowSamplingBound::take_modes(const Plant& plant, const PdGains<double>& ga
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template SlowSamplingBound::SlowSamplingBound(const TwoDof<double>&, const PdGains<double>&,
                                                      double);
+extern template SlowSamplingBound::SlowSamplingBound(const LinearPlant<double>&,
+                                                     const PdGains<double>&, double);
 #endif
 
 }  // namespace holdfast
