@@ -5,6 +5,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
