@@ -14,9 +14,9 @@ namespace {
 
 // Options that are kept elsewhere in the context, or do not shape the result.
 bool is_common(const std::string& name) {
-  const std::vector<std::string> common = {"--help",    "--case",  "--set",
-                                           "--output",  "--quiet", "--progress",
-                                           "--threads", "--tile",  "--resume"};
+  const std::vector<std::string> common = {"--help",   "--case",        "--set",     "--output",
+                                           "--quiet",  "--progress",    "--threads", "--tile",
+                                           "--resume", "--instructions"};
   return std::find(common.begin(), common.end(), name) != common.end();
 }
 
@@ -83,6 +83,14 @@ Job::Job(CLI::App& program, const std::string& name, const std::string& question
       ->type_name("N")
       ->check(CLI::Range(0, 1024))
       ->group(group);
+  options_
+      ->add_option(
+          "--instructions", common_->instructions,
+          "Instruction set of charts, sweeps and basins: baseline, avx2 or avx512; without "
+          "it the best that the processor has. Results agree to rounding")
+      ->type_name("SET")
+      ->check(CLI::IsMember({"baseline", "avx2", "avx512"}))
+      ->group(group);
 }
 
 CLI::Option* Job::add_text(const std::string& name, std::string& value,
@@ -113,6 +121,8 @@ JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_f
   context.quiet = common_->quiet;
   context.progress = common_->progress;
   context.threads = at_most_cores(common_->threads);
+  context.on_packs = common_->on_packs;
+  context.instructions = chosen_instruction_set(common_->instructions);
   return context;
 }
 
@@ -122,6 +132,8 @@ std::vector<std::string> Job::case_arguments() const {
   for (const std::string& setting : common_->overrides) {
     arguments.insert(arguments.end(), {"--set", setting});
   }
+  if (instructions_given())
+    arguments.insert(arguments.end(), {"--instructions", common_->instructions});
   return arguments;
 }
 

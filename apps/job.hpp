@@ -28,6 +28,12 @@ class Job {
   CLI::Option* add_text(const std::string& name, std::string& value,
                         const std::string& description) const;
 
+  /// The job computes on packs: what it writes names the instruction set.
+  void computes_on_packs() const { common_->on_packs = true; }
+
+  /// Whether the command line has it.
+  bool instructions_given() const { return !common_->instructions.empty(); }
+
   /// Checked case, output and the options that were given; call once the command line is read.
   /// A plant that the case does not give is reduced from its conductor, unless the job does
   /// without.
@@ -35,7 +41,7 @@ class Job {
   JobContext context(PlantNeed need = PlantNeed::whole,
                      const std::optional<std::string>& case_file = std::nullopt) const;
 
-  /// The --case and --set options as they were given, to be handed to another job.
+  /// The --case, --set and --instructions options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;
 
  private:
@@ -46,6 +52,8 @@ class Job {
     bool quiet = false;
     bool progress = false;
     int threads = 0;
+    std::string instructions;  // empty: the best that the processor has
+    bool on_packs = false;     // the job computes on packs
   };
 
   CLI::App* options_;

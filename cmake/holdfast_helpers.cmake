@@ -26,7 +26,8 @@ function(holdfast_add_warnings)
   endif()
 endfunction()
 
-# Compiles a target for one of the levels of x86-64 beyond the compiler's own: v3 (AVX2), v4 (AVX-512).
+# Compiles a target for one of the levels of x86-64 beyond the compiler's own: x86-64-v3 (AVX2),
+# x86-64-v4 (AVX-512).
 function(holdfast_compile_for target architecture)
   target_compile_options(${target} PRIVATE -march=${architecture}
     # GCC 12 warns of its own AVX-512 intrinsics (GCC bug 105593).

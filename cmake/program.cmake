@@ -1,5 +1,7 @@
 # The command-line program: static library holdfast_program (src/) and executable (apps/).
 
+include(${PROJECT_SOURCE_DIR}/cmake/kernels.cmake)
+
 function(holdfast_find_program_packages result)
   set(${result} ON PARENT_SCOPE)
   # package;Debian package
@@ -87,7 +89,7 @@ endfunction()
 function(holdfast_add_program)
   find_package(Threads REQUIRED)
   file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
-  list(FILTER library_sources EXCLUDE REGEX "/src/process/mpi/[^/]*$")
+  list(FILTER library_sources EXCLUDE REGEX "/src/(process/mpi|kernels/wide)/[^/]*$")
   file(GLOB_RECURSE program_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp)
   set(case_source ${PROJECT_BINARY_DIR}/generated/builtin_case.cpp)
   holdfast_embed_case(${PROJECT_SOURCE_DIR}/data/kollar2022.toml ${case_source})
@@ -111,15 +113,12 @@ function(holdfast_add_program)
     endif()
   endforeach()
 
-  if(HOLDFAST_ARCHITECTURE)
-    holdfast_compile_for(holdfast_program ${HOLDFAST_ARCHITECTURE})
-  endif()
   holdfast_use_netcdf(holdfast_program)
   holdfast_use_mpi(holdfast_program)
+  holdfast_use_kernels(holdfast_program)  # last of what is linked
 
   holdfast_compile_quickly(holdfast_program)
-  holdfast_compile_loops_on_packs(
-    jobs/attractor/basin_tables.cpp jobs/charts/chart_rows.cpp jobs/motion/cell_motion.cpp)
+  holdfast_compile_loops_on_packs(kernels/baseline.cpp jobs/charts/chart_rows.cpp)
 
   # The name `holdfast` belongs to the library's target, so the executable's target has another.
   add_executable(holdfast_executable ${program_sources})

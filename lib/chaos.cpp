@@ -1,4 +1,4 @@
-// Explicit instantiations of chaos for double, for every contact that a loop may have.
+// Explicit instantiations of chaos for double.
 
 #include "holdfast/chaos/block_spectrum.hpp"
 #include "holdfast/chaos/event_classification.hpp"
@@ -21,11 +21,7 @@ template void ContactSpectrum<double>::close_block();
 template HybridVerdict classify_motion(const RealLoop&, const Vector<double, 4>&,
                                        const OrbitLimits&);
 
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<SampledContactMotion>&, const LyapunovRun&,
-                                            const std::function<void()>&);
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactDeadZone>&, const LyapunovRun&,
-                                            const std::function<void()>&);
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactBacklash>&, const LyapunovRun&,
+template LyapunovResult run_hybrid_lyapunov(HybridMotion<DriveContact<>>&, const LyapunovRun&,
                                             const std::function<void()>&);
 
 template ContactWords::ContactWords(const Matrix<double, 5>&, const Matrix<double, 5>&);

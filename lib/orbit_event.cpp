@@ -3,11 +3,7 @@
 
 namespace holdfast {
 
-template HybridOrbitResult<SampledContactMotion> find_hybrid_orbit(
-    const HybridMotion<SampledContactMotion>&, const Rational&, const OrbitLimits&);
-template HybridOrbitResult<ExactDeadZone> find_hybrid_orbit(const HybridMotion<ExactDeadZone>&,
-                                                            const Rational&, const OrbitLimits&);
-template HybridOrbitResult<ExactBacklash> find_hybrid_orbit(const HybridMotion<ExactBacklash>&,
-                                                            const Rational&, const OrbitLimits&);
+template HybridOrbitResult<DriveContact<>> find_hybrid_orbit(const HybridMotion<DriveContact<>>&,
+                                                             const Rational&, const OrbitLimits&);
 
 }  // namespace holdfast

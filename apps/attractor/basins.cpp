@@ -25,6 +25,7 @@ void add_basins(CLI::App& program) {
   job->add_flag("--fractions", options->question.fractions,
                 "A row for each attractor instead: its share of the states, with its error");
   add_switching(job, options->question.switching);
+  job.computes_on_packs();
   job->final_callback([job, options] { write_basins(job.context(), options->question); });
 }
 

@@ -71,6 +71,7 @@ void add_stability(CLI::App& program) {
       ->excludes(continuous);
   job->add_flag("--radius", options->radius,
                 "Add the spectral radius (continuous: spectral abscissa)");
+  job.computes_on_packs();
   job->final_callback([job, options] {
     options->axes.empty() ? run_over_gains(job.context(), *options)
                           : run_over_axes(job.context(), *options);

@@ -21,7 +21,7 @@ std::vector<Column> answer_columns(bool detailed) {
 void run(const Job& job, bool detailed) {
   const JobContext context = job.context();
   Table table(context, answer_columns(detailed));
-  for (const Answer& answer : answers_of(context.case_data)) {
+  for (const Answer& answer : answers_of(context.case_data, context.instructions)) {
     const std::string command = shell_text(command_of(answer.arguments, job.case_arguments()));
     if (detailed)
       table.row(answer.question, answer.answer, answer.detail, command);
@@ -40,6 +40,7 @@ void add_answers(CLI::App& program) {
   const auto detailed = std::make_shared<bool>(false);
   job->add_flag("--details", *detailed,
                 "With what was computed for each answer, and the command that shows it");
+  job.computes_on_packs();
   job->final_callback([job, detailed] { run(job, *detailed); });
 }
 

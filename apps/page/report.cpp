@@ -9,6 +9,7 @@ void add_report(CLI::App& program) {
   const Job job(
       program, "report", question::all,
       "A folder with every table and picture of the case, and one report.html that shows them");
+  job.computes_on_packs();
   job->final_callback([job] {
     const JobContext context = job.context();
     if (!context.output || *context.output == "-") {

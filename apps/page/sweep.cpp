@@ -57,9 +57,11 @@ void add_sweep(CLI::App& program) {
                 "over excitation.frequency use --set control.proportional_gain=tuned");
   add_tile_options(job, *options);
   add_switching(job, asked.switching);
+  job.computes_on_packs();
   job->final_callback([job, options] {
     // The plan reduces the plant, if it is to be, of the case or of each cell.
     const JobContext context = job.context(PlantNeed::none);
+    options->question.instructions_given = job.instructions_given();
     options->dry_run ? write_sweep_size(context, options->question)
                      : write_sweep(context, options->question);
   });

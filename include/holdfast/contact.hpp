@@ -2,6 +2,7 @@
 
 /// The drive's backlash: laws at samples and between them.
 
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_law.hpp"
 #include "holdfast/contact/contact_mode.hpp"
@@ -10,5 +11,6 @@
 #include "holdfast/contact/exact_dead_zone.hpp"
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/contact/immediate_backlash.hpp"
+#include "holdfast/contact/mode_dynamics.hpp"
 #include "holdfast/contact/play.hpp"
 #include "holdfast/contact/sampled_law.hpp"

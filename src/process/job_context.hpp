@@ -8,6 +8,7 @@
 
 #include "case/case.hpp"
 #include "case/case_source.hpp"
+#include "kernels/instruction_set.hpp"
 
 namespace holdfast::program {
 
@@ -22,6 +23,8 @@ struct JobContext {
   bool quiet = false;
   bool progress = false;  // even where standard error is no terminal
   int threads = 0;        // 0: all
+  bool on_packs = false;  // the job computes on packs: its metadata name the instruction set
+  InstructionSet instructions = InstructionSet::baseline;  // of the packs
 };
 
 }  // namespace holdfast::program

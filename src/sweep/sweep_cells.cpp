@@ -8,7 +8,6 @@
 
 #include "holdfast/core/errors.hpp"
 #include "io/text/text.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/motion/cell_motion.hpp"
 #include "process/errors.hpp"
@@ -104,7 +103,8 @@ class TileCells {
   }
 
   void find_motions() {
-    const std::vector<MotionMetrics> metrics = metrics_of(motions_, plan_.question().duration);
+    const std::vector<MotionMetrics> metrics =
+        metrics_of(motions_, plan_.question().duration, plan_.context().instructions);
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       CellResult& result = results_[cells_[k]];
       result.motion = metrics[k];
@@ -126,7 +126,8 @@ class TileCells {
       number_of[k] = added ? distinct.size() : entry->second;
       if (added) distinct.push_back(motion);
     }
-    const std::vector<MotionMetrics> metrics = metrics_of(distinct, plan_.question().duration);
+    const std::vector<MotionMetrics> metrics =
+        metrics_of(distinct, plan_.question().duration, plan_.context().instructions);
     for (std::size_t k = 0; k < motions_.size(); ++k)
       results_[cells_[k]].uncontrolled_peak = metrics[number_of[k]].steady_peak;
   }
@@ -176,14 +177,6 @@ TileResult compute_tile(const SweepPlan& plan, std::int64_t tile) {
   TileCells cells(plan, tile);
   cells.compute();
   return cells.tile_result();
-}
-
-std::string arithmetic() {
-#ifdef HOLDFAST_HAS_SIMD
-  return xsimd::default_arch::name();
-#else
-  return "scalar";
-#endif
 }
 
 }  // namespace holdfast::program

@@ -27,6 +27,7 @@ struct SweepQuestion {
   bool best_gain = false;       // D of each cell is that of least steady amplitude
   std::int64_t tile_cells = 0;  // cells of a tile; 0: chosen from the plan
   bool resume = false;
+  bool instructions_given = false;  // --instructions was: they are not to be chosen
 };
 
 /// The cells of a sweep: the product of any number of axes over keys of a case, numbered with the
@@ -51,6 +52,9 @@ class SweepPlan {
 
   /// The context that was given, its case's plant reduced where no axis shapes that.
   const JobContext& context() const { return context_; }
+
+  /// Computes on the packs of another instruction set from now on.
+  void use(InstructionSet set) { context_.instructions = set; }
 
   /// The case of a cell. Throws WrongInput, or NoAnswer where its plant cannot be reduced. Any
   /// thread may ask.

@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "io/file/whole_file.hpp"
 #include "jobs/charts/row_blocks.hpp"
+#include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/group/mpi_launch.hpp"
@@ -19,6 +21,7 @@
 #include "process/system_words.hpp"
 #include "process/worker_threads.hpp"
 #include "sweep/sweep_cells.hpp"
+#include "sweep/tiles/tile_plan_file.hpp"
 #include "sweep/tiles/tile_result.hpp"
 #include "sweep/tiles/work_folder.hpp"
 #include "sweep/tiles/work_folder_plan.hpp"
@@ -27,6 +30,9 @@ namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The instruction set of the tiles, on which their last digits depend, in their plan.
+constexpr const char* instructions_entry = "--instructions";
 
 /// Whether the result goes to a file of that name, beside which a work folder can lie.
 bool has_named_output(const JobContext& context) {
@@ -49,8 +55,19 @@ fs::path work_folder(const JobContext& context, bool named) {
 /// What the tiles are parts of: the plan, computed by this program.
 TilePlan tile_plan_of(const SweepPlan& plan) {
   TilePlan tiles = plan.tile_plan();
-  tiles.entries.emplace_back("instruction set", arithmetic());
+  tiles.entries.emplace_back(instructions_entry, name_of(plan.context().instructions));
   return tiles;
+}
+
+/// The instruction set of the tiles in a folder; empty where there are none or nothing says it.
+std::string recorded_instructions(const fs::path& folder) {
+  int error = 0;
+  const std::optional<std::string> text = read_whole_file(folder / plan_file_name, error);
+  const std::optional<TilePlan> plan = text ? parse_tile_plan(*text) : std::nullopt;
+  if (!plan) return "";
+  for (const auto& [name, value] : plan->entries)
+    if (name == instructions_entry) return value;
+  return "";
 }
 
 /// What the faults of all tiles together are.
@@ -83,6 +100,7 @@ class SweepRun {
 
   void run() {
     threads_ = worker_threads(context().threads, *group_);
+    agree_on_instructions();
     take_shared_step(*group_, [this] { begin(); });
     take_shared_step(*group_, [this] { join(); });
     try {
@@ -98,6 +116,24 @@ class SweepRun {
  private:
   const JobContext& context() const { return plan_.context(); }
   bool is_first() const { return group_->rank() == 0; }
+
+  /// All processes compute alike: with the set that was asked for, else with that of the tiles
+  /// which are gone on with where all have it, else with the smallest of theirs.
+  void agree_on_instructions() {
+    const bool looks = is_first() && named_ && plan_.question().resume;
+    const std::string recorded =
+        looks ? recorded_instructions(work_folder(context(), named_)) : std::string();
+    const auto texts =
+        group_->exchange(std::string(name_of(context().instructions)) + " " + recorded);
+    if (plan_.question().instructions_given) return;
+    InstructionSet smallest = context().instructions;
+    for (const std::string& text : texts)
+      smallest = std::min(smallest, instruction_set_named(text.substr(0, text.find(' '))));
+    const std::string of_tiles = texts.front().substr(texts.front().find(' ') + 1);
+    for (const InstructionSet set : available_instruction_sets())
+      if (set <= smallest && name_of(set) == of_tiles) return plan_.use(set);
+    plan_.use(smallest);
+  }
 
   void begin() {
     if (!is_first()) return;

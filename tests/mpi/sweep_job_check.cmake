@@ -72,6 +72,17 @@ if(hidden)
 endif()
 require_same_files(resumed)
 
+# Processes that have unlike instruction sets compute with the smallest.
+file(MAKE_DIRECTORY ${WORK}/unlike)
+set(unlike ${sweep} --output ${WORK}/unlike/sweep.csv)
+run_command(${MPIEXEC} ${NUMPROC_FLAG} 1 ${PROGRAM} ${unlike} --instructions baseline
+  : ${NUMPROC_FLAG} 1 ${PROGRAM} ${unlike})
+require_success(unlike)
+file(READ ${WORK}/unlike/sweep.csv-metadata.json metadata)
+if(NOT metadata MATCHES "\"instructions\": \"baseline\"")
+  message(FATAL_ERROR "unlike processes do not compute with the smallest instruction set\n${metadata}")
+endif()
+
 # Three processes show what one does.
 function(require_one_table)
   run_command(${ARGV})

@@ -7,6 +7,7 @@
 
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
@@ -150,12 +151,8 @@ LyapunovResult run_hybrid_lyapunov(HybridMotion<Contact>& motion, const Lyapunov
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<SampledContactMotion>&,
+extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<DriveContact<>>&,
                                                    const LyapunovRun&,
-                                                   const std::function<void()>&);
-extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactDeadZone>&, const LyapunovRun&,
-                                                   const std::function<void()>&);
-extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<ExactBacklash>&, const LyapunovRun&,
                                                    const std::function<void()>&);
 #endif
 

@@ -3,9 +3,9 @@
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_law.hpp"
 #include "holdfast/contact/contact_mode.hpp"
-#include "holdfast/contact/exact_dead_zone.hpp"
-#include "holdfast/core/types.hpp"
-#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/contact/mode_dynamics.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
@@ -16,29 +16,42 @@ namespace holdfast {
 /// Where the law says that the force is not transmitted the computer's command of that sample is
 /// without effect, as in SampledMotion: u_j = 0 from t_j + δ on. The stops of a dead zone touch
 /// from the sample on.
-class SampledContactMotion {
+///
+/// A drive with states of its own follows that command: what it transmits fades with them.
+/// @tparam DrivenPlant  TwoDof<double> or a LinearPlant<double, N>
+template <class DrivenPlant>
+class SampledContactMotionOf {
  public:
+  using Plant = DrivenPlant;                           ///< what the drive moves
+  using State = StateOf<Plant>;                        ///< x, N × 1
+  using Instant = ContactInstantOf<states_of<Plant>>;  ///< what a change depends on
+  using ModeGuards = GuardsOf<states_of<Plant>>;       ///< what ends a mode
+
   static constexpr int modes = 3;  ///< on the lower stop, between the stops, on the upper one
 
   /// @throws InvalidParameter where the law's parameters are not admissible
-  SampledContactMotion(const TwoDof<double>& plant, const BacklashParameters& backlash)
-      : plant_(plant), backlash_(backlash), law_(backlash) {}
+  SampledContactMotionOf(const Plant& plant, const BacklashParameters& backlash)
+      : plant_(plant), readings_(plant), backlash_(backlash), law_(backlash) {}
 
   /// How the state moves in one of the modes. The command is in force in all of them: it is
   /// `commanded` that leaves out what is not transmitted.
-  AffineDynamics dynamics(int mode) const {
+  DynamicsOf<Plant> dynamics(int mode) const {
     const int side = mode - 1;
     if (side != 0)
       return dynamics_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping,
                               0.5 * side * backlash_.width);
-    return {plant_.state_matrix(), plant_.control_input(), plant_.excitation_input()};
+    return engaged_dynamics(plant_);
   }
-  /// The plant whose energy bounds the motion in one of the modes; on a stop that is part of it.
-  TwoDof<double> plant(int mode) const {
+  /// The two masses whose energy bounds the motion in one of the modes; on a stop that is part of
+  /// it.
+  Plant plant(int mode) const {
     return mode == 1
                ? plant_
                : plant_on_stop(plant_, backlash_.contact_stiffness, backlash_.contact_damping);
   }
+
+  /// How states of the plant are read.
+  const PortReadings<Plant>& readings() const { return readings_; }
 
   /// Number of the present mode, 0 … `modes` − 1; always 1 but for a dead zone.
   int mode() const { return side_ + 1; }
@@ -47,37 +60,42 @@ class SampledContactMotion {
   ContactMode word() const { return engaged_ ? ContactMode::engaged : ContactMode::gap; }
   /// u_j (N) of a sample's command: that command, or 0 where the law does not transmit.
   double commanded(double command) const { return engaged_ ? command : 0.0; }
-  /// What the drive transmits (N): all of u, which `commanded` has decided already.
-  double transmitted(const ContactInstant& now) const { return now.command; }
+  /// u_j (N), as `commanded` has decided it; an ideal drive transmits all of it.
+  double transmitted(const Instant& now) const { return now.command; }
   /// Whether the command of the present sample takes effect.
   bool transmits_command() const { return engaged_; }
 
   /// None: nothing changes between the samples.
-  Guards guards() const { return {}; }
+  ModeGuards guards() const { return {}; }
   /// Takes a sample: the law decides on its Δz and Δż what holds up to the next one.
-  void sample(const Vector<double, 4>& state) {
-    engaged_ = law_.step(relative_displacement(state), relative_velocity(state));
+  void sample(const State& state) {
+    engaged_ =
+        law_.step(readings_.relative_displacement(state), readings_.relative_velocity(state));
     side_ = law_.side();
   }
   /// The force or the command has jumped: without effect on the contact.
-  void jumped(const ContactInstant&) {}
+  void jumped(const Instant&) {}
   /// The absorber was displaced against the conductor: the next sample will show it.
   void displaced() {}
   /// What the mode keeps of the state: nothing.
-  void keep(const Vector<double, 4>&, Vector<double, 4>&) const {}
+  void keep(const State&, State&) const {}
   /// Some time has passed: without effect.
   void flowed() {}
   /// Never called: there is no guard whose sign is not known.
   void learn_sign(double) {}
   /// Never called: there is no guard to come to zero.
-  void reached(int, ContactInstant&) {}
+  void reached(int, Instant&) {}
 
  private:
-  TwoDof<double> plant_;
+  Plant plant_;
+  PortReadings<Plant> readings_;
   BacklashParameters backlash_;
   SampledContact law_;
   bool engaged_ = true;
   int side_ = 0;
 };
+
+/// That of the two masses.
+using SampledContactMotion = SampledContactMotionOf<TwoDof<double>>;
 
 }  // namespace holdfast

@@ -20,52 +20,57 @@ namespace holdfast {
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 ///
-/// Work: 12 multiply-adds a period, and a cosine and sine in every `TurningTable::block` of them.
-template <class Scalar>
+/// Work: 4 + 2 N multiply-adds a period, and a cosine and sine in every `TurningTable::block` of
+/// them.
+/// @tparam States  N, the order of the plant
+template <class Scalar, int States = 4>
 class HarmonicForcing {
  public:
-  /// @param input            g_c and g_s, 4 × 1 per newton
+  /// @param input            g_c and g_s, N × 1 per newton
   /// @param excitation       F_m and f
   /// @param sampling_period  τ (s), > 0
-  HarmonicForcing(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
-                  const Scalar& sampling_period)
+  HarmonicForcing(const HarmonicInput<Scalar, States>& input,
+                  const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : table_(input, excitation, sampling_period) {}
 
-  /// The addition (4 × 1) of the present sampling period; goes on to the next one.
-  Vector<Scalar, 4> next() {
-    const std::size_t k = static_cast<std::size_t>(index_) % TurningTable<Scalar>::block;
+  /// The addition (N × 1) of the present sampling period; goes on to the next one.
+  Vector<Scalar, States> next() {
+    const std::size_t k = static_cast<std::size_t>(index_) % TurningTable<Scalar, States>::block;
     if (k == 0) table_.turn_to(index_);
     ++index_;
     return table_.addition(k);
   }
 
  private:
-  TurningTable<Scalar> table_;
+  TurningTable<Scalar, States> table_;
   std::int64_t index_ = 0;
 };
 
 /// The same where sampling and excitation coincide every q samples, f τ = p/q: a table of q
 /// additions, repeated for ever. Copies share the table.
 /// @tparam Scalar  a pack gets the same addition in every lane
-template <class Scalar>
+/// @tparam States  N, the order of the plant
+template <class Scalar, int States = 4>
 class PeriodicForcing {
   using Value = typename Lanes<Scalar>::Value;
 
  public:
-  /// @param input      g_c and g_s, 4 × 1 per newton
+  /// @param input      g_c and g_s, N × 1 per newton
   /// @param amplitude  F_m (N)
   /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; it replaces the product of the two, whose
   ///                   rounding would let them drift apart
-  PeriodicForcing(const HarmonicInput<Value>& input, const Value& amplitude, const Rational& ratio)
+  PeriodicForcing(const HarmonicInput<Value, States>& input, const Value& amplitude,
+                  const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
 
   /// @param additions  one for each of the q sampling periods of a coincidence, not empty
-  explicit PeriodicForcing(std::vector<Vector<Value, 4>> additions)
-      : additions_(std::make_shared<const std::vector<Vector<Value, 4>>>(std::move(additions))) {}
+  explicit PeriodicForcing(std::vector<Vector<Value, States>> additions)
+      : additions_(
+            std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}
 
-  /// The addition (4 × 1) of the present sampling period; goes on to the next one.
-  Vector<Scalar, 4> next() {
-    const Vector<Value, 4>& addition = (*additions_)[phase_];
+  /// The addition (N × 1) of the present sampling period; goes on to the next one.
+  Vector<Scalar, States> next() {
+    const Vector<Value, States>& addition = (*additions_)[phase_];
     if (++phase_ == additions_->size()) phase_ = 0;
     return addition.template cast<Scalar>();
   }
@@ -74,15 +79,16 @@ class PeriodicForcing {
   std::size_t samples() const { return additions_->size(); }
   /// Sampling periods since the last coincidence, 0 … q − 1.
   std::size_t phase() const { return phase_; }
-  /// The q additions (4 × 1), that of phase 0 first.
-  const std::vector<Vector<Value, 4>>& additions() const { return *additions_; }
+  /// The q additions (N × 1), that of phase 0 first.
+  const std::vector<Vector<Value, States>>& additions() const { return *additions_; }
 
  private:
-  static std::vector<Vector<Value, 4>> table_of(const HarmonicInput<Value>& input,
-                                                const Value& amplitude, const Rational& ratio) {
+  static std::vector<Vector<Value, States>> table_of(const HarmonicInput<Value, States>& input,
+                                                     const Value& amplitude,
+                                                     const Rational& ratio) {
     using std::cos;
     using std::sin;
-    std::vector<Vector<Value, 4>> additions(static_cast<std::size_t>(ratio.denominator));
+    std::vector<Vector<Value, States>> additions(static_cast<std::size_t>(ratio.denominator));
     std::int64_t turned = 0;  // p k modulo q
     for (auto& addition : additions) {
       const Value phase = Value(2) * pi<Value> * Value(static_cast<double>(turned)) /
@@ -94,7 +100,7 @@ class PeriodicForcing {
     return additions;
   }
 
-  std::shared_ptr<const std::vector<Vector<Value, 4>>> additions_;
+  std::shared_ptr<const std::vector<Vector<Value, States>>> additions_;
   std::size_t phase_ = 0;
 };
 

@@ -110,34 +110,36 @@ class TurningPhase {
 /// amplitude, frequency and sampling period:
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
-template <class Scalar>
+/// @tparam States  N, the order of the plant
+template <class Scalar, int States = 4>
 class TurningTable {
  public:
   /// Periods for which one turn_to() is enough.
   static constexpr std::size_t block = TurningPhase<Scalar>::block;
 
   /// Call `turn_to` before the first `addition`.
-  /// @param input            g_c and g_s, 4 × 1 per newton
+  /// @param input            g_c and g_s, N × 1 per newton
   /// @param excitation       F_m and f
   /// @param sampling_period  τ (s), > 0
-  TurningTable(const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
-               const Scalar& sampling_period)
+  TurningTable(const HarmonicInput<Scalar, States>& input,
+               const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : input_(input), phase_(excitation, sampling_period) {}
 
   /// Prepares the periods from `index` on; call at every multiple of `block` before its period.
   void turn_to(std::int64_t index) { phase_.turn_to(index); }
 
-  /// The addition (4 × 1) of the period `k` (< block) after the last prepared one: 12
+  /// The addition (N × 1) of the period `k` (< block) after the last prepared one: 4 + 2 N
   /// multiply-adds.
-  Vector<Scalar, 4> addition(std::size_t k) const {
+  Vector<Scalar, States> addition(std::size_t k) const {
     const ExcitationSample<Scalar> now = phase_.at(k);
-    Vector<Scalar, 4> sum;
-    for (int i = 0; i < 4; ++i) sum[i] = input_.cosine[i] * now.cosine + input_.sine[i] * now.sine;
+    Vector<Scalar, States> sum(input_.cosine.size());
+    for (Eigen::Index i = 0; i < sum.size(); ++i)
+      sum[i] = input_.cosine[i] * now.cosine + input_.sine[i] * now.sine;
     return sum;
   }
 
  private:
-  HarmonicInput<Scalar> input_;
+  HarmonicInput<Scalar, States> input_;
   TurningPhase<Scalar> phase_;
 };
 

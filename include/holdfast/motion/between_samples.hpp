@@ -8,6 +8,8 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/forced_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -17,20 +19,25 @@ namespace holdfast {
 ///     t_j)
 ///
 /// with the delay min(δ, s), since the contact and the force change at samples only.
-class BetweenSamples {
+/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+template <class Plant>
+class BetweenSamplesOf {
  public:
+  /// N, the order of the plant.
+  static constexpr int states = states_of<Plant>;
+
   /// @param loop  of the motion; admissible, which is not asked here
-  explicit BetweenSamples(const ForcedLoop<double>& loop) : loop_(loop) {}
+  explicit BetweenSamplesOf(const ForcedLoop<double, Plant>& loop) : loop_(loop) {}
 
   /// @param sample          z_j, u_j and j
   /// @param previous_force  u_{j−1} (N)
   /// @param after           s (s), 0 ≤ s ≤ τ
   /// Work: three matrix exponentials, some microseconds.
-  Vector<double, 4> state(const MotionSample<double>& sample, double previous_force,
-                          double after) const {
+  StateOf<Plant> state(const MotionSample<double, states>& sample, double previous_force,
+                       double after) const {
     const Sampling<double> part{after, std::min(loop_.sampling.processing_delay, after)};
-    const SampledLoop<double> step = sampled_loop(loop_.plant, part);
-    const HarmonicInput<double> input =
+    const SampledLoop<double, states> step = sampled_loop(loop_.plant, part);
+    const HarmonicInput<double, states> input =
         harmonic_input(loop_.plant, step, loop_.hold, loop_.excitation.angular_frequency());
     const auto force = sample_excitation(loop_.excitation, loop_.sampling.period, sample.index);
     return step.transition * sample.state + step.previous_force * previous_force +
@@ -39,10 +46,13 @@ class BetweenSamples {
   }
 
   /// The loop with its excitation, as given.
-  const ForcedLoop<double>& loop() const { return loop_; }
+  const ForcedLoop<double, Plant>& loop() const { return loop_; }
 
  private:
-  ForcedLoop<double> loop_;
+  ForcedLoop<double, Plant> loop_;
 };
+
+/// That of the two masses.
+using BetweenSamples = BetweenSamplesOf<TwoDof<double>>;
 
 }  // namespace holdfast

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <variant>
+
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/contact/exact_backlash.hpp"
@@ -14,24 +17,41 @@ struct ContactTangent {
   static constexpr int sticking = -1;
   /// Whether the gap lies where the drive reversed, in a mode.
   static constexpr bool anchored(int) { return false; }
-  /// Gradient of the guard at which a mode is left.
-  static Vector<double, 4> gradient(int) { return displacement_row(); }
 };
 
 /// The same for the gap of ExactBacklash, which lies where Δż last reversed, at Δz = g.
-template <>
-struct ContactTangent<ExactBacklash> {
+template <class Plant>
+struct ContactTangent<ExactBacklashOf<Plant>> {
   /// Number of `ContactMode::stick`.
   static constexpr int sticking = static_cast<int>(ContactMode::stick);
   /// True in the gap and in stick; while engaged g is without effect.
   static constexpr bool anchored(int mode) {
     return mode != static_cast<int>(ContactMode::engaged);
   }
-  /// By z: of Δz − g where the mode is anchored, of Δż while engaged.
-  static Vector<double, 4> gradient(int from) {
-    return anchored(from) ? displacement_row() : velocity_row();
-  }
 };
+
+/// The mode of a contact in which Δż = 0; −1: there is none.
+template <class Contact>
+int sticking_mode(const Contact&) {
+  return ContactTangent<Contact>::sticking;
+}
+/// The same of a law chosen at run time.
+template <class Plant>
+int sticking_mode(const DriveContact<Plant>& contact) {
+  return std::visit([](const auto& law) { return sticking_mode(law); }, contact.law());
+}
+
+/// Whether the gap of a contact lies where the drive reversed, in a mode: its surface is that of
+/// Δz − g, else that of Δż for a moving gap and of Δz for stops.
+template <class Contact>
+bool is_anchored(const Contact&, int mode) {
+  return ContactTangent<Contact>::anchored(mode);
+}
+/// The same of a law chosen at run time.
+template <class Plant>
+bool is_anchored(const DriveContact<Plant>& contact, int mode) {
+  return std::visit([mode](const auto& law) { return is_anchored(law, mode); }, contact.law());
+}
 
 namespace detail {
 

@@ -25,16 +25,20 @@ namespace holdfast {
 template <class Contact>
 class FlowTrace {
  public:
+  /// x, N × 1, of the motion.
+  using State = typename EventMotion<Contact>::State;
+
   /// A stretch without a change of contact or command, short enough for one series.
   struct Part {
-    double begin,           ///< s after the sample
-        length;             ///< s, ≥ 0
-    ContactMode mode;       ///< all through the stretch
-    AffineExpansion state;  ///< over the length
+    double begin,                                    ///< s after the sample
+        length;                                      ///< s, ≥ 0
+    ContactMode mode;                                ///< all through the stretch
+    typename EventMotion<Contact>::Expansion state;  ///< over the length
   };
 
   /// Keeps the address of the motion.
-  explicit FlowTrace(const HybridMotion<Contact>& motion) : motion_(&motion) {}
+  explicit FlowTrace(const HybridMotion<Contact>& motion)
+      : motion_(&motion), state_(motion.state()) {}
 
   /// To be called after `sense()` and before `advance(trace)`.
   void begin() {
@@ -43,8 +47,8 @@ class FlowTrace {
     command_ = motion_->previous_command();
   }
 
-  /// The state (4 × 1) some time (s) after the sample, up to the next one.
-  Vector<double, 4> state(double after) const {
+  /// The state (N × 1) some time (s) after the sample, up to the next one.
+  State state(double after) const {
     const Part& part = part_at(after);
     return part.state.state(
         part.length > 0.0 ? std::clamp((after - part.begin) / part.length, 0.0, 1.0) : 0.0);
@@ -78,7 +82,8 @@ class FlowTrace {
   /// For HybridMotion::advance, at t_j + δ: from here on u_j is in force.
   void commanded() { command_ = motion_->command(); }
   /// For HybridMotion::advance: a change of contact, which the next part shows.
-  void switched(int, int, int, const ContactInstant&) {}
+  template <class Instant>
+  void switched(int, int, int, const Instant&) {}
 
  private:
   const Part& part_at(double after) const {
@@ -90,7 +95,7 @@ class FlowTrace {
 
   const HybridMotion<Contact>* motion_;
   std::vector<Part> parts_;
-  Vector<double, 4> state_ = Vector<double, 4>::Zero();
+  State state_;
   double command_ = 0.0;
 };
 

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/control/controller.hpp"
@@ -24,6 +26,11 @@
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/subinterval_step.hpp"
 #include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/plant/decaying_norm.hpp"
+#include "holdfast/plant/energy.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -47,9 +54,14 @@ inline void validate(const DigitalLoop& loop) {
 }
 
 /// What is known of a motion at one sample, with the mode of its contact from then on.
-struct HybridSample : MotionSample<double> {
+/// @tparam States  N, the order of the plant
+template <int States>
+struct HybridSampleOf : MotionSample<double, States> {
   ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
 };
+
+/// That of the two masses.
+using HybridSample = HybridSampleOf<4>;
 
 /// What a motion has met with.
 struct SwitchCounts {
@@ -69,8 +81,25 @@ struct IgnoreFlow {
   void commanded() const {}
   /// The contact changed: the numbers of the mode before and after, that of the guard that came to
   /// zero (−1: a jump of the command or the force did it), the instant.
-  void switched(int, int, int, const ContactInstant&) const {}
+  template <class Instant>
+  void switched(int, int, int, const Instant&) const {}
 };
+
+namespace detail {
+
+/// The plant that a contact says it drives; the two masses where it says nothing.
+template <class Contact, class = void>
+struct DrivenPlant {
+  using type = TwoDof<double>;
+  static PortReadings<type> readings(const Contact&) { return {}; }
+};
+template <class Contact>
+struct DrivenPlant<Contact, std::void_t<typename Contact::Plant>> {
+  using type = typename Contact::Plant;
+  static const PortReadings<type>& readings(const Contact& contact) { return contact.readings(); }
+};
+
+}  // namespace detail
 
 /// The motion of the sampled loop whose contact may change between the samples.
 ///
@@ -83,10 +112,22 @@ struct IgnoreFlow {
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
 /// change some 2000 multiply-adds more. Nothing is allocated.
-/// @tparam Contact  ExactBacklash, ExactDeadZone or SampledContactMotion
-template <class Contact>
-class HybridMotion {
+/// @tparam Contact  DriveContact, whose law is chosen at run time; one of its laws; or any other
+///                  automaton with the members of a law. It tells the plant, the two masses or a
+///                  LinearPlant
+template <class Contact = DriveContact<>>
+class EventMotion {
  public:
+  /// What the contact drives.
+  using Plant = typename detail::DrivenPlant<Contact>::type;
+  /// N, the order of the plant.
+  static constexpr int states = states_of<Plant>;
+  using State = StateOf<Plant>;                 ///< x, N × 1
+  using Sample = HybridSampleOf<states>;        ///< what `sense` takes
+  using Instant = ContactInstantOf<states>;     ///< what a change of contact depends on
+  using Dynamics = AffineDynamicsOf<states>;    ///< the motion in one mode
+  using Expansion = AffineExpansionOf<states>;  ///< its Taylor series
+
   /// Most changes of contact in one sampling period; beyond them SwitchCounts::accumulates is set.
   static constexpr int most_switches = 1000;
   /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
@@ -95,9 +136,9 @@ class HybridMotion {
 
   /// @throws InvalidParameter where the loop is not admissible, or turns more than
   ///         `most_turns_per_sample` in one sampling period
-  HybridMotion(const DigitalLoop& loop, const Contact& contact,
-               const Vector<double, 4>& initial_state)
+  EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
+        readings_(detail::DrivenPlant<Contact>::readings(contact)),
         controller_(loop.gains, loop.limits),
         clock_(loop.sampling.period, loop.jitter),
         force_(loop.force, loop.hold, loop.sampling.period),
@@ -110,15 +151,16 @@ class HybridMotion {
   }
 
   /// Takes sample j: the command, and the contact where it depends on it. Call once per sample.
-  HybridSample sense() {
+  Sample sense() {
     const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
     force_.begin_sample(index_, time());
     switches_ = 0;
     contact_.sample(state_);
-    command_ = contact_.commanded(controller_.command(state_[0], state_[1], elapsed));
-    const ContactInstant now{state_, first_command(), force_at(0)};
+    command_ = contact_.commanded(controller_.command(
+        readings_.measured_displacement(state_), readings_.measured_velocity(state_), elapsed));
+    const Instant now{state_, first_command(), force_at(0)};
     jump(now);
-    HybridSample sample;
+    Sample sample;
     sample.index = index_;
     sample.time = time();
     sample.state = state_;
@@ -151,7 +193,7 @@ class HybridMotion {
 
   /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
   void displace_conductor(double displacement) {
-    state_[0] += displacement;
+    readings_.displace_conductor(state_, displacement);
     contact_.displaced();
   }
 
@@ -159,8 +201,8 @@ class HybridMotion {
   std::int64_t index() const { return index_; }
   /// t_j (s).
   double time() const { return clock_.time(index_); }
-  /// z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
-  const Vector<double, 4>& state() const { return state_; }
+  /// x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
+  const State& state() const { return state_; }
   /// u_{j−1} (N), which is in force until t_j + δ.
   double previous_command() const { return previous_command_; }
   /// u_j (N), once `sense()` has taken sample j.
@@ -180,14 +222,14 @@ class HybridMotion {
   /// 1 / the largest length (s) over which a series of `most_terms` terms is exact, in a mode.
   double rate(int mode) const { return rate_[at(mode)]; }
   /// The motion in one of the modes of the contact.
-  const AffineDynamics& dynamics(int mode) const { return dynamics_[at(mode)]; }
+  const Dynamics& dynamics(int mode) const { return dynamics_[at(mode)]; }
 
   /// Forgets what the motion has met with.
   void restart_counts() { counts_ = {}; }
 
   /// Goes on at sample `index` from a state, a command in force until t_j + δ, and a contact. What
   /// the controller last read stays.
-  void restore(std::int64_t index, const Vector<double, 4>& state, double previous_command,
+  void restore(std::int64_t index, const State& state, double previous_command,
                const Contact& contact) {
     index_ = index;
     state_ = state;
@@ -196,10 +238,16 @@ class HybridMotion {
   }
 
  private:
+  /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
+  using Norm = std::conditional_t<detail::HasPorts<Plant>::value, DecayingNorm<states>, EnergyNorm>;
+  using Bound = QuietBoundOf<Norm, states>;
+  using ModeGuard = GuardOf<states>;
+  using ModeGuards = GuardsOf<states>;
+
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
 
   void prepare(int mode) {
-    const AffineDynamics dynamics = contact_.dynamics(mode);
+    const Dynamics dynamics = contact_.dynamics(mode);
     dynamics_[at(mode)] = dynamics;
     const double fastest =
         std::max(balanced_norm(dynamics.state), force_.highest_angular_frequency());
@@ -225,10 +273,10 @@ class HybridMotion {
     return loop_.sampling.processing_delay > 0.0 ? previous_command_ : command_;
   }
 
-  void jump(const ContactInstant& now) { jump(now, static_cast<const IgnoreFlow*>(nullptr)); }
+  void jump(const Instant& now) { jump(now, static_cast<const IgnoreFlow*>(nullptr)); }
 
   template <class Observer>
-  void jump(const ContactInstant& now, Observer* observer) {
+  void jump(const Instant& now, Observer* observer) {
     const int before = contact_.mode();
     contact_.jumped(now);
     if (contact_.mode() == before) return;
@@ -254,17 +302,14 @@ class HybridMotion {
   /// A whole part of the period at once, if it is sure that the contact does not change in it.
   bool flow_quietly(double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
-    const Guards guards = contact_.guards();
+    const ModeGuards guards = contact_.guards();
     for (int g = 0; g < guards.count; ++g)
       if (!may_be_quiet(guards.guard[at(g)])) return false;
     const int mode = contact_.mode();
-    Vector<double, 4> after =
-        steps_[part][at(mode)].state(state_, command, force_.held(), force_.phases());
+    State after = steps_[part][at(mode)].state(state_, command, force_.held(), force_.phases());
     contact_.keep(state_, after);
     if (guards.count > 0) {
-      if (bounds_[at(mode)] == std::nullopt)
-        bounds_[at(mode)].emplace(dynamics_[at(mode)], contact_.plant(mode), guards.guard[0],
-                                  force_.bounds());
+      if (bounds_[at(mode)] == std::nullopt) make_bound(mode, guards.guard[0]);
       const double sag = bounds_[at(mode)]->sag(state_, command, length);
       for (int g = 0; g < guards.count; ++g)
         if (!(least_at_ends(guards.guard[at(g)], after, command, part) > sag)) return false;
@@ -274,10 +319,21 @@ class HybridMotion {
     return true;
   }
 
-  static bool may_be_quiet(const Guard& guard) { return guard.zeros == 0 && !guard.unsigned_yet; }
+  void make_bound(int mode, const ModeGuard& guard) {
+    const Dynamics& dynamics = dynamics_[at(mode)];
+    if constexpr (detail::HasPorts<Plant>::value) {
+      bounds_[at(mode)].emplace(dynamics, dynamics.state, guard, force_.bounds());
+    } else {
+      bounds_[at(mode)].emplace(dynamics, contact_.plant(mode), guard, force_.bounds());
+    }
+  }
+
+  static bool may_be_quiet(const ModeGuard& guard) {
+    return guard.zeros == 0 && !guard.unsigned_yet;
+  }
 
   /// The lesser of a guard's values at the ends of a part of the period.
-  double least_at_ends(const Guard& guard, const Vector<double, 4>& after, double command,
+  double least_at_ends(const ModeGuard& guard, const State& after, double command,
                        std::size_t part) const {
     double begin = guard.state.dot(state_), end = guard.state.dot(after);
     if (guard.force != 0.0) {
@@ -295,7 +351,7 @@ class HybridMotion {
     const double length = std::min(wanted, 1.0 / rate_[at(mode)]);
     Series force(terms_for(rate_[at(mode)] * length));
     force_.expand(begin, length, force);
-    const AffineExpansion motion(dynamics_[at(mode)], state_, command, force, length);
+    const Expansion motion(dynamics_[at(mode)], state_, command, force, length);
     const auto [guard, root] = earliest(motion, command, force);
     const bool whole = root.outcome == RootOutcome::none;
     const double passed = whole ? length : root.at * length;
@@ -318,10 +374,10 @@ class HybridMotion {
     FirstRoot root;
   };
 
-  Earliest earliest(const AffineExpansion& motion, double command, const Series& force) {
+  Earliest earliest(const Expansion& motion, double command, const Series& force) {
     Earliest first{-1, {RootOutcome::none, 1.0, 0}};
     if (switches_ > most_switches) return first;
-    const Guards guards = contact_.guards();
+    const ModeGuards guards = contact_.guards();
     for (int g = 0; g < guards.count; ++g) {
       const Series series = series_of(guards.guard[at(g)], motion, command, force);
       const FirstRoot root = first_root(series);
@@ -331,7 +387,7 @@ class HybridMotion {
     return first;
   }
 
-  Series series_of(const Guard& guard, const AffineExpansion& motion, double command,
+  Series series_of(const ModeGuard& guard, const Expansion& motion, double command,
                    const Series& force) {
     Series series = (guard.state.transpose() * motion.coefficients()).transpose();
     if (guard.force != 0.0) series += guard.force * force;
@@ -357,7 +413,7 @@ class HybridMotion {
 
   /// Leading coefficients that are nothing but rounding are zero: just after a change of contact
   /// the guard may not have come out of its own rounding yet.
-  static void clear_rounding(const Guard& guard, const AffineExpansion& motion, double command,
+  static void clear_rounding(const ModeGuard& guard, const Expansion& motion, double command,
                              const Series& force, Series& series) {
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
     double known = std::abs(guard.command * command) + std::abs(guard.constant);
@@ -376,28 +432,34 @@ class HybridMotion {
   template <class Observer>
   void change(int guard, double command, double force, Observer&& observer) {
     const int before = contact_.mode();
-    ContactInstant now{state_, command, force};
+    Instant now{state_, command, force};
     contact_.reached(guard, now);
-    observer.switched(before, contact_.mode(), guard, ContactInstant{state_, command, force});
+    observer.switched(before, contact_.mode(), guard, Instant{state_, command, force});
     state_ = now.state;
     count();
   }
 
   DigitalLoop loop_;
+  PortReadings<Plant> readings_;
   Controller controller_;
   SamplingClock clock_;
   ForceOverSamples force_;
   Contact contact_;
-  Vector<double, 4> state_;
-  std::array<AffineDynamics, Contact::modes> dynamics_;
+  State state_;
+  std::array<Dynamics, Contact::modes> dynamics_;
   std::array<double, Contact::modes> rate_{};
-  std::array<std::vector<SegmentStep>, 2> steps_;  // of the parts before and after t_j + δ
-  std::vector<PeriodInstant> instants_;            // at which they begin and end
-  std::array<std::optional<QuietBound>, Contact::modes> bounds_;
+  std::array<std::vector<SegmentStepOf<states>>, 2>
+      steps_;                            // of the parts before and after t_j + δ
+  std::vector<PeriodInstant> instants_;  // at which they begin and end
+  std::array<std::optional<Bound>, Contact::modes> bounds_;
   double previous_command_ = 0.0, command_ = 0.0;
   std::int64_t index_ = 0;
   int switches_ = 0;
   SwitchCounts counts_;
 };
+
+/// The motion with a contact of a type of its own; one of DriveContact serves all laws.
+template <class Contact>
+using HybridMotion = EventMotion<Contact>;
 
 }  // namespace holdfast

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
@@ -12,15 +13,18 @@
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
 /// The sampled loop with its excitation and its backlash: all that a motion depends on beside its
 /// initial state.
-template <class Scalar>
+/// @tparam Plant  TwoDof<Scalar> or a LinearPlant<Scalar, N>
+template <class Scalar, class Plant = TwoDof<Scalar>>
 struct ForcedLoop {
-  TwoDof<Scalar> plant;                   ///< conductor and absorber
+  Plant plant;                            ///< conductor, absorber and what else has states
   Sampling<Scalar> sampling;              ///< τ and δ
   PdGains<Scalar> gains;                  ///< P and D
   HarmonicExcitation<Scalar> excitation;  ///< F_m and f
@@ -29,7 +33,8 @@ struct ForcedLoop {
 };
 
 /// @throws InvalidParameter where any part is not admissible
-inline void validate(const ForcedLoop<double>& loop) {
+template <class Plant>
+void validate(const ForcedLoop<double, Plant>& loop) {
   validate(loop.plant);
   validate(loop.sampling);
   validate(loop.gains);
@@ -38,14 +43,16 @@ inline void validate(const ForcedLoop<double>& loop) {
 }
 
 /// The same numbers in another number type, for instance `long double`.
-template <class To, class From>
-ForcedLoop<To> converted(const ForcedLoop<From>& loop) {
-  return {converted<To>(loop.plant),
-          {To(loop.sampling.period), To(loop.sampling.processing_delay)},
-          {To(loop.gains.proportional), To(loop.gains.differential)},
-          {To(loop.excitation.amplitude), To(loop.excitation.frequency)},
-          To(loop.backlash_width),
-          loop.hold};
+template <class To, class From, class Plant>
+auto converted(const ForcedLoop<From, Plant>& loop) {
+  const auto plant = converted<To>(loop.plant);
+  return ForcedLoop<To, std::decay_t<decltype(plant)>>{
+      plant,
+      {To(loop.sampling.period), To(loop.sampling.processing_delay)},
+      {To(loop.gains.proportional), To(loop.gains.differential)},
+      {To(loop.excitation.amplitude), To(loop.excitation.frequency)},
+      To(loop.backlash_width),
+      loop.hold};
 }
 
 /// f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods of the
@@ -55,8 +62,9 @@ ForcedLoop<To> converted(const ForcedLoop<From>& loop) {
 ///                         every number is a fraction with a larger q
 /// @return nothing where f τ is no fraction with q ≤ largest_samples: then the two count as
 ///         incommensurate
-inline std::optional<Rational> forcing_ratio(const ForcedLoop<double>& loop,
-                                             std::int64_t largest_samples = 1'000'000) {
+template <class Plant>
+std::optional<Rational> forcing_ratio(const ForcedLoop<double, Plant>& loop,
+                                      std::int64_t largest_samples = 1'000'000) {
   if (loop.excitation.amplitude == 0.0) return Rational{0, 1};
   const double ratio = loop.excitation.frequency * loop.sampling.period;
   if (!(ratio < 1e15)) return std::nullopt;
@@ -65,8 +73,8 @@ inline std::optional<Rational> forcing_ratio(const ForcedLoop<double>& loop,
 
 namespace detail {
 
-template <class Scalar>
-void validate_motion(const ForcedLoop<Scalar>& loop, const Vector<Scalar, 4>& initial_state) {
+template <class Scalar, class Plant, class State>
+void validate_motion(const ForcedLoop<Scalar, Plant>& loop, const State& initial_state) {
   validate(converted<double>(loop));
   require_finite("initial state", static_cast<double>(initial_state.sum()), "");
 }
@@ -74,36 +82,61 @@ void validate_motion(const ForcedLoop<Scalar>& loop, const Vector<Scalar, 4>& in
 }  // namespace detail
 
 /// The motion of a sampled loop whose forcing repeats every q samples.
-template <class Scalar>
-using PeriodicallyForcedMotion = SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar>>;
+template <class Scalar, class Plant = TwoDof<Scalar>>
+using PeriodicallyForcedMotion =
+    SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar, states_of<Plant>>, Plant>;
 
-/// The motion from an initial state [z₁, ż₁, z₂, ż₂], the forcing being exactly periodic.
+/// The motion of a sampled loop under a harmonic force.
+template <class Scalar, class Plant = TwoDof<Scalar>>
+using HarmonicallyForcedMotion =
+    SampledMotion<Scalar, Backlash<Scalar>, HarmonicForcing<Scalar, states_of<Plant>>, Plant>;
+
+/// The motion from an initial state, the forcing being exactly periodic.
 /// @param loop           the phases of the forcing come from `ratio`, not from its f
 /// @param ratio          of forcing_ratio()
-/// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
+/// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
-template <class Scalar>
-PeriodicallyForcedMotion<Scalar> periodically_forced_motion(
-    const ForcedLoop<Scalar>& loop, const Rational& ratio, const Vector<Scalar, 4>& initial_state) {
+template <class Scalar, class Plant>
+PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
+    const ForcedLoop<Scalar, Plant>& loop, const Rational& ratio,
+    const StateOf<Plant>& initial_state) {
   detail::validate_motion(loop, initial_state);
-  const SampledLoop<Scalar> sampled = sampled_loop(loop.plant, loop.sampling);
-  const HarmonicInput<Scalar> input =
+  const auto sampled = sampled_loop(loop.plant, loop.sampling);
+  const auto input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
-  return {sampled, loop.gains, PeriodicForcing<Scalar>(input, loop.excitation.amplitude, ratio),
-          Backlash<Scalar>(loop.backlash_width), initial_state};
+  using Forcing = PeriodicForcing<Scalar, states_of<Plant>>;
+  return {sampled,
+          loop.gains,
+          Forcing(input, loop.excitation.amplitude, ratio),
+          Backlash<Scalar>(loop.backlash_width),
+          initial_state,
+          PortReadings<Plant>(loop.plant)};
 }
 
-/// The motion from an initial state [z₁, ż₁, z₂, ż₂], whatever the ratio of the frequencies.
+/// The motion from an initial state, whatever the ratio of the frequencies.
+/// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
-template <class Scalar>
-SampledMotion<Scalar> harmonically_forced_motion(const ForcedLoop<Scalar>& loop,
-                                                 const Vector<Scalar, 4>& initial_state) {
+template <class Scalar, class Plant>
+HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
+    const ForcedLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state) {
   detail::validate_motion(loop, initial_state);
-  const SampledLoop<Scalar> sampled = sampled_loop(loop.plant, loop.sampling);
-  const HarmonicInput<Scalar> input =
+  const auto sampled = sampled_loop(loop.plant, loop.sampling);
+  const auto input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
-  return {sampled,      loop.gains, input, loop.excitation, Backlash<Scalar>(loop.backlash_width),
-          initial_state};
+  return {sampled,
+          loop.gains,
+          input,
+          loop.excitation,
+          Backlash<Scalar>(loop.backlash_width),
+          initial_state,
+          PortReadings<Plant>(loop.plant)};
 }
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HarmonicallyForcedMotion<double> harmonically_forced_motion(
+    const ForcedLoop<double>&, const StateOf<TwoDof<double>>&);
+extern template PeriodicallyForcedMotion<double> periodically_forced_motion(
+    const ForcedLoop<double>&, const Rational&, const StateOf<TwoDof<double>>&);
+#endif
 
 }  // namespace holdfast

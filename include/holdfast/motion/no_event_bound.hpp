@@ -18,20 +18,28 @@ namespace holdfast {
 ///
 ///     g̈ = ℓᵀA² z + ℓᵀA w + ℓᵀ ẇ + m F̈     for g = ℓᵀz + m F + const,
 ///
-/// and ‖z‖ in the norm of the energy grows by no more than ‖w‖ h (plant/energy.hpp). The bound
-/// holds for every guard of a mode that has the same |ℓ| and |m|.
-class QuietBound {
+/// and ‖z‖ in the norm of the energy (plant/energy.hpp), or another that A does not let grow
+/// (plant/decaying_norm.hpp), grows by no more than ‖w‖ h. The bound
+/// holds for every guard of a mode that has the same |ℓ| and |m|. In an infinite norm it holds of
+/// nothing: the sag is infinite or no number.
+/// @tparam Norm    EnergyNorm of the two masses, DecayingNorm of a plant of any order
+/// @tparam States  N, the order of the plant
+template <class Norm, int States>
+class QuietBoundOf {
  public:
   /// @param dynamics  A, b, c and the drift of a mode
-  /// @param plant     the one whose energy bounds the motion in that mode, admissible
+  /// @param bounded   what the norm is made of: the two masses whose energy bounds the motion in
+  /// that
+  ///                  mode, or A
   /// @param guard     one of the mode's, of which ℓ and m count
   /// @param force     bounds of the excitation
-  QuietBound(const AffineDynamics& dynamics, const TwoDof<double>& plant, const Guard& guard,
-             const ForceBounds& force)
-      : energy_(plant),
+  template <class Bounded>
+  QuietBoundOf(const AffineDynamicsOf<States>& dynamics, const Bounded& bounded,
+               const GuardOf<States>& guard, const ForceBounds& force)
+      : energy_(bounded),
         command_growth_(energy_(dynamics.command)),
         other_growth_(energy_(dynamics.drift) + energy_(dynamics.force) * force.value) {
-    const Vector<double, 4> once = dynamics.state.transpose() * guard.state;
+    const Vector<double, States> once = dynamics.state.transpose() * guard.state;
     by_state_ = energy_.dual(dynamics.state.transpose() * once);
     by_command_ = std::abs(once.dot(dynamics.command));
     by_force_ = std::abs(once.dot(dynamics.drift)) +
@@ -41,7 +49,7 @@ class QuietBound {
   }
 
   /// How far below the chord of its ends a guard may come.
-  double sag(const Vector<double, 4>& begin, double command, double length) const {
+  double sag(const Vector<double, States>& begin, double command, double length) const {
     const double largest =
         energy_(begin) + length * (command_growth_ * std::abs(command) + other_growth_);
     const double bend = by_state_ * largest + by_command_ * std::abs(command) + by_force_;
@@ -49,9 +57,12 @@ class QuietBound {
   }
 
  private:
-  EnergyNorm energy_;
+  Norm energy_;
   double command_growth_, other_growth_;
   double by_state_, by_command_, by_force_;
 };
+
+/// That of the two masses.
+using QuietBound = QuietBoundOf<EnergyNorm, 4>;
 
 }  // namespace holdfast

@@ -3,44 +3,43 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
-#include <utility>
 
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/contact/exact_dead_zone.hpp"
-#include "holdfast/contact/sampled_law.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
-/// When the drive enters and leaves its backlash.
-enum class Switching : std::uint8_t {
-  sampled,  ///< at samples, by the law's rule for them
-  exact,    ///< when it happens; `kollar`, `immediate` and `play` are one law then
-};
-
 /// A loop as it is built: any law of the backlash, switching at samples or when it happens, any
 /// excitation, the limits of its sensors, drive and clock.
-struct RealLoop {
-  TwoDof<double> plant;                      ///< conductor and absorber
+/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+template <class Plant>
+struct RealLoopOf {
+  Plant plant;                               ///< conductor, absorber and what else has states
   DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
   BacklashParameters backlash = {};          ///< the law; by itself `kollar` with r₀ = 0
   Switching switching = Switching::sampled;  ///< when the drive enters and leaves its backlash
 };
 
+/// That of the two masses.
+using RealLoop = RealLoopOf<TwoDof<double>>;
+
 /// @throws InvalidParameter where any part is not admissible
-inline void validate(const RealLoop& loop) {
+template <class Plant>
+void validate(const RealLoopOf<Plant>& loop) {
   validate(loop.plant);
   validate(loop.digital);
   validate(loop.backlash);
 }
 
 /// The loop of the paper's model as one that is built.
-inline RealLoop real_loop(const ForcedLoop<double>& loop) {
+template <class Plant>
+RealLoopOf<Plant> real_loop(const ForcedLoop<double, Plant>& loop) {
   return {loop.plant,
           {loop.sampling, loop.gains, composed_force(loop.excitation), loop.hold},
           {ContactLaw::kollar, loop.backlash_width},
@@ -70,29 +69,23 @@ inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   return Rational{first->numerator * (together / first->denominator), together};
 }
 
-/// Calls `visit` with the motion of the loop from [z₁, ż₁, z₂, ż₂], a HybridMotion whose contact is
-/// of the type that the loop asks for.
-///
-///     with_motion(loop, Vector<double, 4>::Zero(), [](auto motion) { motion.sense(); … });
-///
-/// @return what `visit` returns, of one type for all of them
+/// The motion of the loop from [z₁, ż₁, z₂, ż₂].
 /// @throws InvalidParameter where the loop is not admissible
-template <class Visit>
-auto with_motion(const RealLoop& loop, const Vector<double, 4>& initial_state, Visit&& visit) {
+template <class Plant>
+EventMotion<DriveContact<Plant>> event_motion(const RealLoopOf<Plant>& loop,
+                                              const StateOf<Plant>& initial_state) {
   validate(loop);
-  const BacklashParameters& backlash = loop.backlash;
-  if (loop.switching == Switching::sampled) {
-    const SampledContactMotion contact(loop.plant, backlash);
-    return visit(HybridMotion<SampledContactMotion>(loop.digital, contact, initial_state));
-  }
-  if (backlash.law == ContactLaw::dead_zone) {
-    const ExactDeadZone contact(loop.plant, backlash.width, backlash.contact_stiffness,
-                                backlash.contact_damping, initial_state);
-    return visit(HybridMotion<ExactDeadZone>(loop.digital, contact, initial_state));
-  }
-  const double width = backlash.law == ContactLaw::none ? 0.0 : backlash.width;
-  return visit(
-      HybridMotion<ExactBacklash>(loop.digital, ExactBacklash(loop.plant, width), initial_state));
+  return {loop.digital,
+          DriveContact<Plant>(loop.plant, loop.backlash, loop.switching, initial_state),
+          initial_state};
+}
+
+/// Calls `visit` with event_motion(loop, initial_state). @return what it returns
+/// @throws InvalidParameter where the loop is not admissible
+template <class Plant, class Visit>
+auto with_motion(const RealLoopOf<Plant>& loop, const StateOf<Plant>& initial_state,
+                 Visit&& visit) {
+  return visit(event_motion(loop, initial_state));
 }
 
 }  // namespace holdfast

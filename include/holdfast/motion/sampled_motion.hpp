@@ -11,27 +11,31 @@
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
 /// What is known of the motion at one sample.
-template <class Scalar>
+/// @tparam States  N, the order of the plant
+template <class Scalar, int States = 4>
 struct MotionSample {
-  std::int64_t index;       ///< j
-  Scalar time;              ///< t_j = j τ (s)
-  Vector<Scalar, 4> state;  ///< z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
-  Scalar control_force;     ///< u_j (N), applied from t_j + δ to t_{j+1} + δ; 0 in the backlash
-  Mask<Scalar> engaged;     ///< true where the drive transmits, false in the backlash
+  std::int64_t index;            ///< j
+  Scalar time;                   ///< t_j = j τ (s)
+  Vector<Scalar, States> state;  ///< x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂]
+  Scalar control_force;  ///< u_j (N), applied from t_j + δ to t_{j+1} + δ; 0 in the backlash
+  Mask<Scalar> engaged;  ///< true where the drive transmits, false in the backlash
 };
 
 /// All that the coming samples of a motion depend on beside the forcing.
 /// @tparam LawMemory  what the backlash remembers
-template <class Scalar, class LawMemory>
+/// @tparam States     N, the order of the plant
+template <class Scalar, class LawMemory, int States = 4>
 struct MotionMemory {
-  Vector<Scalar, 4> state;  ///< z_j = [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
-  Scalar previous_force;    ///< u_{j−1} (N), which acts until t_j + δ
-  LawMemory backlash;       ///< before sample j
+  Vector<Scalar, States> state;  ///< x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂]
+  Scalar previous_force;         ///< u_{j−1} (N), which acts until t_j + δ
+  LawMemory backlash;            ///< before sample j
 };
 
 /// The motion of the sampled loop with backlash, one sample at a time.
@@ -41,27 +45,38 @@ struct MotionMemory {
 ///
 ///     z_{j+1} = A_d z_j + Γ₁ u_{j−1} + Γ₀ u_j + F_m (g_c cos ω t_j + g_s sin ω t_j)
 ///
-/// Work per sample: 24 multiply-adds, the hysteresis, and the forcing (eight more for a harmonic
-/// one). Nothing is allocated. Source: Kollár 2022, Eqs. (11)–(14).
+/// Work per sample: 24 multiply-adds of four states (N² + 2 N of N), the hysteresis, and the
+/// forcing (2 N more for a harmonic one). Nothing is allocated. Source: Kollár 2022, Eqs.
+/// (11)–(14).
 /// @tparam Law      the backlash: `step(Δz, Δż)` returns a mask that is true where the force is
 ///                  transmitted
 /// @tparam Forcing  the excitation: `next()` returns what it adds to the state over the present
 ///                  sampling period
-template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>>
+/// @tparam Plant    whose ports are read; those of the two masses by subscripts
+template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
+          class Plant = TwoDof<Scalar>>
 class SampledMotion {
  public:
+  /// N, the order of the plant.
+  static constexpr int states = states_of<Plant>;
+  using State = Vector<Scalar, states>;      ///< x, N × 1
+  using Loop = SampledLoop<Scalar, states>;  ///< the matrices of one sampling period
+  using Readings = PortReadings<Plant>;      ///< how states are read
+
   /// The motion under a harmonic excitation, which begins at phase 0. Nothing is transmitted before
   /// the first sample: u_{−1} = 0.
-  SampledMotion(const SampledLoop<Scalar>& loop, const PdGains<Scalar>& gains,
-                const HarmonicInput<Scalar>& input, const HarmonicExcitation<Scalar>& excitation,
-                const Law& law, const Vector<Scalar, 4>& initial_state)
+  SampledMotion(const Loop& loop, const PdGains<Scalar>& gains,
+                const HarmonicInput<Scalar, states>& input,
+                const HarmonicExcitation<Scalar>& excitation, const Law& law,
+                const State& initial_state, const Readings& readings = Readings())
       : SampledMotion(loop, gains, Forcing(input, excitation, loop.sampling.period), law,
-                      initial_state) {}
+                      initial_state, readings) {}
 
   /// The motion under any forcing, taken up where that stands; u_{−1} = 0.
-  SampledMotion(const SampledLoop<Scalar>& loop, const PdGains<Scalar>& gains,
-                const Forcing& forcing, const Law& law, const Vector<Scalar, 4>& initial_state)
+  SampledMotion(const Loop& loop, const PdGains<Scalar>& gains, const Forcing& forcing,
+                const Law& law, const State& initial_state, const Readings& readings = Readings())
       : loop_(loop),
+        readings_(readings),
         gains_(gains),
         forcing_(forcing),
         law_(law),
@@ -70,62 +85,72 @@ class SampledMotion {
 
   /// Takes sample j: decides whether the force is transmitted, and how large it is. Call once per
   /// sample.
-  MotionSample<Scalar> sense() {
+  MotionSample<Scalar, states> sense() {
     const Mask<Scalar> engaged =
-        law_.step(relative_displacement(state_), relative_velocity(state_));
-    const Scalar command = gains_.proportional * state_[0] + gains_.differential * state_[1];
+        law_.step(readings_.relative_displacement(state_), readings_.relative_velocity(state_));
+    const Scalar command = gains_.proportional * readings_.measured_displacement(state_) +
+                           gains_.differential * readings_.measured_velocity(state_);
     present_force_ = select(engaged, command, Scalar(0));
     return {index_, time(), state_, present_force_, engaged};
   }
 
   /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
-    const Matrix<Scalar, 4>& transition = loop_.transition;
-    // A_d z column by column: written out, the order of the sums is the same for every number type.
-    const Vector<Scalar, 4> next =
-        ((transition.col(0) * state_[0] + transition.col(1) * state_[1]) +
-         (transition.col(2) * state_[2] + transition.col(3) * state_[3])) +
-        loop_.previous_force * previous_force_ + loop_.present_force * present_force_ +
-        forcing_.next();
+    const State next = moved(loop_.transition) + loop_.previous_force * previous_force_ +
+                       loop_.present_force * present_force_ + forcing_.next();
     state_ = next;
     previous_force_ = present_force_;
     ++index_;
   }
 
   /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
-  void displace_conductor(const Scalar& displacement) { state_[0] += displacement; }
+  void displace_conductor(const Scalar& displacement) {
+    readings_.displace_conductor(state_, displacement);
+  }
 
   /// j, the sample that `sense()` will take or has taken.
   std::int64_t index() const { return index_; }
   /// t_j (s).
   Scalar time() const { return Scalar(static_cast<double>(index_)) * loop_.sampling.period; }
-  /// z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
-  const Vector<Scalar, 4>& state() const { return state_; }
+  /// x_j, N × 1; of the two masses z_j = [z₁, ż₁, z₂, ż₂] at t_j (m, m/s, m, m/s).
+  const State& state() const { return state_; }
   /// The matrices of one sampling period.
-  const SampledLoop<Scalar>& loop() const { return loop_; }
+  const Loop& loop() const { return loop_; }
   /// The backlash with what it remembers.
   const Law& law() const { return law_; }
   /// The excitation, at the phase that the next `advance()` will use.
   const Forcing& forcing() const { return forcing_; }
   /// What the motion remembers at t_j; ask before `sense()`.
   auto memory() const {
-    return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>>{state_, previous_force_,
-                                                                       law_.memory()};
+    return MotionMemory<Scalar, std::decay_t<decltype(law_.memory())>, states>{
+        state_, previous_force_, law_.memory()};
   }
   /// Goes on from what a motion of the same loop remembered, at the forcing's present phase.
   template <class LawMemory>
-  void restore(const MotionMemory<Scalar, LawMemory>& memory) {
+  void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {
     state_ = memory.state;
     previous_force_ = memory.previous_force;
     law_ = Law(law_.width(), memory.backlash);
   }
 
  private:
-  SampledLoop<Scalar> loop_;
+  /// A_d x; of four states column by column: written out, the order of the sums is the same for
+  /// every number type.
+  State moved(const Matrix<Scalar, states>& transition) const {
+    if constexpr (states == 4) {
+      return (transition.col(0) * state_[0] + transition.col(1) * state_[1]) +
+             (transition.col(2) * state_[2] + transition.col(3) * state_[3]);
+    } else {
+      return transition * state_;
+    }
+  }
+
+  Loop loop_;
+  Readings readings_;
   PdGains<Scalar> gains_;
   Forcing forcing_;
   Law law_;
-  Vector<Scalar, 4> state_;
+  State state_;
   Scalar previous_force_;
   Scalar present_force_ = Scalar(0);
   std::int64_t index_ = 0;

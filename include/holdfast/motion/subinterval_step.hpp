@@ -16,46 +16,63 @@ namespace holdfast {
 ///
 ///     z ← transition z + command u + drift + held F_j             (the force held over the sample)
 ///     z ← transition z + command u + drift + Σ_l (g_c cos ω_l t_j + g_s sin ω_l t_j)   (exactly)
-struct SegmentStep {
-  Matrix<double, 4> transition;              ///< 4 × 4
-  Vector<double, 4> command;                 ///< 4 × 1 per newton of u
-  Vector<double, 4> drift;                   ///< 4 × 1
-  Vector<double, 4> held;                    ///< 4 × 1 per newton of a force that is constant
-  std::vector<HarmonicInput<double>> lines;  ///< one for each harmonic
+/// @tparam States  N, the order of the plant
+template <int States>
+struct SegmentStepOf {
+  Matrix<double, States> transition;  ///< N × N
+  Vector<double, States> command;     ///< N × 1 per newton of u
+  Vector<double, States> drift;       ///< N × 1
+  Vector<double, States> held;        ///< N × 1 per newton of a force that is constant
+  std::vector<HarmonicInput<double, States>> lines;  ///< one for each harmonic
 
   /// @param dynamics   of the mode
   /// @param harmonics  of the excitation, in the order of the phases that `state` is given
   /// @param begin      s from the sample
   /// @param length     s, ≥ 0
-  SegmentStep(const AffineDynamics& dynamics, const std::vector<Harmonic>& harmonics, double begin,
-              double length) {
-    const Matrix<double, 4> identity = Matrix<double, 4>::Identity();
-    const auto step = zero_order_hold<double, 4, 4>(dynamics.state, identity, length);
-    transition = step.transition;
-    command = step.input * dynamics.command;
-    drift = step.input * dynamics.drift;
-    held = step.input * dynamics.force;
-    for (const Harmonic& line : harmonics) {
-      const double angular = 2.0 * pi<double> * line.frequency;
-      const auto input = exact_harmonic<double>(dynamics.state, dynamics.force, length, angular);
-      lines.push_back(ahead_by(angular * begin + line.phase, input));
-    }
-  }
+  SegmentStepOf(const AffineDynamicsOf<States>& dynamics, const std::vector<Harmonic>& harmonics,
+                double begin, double length);
 
-  /// The state (4 × 1) at the end of the part.
-  /// @param before      the state at its begin, 4 × 1
+  /// The state (N × 1) at the end of the part.
+  /// @param before      the state at its begin, N × 1
   /// @param commanded   u in force all through it (N)
   /// @param held_force  F_j (N); looked at only where there are no phases
   /// @param phases      of the harmonics at the sample, times their amplitudes; none: the force is
   ///                    held
-  Vector<double, 4> state(const Vector<double, 4>& before, double commanded, double held_force,
-                          const std::vector<ExcitationSample<double>>& phases) const {
-    Vector<double, 4> after = transition * before + command * commanded + drift;
+  Vector<double, States> state(const Vector<double, States>& before, double commanded,
+                               double held_force,
+                               const std::vector<ExcitationSample<double>>& phases) const {
+    Vector<double, States> after = transition * before + command * commanded + drift;
     if (phases.empty()) return after + held * held_force;
     for (std::size_t l = 0; l < lines.size(); ++l)
       after += lines[l].cosine * phases[l].cosine + lines[l].sine * phases[l].sine;
     return after;
   }
 };
+
+template <int States>
+SegmentStepOf<States>::SegmentStepOf(const AffineDynamicsOf<States>& dynamics,
+                                     const std::vector<Harmonic>& harmonics, double begin,
+                                     double length) {
+  const Eigen::Index n = dynamics.state.rows();
+  const Matrix<double, States> identity = Matrix<double, States>::Identity(n, n);
+  const auto step = zero_order_hold<double, States, States>(dynamics.state, identity, length);
+  transition = step.transition;
+  command = step.input * dynamics.command;
+  drift = step.input * dynamics.drift;
+  held = step.input * dynamics.force;
+  for (const Harmonic& line : harmonics) {
+    const double angular = 2.0 * pi<double> * line.frequency;
+    const auto input = exact_harmonic<double>(dynamics.state, dynamics.force, length, angular);
+    lines.push_back(ahead_by(angular * begin + line.phase, input));
+  }
+}
+
+/// That of the two masses.
+using SegmentStep = SegmentStepOf<4>;
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SegmentStepOf<4>::SegmentStepOf(const AffineDynamicsOf<4>&,
+                                                const std::vector<Harmonic>&, double, double);
+#endif
 
 }  // namespace holdfast

@@ -24,43 +24,50 @@ inline int terms_for(double x) {
 ///     z_{k+1} = h (A z_k + w_k) / (k + 1),   w_0 = drift + b u + c F_0,  w_k = c F_k
 ///
 /// where F(t + x h) = Σ F_k x^k. With ‖A‖ h ≤ 1 and as many terms as terms_for(‖A‖ h) asks for,
-/// what is left out is less than round-off. Work per term: 24 multiply-adds.
-class AffineExpansion {
+/// what is left out is less than round-off. Work per term: N² + 2 N
+/// multiply-adds.
+/// @tparam States  N, the order of the plant
+template <int States>
+class AffineExpansionOf {
  public:
-  /// The z_k as columns, at most `most_terms` of them; never on the heap.
-  using Coefficients = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, most_terms>;
+  /// The z_k as columns, at most `most_terms` of them; never on the heap for a fixed order.
+  using Coefficients =
+      Eigen::Matrix<double, States, Eigen::Dynamic, Eigen::ColMajor, States, most_terms>;
 
   /// @param dynamics  A, b, c and the drift, constant over the length
-  /// @param state     z(t), 4 × 1
+  /// @param state     z(t), N × 1
   /// @param command   u (N)
   /// @param force     F_k (N), one or more; its size is the number of terms
   /// @param length    h (s), ≥ 0
-  AffineExpansion(const AffineDynamics& dynamics, const Vector<double, 4>& state, double command,
-                  const Series& force, double length)
-      : coefficients_(4, force.size()) {
+  AffineExpansionOf(const AffineDynamicsOf<States>& dynamics, const Vector<double, States>& state,
+                    double command, const Series& force, double length)
+      : coefficients_(state.size(), force.size()) {
     coefficients_.col(0) = state;
-    Vector<double, 4> input = dynamics.drift + dynamics.command * command;
+    Vector<double, States> input = dynamics.drift + dynamics.command * command;
     for (Eigen::Index k = 0; k + 1 < force.size(); ++k) {
       input += dynamics.force * force[k];
-      const Vector<double, 4> rate = dynamics.state * coefficients_.col(k) + input;
+      const Vector<double, States> rate = dynamics.state * coefficients_.col(k) + input;
       coefficients_.col(k + 1) = rate * (length / static_cast<double>(k + 1));
       input.setZero();
     }
   }
 
   /// z(t + x h).
-  Vector<double, 4> state(double x) const {
-    Vector<double, 4> value = coefficients_.col(coefficients_.cols() - 1);
+  Vector<double, States> state(double x) const {
+    Vector<double, States> value = coefficients_.col(coefficients_.cols() - 1);
     for (Eigen::Index k = coefficients_.cols() - 2; k >= 0; --k)
       value = value * x + coefficients_.col(k);
     return value;
   }
 
-  /// z_k, 4 × terms.
+  /// z_k, N × terms.
   const Coefficients& coefficients() const { return coefficients_; }
 
  private:
   Coefficients coefficients_;
 };
+
+/// That of the two masses.
+using AffineExpansion = AffineExpansionOf<4>;
 
 }  // namespace holdfast

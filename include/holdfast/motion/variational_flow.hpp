@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
@@ -13,17 +13,20 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/saltation.hpp"
 #include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/plant/port_readings.hpp"
 
 namespace holdfast {
 
 /// The derivative of a HybridMotion from one sample to the next, changes of contact included.
 ///
-///     X_j = [z₁, ż₁, z₂, ż₂; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
+///     X_j = [x; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
 ///
-/// g is the Δz at which the drive last reversed: the ends of its gap lie at g and g ∓ r₀. While the
-/// contact does not change, δz follows e^{A t} and the held commands; commands change at given
-/// times, which adds nothing. At a change of contact at a surface h the deviation of [z; g] is
-/// multiplied by the saltation matrix (saltation.hpp), the guards being
+/// of N + 3 numbers, x being the state of the plant, of the two masses [z₁, ż₁, z₂, ż₂], and z₁
+/// what the computer reads as its displacement. g is the Δz at which the drive last reversed: the
+/// ends of its gap lie at g and g ∓ r₀. While the contact does not change, δz follows e^{A t} and
+/// the held commands; commands change at given times, which adds nothing. At a change of contact at
+/// a surface h the deviation of [z; g] is multiplied by the saltation matrix (saltation.hpp), the
+/// guards being
 ///
 ///     engaged → gap, stick:   h = Δż,        g ← Δz,   f⁺ − f⁻ = −b u, b (s − u)
 ///     gap → engaged:          h = Δz − g,    g ← 0,    f⁺ − f⁻ = b u
@@ -42,19 +45,33 @@ namespace holdfast {
 ///     tangent.map();
 ///
 /// A crossing that touches has no derivative; the entries are not finite then.
-/// Work per sample: 140 multiply-adds for each of its two parts; per change of contact 1500 more,
-/// most of them for a matrix exponential. Nothing is allocated.
-/// @tparam Contact  of the motion; ContactTangent tells what it has to offer
+/// Work per sample of the two masses: 140 multiply-adds for each of its two parts; per change of
+/// contact 1500 more, most of them for a matrix exponential. Nothing is allocated for a fixed
+/// order.
+/// @tparam Contact  of the motion; contact_tangent.hpp tells what it has to offer
 template <class Contact>
 class HybridTangent {
  public:
+  /// N, the order of the plant.
+  static constexpr int states = HybridMotion<Contact>::states;
+  /// N + 3.
+  static constexpr int size = larger_size(states, 3);
+  /// Of deviations of X, (N + 3) × (N + 3).
+  using Map = Matrix<double, size>;
+
   /// Goes on from the sample that the motion has come to.
   explicit HybridTangent(const HybridMotion<Contact>& motion)
-      : sample_rank_(inputs(motion)), rank_(inputs(motion)) {
+      : readings_(detail::DrivenPlant<Contact>::readings(motion.contact())),
+        map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
+        pending_(Row::Zero(motion.state().size() + 3)),
+        sticking_(sticking_mode(motion.contact())),
+        sample_rank_(inputs(motion)),
+        rank_(inputs(motion)) {
     const Sampling<double>& sampling = motion.loop().sampling;
     lengths_ = {sampling.processing_delay, sampling.period - sampling.processing_delay};
     for (int mode = 0; mode < Contact::modes; ++mode) {
       dynamics_[at(mode)] = motion.dynamics(mode);
+      anchored_[at(mode)] = is_anchored(motion.contact(), mode);
       for (std::size_t part = 0; part < 2; ++part)
         steps_[part][at(mode)] = exponential(mode, lengths_[part]);
     }
@@ -71,9 +88,11 @@ class HybridTangent {
     open_length_ = 0.0;
     map_.setIdentity();
     enter(motion.contact().mode());
-    pending_ = slope.displacement * map_.row(0) + slope.velocity * map_.row(1) +
-               slope.previous_displacement * map_.row(read_row);
-    map_.row(read_row) = reads ? map_.row(0).eval() : RowVector<double, 7>::Zero().eval();
+    const Row displacement = readings_.measured_displacements(states_of_map());
+    pending_ = slope.displacement * displacement +
+               slope.velocity * readings_.measured_velocities(states_of_map()) +
+               slope.previous_displacement * map_.row(read_row());
+    map_.row(read_row()) = reads ? displacement : Row(Row::Zero(map_.cols()));
     sample_rank_ = StructuralRank(inputs(motion));
     const int mode = motion.contact().mode();
     on_ranks([&](StructuralRank& rank) {
@@ -99,7 +118,7 @@ class HybridTangent {
   /// δu_j takes the place of δu_{j−1}.
   void commanded() {
     close_flow();
-    map_.row(command_row) = pending_;
+    map_.row(command_row()) = pending_;
     on_ranks([](StructuralRank& rank) {
       rank.end(Carried::in_force);
       rank.become(Carried::pending, Carried::in_force);
@@ -108,9 +127,10 @@ class HybridTangent {
 
   /// Multiplies by the saltation matrix where a guard was reached outside stick; a jump of force or
   /// command, guard −1, adds nothing.
-  void switched(int from, int to, int guard, const ContactInstant& instant) {
+  void switched(int from, int to, int guard,
+                const typename HybridMotion<Contact>::Instant& instant) {
     close_flow();
-    if (guard >= 0 && from != Tangent::sticking) cross(from, to, instant);
+    if (guard >= 0 && from != sticking_) cross(from, to, instant);
     enter(to);
     on_ranks([&](StructuralRank& rank) {
       if (!carries_anchor(to)) rank.end(Carried::anchor);
@@ -118,8 +138,8 @@ class HybridTangent {
     });
   }
 
-  /// The derivative over the sample just advanced, 7 × 7.
-  const Matrix<double, 7>& map() const { return map_; }
+  /// The derivative over the sample just advanced, (N + 3) × (N + 3).
+  const Map& map() const { return map_; }
 
   /// Its structural rank: that of almost every map with the same zeros.
   int rank() const { return sample_rank_.rank(); }
@@ -128,27 +148,44 @@ class HybridTangent {
   int rank_of_product() const { return rank_.rank(); }
 
  private:
-  using Tangent = ContactTangent<Contact>;
-  using Step = HeldStep<double, 4, 1>;
-  static constexpr int command_row = 4, anchor_row = 5, read_row = 6;
+  using Motion = HybridMotion<Contact>;
+  using Dynamics = typename Motion::Dynamics;
+  using Instant = typename Motion::Instant;
+  using State = typename Motion::State;
+  using Step = HeldStep<double, states, 1>;
+  using Row = RowVector<double, size>;
+
+  Eigen::Index order() const { return map_.rows() - 3; }
+  Eigen::Index command_row() const { return order(); }
+  Eigen::Index anchor_row() const { return order() + 1; }
+  Eigen::Index read_row() const { return order() + 2; }
+  /// The rows of δx.
+  auto states_of_map() { return map_.template topRows<states>(order()); }
   /// Parts of the period whose lengths differ by less, in periods, are the same: the sum of several
   /// steps of the motion rounds.
   static constexpr double same_length = 1e-13;
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
-  static constexpr int directions(int mode) { return mode == Tangent::sticking ? 3 : 4; }
+  int directions(int mode) const { return static_cast<int>(order()) - (mode == sticking_ ? 1 : 0); }
 
   static unsigned inputs(const HybridMotion<Contact>& motion) {
     const unsigned always =
         static_cast<unsigned>(Carried::in_force) | static_cast<unsigned>(Carried::reading);
-    return Tangent::anchored(motion.contact().mode())
+    return is_anchored(motion.contact(), motion.contact().mode())
                ? always | static_cast<unsigned>(Carried::anchor)
                : always;
   }
 
   /// Whether g is not a function of z.
-  static constexpr bool carries_anchor(int mode) {
-    return Tangent::anchored(mode) && mode != Tangent::sticking;
+  bool carries_anchor(int mode) const { return anchored(mode) && mode != sticking_; }
+
+  bool anchored(int mode) const { return anchored_[at(mode)]; }
+
+  /// By z: of Δz − g where the mode is anchored and of Δz for stops; of Δż while a drive whose gap
+  /// moves is engaged.
+  State gradient(int from) const {
+    return sticking_ < 0 || anchored(from) ? readings_.displacement_row()
+                                           : readings_.velocity_row();
   }
 
   template <class Note>
@@ -165,10 +202,7 @@ class HybridTangent {
     if (reads) rank.begin(Carried::reading);
   }
 
-  Step exponential(int mode, double length) const {
-    const AffineDynamics& dynamics = dynamics_[at(mode)];
-    return zero_order_hold<double, 4, 1>(dynamics.state, dynamics.command, length);
-  }
+  Step exponential(int mode, double length) const;
 
   /// δz over what has flowed since the last change of anything.
   void close_flow() {
@@ -181,8 +215,8 @@ class HybridTangent {
   }
 
   void close_flow(const Step& step) {
-    const Matrix<double, 4, 7> state = map_.template topRows<4>();
-    map_.template topRows<4>() = step.transition * state + step.input * map_.row(command_row);
+    const Matrix<double, states, size> state = states_of_map();
+    states_of_map() = step.transition * state + step.input * map_.row(command_row());
     open_length_ = 0.0;
     enter(open_mode_);
     const bool transmits = !dynamics_[at(open_mode_)].command.isZero(0.0);
@@ -194,53 +228,80 @@ class HybridTangent {
 
   /// Keeps to what a mode holds: Δż = 0 and Δz = g in stick, no g while engaged.
   void enter(int mode) {
-    if (mode == Tangent::sticking) {
-      map_.row(3) = map_.row(1).eval();
-      map_.row(anchor_row) = map_.row(2) - map_.row(0);
+    if (mode == sticking_) {
+      readings_.stop_relative_motions(states_of_map());
+      map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
     }
-    if (!Tangent::anchored(mode)) map_.row(anchor_row).setZero();
+    if (!anchored(mode)) map_.row(anchor_row()).setZero();
   }
 
-  void cross(int from, int to, const ContactInstant& instant) {
-    if (from == to && Tangent::anchored(from)) return anchor_anew();
-    SurfaceCrossing<5> crossing;
-    crossing.before << rate(from, instant), 0.0;
-    crossing.after << rate(to, instant), 0.0;
-    crossing.gradient << Tangent::gradient(from).transpose(), Tangent::anchored(from) ? -1.0 : 0.0;
-    if (Tangent::anchored(from)) {
+  void cross(int from, int to, const Instant& instant) {
+    if (from == to && anchored(from)) return anchor_anew();
+    constexpr int with_gap = larger_size(states, 1);
+    const Eigen::Index n = order();
+    SurfaceCrossing<with_gap> crossing;
+    crossing.before = with_zero(rate(from, instant));
+    crossing.after = with_zero(rate(to, instant));
+    crossing.gradient = with_zero(gradient(from)).transpose();
+    crossing.reset = Matrix<double, with_gap>::Identity(n + 1, n + 1);
+    crossing.reset_rate = with_zero(State::Zero(n));
+    if (anchored(from)) {
+      crossing.gradient[n] = -1.0;
       on_ranks([](StructuralRank& rank) { rank.act(Carried::anchor); });
-    } else if (Tangent::anchored(to)) {
-      crossing.reset.row(4) << displacement_row().transpose(), 0.0;
+    } else if (anchored(to)) {
+      crossing.reset.row(n) = with_zero(readings_.displacement_row()).transpose();
     }
-    Matrix<double, 5, 7> rows;
-    rows << map_.template topRows<4>(), map_.row(anchor_row);
+    Matrix<double, with_gap, size> rows(n + 1, n + 3);
+    rows << states_of_map(), map_.row(anchor_row());
     rows = saltation_matrix(crossing) * rows.eval();
-    map_.template topRows<4>() = rows.template topRows<4>();
-    map_.row(anchor_row) = rows.row(4);
+    states_of_map() = rows.template topRows<states>(n);
+    map_.row(anchor_row()) = rows.row(n);
+  }
+
+  /// [x; 0].
+  static Vector<double, larger_size(states, 1)> with_zero(const State& x) {
+    Vector<double, larger_size(states, 1)> longer(x.size() + 1);
+    longer << x, 0.0;
+    return longer;
   }
 
   /// From one gap into another that begins at Δz: the rates agree.
   void anchor_anew() {
-    map_.row(anchor_row) = map_.row(2) - map_.row(0);
+    map_.row(anchor_row()) = readings_.relative_displacements(states_of_map());
     on_ranks([](StructuralRank& rank) { rank.end(Carried::anchor); });
   }
 
   /// ż in a mode.
-  Vector<double, 4> rate(int mode, const ContactInstant& instant) const {
-    const AffineDynamics& dynamics = dynamics_[at(mode)];
+  State rate(int mode, const Instant& instant) const {
+    const Dynamics& dynamics = dynamics_[at(mode)];
     return dynamics.state * instant.state + dynamics.drift + dynamics.command * instant.command +
            dynamics.force * instant.force;
   }
 
-  std::array<AffineDynamics, Contact::modes> dynamics_;
+  PortReadings<typename Motion::Plant> readings_;
+  Map map_;
+  Row pending_;                                // δu_j of δX_j
+  int sticking_;                               // the mode in which Δż = 0; −1: none
+  std::array<bool, Contact::modes> anchored_;  // whether the gap lies where the drive reversed
+  std::array<Dynamics, Contact::modes> dynamics_;
   std::array<double, 2> lengths_;  // of the parts of the period before and after t_j + δ
   std::array<std::array<Step, Contact::modes>, 2> steps_;  // over them
-  Matrix<double, 7> map_ = Matrix<double, 7>::Identity();
-  RowVector<double, 7> pending_ = RowVector<double, 7>::Zero();  // δu_j of δX_j
   double period_ = 0.0;
   int open_mode_ = 0;
   double open_begin_ = 0.0, open_length_ = 0.0;  // what has flowed, but is not in the map yet
   StructuralRank sample_rank_, rank_;
 };
+
+template <class Contact>
+typename HybridTangent<Contact>::Step HybridTangent<Contact>::exponential(int mode,
+                                                                          double length) const {
+  const Dynamics& dynamics = dynamics_[at(mode)];
+  return zero_order_hold<double, states, 1>(dynamics.state, dynamics.command, length);
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template HeldStep<double, 4, 1> HybridTangent<DriveContact<>>::exponential(int,
+                                                                                  double) const;
+#endif
 
 }  // namespace holdfast

@@ -80,13 +80,14 @@ BasinsOf<Orbit> numbered_basins(std::vector<MotionFate> fates, const std::vector
 /// are searched for their own orbits, one by one; then all that are left move on together past the
 /// orbits known by now. Each round takes twice as many of both. Nothing depends on the order in
 /// which the parts of a round are done.
-/// @tparam Scalar  the lanes
+/// @tparam Travel  travel(loop, ratio) gives what moves motions on, as MotionBatch does
 /// @tparam Tiles   for_tiles(count, tile, job): job(first, number) for tiles of 0 … count − 1
-template <class Scalar, class Tiles>
+template <class Travel, class Tiles>
 class BasinSearch {
  public:
-  BasinSearch(const ForcedLoop<double>& loop, const OrbitLimits& limits, const Tiles& for_tiles)
-      : loop_(loop), limits_(limits), for_tiles_(for_tiles), catalogue_(loop) {}
+  BasinSearch(const ForcedLoop<double>& loop, const OrbitLimits& limits, const Travel& travel,
+              const Tiles& for_tiles)
+      : loop_(loop), limits_(limits), travel_(travel), for_tiles_(for_tiles), catalogue_(loop) {}
 
   BasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
     fates_.resize(initial_states.size());
@@ -137,10 +138,10 @@ class BasinSearch {
   }
 
   void travel(const Rational& ratio, std::int64_t samples) {
-    const MotionBatch<Scalar> batch(loop_, ratio);
+    const auto batch = travel_(loop_, ratio);
     constexpr std::size_t tile = 64;
     for_tiles_(left_.size(), tile, [&](std::size_t first, std::size_t number) {
-      MotionBatch<Scalar> own = batch;
+      auto own = batch;
       own.run(left_.data() + first, number, samples, catalogue_);
     });
     for (const TravellingMotion& motion : left_) {
@@ -157,6 +158,7 @@ class BasinSearch {
 
   ForcedLoop<double> loop_;
   OrbitLimits limits_;
+  const Travel& travel_;
   const Tiles& for_tiles_;
   OrbitCatalogue<ForcedLoop<double>> catalogue_;
   std::vector<TravellingMotion> left_;
@@ -164,6 +166,19 @@ class BasinSearch {
 };
 
 }  // namespace detail
+
+/// find_basins() with another way to move the motions on.
+/// @param travel  travel(loop, ratio) gives what has MotionBatch's run() and can be copied
+/// @throws InvalidParameter where loop, states or limits are not admissible
+template <class Travel, class Tiles>
+BasinMap find_basins_by(const Travel& travel, const ForcedLoop<double>& loop,
+                        const std::vector<Vector<double, 4>>& initial_states,
+                        const OrbitLimits& limits, const Tiles& for_tiles) {
+  validate(loop);
+  validate(limits);
+  for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
+  return detail::BasinSearch<Travel, Tiles>(loop, limits, travel, for_tiles).run(initial_states);
+}
 
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
 ///
@@ -183,10 +198,10 @@ template <class Scalar, class Tiles>
 BasinMap find_basins(const ForcedLoop<double>& loop,
                      const std::vector<Vector<double, 4>>& initial_states,
                      const OrbitLimits& limits, const Tiles& for_tiles) {
-  validate(loop);
-  validate(limits);
-  for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
-  return detail::BasinSearch<Scalar, Tiles>(loop, limits, for_tiles).run(initial_states);
+  const auto travel = [](const ForcedLoop<double>& of, const Rational& ratio) {
+    return MotionBatch<Scalar>(of, ratio);
+  };
+  return find_basins_by(travel, loop, initial_states, limits, for_tiles);
 }
 
 }  // namespace holdfast

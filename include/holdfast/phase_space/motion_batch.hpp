@@ -112,16 +112,20 @@ class MotionBatch {
   /// @param loop   of all motions
   /// @param ratio  of forcing_ratio(loop)
   MotionBatch(const ForcedLoop<double>& loop, const Rational& ratio)
-      : ratio_(ratio),
-        motion_(detail::broadcast<Scalar>(
-            periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()),
-            loop.gains)) {}
+      : MotionBatch(periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()),
+                    loop.gains, ratio) {}
+
+  /// @param motion  of the loop, at a coincidence; its state does not matter
+  /// @param gains   of the loop
+  MotionBatch(const PeriodicallyForcedMotion<double>& motion, const PdGains<double>& gains,
+              const Rational& ratio)
+      : ratio_(ratio), motion_(detail::broadcast<Scalar>(motion, gains)) {}
 
   /// @param motions    captured and diverged ones are marked, the others have moved on by at least
   ///                   `samples` samples, a whole number of coincidences
   /// @param count      number of motions, ≥ 0
   /// @param samples    ≥ 1
-  /// @param catalogue  OrbitCatalogue of orbits of the same loop
+  /// @param catalogue  of orbits of the same loop; or what else has a captured_by(memory)
   /// @throws InvalidParameter for less than one sample
   template <class Catalogue>
   void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,

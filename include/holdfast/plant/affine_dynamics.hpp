@@ -5,19 +5,26 @@
 
 namespace holdfast {
 
-/// ż = A z + drift + b u + c F(t): the motion while the contact does not change.
-struct AffineDynamics {
-  Matrix<double, 4> state;    ///< A, 4 × 4
-  Vector<double, 4> command;  ///< b, 4 × 1 per newton of u; zero where u is not transmitted
-  Vector<double, 4> force;    ///< c, 4 × 1 per newton of F
-  Vector<double, 4> drift = Vector<double, 4>::Zero();  ///< 4 × 1
+/// ẋ = A x + drift + b u + c F(t): the motion of a plant of order N while the contact does not
+/// change.
+/// @tparam States  N; Eigen::Dynamic where it is known at run time alone
+template <int States>
+struct AffineDynamicsOf {
+  Matrix<double, States> state;    ///< A, N × N
+  Vector<double, States> command;  ///< b, N × 1 per newton of u; zero where u has no effect
+  Vector<double, States> force;    ///< c, N × 1 per newton of F
+  /// N × 1; of no size at all unless given, where N is known at run time alone
+  Vector<double, States> drift = Vector<double, States>::Zero(States < 0 ? 0 : States);
 };
+
+/// That of the two masses.
+using AffineDynamics = AffineDynamicsOf<4>;
 
 /// ‖A‖ in the balanced coordinates (1/s, largest row sum): the size of A that the powers of A h
 /// show, whatever the units of the state.
-template <class Scalar>
-Scalar balanced_norm(const Matrix<Scalar, 4>& a) {
-  return BalancedMatrix<Scalar, 4>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();
+template <class Scalar, int States>
+Scalar balanced_norm(const Matrix<Scalar, States>& a) {
+  return BalancedMatrix<Scalar, States>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 }  // namespace holdfast

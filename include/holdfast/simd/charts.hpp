@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,10 +21,7 @@ void radius_chart(const LoopChart& chart, double* radius, int threads) {
   const std::int64_t columns = chart.fast.values.count;
   parallel_rows(chart.slow.values.count, rows_of_tile, threads, Rows(chart),
                 [&](Rows& rows, std::int64_t first, std::int64_t count) {
-                  for (std::int64_t row = 0; row < count; row += Rows::most_rows) {
-                    rows.fill(first + row, std::min(Rows::most_rows, count - row),
-                              radius + (first + row) * columns);
-                  }
+                  rows.fill(first, count, radius + first * columns);
                 });
 }
 

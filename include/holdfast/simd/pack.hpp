@@ -11,7 +11,9 @@
 
 /// The library's kernels on SIMD packs: `xsimd::batch` is made a number type like any other, so
 /// that a kernel written for `double` works on as many cells at once as the processor has lanes.
-/// The instruction set is that for which the program is compiled: SSE2, AVX2, AVX-512, NEON, ….
+/// The instruction set is that for which the unit is compiled: SSE2, AVX2, AVX-512, NEON, …. It is
+/// part of the pack's type, and so of the name of every kernel on it: units compiled for several of
+/// them go together into one program (docs/performance.md).
 
 namespace holdfast {
 
@@ -25,8 +27,8 @@ struct MaskOf<xsimd::batch<Number, Architecture>> {
 namespace simd {
 
 /// As many numbers as one register of the target holds.
-template <class Number>
-using Pack = xsimd::batch<Number>;
+template <class Number, class Architecture = xsimd::default_arch>
+using Pack = xsimd::batch<Number, Architecture>;
 
 namespace detail {
 
@@ -108,4 +110,15 @@ struct NumTraits<xsimd::batch<Number, Architecture>>
   using Literal = Number;                           ///< of constants, the same in every lane
 };
 
+namespace internal {
+
+/// Packs are aligned as their own type wants it. Eigen's alignment of numbers may then be set to
+/// that of the narrowest instruction set (EIGEN_MAX_ALIGN_BYTES), in which units compiled for
+/// several of them agree.
+template <class Number, class Architecture, int Size>
+struct compute_default_alignment<xsimd::batch<Number, Architecture>, Size> {
+  enum { value = 0 };
+};
+
+}  // namespace internal
 }  // namespace Eigen

@@ -8,6 +8,7 @@
 #include "holdfast/sweep/metric_group.hpp"
 #include "holdfast/sweep/metric_lanes.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
+#include "holdfast/sweep/sweep_matrices.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 
 namespace holdfast {
@@ -22,6 +23,36 @@ struct IgnoreSwitching {
   /// Called every some hundred samples; may throw in a derived one.
   void pause() const {}
 };
+
+namespace detail {
+
+/// The samples of all motions, neighbours of about equal numbers of them; equal ones keep their
+/// order, and so what they share.
+/// @throws InvalidParameter where a motion or the duration is not admissible
+inline std::vector<SampleSpan> ordered_spans(const SweepMotion* motions, std::size_t count,
+                                             double duration) {
+  std::vector<SampleSpan> spans(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    validate(motions[k]);
+    spans[k] = sample_span(k, duration, motions[k].loop.sampling.period);
+  }
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const auto& a, const auto& b) { return a.samples < b.samples; });
+  return spans;
+}
+
+/// The metrics of motions whose samples are known and ordered, group by group.
+template <class Scalar, class MatricesOfLoop, class SwitchingObserver>
+void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::size_t count,
+                   MotionMetrics* results, const MatricesOfLoop& matrices,
+                   SwitchingObserver& observer) {
+  using Group = MetricGroup<Scalar, MatricesOfLoop>;
+  Group group(matrices);
+  for (std::size_t first = 0; first < count; first += Group::lanes)
+    group.compute(motions, spans + first, std::min(Group::lanes, count - first), results, observer);
+}
+
+}  // namespace detail
 
 /// The metrics of many motions, which may differ in every parameter, as many at a time as `Scalar`
 /// has lanes.
@@ -45,21 +76,9 @@ struct IgnoreSwitching {
 template <class Scalar, class SwitchingObserver = IgnoreSwitching>
 void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
                     MotionMetrics* results, SwitchingObserver&& observer = SwitchingObserver()) {
-  std::vector<detail::SampleSpan> spans(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    validate(motions[k]);
-    spans[k] = detail::sample_span(k, duration, motions[k].loop.sampling.period);
-  }
-  // Neighbours of about equal numbers of samples; equal ones keep their order, and so what they
-  // share.
-  std::stable_sort(spans.begin(), spans.end(),
-                   [](const auto& a, const auto& b) { return a.samples < b.samples; });
-  using Group = detail::MetricGroup<Scalar>;
-  Group group;
-  for (std::size_t first = 0; first < count; first += Group::lanes) {
-    group.compute(motions, spans.data() + first, std::min(Group::lanes, count - first), results,
-                  observer);
-  }
+  const std::vector<detail::SampleSpan> spans = detail::ordered_spans(motions, count, duration);
+  detail::group_metrics<Scalar>(motions, spans.data(), count, results, detail::SweepMatrices(),
+                                observer);
 }
 
 }  // namespace holdfast

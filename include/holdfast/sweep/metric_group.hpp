@@ -28,7 +28,8 @@ namespace holdfast::detail {
 ///
 /// The lanes go in step; where one begins to be steady or has had its samples, the others pause for
 /// a moment. Thus no sample asks whose it is, and no lane's arithmetic depends on its neighbours.
-template <class Scalar>
+/// @tparam MatricesOfLoop  gives the matrices of a loop, as SweepMatrices does
+template <class Scalar, class MatricesOfLoop = SweepMatrices>
 class MetricGroup {
   using Lane = Lanes<Scalar>;
 
@@ -39,7 +40,7 @@ class MetricGroup {
  public:
   static constexpr std::size_t lanes = packs * Lane::count;
 
-  MetricGroup() {
+  explicit MetricGroup(const MatricesOfLoop& matrices = MatricesOfLoop()) : matrices_(matrices) {
     tables_.reserve(packs);
     tracks_.reserve(packs);
   }
@@ -234,7 +235,7 @@ class MetricGroup {
     return result;
   }
 
-  SweepMatrices matrices_;
+  MatricesOfLoop matrices_;
   std::vector<TurningTable<Scalar>> tables_;
   std::vector<MetricTrack<Scalar>> tracks_;
   std::array<SampleSpan, lanes> spans_{};

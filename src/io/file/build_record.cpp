@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "kernels/instruction_set.hpp"
+
 #ifdef HOLDFAST_HAS_SIMD
 #include <oneapi/tbb/version.h>
 #include <xsimd/config/xsimd_config.hpp>
@@ -98,7 +100,9 @@ std::string compiler_text() {
 }
 
 std::string version_text() {
-  std::string text = "holdfast " HOLDFAST_VERSION "\ncompiled by " + compiler_text() + " with";
+  std::string text = "holdfast " HOLDFAST_VERSION "\ncompiled by " + compiler_text() +
+                     "\ninstructions " + std::string(name_of(best_instruction_set())) + " (of " +
+                     available_instruction_names() + ")\nwith";
   for (const Dependency& dependency : dependencies())
     text += "\n  " + dependency.name + " " + dependency.version;
   return text;

@@ -56,9 +56,14 @@ Json origin(const JobContext& context) {
   Json built_with = Json::object();
   for (const Dependency& dependency : dependencies())
     built_with[dependency.name] = dependency.version;
-  return {{"version", HOLDFAST_VERSION}, {"compiler", compiler_text()},
-          {"built_with", built_with},    {"job", context.job},
-          {"options", options},          {"case", case_to_json(context.case_data)}};
+  Json json = {{"version", HOLDFAST_VERSION},
+               {"compiler", compiler_text()},
+               {"built_with", built_with},
+               {"job", context.job},
+               {"options", options}};
+  if (context.on_packs) json["instructions"] = name_of(context.instructions);
+  json["case"] = case_to_json(context.case_data);
+  return json;
 }
 
 void append_trust(Json& json, const TrustedDigits& trusted) {

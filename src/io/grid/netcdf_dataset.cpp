@@ -64,6 +64,8 @@ void NetcdfDataset::describe_origin(const JobContext& context) {
   file_.set_attribute("title", "holdfast " + context.job);
   file_.set_attribute("source", std::string("holdfast ") + HOLDFAST_VERSION);
   file_.set_attribute("options", options_text(context));
+  if (context.on_packs)
+    file_.set_attribute("instructions", std::string(name_of(context.instructions)));
   file_.set_attribute("case", case_to_toml(context.case_data));
 }
 

@@ -18,6 +18,7 @@
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "jobs/charts/row_blocks.hpp"
+#include "kernels/pack_kernels.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
@@ -39,6 +40,38 @@ struct ThreadedTiles {
                   });
   }
 };
+
+class CatalogueTest final : public CaptureTest {
+ public:
+  explicit CatalogueTest(const OrbitCatalogue<ForcedLoop<double>>& catalogue)
+      : catalogue_(catalogue) {}
+  int captured_by(const ForcedMotionMemory<double>& memory) const override {
+    return catalogue_.captured_by(memory);
+  }
+
+ private:
+  const OrbitCatalogue<ForcedLoop<double>>& catalogue_;
+};
+
+/// MotionBatch on the packs of an instruction set.
+class TravelOnPacks : public CopiedKernel<TravelKernel> {
+ public:
+  using CopiedKernel::CopiedKernel;
+  void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
+           const OrbitCatalogue<ForcedLoop<double>>& catalogue) {
+    kernel().run(motions, count, samples, CatalogueTest(catalogue));
+  }
+};
+
+BasinMap basins_on_packs(const ForcedLoop<double>& loop,
+                         const std::vector<Vector<double, 4>>& states, const OrbitLimits& limits,
+                         InstructionSet set, const ThreadedTiles& tiles) {
+  const auto travel = [&](const ForcedLoop<double>& of, const Rational& ratio) {
+    return TravelOnPacks(pack_kernels(set).travel(
+        periodically_forced_motion(of, ratio, Vector<double, 4>::Zero().eval()), of.gains, ratio));
+  };
+  return find_basins_by(travel, loop, states, limits, tiles);
+}
 
 KeyAxis initial_axis(const std::string& text) {
   KeyAxis axis = parse_key_axis("--axis", text);
@@ -175,7 +208,8 @@ void write_basins(const JobContext& context, const BasinQuestion& question) {
   if (is_of_the_paper(context.case_data, question.switching)) {
     const ForcedLoop<double> loop = forced_loop_of(context.case_data);
     require_attractors(forcing_ratio(loop), question.largest_period);
-    write_map(context, question, grid, find_basins<ChartNumber>(loop, states, limits, tiles));
+    write_map(context, question, grid,
+              basins_on_packs(loop, states, limits, context.instructions, tiles));
   } else {
     const RealLoop loop = real_loop_of(context.case_data, question.switching);
     require_attractors(forcing_ratio(loop.digital), question.largest_period);

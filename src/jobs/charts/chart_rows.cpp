@@ -12,6 +12,7 @@
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/charts/row_blocks.hpp"
+#include "kernels/rows_on_packs.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {
@@ -76,29 +77,28 @@ void append_rows(const JobContext& context, std::int64_t rows, Block block, cons
 
 /// Both parts of a chart with the spectral radius.
 template <int Degree>
-struct RadiusKernel {
-  StabilityChartRows<ChartNumber> stability;
-  RadiusChartRows<ChartNumber, Degree> radius;
+struct RadiusKernels {
+  StabilityChartRows<double, HurwitzOnPacks> stability;
+  RadiusChartRows<double, Degree, RadiusOnPacks<Degree>> radius;
 
-  explicit RadiusKernel(const LoopChart& chart) : stability(chart), radius(chart) {}
+  RadiusKernels(const LoopChart& chart, const PackKernels& kernels)
+      : stability(chart, HurwitzOnPacks(kernels)), radius(chart, RadiusOnPacks<Degree>(kernels)) {}
 
   void fill(std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
     for (std::int64_t row = 0; row < count; ++row) {
       stability.fill(first + row, block.flags(offset + row));
     }
-    constexpr std::int64_t batch = RadiusChartRows<ChartNumber, Degree>::most_rows;
-    for (std::int64_t row = 0; row < count; row += batch) {
-      radius.fill(first + row, std::min(batch, count - row), block.numbers(0, offset + row));
-    }
+    radius.fill(first, count, block.numbers(0, offset));
   }
 };
 
 template <int Degree>
 void append_radius_chart(const JobContext& context, const LoopChart& chart, GridTable& table) {
+  using Kernels = RadiusKernels<Degree>;
   append_rows(context, chart.slow.values.count, Block(chart.fast.values.count, 1),
-              RadiusKernel<Degree>(chart), table,
-              [](RadiusKernel<Degree>& own, std::int64_t first, std::int64_t count,
-                 std::int64_t offset, Block& block) { own.fill(first, count, offset, block); });
+              Kernels(chart, pack_kernels(context.instructions)), table,
+              [](Kernels& own, std::int64_t first, std::int64_t count, std::int64_t offset,
+                 Block& block) { own.fill(first, count, offset, block); });
 }
 
 }  // namespace
@@ -107,9 +107,10 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
                           GridTable& table) {
   if (radius && has_processing_delay(chart)) return append_radius_chart<6>(context, chart, table);
   if (radius) return append_radius_chart<5>(context, chart, table);
-  using Kernel = StabilityChartRows<ChartNumber>;
+  using Kernel = StabilityChartRows<double, HurwitzOnPacks>;
   append_rows(
-      context, chart.slow.values.count, Block(chart.fast.values.count, 0), Kernel(chart), table,
+      context, chart.slow.values.count, Block(chart.fast.values.count, 0),
+      Kernel(chart, HurwitzOnPacks(pack_kernels(context.instructions))), table,
       [](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
         for (std::int64_t row = 0; row < count; ++row) {
           own.fill(first + row, block.flags(offset + row));

@@ -6,18 +6,14 @@
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
 #ifdef HOLDFAST_HAS_SIMD
-#include "holdfast/simd/pack.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
 #endif
 
 namespace holdfast::program {
 
 #ifdef HOLDFAST_HAS_SIMD
-using ChartNumber = simd::Pack<double>;
 using simd::parallel_rows;
 #else
-using ChartNumber = double;
-
 /// Without oneTBB: the same tiles one after the other.
 template <class Kernel, class Compute>
 void parallel_rows(std::int64_t rows, std::int64_t tile, int, const Kernel& kernel,

@@ -7,12 +7,13 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/sampled_classification.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/motion/motion_run.hpp"
+#include "kernels/pack_kernels.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -21,19 +22,28 @@ namespace {
 /// Motions that are computed at once.
 constexpr std::size_t motions_of_batch = 256;
 
-/// Lets a batch be interrupted.
-struct LookForInterrupt : IgnoreSwitching {
-  void pause() const { throw_if_interrupted(); }
+/// The matrices of a batch's loops; lets it be interrupted.
+class BatchSource final : public MotionSource {
+ public:
+  const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) override {
+    return matrices_.of(loop);
+  }
+  void pause() override { throw_if_interrupted(); }
+
+ private:
+  detail::SweepMatrices matrices_;
 };
 
 /// Writes the metrics of some motions of the paper's model to their places.
 void batch_metrics(const std::vector<SweepMotion>& motions, const std::vector<std::size_t>& places,
-                   double duration, std::vector<MotionMetrics>& all) {
+                   double duration, InstructionSet set, std::vector<MotionMetrics>& all) {
+  const PackKernels& kernels = pack_kernels(set);
   std::vector<MotionMetrics> metrics(motions.size());
   for (std::size_t first = 0; first < motions.size(); first += motions_of_batch) {
-    motion_metrics<ChartNumber>(motions.data() + first,
-                                std::min(motions_of_batch, motions.size() - first), duration,
-                                metrics.data() + first, LookForInterrupt());
+    const std::size_t count = std::min(motions_of_batch, motions.size() - first);
+    const auto spans = detail::ordered_spans(motions.data() + first, count, duration);
+    BatchSource source;
+    kernels.metrics(motions.data() + first, spans.data(), count, metrics.data() + first, source);
   }
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
 }
@@ -84,7 +94,8 @@ CellMotion without_control(const CellMotion& motion) {
   return free;
 }
 
-std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, double duration) {
+std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, double duration,
+                                      InstructionSet set) {
   std::vector<MotionMetrics> all(motions.size());
   std::vector<SweepMotion> of_paper;
   std::vector<std::size_t> places;
@@ -98,7 +109,7 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
       places.push_back(k);
     }
   }
-  batch_metrics(of_paper, places, duration, all);
+  batch_metrics(of_paper, places, duration, set, all);
   return all;
 }
 

@@ -10,6 +10,7 @@
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
+#include "kernels/instruction_set.hpp"
 
 namespace holdfast::program {
 
@@ -31,8 +32,10 @@ void set_differential_gain(CellMotion& motion, double gain);
 /// the loop is left.
 CellMotion without_control(const CellMotion& motion);
 
-/// The metrics of each motion; those of the paper's model side by side. Throws Interrupted.
-std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, double duration);
+/// The metrics of each motion; those of the paper's model side by side, on the packs of the
+/// instruction set. Throws Interrupted.
+std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, double duration,
+                                      InstructionSet set);
 
 /// Per sample, over the whole duration; NaN where the motion diverges or is a single sample.
 double largest_exponent_of(const CellMotion& motion, double duration);

@@ -52,22 +52,22 @@ struct Vibration {
 };
 
 /// Largest |z₁| (m) of the steady motion without control.
-double free_vibration(const Case& the_case) {
+double free_vibration(const Case& the_case, InstructionSet set) {
   const double duration = duration_of(the_case);
   const CellMotion motion = cell_motion(the_case, Switching::sampled, duration);
-  return metrics_of({without_control(motion)}, duration).front().steady_peak;
+  return metrics_of({without_control(motion)}, duration, set).front().steady_peak;
 }
 
 /// @param free  free_vibration() of each of them
 std::vector<Vibration> vibrations_of(const std::vector<Case>& cases, double free,
-                                     Switching switching = Switching::sampled) {
+                                     InstructionSet set, Switching switching = Switching::sampled) {
   const double duration = duration_of(cases.front());
   std::vector<CellMotion> motions;
   motions.reserve(cases.size());
   for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
   std::vector<Vibration> vibrations;
   vibrations.reserve(cases.size());
-  for (const MotionMetrics& metrics : metrics_of(motions, duration))
+  for (const MotionMetrics& metrics : metrics_of(motions, duration, set))
     vibrations.push_back({metrics.steady_peak, free, metrics.engaged_fraction, metrics.force_peak});
   return vibrations;
 }
@@ -96,9 +96,9 @@ std::string force_text(const Vibration& vibration) {
 }
 
 /// What is left where the drive switches when it happens and not at samples.
-std::string exact_switching_text(const Case& the_case, double free) {
+std::string exact_switching_text(const Case& the_case, double free, InstructionSet set) {
   if (!(the_case.backlash.width > 0.0)) return "";
-  const Vibration exact = vibrations_of({the_case}, free, Switching::exact).front();
+  const Vibration exact = vibrations_of({the_case}, free, set, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
   return " A drive that enters and leaves its play when it happens, not at samples, leaves " +
          percent(exact.ratio()) + ".";
@@ -115,7 +115,7 @@ std::string borrowed_text(const Case& the_case) {
   return " Your case does not give " + names + ": the built-in value stands in.";
 }
 
-Answer does_it_help(const Case& the_case, const Vibration& vibration) {
+Answer does_it_help(const Case& the_case, const Vibration& vibration, InstructionSet set) {
   Answer answer{
       "Does control help here?",
       "",
@@ -130,7 +130,7 @@ Answer does_it_help(const Case& the_case, const Vibration& vibration) {
     answer.answer = "No: with these gains the motion grows without end.";
   } else {
     answer.answer = help_text(vibration) + instability_text(the_case);
-    answer.detail += force_text(vibration) + exact_switching_text(the_case, vibration.free);
+    answer.detail += force_text(vibration) + exact_switching_text(the_case, vibration.free, set);
   }
   answer.detail += borrowed_text(the_case);
   return answer;
@@ -168,17 +168,19 @@ std::string gain_of_case_text(const Case& the_case) {
 }
 
 /// What a gain leaves with the play that the case has.
-std::string in_play_text(const Case& the_case, double differential_gain, double free) {
+std::string in_play_text(const Case& the_case, double differential_gain, double free,
+                         InstructionSet set) {
   if (!(the_case.backlash.width > 0.0)) return "";
   const Vibration vibration =
-      vibrations_of({case_with(the_case, "control.differential_gain", differential_gain)}, free)
+      vibrations_of({case_with(the_case, "control.differential_gain", differential_gain)}, free,
+                    set)
           .front();
   if (!std::isfinite(vibration.ratio())) return "";
   return " With the case's play of " + millimetres(the_case.backlash.width) + " it leaves " +
          percent(vibration.ratio()) + "." + force_text(vibration);
 }
 
-Answer which_gain(const Case& the_case, double free) {
+Answer which_gain(const Case& the_case, double free, InstructionSet set) {
   const ForcedLoop<double> loop = forced_loop_of(the_case);
   const double duration = duration_of(the_case);
   const LeastAmplitude best = BestGains(duration).of(loop);
@@ -197,7 +199,7 @@ Answer which_gain(const Case& the_case, double free) {
     answer.detail = "Of the gains that let the motion settle in " + rounded(0.5 * duration, 3) +
                     " s the one of least steady amplitude. " +
                     margins_text(the_case, {loop.gains.proportional, best.differential_gain}) +
-                    in_play_text(the_case, best.differential_gain, free);
+                    in_play_text(the_case, best.differential_gain, free, set);
   }
   answer.detail += gain_of_case_text(the_case);
   return answer;
@@ -254,8 +256,8 @@ std::vector<Case> with_widths(const Case& the_case, const std::vector<double>& w
 
 /// The first of ascending widths with which control does not reduce the vibration.
 std::optional<std::size_t> first_too_wide(const Case& the_case, const std::vector<double>& widths,
-                                          double free) {
-  const std::vector<Vibration> vibrations = vibrations_of(with_widths(the_case, widths), free);
+                                          double free, InstructionSet set) {
+  const std::vector<Vibration> vibrations = vibrations_of(with_widths(the_case, widths), free, set);
   for (std::size_t k = 0; k < widths.size(); ++k)
     if (!vibrations[k].is_reduced()) return k;
   return std::nullopt;
@@ -275,7 +277,7 @@ double widest_play(const Case& the_case) {
   return std::ceil(1.5 * swing * per_unit) / per_unit;
 }
 
-Answer how_much_play(const Case& the_case, const Vibration& vibration) {
+Answer how_much_play(const Case& the_case, const Vibration& vibration, InstructionSet set) {
   constexpr int parts = 120, finer_parts = 20;
   const double widest = widest_play(the_case), step = widest / parts;
   Answer answer{
@@ -292,7 +294,7 @@ Answer how_much_play(const Case& the_case, const Vibration& vibration) {
     answer.answer = "Nothing vibrates: any.";
     return answer;
   }
-  const auto coarse = first_too_wide(the_case, evenly(0.0, widest, parts), vibration.free);
+  const auto coarse = first_too_wide(the_case, evenly(0.0, widest, parts), vibration.free, set);
   const std::string own = "; the case has " + millimetres(the_case.backlash.width) + ".";
   if (!coarse) {
     answer.answer = "Every play up to " + millimetres(widest) + " that was tried serves" + own;
@@ -302,7 +304,7 @@ Answer how_much_play(const Case& the_case, const Vibration& vibration) {
     const double begin = step * static_cast<double>(*coarse - 1);
     const auto widths = evenly(begin, begin + step, finer_parts);
     const std::size_t first =
-        first_too_wide(the_case, widths, vibration.free).value_or(widths.size() - 1);
+        first_too_wide(the_case, widths, vibration.free, set).value_or(widths.size() - 1);
     answer.answer =
         "Up to " + millimetres(widths[first > 0 ? first - 1 : 0]) + " it still helps" + own;
   }
@@ -318,12 +320,12 @@ Answer what_motion(const Case& the_case) {
 
 }  // namespace
 
-std::vector<Answer> answers_of(const Case& the_case) {
-  const Vibration vibration = vibrations_of({the_case}, free_vibration(the_case)).front();
-  std::vector<Answer> answers = {does_it_help(the_case, vibration),
-                                 which_gain(the_case, vibration.free), how_slow(the_case)};
+std::vector<Answer> answers_of(const Case& the_case, InstructionSet set) {
+  const Vibration vibration = vibrations_of({the_case}, free_vibration(the_case, set), set).front();
+  std::vector<Answer> answers = {does_it_help(the_case, vibration, set),
+                                 which_gain(the_case, vibration.free, set), how_slow(the_case)};
   throw_if_interrupted();
-  answers.push_back(how_much_play(the_case, vibration));
+  answers.push_back(how_much_play(the_case, vibration, set));
   answers.push_back(what_motion(the_case));
   return answers;
 }

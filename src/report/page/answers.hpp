@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "kernels/instruction_set.hpp"
 
 namespace holdfast::program {
 
@@ -18,7 +19,8 @@ struct Answer {
 /// Does control help, which D, how slow a computer, how much play, what motion: for the case as it
 /// is, switching at samples. A question that the case does not let be answered says why. Throws
 /// Interrupted.
-std::vector<Answer> answers_of(const Case& the_case);
+/// @param set  on whose packs motions are computed
+std::vector<Answer> answers_of(const Case& the_case, InstructionSet set);
 
 /// An answer and the whole command line that shows it.
 struct ShownAnswer {

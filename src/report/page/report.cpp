@@ -148,9 +148,9 @@ std::string introduction_of(bool builtin) {
          "the number found here.";
 }
 
-std::string answers_part(const Case& the_case, const Arguments& case_arguments) {
+std::string answers_part(const JobContext& context, const Arguments& case_arguments) {
   std::vector<ShownAnswer> shown;
-  for (const Answer& answer : answers_of(the_case))
+  for (const Answer& answer : answers_of(context.case_data, context.instructions))
     shown.push_back({answer, shell_text(command_of(answer.arguments, case_arguments))});
   return html_of(shown);
 }
@@ -187,7 +187,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   if (builtin) page.comparisons = compare_with_paper();
   page.motions = shown_motions(context.case_data, builtin, case_arguments);
   Progress progress(figures.size() + 2, "report", progress_wanted(context));
-  page.answers = answers_part(context.case_data, case_arguments);
+  page.answers = answers_part(context, case_arguments);
   progress.advance();
   page.switching = switching_part(context, builtin, writer);
   progress.advance();

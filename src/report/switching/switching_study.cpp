@@ -59,7 +59,7 @@ class ModeCounter {
   std::array<double, 3> counts() const {
     std::array<double, 3> counts{};
     for (std::size_t k = 0; k < counts.size(); ++k) {
-      const bool sampled = std::is_same_v<Contact, SampledContactMotion>;
+      const bool sampled = motion_->contact().switches_at_samples();
       counts[k] =
           static_cast<double>(sampled ? at_samples_[k] : motion_->counts().entered[k] - before_[k]);
     }
@@ -131,7 +131,7 @@ FoundPeriod searched_period(const StudiedLoop& studied) {
 template <class Contact>
 double transmitted_force(const HybridMotion<Contact>& motion, ContactMode mode,
                          const ContactInstant& now) {
-  if (mode == ContactMode::gap && !std::is_same_v<Contact, SampledContactMotion>) return 0.0;
+  if (mode == ContactMode::gap && !motion.contact().switches_at_samples()) return 0.0;
   if (mode != ContactMode::stick) return now.command;
   // What keeps Δż at zero: the acceleration that the plant would have without a force, over that
   // per newton of it.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
@@ -229,12 +230,8 @@ HybridOrbitResult<Contact> find_hybrid_orbit(const HybridMotion<Contact>& start,
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template HybridOrbitResult<SampledContactMotion> find_hybrid_orbit(
-    const HybridMotion<SampledContactMotion>&, const Rational&, const OrbitLimits&);
-extern template HybridOrbitResult<ExactDeadZone> find_hybrid_orbit(
-    const HybridMotion<ExactDeadZone>&, const Rational&, const OrbitLimits&);
-extern template HybridOrbitResult<ExactBacklash> find_hybrid_orbit(
-    const HybridMotion<ExactBacklash>&, const Rational&, const OrbitLimits&);
+extern template HybridOrbitResult<DriveContact<>> find_hybrid_orbit(
+    const HybridMotion<DriveContact<>>&, const Rational&, const OrbitLimits&);
 #endif
 
 }  // namespace holdfast

@@ -32,8 +32,12 @@ struct HasMovingGap<Contact, std::void_t<decltype(std::declval<Contact&>().shift
 
 /// The ends of the gap are what the contact remembers.
 template <class Contact>
-bool remembers_gap(const Contact& contact) {
-  return HasMovingGap<Contact>::value && contact.word() == ContactMode::gap;
+bool remembers_gap([[maybe_unused]] const Contact& contact) {
+  if constexpr (HasMovingGap<Contact>::value) {
+    return contact.remembers_gap();
+  } else {
+    return false;
+  }
 }
 
 /// to − from as X = [z (4); u_{j−1}; the gap; z₁ as last read] of HybridTangent.

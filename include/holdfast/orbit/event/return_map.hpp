@@ -96,8 +96,8 @@ class HybridReturn {
       blocks.back() = in_units(tangent.map()) * blocks.back();
       ++maps;
       rank = tangent.rank_of_product();
-      const int mode = motion_.motion().contact().mode();
-      may_cut = gap_counts || !gap_opens || !ContactTangent<Contact>::anchored(mode);
+      const Contact& contact = motion_.motion().contact();
+      may_cut = gap_counts || !gap_opens || !is_anchored(contact, contact.mode());
     });
     auto found = in_blocks ? multipliers_of_product(restricted(blocks, counting))
                            : eigenvalues(blocks.front(), counting);

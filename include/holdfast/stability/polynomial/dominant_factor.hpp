@@ -194,8 +194,8 @@ class DominantFactor {
     return a;
   }
 
-  void find_anew(const Polynomial<Scalar, Degree>& polynomial, const Mask<Scalar>& sound,
-                 Scalar& result) {
+  [[gnu::noinline, gnu::flatten]] void find_anew(const Polynomial<Scalar, Degree>& polynomial,
+                                                 const Mask<Scalar>& sound, Scalar& result) {
     std::array<std::uint8_t, lanes_> is_sound;
     Lanes<Scalar>::store_flags(sound, is_sound.data());
     for (std::size_t lane = 0; lane < lanes_; ++lane) {

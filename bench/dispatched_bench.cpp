@@ -1,0 +1,163 @@
+// What it costs that the program chooses its kernels when it starts. The same work twice: on the
+// templates compiled for the processor as a whole (dispatched_bench_native_SET), and as the program
+// does it (dispatched_bench_SET), all around the kernels being compiled for the baseline. Each
+// prints nanoseconds of processor time of four computations, medians; tools/bench_dispatch runs the
+// two in turn and prints their ratios.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <vector>
+
+#include "holdfast/phase_space/motion_batch.hpp"
+#include "holdfast/stability/chart/loop_chart_rows.hpp"
+#include "holdfast/sweep/metric_batch.hpp"
+#ifdef HOLDFAST_BENCH_KERNELS
+#include "kernels/kernels_of_units.hpp"
+#include "kernels/rows_on_packs.hpp"
+#else
+#include "holdfast/simd/pack.hpp"
+#include "processor.hpp"
+#endif
+
+namespace {
+
+using namespace holdfast;
+
+volatile double sink = 0.0;
+
+#ifdef HOLDFAST_BENCH_KERNELS
+using program::PackKernels;
+
+const PackKernels& kernels() { return program::HOLDFAST_BENCH_KERNELS(); }
+
+auto stability_rows(const LoopChart& chart) {
+  return StabilityChartRows<double, program::HurwitzOnPacks>(chart,
+                                                             program::HurwitzOnPacks(kernels()));
+}
+
+auto radius_rows(const LoopChart& chart) {
+  return RadiusChartRows<double, 6, program::RadiusOnPacks<6>>(
+      chart, program::RadiusOnPacks<6>(kernels()));
+}
+
+class Source final : public program::MotionSource {
+ public:
+  const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) override {
+    return matrices_.of(loop);
+  }
+  void pause() override {}
+
+ private:
+  detail::SweepMatrices matrices_;
+};
+
+void metrics(const std::vector<SweepMotion>& motions, double duration,
+             std::vector<MotionMetrics>& results) {
+  const auto spans = detail::ordered_spans(motions.data(), motions.size(), duration);
+  Source source;
+  kernels().metrics(motions.data(), spans.data(), motions.size(), results.data(), source);
+}
+
+bool processor_suffices() { return true; }
+#else
+using Pack = simd::Pack<double>;
+
+auto stability_rows(const LoopChart& chart) { return StabilityChartRows<Pack>(chart); }
+
+auto radius_rows(const LoopChart& chart) { return RadiusChartRows<Pack, 6>(chart); }
+
+void metrics(const std::vector<SweepMotion>& motions, double duration,
+             std::vector<MotionMetrics>& results) {
+  motion_metrics<Pack>(motions.data(), motions.size(), duration, results.data());
+}
+
+bool processor_suffices() { return bench::processor_suffices(); }
+#endif
+
+constexpr std::int64_t side = 1000;
+
+LoopChart gains_chart() {
+  return {{kollar2022_plant(), {0.01, 0.01}, {}},
+          {LoopParameter::proportional_gain, {-1000.0, 200.0, side}},
+          {LoopParameter::differential_gain, {-40.0, 20.0, side}}};
+}
+
+LoopChart period_chart() {
+  return {{kollar2022_plant(), {0.01, 0.0}, {}},
+          {LoopParameter::sampling_period, {0.0005, 0.02, side}},
+          {LoopParameter::differential_gain, {-40.0, 20.0, side}}};
+}
+
+void flags(const LoopChart& chart) {
+  auto rows = stability_rows(chart);
+  std::vector<std::uint8_t> row(side);
+  for (std::int64_t k = 0; k < side; ++k) {
+    rows.fill(k, row.data());
+    sink = row[0];
+  }
+}
+
+void radii(const LoopChart& chart) {
+  auto rows = radius_rows(chart);
+  constexpr std::int64_t tile = 32;
+  std::vector<double> values(side * tile);
+  for (std::int64_t k = 0; k < side; k += tile) {
+    rows.fill(k, std::min(tile, side - k), values.data());
+    sink = values[0];
+  }
+}
+
+/// τ = 1 ms, as in sweep_bench.
+std::vector<SweepMotion> sweep() {
+  constexpr std::size_t cells = 256;
+  std::vector<SweepMotion> motions;
+  for (std::size_t k = 0; k < cells; ++k) {
+    const double x = static_cast<double>(k) / cells, y = std::sin(7.0 * static_cast<double>(k));
+    motions.push_back({{kollar2022_plant(),
+                        {0.001, 0.0},
+                        {-557.0 + 20.0 * y, -13.0 + 2.0 * x},
+                        {0.5 + 0.1 * y, 9.5 + x},
+                        0.0005 * (1.0 + 0.5 * y)},
+                       Vector<double, 4>(0.001 * y, 0.0, 0.0, 0.0)});
+  }
+  return motions;
+}
+
+double processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
+}
+
+template <class Work>
+void line(const char* name, double units, const Work& work) {
+  constexpr std::size_t repetitions = 5;
+  std::vector<double> times;
+  for (std::size_t k = 0; k < repetitions; ++k) {
+    const double start = processor_time();
+    work();
+    times.push_back((processor_time() - start) / units);
+  }
+  std::sort(times.begin(), times.end());
+  std::printf("%s %.4f\n", name, times[repetitions / 2]);
+}
+
+}  // namespace
+
+int main() {
+  if (!processor_suffices()) return 0;
+  const LoopChart gains = gains_chart(), periods = period_chart();
+  constexpr double cells = static_cast<double>(side * side);
+  line("chart_of_gains", cells, [&] { flags(gains); });
+  line("chart_cell_by_cell", cells, [&] { flags(periods); });
+  line("radius", cells, [&] { radii(gains); });
+  const auto motions = sweep();
+  std::vector<MotionMetrics> results(motions.size());
+  constexpr double duration = 10.0;
+  line("trajectory_sample", static_cast<double>(motions.size()) * 10001.0, [&] {
+    metrics(motions, duration, results);
+    sink = results[0].steady_rms;
+  });
+}

@@ -1,0 +1,148 @@
+#pragma once
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// The motion of a plant's state in one mode of its contact.
+template <class Plant>
+using DynamicsOf = AffineDynamicsOf<states_of<Plant>>;
+
+/// The motion under a drive that transmits: ẋ = (A + b f) x + (b_u + g b) u + c F.
+template <class Plant>
+DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
+  const auto matrix = plant.state_matrix();
+  return {matrix, plant.control_input(), plant.excitation_input(),
+          StateOf<Plant>::Zero(matrix.rows())};
+}
+
+/// The motion under a drive that crosses its gap: ẋ = A x + b_u u + c F.
+template <int States>
+AffineDynamicsOf<States> released_dynamics(const LinearPlant<double, States>& plant) {
+  return {plant.released_matrix, plant.command_input, plant.excitation,
+          Vector<double, States>::Zero(plant.order())};
+}
+/// That of the two masses, whose drive has no states of its own: ż = A z + c F.
+template <class Scalar>
+AffineDynamicsOf<4> released_dynamics(const TwoDof<Scalar>& plant) {
+  return {plant.state_matrix(), Vector<Scalar, 4>::Zero(), plant.excitation_input()};
+}
+
+/// The motion while the sides of the drive stay together, Δż = 0: with the force that keeps them
+/// so,
+///
+///     s = −rᵀ(A x + b_u u + c F) / (rᵀb),   ẋ = (I − b rᵀ/(rᵀb)) (A x + b_u u + c F)
+///
+/// @param plant  rᵀb ≠ 0 of its relative velocity r
+template <int States>
+AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plant) {
+  const RowVector<double, States>& r = plant.connections.relative_velocity;
+  const Vector<double, States> pushed = plant.force_input / r.dot(plant.force_input);
+  return {plant.released_matrix - pushed * (r * plant.released_matrix),
+          plant.command_input - pushed * r.dot(plant.command_input),
+          plant.excitation - pushed * r.dot(plant.excitation),
+          Vector<double, States>::Zero(plant.order())};
+}
+/// Both masses move as one: the internal forces drop out of m₁ + m₂.
+template <class Scalar>
+AffineDynamicsOf<4> locked_dynamics(const TwoDof<Scalar>& plant) {
+  const Scalar mass = plant.conductor_mass + plant.absorber_mass;
+  AffineDynamicsOf<4> moving{Matrix<Scalar, 4>::Zero(), Vector<Scalar, 4>::Zero(),
+                             Vector<Scalar, 4>::Zero()};
+  moving.state(0, 1) = moving.state(2, 1) = 1.0;
+  for (const int row : {1, 3}) {
+    moving.state(row, 0) = -plant.conductor_stiffness / mass;
+    moving.state(row, 1) = -plant.conductor_damping / mass;
+    moving.force[row] = 1.0 / mass;
+  }
+  return moving;
+}
+
+/// The two masses whose absorber presses on a stop of stiffness k_c and damping c_c: k₂ + k_c,
+/// c₂ + c_c.
+template <class Scalar>
+TwoDof<Scalar> plant_on_stop(TwoDof<Scalar> plant, double stiffness, double damping) {
+  plant.absorber_stiffness += stiffness;
+  plant.absorber_damping += damping;
+  return plant;
+}
+
+/// The motion on a stop at Δz = `at` (m), whose spring is relaxed there: the stop pushes with
+/// k_c (Δz − at) + c_c Δż as the drive does, through b.
+template <int States>
+AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& plant,
+                                          double stiffness, double damping, double at) {
+  AffineDynamicsOf<States> pressed = engaged_dynamics(plant);
+  const Ports<double, States>& ports = plant.connections;
+  pressed.state += plant.force_input *
+                   (stiffness * ports.relative_displacement + damping * ports.relative_velocity);
+  pressed.drift = plant.force_input * (-stiffness * at);
+  return pressed;
+}
+/// That of the two masses.
+template <class Scalar>
+AffineDynamicsOf<4> dynamics_on_stop(const TwoDof<Scalar>& plant, double stiffness, double damping,
+                                     double at) {
+  const TwoDof<Scalar> pressed = plant_on_stop(plant, stiffness, damping);
+  return {pressed.state_matrix(), plant.control_input(), plant.excitation_input(),
+          -plant.control_input() * (stiffness * at)};
+}
+
+/// s (N), what a drive transmits that is engaged: f x + g u.
+template <int States>
+double engaged_force(const LinearPlant<double, States>& plant,
+                     const ContactInstantOf<States>& now) {
+  return plant.drive_force.dot(now.state) + plant.direct_transmission * now.command;
+}
+/// u, the drive of the two masses being ideal.
+template <class Scalar>
+double engaged_force(const TwoDof<Scalar>&, const ContactInstantOf<4>& now) {
+  return now.command;
+}
+
+/// Δz̈ = state · x + command u + force F (m/s²) in one mode.
+template <int States>
+struct GapAcceleration {
+  Vector<double, States> state;  ///< N × 1
+  double command;                ///< per newton of u
+  double force;                  ///< per newton of F
+
+  /// Its value at an instant.
+  double operator()(const ContactInstantOf<States>& now) const {
+    return state.dot(now.state) + command * now.command + force * now.force;
+  }
+};
+
+/// rᵀ ẋ in a mode without drift, r being the plant's relative velocity.
+template <int States>
+GapAcceleration<States> gap_acceleration(const LinearPlant<double, States>& plant,
+                                         const AffineDynamicsOf<States>& dynamics) {
+  const RowVector<double, States>& r = plant.connections.relative_velocity;
+  return {(r * dynamics.state).transpose(), r.dot(dynamics.command), r.dot(dynamics.force)};
+}
+/// That of the two masses: z̈₂ − z̈₁.
+template <class Scalar>
+GapAcceleration<4> gap_acceleration(const TwoDof<Scalar>&, const AffineDynamicsOf<4>& dynamics) {
+  return {dynamics.state.row(3).transpose() - dynamics.state.row(1).transpose(),
+          dynamics.command[3] - dynamics.command[1], dynamics.force[3] - dynamics.force[1]};
+}
+
+/// rᵀb (1/kg): how the force of the drive accelerates its own gap.
+template <int States>
+double gap_mobility(const LinearPlant<double, States>& plant) {
+  return plant.connections.relative_velocity.dot(plant.force_input);
+}
+/// −1/m₂ − 1/m₁.
+template <class Scalar>
+double gap_mobility(const TwoDof<Scalar>& plant) {
+  const Vector<Scalar, 4> input = plant.control_input();
+  return input[3] - input[1];
+}
+
+}  // namespace holdfast

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/phase_space/motion_batch.hpp"
+#include "holdfast/stability/chart/chart_polynomials.hpp"
+#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/sweep_matrices.hpp"
+#include "kernels/instruction_set.hpp"
+
+/// The loops of the program that run on packs, compiled once for each instruction set.
+///
+/// Everything that differs between the sets is behind this interface; everything around it is
+/// compiled once, for the baseline. A unit for a wider set holds the kernels on its packs, whose
+/// names bear the set because their type of pack does. What else the compiler leaves in it out of
+/// line the linker takes from the baseline's units, which come first, wherever those have it
+/// (cmake/kernels.cmake); tests/architecture/instructions_test.cmake looks that it did.
+
+namespace holdfast::program {
+
+/// RadiusBatch on the packs of an instruction set.
+template <int Degree>
+class RadiusKernel {
+ public:
+  using Table = typename ChartPolynomials<Degree>::Table;
+
+  virtual ~RadiusKernel() = default;
+  virtual std::unique_ptr<RadiusKernel> copy() const = 0;
+  virtual std::int64_t most_rows() const = 0;
+  virtual void fill(const AffineLine<Degree>* lines, std::int64_t count, const Axis& values,
+                    double* radius) = 0;
+  virtual void fill(const Table* tables, std::int64_t count, double* radius) = 0;
+};
+
+/// What the kernel of the metrics asks of its caller.
+class MotionSource {
+ public:
+  virtual ~MotionSource() = default;
+  /// The matrices of a loop, until it is asked again.
+  virtual const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) = 0;
+  /// Called every some hundred samples; may throw.
+  virtual void pause() = 0;
+};
+
+/// What says which orbit a motion surely tends to, as OrbitCatalogue does.
+class CaptureTest {
+ public:
+  virtual ~CaptureTest() = default;
+  virtual int captured_by(const ForcedMotionMemory<double>& memory) const = 0;
+};
+
+/// MotionBatch on the packs of an instruction set.
+class TravelKernel {
+ public:
+  virtual ~TravelKernel() = default;
+  virtual std::unique_ptr<TravelKernel> copy() const = 0;
+  virtual void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
+                   const CaptureTest& test) = 0;
+};
+
+/// A kernel that is copied with what has it, as each tile of a chart has its own.
+template <class Kernel>
+class CopiedKernel {
+ public:
+  explicit CopiedKernel(std::unique_ptr<Kernel> kernel) : kernel_(std::move(kernel)) {}
+  ~CopiedKernel() = default;
+  CopiedKernel(const CopiedKernel& other) : kernel_(other.kernel_->copy()) {}
+  CopiedKernel& operator=(const CopiedKernel&) = delete;
+  CopiedKernel(CopiedKernel&&) = default;
+  CopiedKernel& operator=(CopiedKernel&&) = default;
+
+ protected:
+  Kernel& kernel() { return *kernel_; }
+  const Kernel& kernel() const { return *kernel_; }
+
+ private:
+  std::unique_ptr<Kernel> kernel_;
+};
+
+/// The kernels of one instruction set.
+struct PackKernels {
+  /// hurwitz_row(), its two kinds.
+  void (*stable_line)(const Vector<double, 6>& constant, const Vector<double, 6>& slope,
+                      const std::vector<double>& values, std::uint8_t* stable);
+  void (*stable_table)(const Eigen::Matrix<double, Eigen::Dynamic, 6>& table, std::uint8_t* stable);
+  std::unique_ptr<RadiusKernel<5>> (*radius_of_degree_5)();
+  std::unique_ptr<RadiusKernel<6>> (*radius_of_degree_6)();
+  /// detail::group_metrics().
+  void (*metrics)(const SweepMotion* motions, const detail::SampleSpan* spans, std::size_t count,
+                  MotionMetrics* results, MotionSource& source);
+  std::unique_ptr<TravelKernel> (*travel)(const PeriodicallyForcedMotion<double>& motion,
+                                          const PdGains<double>& gains, const Rational& ratio);
+};
+
+/// Those of an available instruction set.
+const PackKernels& pack_kernels(InstructionSet set);
+
+}  // namespace holdfast::program
