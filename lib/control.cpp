@@ -1,8 +1,11 @@
 // Explicit instantiations of control for double.
+#include "holdfast/control/loop_map.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 
 namespace holdfast {
 
 template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
+template LoopMap<double> loop_map(const TwoDof<double>&, const Sampling<double>&);
+template LoopMap<double> loop_map(const LinearPlant<double>&, const Sampling<double>&);
 
 }  // namespace holdfast

@@ -2,6 +2,8 @@
 
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
+#include "holdfast/stability/boundary/circle_boundary.hpp"
+#include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 
@@ -35,5 +37,11 @@ template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<d
                                                         const GainWindow&);
 template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 5>&,
                                                         const GainWindow&);
+template std::vector<GainCrossing> circle_crossings(const LoopMap<double>&, FreeGain,
+                                                    const PdGains<double>&);
+template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, FreeGain,
+                                                    const PdGains<double>&);
+template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
+                                                               const ProportionalRange&);
 
 }  // namespace holdfast

@@ -20,5 +20,13 @@ template LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>&, const 
                                                    double, const FrequencyBand&);
 template LeastRadius least_radius(const SampledLoop<double>&, double, double);
 template LeastRadiusGains least_radius_gains(const SampledLoop<double>&);
+template std::vector<Interval<double>> feasible_differential_gains(const LinearPlant<double>&,
+                                                                   const MaxDelayQuestion&, double);
+template std::optional<double> feasible_differential_gain(const LinearPlant<double>&,
+                                                          const MaxDelayQuestion&, double);
+template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayQuestion&);
+template LeastAmplitude least_amplitude(const LinearPlant<double>&, const AmplitudeQuestion&,
+                                        double, double);
+template LeastRadius least_radius(const LoopMap<double>&, double, double);
 
 }  // namespace holdfast

@@ -1,5 +1,6 @@
 // Explicit instantiations of stability/margins for double.
 
+#include "holdfast/stability/margins/map_family.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
 #include "holdfast/stability/margins/slow_sampling.hpp"
@@ -11,5 +12,18 @@ template SlowSamplingBound::SlowSamplingBound(const TwoDof<double>&, const PdGai
                                               double);
 template StabilityMargins stability_margins(const TwoDof<double>&, const Sampling<double>&,
                                             const PdGains<double>&, const MarginSearch&);
+template class MapFamily<LinearPlant<double>>;
+template SlowSamplingBound::SlowSamplingBound(const LinearPlant<double>&, const PdGains<double>&,
+                                              double);
+template StabilityMargins stability_margins(const LinearPlant<double>&, const Sampling<double>&,
+                                            const PdGains<double>&, const MarginSearch&);
 
 }  // namespace holdfast
+
+namespace holdfast::detail {
+
+template WatchedPoints watched_roots(const LoopMap<double>&, const LoopMapRate<double>&,
+                                     const PdGains<double>&, bool);
+template double loop_excess(const LoopMap<double>&, const PdGains<double>&);
+
+}  // namespace holdfast::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "holdfast/control/loop_map.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
@@ -31,6 +32,20 @@ HarmonicInput<Scalar, states_of<Plant>> harmonic_input(
   return hold == ForceHold::sampled
              ? held_harmonic(loop)
              : exact_harmonic(plant, loop.sampling.period, angular_frequency);
+}
+
+/// The same of a loop of any order and delay, (N + k) × 1: the force moves no command.
+template <class Plant, class Scalar = ScalarOf<Plant>>
+HarmonicInput<Scalar, Eigen::Dynamic> harmonic_input(
+    const Plant& plant, const LoopMap<Scalar>& map, ForceHold hold,
+    const detail::Undeduced<Scalar>& angular_frequency) {
+  using Column = Vector<Scalar, Eigen::Dynamic>;
+  HarmonicInput<Scalar, Eigen::Dynamic> input{map.excitation, Column::Zero(map.size())};
+  if (hold == ForceHold::sampled) return input;
+  const auto exact = exact_harmonic(plant, map.sampling.period, angular_frequency);
+  input.cosine.head(exact.cosine.size()) = exact.cosine;
+  input.sine.head(exact.sine.size()) = exact.sine;
+  return input;
 }
 
 }  // namespace holdfast

@@ -7,7 +7,9 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -41,6 +43,12 @@ struct LoopMap {
   Matrix<Scalar, Eigen::Dynamic> closed_map(const PdGains<Scalar>& gains) const {
     return open_map + command * (gains.proportional * displacement + gains.differential * velocity);
   }
+
+  /// S₀ − I + s (P h_z + D h_v), (N + k) × (N + k): its eigenvalues are λ − 1.
+  Matrix<Scalar, Eigen::Dynamic> closed_increment(const PdGains<Scalar>& gains) const {
+    return increment +
+           command * (gains.proportional * displacement + gains.differential * velocity);
+  }
 };
 
 /// k = max(1, ⌈δ/τ⌉), the commands on their way; a delay of a whole number of samples, up to the
@@ -52,17 +60,12 @@ inline int held_commands(const Sampling<double>& sampling) {
   return samples > 1.0 ? static_cast<int>(samples) : 1;
 }
 
-/// The map of a plant's loop over a sampling period.
-/// @param plant     any order; its ports say what is measured
-/// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
-/// @throws InvalidParameter where the sampling is another or the state matrix is not finite
-template <class Plant, class Scalar = ScalarOf<Plant>>
-LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
-  require_positive("sampling period tau", static_cast<double>(sampling.period), "s");
-  require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
-                 1000.0 * static_cast<double>(sampling.period));
-  const int k = held_commands(
-      {static_cast<double>(sampling.period), static_cast<double>(sampling.processing_delay)});
+namespace detail {
+
+/// The map that keeps k commands, (k − 1) τ ≤ δ ≤ k τ: where δ is a whole number of samples, that
+/// of either side of it.
+template <class Plant, class Scalar>
+LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sampling, int k) {
   const Scalar past = std::min(
       sampling.period,
       std::max(Scalar(0), Scalar(sampling.processing_delay - Scalar(k - 1) * sampling.period)));
@@ -98,5 +101,72 @@ LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Sc
   map.conductor_rate = row(ports.velocity);
   return map;
 }
+
+}  // namespace detail
+
+/// The map of a plant's loop over a sampling period.
+/// @param plant     any order; its ports say what is measured
+/// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
+/// @throws InvalidParameter where the sampling is another or the state matrix is not finite
+template <class Plant, class Scalar = ScalarOf<Plant>>
+LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
+  require_positive("sampling period tau", static_cast<double>(sampling.period), "s");
+  require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
+                 1000.0 * static_cast<double>(sampling.period));
+  return detail::loop_map_keeping<Plant, Scalar>(
+      plant, sampling,
+      held_commands(
+          {static_cast<double>(sampling.period), static_cast<double>(sampling.processing_delay)}));
+}
+
+/// How fast the map of a loop moves along a line through the samplings: derivatives, per unit of
+/// whatever varies.
+template <class Scalar>
+struct LoopMapRate {
+  Matrix<Scalar, Eigen::Dynamic> open_map;  ///< of S₀, (N + k) × (N + k)
+  Vector<Scalar, Eigen::Dynamic> command;   ///< of s, (N + k) × 1
+
+  /// Of S₀ + s K, (N + k) × (N + k).
+  Matrix<Scalar, Eigen::Dynamic> closed_map(const LoopMap<Scalar>& map,
+                                            const PdGains<Scalar>& gains) const {
+    return open_map +
+           command * (gains.proportional * map.displacement + gains.differential * map.velocity);
+  }
+};
+
+/// The rate of a loop's map from those of τ and δ, the number of commands staying. With
+/// h = τ − δ′ = k τ − δ,
+///
+///     A_d′ = A A_d τ′,   Γ₀′ = (b + A Γ₀) h′,   Γ₀′ + Γ₁′ = (b + A (Γ₀ + Γ₁)) τ′
+/// @param plant        that of the map
+/// @param map          of `loop_map`
+/// @param period_rate  τ′
+/// @param delay_rate   δ′
+template <class Plant, class Scalar>
+LoopMapRate<Scalar> loop_map_rate(const Plant& plant, const LoopMap<Scalar>& map,
+                                  const detail::Undeduced<Scalar>& period_rate,
+                                  const detail::Undeduced<Scalar>& delay_rate) {
+  using Column = Vector<Scalar, Eigen::Dynamic>;
+  const Eigen::Index k = map.held_commands, size = map.size(), n = size - k;
+  const Matrix<Scalar, Eigen::Dynamic> a = plant.state_matrix();
+  const Column b = plant.control_input();
+  const Column previous = map.open_map.col(n).head(n);
+  const Column present = (k == 1 ? map.command : Column(map.open_map.col(n + 1))).head(n);
+  const Column present_rate = (b + a * present) * (Scalar(k) * period_rate - delay_rate);
+  LoopMapRate<Scalar> rate{Matrix<Scalar, Eigen::Dynamic>::Zero(size, size), Column::Zero(size)};
+  rate.open_map.topLeftCorner(n, n) = period_rate * (a * map.open_map.topLeftCorner(n, n));
+  rate.open_map.col(n).head(n) = (b + a * (present + previous)) * period_rate - present_rate;
+  if (k == 1) {
+    rate.command.head(n) = present_rate;
+  } else {
+    rate.open_map.col(n + 1).head(n) = present_rate;
+  }
+  return rate;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LoopMap<double> loop_map(const TwoDof<double>&, const Sampling<double>&);
+extern template LoopMap<double> loop_map(const LinearPlant<double>&, const Sampling<double>&);
+#endif
 
 }  // namespace holdfast

@@ -36,6 +36,11 @@ using ScalarOf = typename detail::StateMatrixOf<Plant>::Scalar;
 template <class Plant>
 inline constexpr int states_of = detail::StateMatrixOf<Plant>::RowsAtCompileTime;
 
+/// True of a plant of four states that says nothing of its ports: those are the two masses', of
+/// whose sampled loop all is known in closed form (order 4 + 1). Any other is answered by its map.
+template <class Plant>
+inline constexpr bool has_closed_forms = states_of<Plant> == 4 && !detail::HasPorts<Plant>::value;
+
 /// The state of a plant, N × 1.
 template <class Plant>
 using StateOf = Vector<ScalarOf<Plant>, states_of<Plant>>;

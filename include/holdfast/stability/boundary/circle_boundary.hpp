@@ -148,4 +148,9 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(const LoopMap<Scalar>& map
   return points;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
+                                                                      const ProportionalRange&);
+#endif
+
 }  // namespace holdfast

@@ -198,4 +198,11 @@ std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain 
   return stable;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<GainCrossing> circle_crossings(const LoopMap<double>&, FreeGain,
+                                                           const PdGains<double>&);
+extern template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, FreeGain,
+                                                           const PdGains<double>&);
+#endif
+
 }  // namespace holdfast

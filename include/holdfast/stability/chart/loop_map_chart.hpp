@@ -37,4 +37,8 @@ std::vector<std::uint8_t> stability_chart(const LoopMap<Scalar>& map, const Gain
   return stable;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<std::uint8_t> stability_chart(const LoopMap<double>&, const GainGrid&);
+#endif
+
 }  // namespace holdfast

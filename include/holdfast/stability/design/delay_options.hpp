@@ -9,9 +9,10 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
+#include "holdfast/stability/response/any_order_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
@@ -64,12 +65,11 @@ struct DelayOffer {
 template <class Plant>
 DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayQuestion& question,
                                double sampling_period) {
-  const auto loop = sampled_loop(plant, question.sampling(sampling_period));
+  const auto loop = loop_of(plant, question.sampling(sampling_period));
   DelayOffer<double> offer{
-      stable_differential_gains(characteristic_polynomial(loop), question.proportional_gain), {}};
+      stable_gains(loop, FreeGain::differential, {question.proportional_gain, 0.0}), {}};
   if (question.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
-  const double omega = question.angular_frequency();
-  offer.response.emplace(loop, harmonic_input(plant, loop, question.hold, omega), omega);
+  offer.response = response_of_loop(plant, loop, question.hold, question.angular_frequency());
   return offer;
 }
 
@@ -84,8 +84,7 @@ inline bool shows_vibration(const MaxDelayQuestion& question, double sampling_pe
 /// The open intervals of D (N s/m) that make one sampling period feasible, exact and ascending:
 /// those that stabilise and, to attenuate, those of them with an amplitude below that of no
 /// control.
-/// @tparam Plant           anything with `state_matrix()`, `control_input()` and
-///                         `excitation_input()`
+/// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            within its ranges, which are not checked here
 /// @param question         within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
@@ -103,10 +102,9 @@ std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
 /// The differential gain that makes one sampling period feasible, if there is one: of least
 /// amplitude over the stabilising gains, or amid the first interval of these.
 ///
-/// The stabilising gains are known as exact intervals (`stable_differential_gains`) and the least
+/// The stabilising gains are known as exact intervals (`stable_gains`) and the least
 /// amplitude over them in closed form (`SteadyResponse`), so nothing is scanned over D.
-/// @tparam Plant           anything with `state_matrix()`, `control_input()` and
-///                         `excitation_input()`
+/// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            within its ranges, which are not checked here
 /// @param question         within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
@@ -129,6 +127,10 @@ extern template std::vector<Interval<double>> feasible_differential_gains(const 
                                                                           const MaxDelayQuestion&,
                                                                           double);
 extern template std::optional<double> feasible_differential_gain(const TwoDof<double>&,
+                                                                 const MaxDelayQuestion&, double);
+extern template std::vector<Interval<double>> feasible_differential_gains(
+    const LinearPlant<double>&, const MaxDelayQuestion&, double);
+extern template std::optional<double> feasible_differential_gain(const LinearPlant<double>&,
                                                                  const MaxDelayQuestion&, double);
 #endif
 

@@ -11,10 +11,13 @@
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
+#include "holdfast/stability/response/any_order_response.hpp"
 #include "holdfast/stability/response/response_derivatives.hpp"
 
 namespace holdfast {
@@ -55,7 +58,7 @@ class DelaySearch {
   DelaySearch(const Plant& plant, const MaxDelayQuestion& question)
       : plant_(plant),
         question_(question),
-        path_(SamplingPath<Plant>::of_period(plant, question.delay_fraction)) {}
+        path_(SamplingFamily<Plant>::of_period(plant, question.delay_fraction)) {}
 
   MaxDelay answer() {
     feasible_ = std::min(question_.shortest_period, 1e-3 / question_.frequency);
@@ -139,12 +142,25 @@ class DelaySearch {
     const double omega = question_.angular_frequency();
     const auto input = harmonic_input(plant_, loop, question_.hold, omega);
     const auto input_rate = input_rate_by_period(plant_, loop, question_.hold, input, omega);
-    const ResponseRates response(loop, input, omega);
-    const std::complex<double> lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
-    const auto rates = response.along(path_.rate(loop), input_rate, lambda_rate);
-    const auto ratio = amplitude_ratio(response.phasors(), rates, gains);
+    const auto ratio = moving_ratio(loop, input, input_rate, gains);
     points.push_back({MovingPoint{ratio.value, ratio.rate}});
     return points;
+  }
+
+  template <class Loop, class Input>
+  AmplitudeRatio moving_ratio(const Loop& loop, const Input& input, const Input& input_rate,
+                              const PdGains<double>& gains) const {
+    const double omega = question_.angular_frequency();
+    if constexpr (has_closed_forms<Plant>) {
+      const ResponseRates response(loop, input, omega);
+      const std::complex<double> lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
+      const auto rates = response.along(path_.rate(loop), input_rate, lambda_rate);
+      return amplitude_ratio(response.phasors(), rates, gains);
+    } else {
+      const AnyOrderResponse<double> response(loop, input, omega);
+      return amplitude_ratio(response.phasors(), response.along(path_.rate(loop), input_rate, 1.0),
+                             gains);
+    }
   }
 
   /// Positive where some D stabilises: 1 − min ρ over D, to a ten-thousandth of itself.
@@ -165,14 +181,24 @@ class DelaySearch {
   }
 
   /// The last feasible period of a bracket whose ends differ: halved while it is wide, since
-  /// whether there is a gain is told much sooner than by how much it is missed.
+  /// whether there is a gain is told much sooner than by how much it is missed; to the end where
+  /// the latter is not known in closed form.
   double boundary_between(double feasible, double infeasible) {
-    while (infeasible > 1.01 * feasible) {
+    constexpr double wide = has_closed_forms<Plant> ? 1.01 : 1.0 + 1e-13;
+    while (infeasible > wide * feasible) {
       const double middle = std::sqrt(feasible * infeasible);
       const Intervals gains = gains_at(middle);
       if (!gains.empty()) start_ = gains.front().representative();
       (gains.empty() ? infeasible : feasible) = middle;
     }
+    if constexpr (has_closed_forms<Plant>) {
+      return narrowed_between(feasible, infeasible);
+    } else {
+      return feasible;
+    }
+  }
+
+  double narrowed_between(double feasible, double infeasible) {
     if (delay_offer(plant_, question_, infeasible).stable.empty()) {
       const auto reserve = [this](double period) { return stability_reserve(period); };
       infeasible = narrowed(reserve, feasible, infeasible).upper;
@@ -215,7 +241,7 @@ class DelaySearch {
 
   Plant plant_;
   MaxDelayQuestion question_;
-  SamplingPath<Plant> path_;
+  SamplingFamily<Plant> path_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
   double start_ = 0.0;     // D of least radius at a neighbouring period
@@ -229,10 +255,11 @@ class DelaySearch {
 /// roots and its amplitude followed from one to the other in safe steps (`first_exit`), in between.
 /// Where no longer period joins, the boundary is found by a bracketing root finder on a function
 /// that changes its sign there: 1 − min ρ over D (`least_radius`), or 1 less the least amplitude
-/// ratio over the stabilising D. The last stretch, from τ*/search_ratio on, is feasible at its ends
+/// ratio over the stabilising D; of a plant of another order than the two masses', by halving on
+/// whether there is a D at all. The last stretch, from τ*/search_ratio on, is feasible at its ends
 /// and taken to be so in between. Source: Kollár 2022, Fig. 5.
-/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()` that
-///                `validate` checks
+/// @tparam Plant  two masses, in closed form, or a plant of any order with ports; `validate` checks
+///                it
 /// @throws InvalidParameter for a plant or question outside the admissible ranges
 template <class Plant>
 MaxDelay max_sampling_period(const Plant& plant, const MaxDelayQuestion& question) {
@@ -243,6 +270,7 @@ MaxDelay max_sampling_period(const Plant& plant, const MaxDelayQuestion& questio
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template MaxDelay max_sampling_period(const TwoDof<double>&, const MaxDelayQuestion&);
+extern template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayQuestion&);
 #endif
 
 }  // namespace holdfast

@@ -9,8 +9,11 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
+#include "holdfast/stability/response/any_order_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
@@ -54,8 +57,8 @@ inline void validate(const AmplitudeQuestion& question) {
 ///
 /// The admissible D are exact intervals, the amplitude over them is a quotient of two quadratics
 /// (`SteadyResponse::best_differential_gain`): nothing is scanned.
-/// @tparam Plant             anything with `state_matrix()`, `control_input()` and
-///                           `excitation_input()` that `validate` checks
+/// @tparam Plant             two masses, in closed form, or a plant of any order with ports;
+///                           `validate` checks it
 /// @param plant              within its ranges
 /// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param frequency          f (Hz), > 0
@@ -71,14 +74,14 @@ LeastAmplitude least_amplitude(const Plant& plant, const AmplitudeQuestion& ques
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!(2.0 * frequency * question.sampling.period < 1.0))
     return {LeastAmplitudeOutcome::aliased, none, none, none};
-  const auto loop = sampled_loop(plant, question.sampling);
+  const auto loop = detail::loop_of(plant, question.sampling);
   const auto admissible =
       differential_gains_within_radius(loop, proportional_gain, question.largest_radius);
   if (admissible.empty()) return {LeastAmplitudeOutcome::none, none, none, none};
 
   const double omega = 2.0 * pi<double> * frequency;
-  const SteadyResponse<double> response(loop, harmonic_input(plant, loop, question.hold, omega),
-                                        omega);
+  const SteadyResponse<double> response =
+      detail::response_of_loop(plant, loop, question.hold, omega);
   const auto best = response.best_differential_gain(proportional_gain, admissible);
   if (!std::isfinite(best.differential_gain))
     return {LeastAmplitudeOutcome::none, none, none, none};
@@ -90,6 +93,8 @@ LeastAmplitude least_amplitude(const Plant& plant, const AmplitudeQuestion& ques
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template LeastAmplitude least_amplitude(const TwoDof<double>&, const AmplitudeQuestion&,
+                                               double, double);
+extern template LeastAmplitude least_amplitude(const LinearPlant<double>&, const AmplitudeQuestion&,
                                                double, double);
 #endif
 

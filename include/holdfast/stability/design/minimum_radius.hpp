@@ -9,6 +9,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
 namespace holdfast {
@@ -170,7 +171,44 @@ LeastRadius least_radius(const Loop& loop, double proportional_gain, double star
   return detail::LeastRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
 }
 
+namespace detail {
+
+/// A loop of any order as `LeastRadiusSearch` asks for it, radii counted from 1.
+template <class Scalar>
+struct RadiusLevels {
+  LoopMap<Scalar> map;        ///< the loop
+  Scalar centre = Scalar(1);  ///< from which radii are counted
+
+  /// What round-off of a root is a share of: the commands on their way have entries of 1.
+  Scalar scale() const { return Scalar(1); }
+  /// ρ(P, D) − 1.
+  Scalar radius_offset(const PdGains<Scalar>& gains) const { return loop_excess(map, gains); }
+  /// The D with ρ(P, D) < 1 + offset.
+  std::vector<Interval<Scalar>> differential_gains_within(Scalar proportional_gain,
+                                                          Scalar offset) const {
+    if (!(Scalar(1) + offset > Scalar(0))) return {};
+    return differential_gains_within_radius(map, proportional_gain, Scalar(1) + offset);
+  }
+};
+
+}  // namespace detail
+
+/// min over D of ρ of a loop of any order and delay: the same search on the crossings of the circle
+/// of radius r (`circle_crossings`). To about 10⁻⁹, what round-off makes of two roots that meet.
+/// @param map                of `loop_map`
+/// @param proportional_gain  P (N/m), finite
+/// @param start              a D (N s/m) to begin from, finite; any will do
+/// @throws InvalidParameter for gains that are not finite
+template <class Scalar>
+LeastRadius least_radius(const LoopMap<Scalar>& map, double proportional_gain, double start = 0.0) {
+  require_finite("proportional gain P", proportional_gain, "N/m");
+  require_finite("differential gain D", start, "N s/m");
+  const detail::RadiusLevels<Scalar> levels{map};
+  return detail::LeastRadiusSearch(levels, proportional_gain, 1e-9).from(start);
+}
+
 #ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template LeastRadius least_radius(const LoopMap<double>&, double, double);
 extern template LeastRadius least_radius(const SampledLoop<double>&, double, double);
 #endif
 

@@ -12,13 +12,11 @@
 #include "holdfast/core/interval.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/slow_sampling.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
 namespace holdfast {
 
@@ -60,7 +58,8 @@ struct StabilityMargins {
   TwoSidedMargin differential_gain;  ///< D (N s/m)
   TwoSidedMargin proportional_gain;  ///< P (N/m)
   TwoSidedMargin sampling_period;    ///< τ (s), δ/τ kept; its range is (0, ∞)
-  TwoSidedMargin processing_delay;   ///< δ (s), τ kept; its range is [0, τ]
+  TwoSidedMargin processing_delay;  ///< δ (s), τ kept; its range is [0, τ] for the two masses in
+                                    ///< closed form, [0, ∞) for a plant with ports
 };
 
 /// How far and how finely margins are looked for.
@@ -73,6 +72,9 @@ struct MarginSearch {
   /// windows of instability may be missed, and so may one that a single step passes over and of
   /// which the roots, their speeds and p(−1) at both ends of the step show nothing.
   double smallest_step = 1e-6;
+  /// 1 … 1000; the walk towards longer delays of a plant with ports gives up at so many samples
+  /// beyond δ.
+  double longest_delay_ratio = 10.0;
 };
 
 namespace detail {
@@ -83,7 +85,7 @@ MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double po
                        double value) {
   std::complex<double> nearest(1.0);
   double smallest = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& mu : roots(characteristic_polynomial(loop).at(gains))) {
+  for (const std::complex<double>& mu : roots_from_one(loop, gains)) {
     const double excess = std::abs(2.0 * mu.real() + std::norm(mu));  // ||λ|² − 1|
     if (!(excess < smallest)) continue;
     smallest = excess;
@@ -147,7 +149,7 @@ class PathMargin {
     if (walk.outcome == WalkOutcome::blocked) return {};
     if (walk.outcome == WalkOutcome::clear) return otherwise;
     const auto excess = [this](double position) {
-      return loop_polynomial(path_.loop_at(position)).excess(gains_);
+      return loop_excess(path_.loop_at(position), gains_);
     };
     const double lower = std::min(walk.last_inside, walk.first_outside);
     const double upper = std::max(walk.last_inside, walk.first_outside);
@@ -168,20 +170,26 @@ class PathMargin {
 template <class Plant>
 double continuous_abscissa(const Plant& plant, const PdGains<double>& gains) {
   double largest = -std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& root : roots(characteristic_polynomial(plant).at(gains))) {
+  for (const std::complex<double>& root : continuous_roots(plant, gains)) {
     largest = std::max(largest, root.real());
   }
   return largest;
 }
 
-/// 2π over the least |s| of the plant without control, s.
+/// 2π over the least |s| > 0 of the plant without control, s.
 template <class Plant>
 double slowest_mode_period(const Plant& plant) {
   double slowest = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& root : roots(characteristic_polynomial(plant).base)) {
-    slowest = std::min(slowest, std::abs(root));
+  for (const std::complex<double>& pole : open_poles(plant)) {
+    if (std::abs(pole) > 0.0) slowest = std::min(slowest, std::abs(pole));
   }
   return 2.0 * pi<double> / slowest;
+}
+
+/// φ − (k − 1) of a delay φτ: what it exceeds whole samples by, of which the bound on slow sampling
+/// is free.
+inline double last_share(double fraction) {
+  return std::clamp(fraction - (held_commands({1.0, fraction}) - 1), 0.0, 1.0);
 }
 
 template <class Plant>
@@ -191,27 +199,60 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
   const double shortest = 1e-6 * period;
   const double longest =
       std::max(search.longest_period_ratio * period, 20.0 * slowest_mode_period(plant));
-  const double certain = SlowSamplingBound(plant, gains, fraction).certain_from();
+  const double certain = SlowSamplingBound(plant, gains, last_share(fraction)).certain_from();
   const MarginEnd no_shorter =
       continuous_abscissa(plant, gains) < 0.0 ? no_boundary(0.0) : beyond_search(shortest, period);
   const MarginEnd no_longer = certain <= longest
                                   ? no_boundary(std::numeric_limits<double>::infinity())
                                   : beyond_search(longest, period);
-  const PathMargin margin(SamplingPath<Plant>::of_period(plant, fraction), gains, period, search);
+  const PathMargin margin(SamplingFamily<Plant>::of_period(plant, fraction), gains, period, search);
   const double limit = std::max(period, std::min(certain, longest));
   return {margin.towards(shortest, 0.05 * period, no_shorter),
           margin.towards(limit, 0.05 * period, no_longer)};
 }
 
+/// Both margins of δ where it may exceed τ: one stretch (k − 1) τ … k τ after the other, in each of
+/// which as many commands are on their way. At the seams one root comes or goes at λ = 0, and no
+/// other moves.
+template <class Plant>
+TwoSidedMargin delay_margin_by_cells(const Plant& plant, const Sampling<double>& sampling,
+                                     const PdGains<double>& gains, const MarginSearch& search) {
+  const double period = sampling.period, delay = sampling.processing_delay;
+  const int held = held_commands(sampling);
+  const double longest = delay + search.longest_delay_ratio * period;
+  const auto walk = [&](int direction) {
+    double position = delay;
+    for (int k = held; k >= 1; k += direction) {
+      const double seam = (direction < 0 ? k - 1 : k) * period;
+      const double limit = std::min(seam, longest);
+      const PathMargin margin(MapFamily<Plant>::of_delay(plant, period, k), gains, position,
+                              search);
+      MarginEnd end = margin.towards(limit, 0.05 * period, no_boundary(limit));
+      end.distance = std::abs(end.position - delay);
+      if (end.outcome == MarginEndOutcome::undefined && k != held)  // it crosses at the seam
+        return boundary_end(loop_map(plant, {period, position}), gains, position, delay);
+      if (end.outcome != MarginEndOutcome::none) return end;
+      if (limit == longest) return beyond_search(longest, delay);
+      position = limit;
+    }
+    return no_boundary(0.0);
+  };
+  return {walk(-1), walk(1)};
+}
+
 template <class Plant>
 TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
                             const PdGains<double>& gains, const MarginSearch& search) {
-  const PathMargin margin(SamplingPath<Plant>::of_delay(plant, sampling.period), gains,
-                          sampling.processing_delay, search);
-  const auto to = [&](double limit) {
-    return margin.towards(limit, 0.05 * sampling.period, no_boundary(limit));
-  };
-  return {to(0.0), to(sampling.period)};
+  if constexpr (!has_closed_forms<Plant>) {
+    return delay_margin_by_cells(plant, sampling, gains, search);
+  } else {
+    const PathMargin margin(SamplingPath<Plant>::of_delay(plant, sampling.period), gains,
+                            sampling.processing_delay, search);
+    const auto to = [&](double limit) {
+      return margin.towards(limit, 0.05 * sampling.period, no_boundary(limit));
+    };
+    return {to(0.0), to(sampling.period)};
+  }
 }
 
 }  // namespace detail
@@ -220,19 +261,21 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
 inline void validate(const MarginSearch& search) {
   require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
   require_within("smallest step", search.smallest_step, "", 1e-12, 0.1);
+  require_within("longest delay ratio", search.longest_delay_ratio, "", 1.0, 1000.0);
 }
 
 /// How far D, P, τ and δ, each on its own, are from the boundary of stability.
 ///
-/// D and P: the stable interval about the value, in closed form (`stable_intervals`). τ and δ: the
-/// roots are followed from the value outwards in steps that their measured speed shows to be safe
-/// (`first_exit`), and the crossing of the unit circle is then found by a bracketing root finder on
-/// ρ − 1. Towards τ = 0 the continuous loop decides; towards τ = ∞ stability may be certain
-/// (`SlowSamplingBound`).
-/// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()` that
-///                  `validate` checks
+/// D and P: the stable interval about the value, all crossings of the unit circle being known
+/// (`stable_gains`). τ and δ: the roots are followed from the value outwards in steps that their
+/// measured speed shows to be safe (`first_exit`), and the crossing of the unit circle is then
+/// found by a bracketing root finder on ρ − 1. Towards τ = 0 the continuous loop decides; towards τ
+/// = ∞ stability may be certain (`SlowSamplingBound`).
+/// @tparam Plant    two masses, of which all of this is in closed form, or a plant of any order
+/// with
+///                  ports, from the map of its loop; `validate` checks it
 /// @param plant     within its ranges
-/// @param sampling  τ (s) > 0, δ (s) 0 … τ
+/// @param sampling  τ (s) > 0, δ (s) 0 … τ, of a plant with ports 0 … 1000 τ
 /// @param gains     P (N/m) and D (N s/m), finite
 /// @param search    of the walks along τ and δ; D and P need none
 /// @throws InvalidParameter for a plant, sampling, gains or search outside their ranges
@@ -240,22 +283,18 @@ template <class Plant>
 StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& sampling,
                                    const PdGains<double>& gains, const MarginSearch& search = {}) {
   validate(plant);
-  validate(sampling);
+  const auto loop = detail::loop_of(plant, sampling);
   validate(gains);
   validate(search);
-  const auto loop = sampled_loop(plant, sampling);
-  const auto polynomial = characteristic_polynomial(loop);
-  const double reserve = -loop_polynomial(loop).excess(gains);
-  const TwoSidedMargin by_d =
-      detail::margin_in(stable_differential_gains(polynomial, gains.proportional),
-                        gains.differential, loop, [&](double d) {
-                          return PdGains<double>{gains.proportional, d};
-                        });
-  const TwoSidedMargin by_p =
-      detail::margin_in(stable_proportional_gains(polynomial, gains.differential),
-                        gains.proportional, loop, [&](double p) {
-                          return PdGains<double>{p, gains.differential};
-                        });
+  const double reserve = -detail::loop_excess(loop, gains);
+  const TwoSidedMargin by_d = detail::margin_in(stable_gains(loop, FreeGain::differential, gains),
+                                                gains.differential, loop, [&](double d) {
+                                                  return PdGains<double>{gains.proportional, d};
+                                                });
+  const TwoSidedMargin by_p = detail::margin_in(stable_gains(loop, FreeGain::proportional, gains),
+                                                gains.proportional, loop, [&](double p) {
+                                                  return PdGains<double>{p, gains.differential};
+                                                });
   const bool stable = reserve > 0.0 && by_d.below.outcome != MarginEndOutcome::undefined &&
                       by_p.below.outcome != MarginEndOutcome::undefined;
   if (!stable) return {MarginOutcome::not_stable, std::min(reserve, 0.0), {}, {}, {}, {}};
@@ -270,6 +309,9 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template StabilityMargins stability_margins(const TwoDof<double>&, const Sampling<double>&,
                                                    const PdGains<double>&, const MarginSearch&);
+extern template StabilityMargins stability_margins(const LinearPlant<double>&,
+                                                   const Sampling<double>&, const PdGains<double>&,
+                                                   const MarginSearch&);
 #endif
 
 }  // namespace holdfast

@@ -8,6 +8,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/math/roots/first_exit.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/margins/moving_root.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/polynomial/loop_derivatives.hpp"
 #include "holdfast/stability/polynomial/root_sensitivity.hpp"
@@ -44,14 +45,8 @@ class SamplingPath {
   /// How the loop's matrices move along the path, per second of it.
   LoopRate rate(const SampledLoop<double>& loop) const;
 
-  /// The loop's roots λ and how they move along the path. Stable ⇔ all inside the unit circle.
-  ///
-  /// Roots e^{sτ} that have not decayed within a sample are expected on a spiral: with σ = ln λ/τ,
-  /// of which a root of the plant itself does not move at all, σ is continued as a straight line,
-  ///
-  ///     ln λ(τ + Δ) = (σ + σ′Δ)(τ + Δ),   σ′ = (λ′/λ − σ)/τ
-  ///
-  /// and of the branches of the logarithm the one is meant whose σ is nearest to λ′/λ.
+  /// The loop's roots λ and how they move along the path, on spirals (`moving_loop_root`) where τ
+  /// varies. Stable ⇔ all inside the unit circle.
   MovingPoints roots_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
 
   /// The roots, and beside them what vanishes where a real root passes −1: Π (1 + λ_i) = −p(−1).
@@ -65,11 +60,6 @@ class SamplingPath {
   bool varies_period() const { return !(fixed_period_ > 0.0); }
 
  private:
-  /// At a multiple root the rates are not numbers; the other end of a step must then tell.
-  static std::complex<double> finite(const std::complex<double>& rate) {
-    return std::isfinite(rate.real()) && std::isfinite(rate.imag()) ? rate : 0.0;
-  }
-
   SamplingPath(const Plant& plant, double fixed_period, double delay_fraction)
       : plant_(plant), fixed_period_(fixed_period), delay_fraction_(delay_fraction) {}
 
@@ -91,20 +81,9 @@ MovingPoints SamplingPath<Plant>::roots_at(const SampledLoop<double>& loop,
   const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}));
   MovingPoints result;
   for (const MovingRoot<1>& root : moving_roots<1>(polynomial, gains)) {
-    const std::complex<double> value = root.value();
-    const bool spiral = varies_period() && std::abs(value) > 0.3;
-    MovingPoint point{value, finite(root.rates[0]), 0.0, spiral, root.excess()};
-    if (spiral) {
-      const double period = loop.sampling.period;
-      point.rate /= value;
-      const double turns =
-          std::round((point.rate.imag() * period - std::arg(value)) / (2.0 * pi<double>));
-      const std::complex<double> sigma =
-          std::complex<double>(root.logarithm(), std::arg(value) + 2.0 * pi<double> * turns) /
-          period;
-      point.bend = (point.rate - sigma) / period;
-    }
-    result.push_back(point);
+    result.push_back(detail::moving_loop_root(root.value(), root.rates[0], root.logarithm(),
+                                              root.excess(), varies_period(),
+                                              loop.sampling.period));
   }
   return result;
 }

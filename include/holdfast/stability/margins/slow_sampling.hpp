@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,8 +10,12 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/eigenvalue_rate.hpp"
 #include "holdfast/math/linalg/resolvent.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
@@ -30,10 +35,11 @@ namespace holdfast {
 ///     |L| ≤ |g| + 2 Σ |c_i| e^{−a_i χτ}/(1 − e^{−a_iτ}),   χ = 1 − φ, and χ = 1 for φ = 1
 ///
 /// the latter from L = −g/λ² + Σ c_i e_i (λ − 1)/(λ²(λ − e_i)). For the two-mass plant g = 0: a
-/// constant force between the masses does not move the conductor.
+/// constant force between the masses does not move the conductor. Commands that wait for whole
+/// samples more divide L by powers of λ, which leaves the bound as it is.
 class SlowSamplingBound {
  public:
-  /// @tparam Plant          anything with `state_matrix()` and `control_input()`
+  /// @tparam Plant          any order; of poles that are not apart nothing is certain
   /// @param plant           within its ranges, which are not checked here
   /// @param gains           P (N/m) and D (N s/m), finite
   /// @param delay_fraction  φ, 0 … 1, kept while τ varies
@@ -64,6 +70,15 @@ class SlowSamplingBound {
   }
 
  private:
+  /// The poles and residues of a plant of any order.
+  template <class Plant>
+  void take_modes(const Plant& plant, const PdGains<double>& gains);
+
+  /// The decay of a pole, 0 where it is undamped but for round-off.
+  static double decay_of(const std::complex<double>& pole) {
+    return -pole.real() > 1e-12 * std::abs(pole) ? -pole.real() : 0.0;
+  }
+
   double delay_fraction_;
   double static_gain_ = 0.0;    // |g|
   std::vector<double> decay_;   // a_i
@@ -74,21 +89,45 @@ template <class Plant>
 SlowSamplingBound::SlowSamplingBound(const Plant& plant, const PdGains<double>& gains,
                                      double delay_fraction)
     : delay_fraction_(delay_fraction) {
-  const auto plain = resolvent(plant.state_matrix());
-  const auto numerator = plain.between(gains.feedback_row(), plant.control_input());
-  const auto slope = derivative(plain.determinant);
-  for (const std::complex<double>& pole : roots(plain.determinant)) {
-    const double decay = -pole.real();
-    decay_.push_back(decay > 1e-12 * std::abs(pole) ? decay
-                                                    : 0.0);  // or undamped but for round-off
-    weight_.push_back(std::abs(evaluate(numerator, pole) / (pole * evaluate(slope, pole))));
+  if constexpr (!has_closed_forms<Plant>) {
+    take_modes(plant, gains);
+  } else {
+    const auto plain = resolvent(plant.state_matrix());
+    const auto numerator = plain.between(gains.feedback_row(), plant.control_input());
+    const auto slope = derivative(plain.determinant);
+    for (const std::complex<double>& pole : roots(plain.determinant)) {
+      decay_.push_back(decay_of(pole));
+      weight_.push_back(std::abs(evaluate(numerator, pole) / (pole * evaluate(slope, pole))));
+    }
+    static_gain_ = std::abs(numerator[0] / plain.determinant[0]);
   }
-  static_gain_ = std::abs(numerator[0] / plain.determinant[0]);
+}
+
+template <class Plant>
+void SlowSamplingBound::take_modes(const Plant& plant, const PdGains<double>& gains) {
+  using Square = Matrix<double, Eigen::Dynamic>;
+  const Square a = plant.state_matrix();
+  const Vector<double, Eigen::Dynamic> b = plant.control_input();
+  const RowVector<double, Eigen::Dynamic> feedback =
+      ports_of(plant).feedback_row(gains.proportional, gains.differential);
+  const auto poles = detail::balanced_eigenvalues<double, Eigen::Dynamic>(a);
+  for (Eigen::Index i = 0; i < poles.size(); ++i) {
+    decay_.push_back(decay_of(poles[i]));
+    // The residue of K (sI − A)⁻¹ b is the speed of the pole in A + ε b K.
+    weight_.push_back(
+        std::abs(eigenvalue_rate<double>(a, Square(b * feedback), poles[i]) / poles[i]));
+    for (Eigen::Index k = 0; k < i; ++k) {
+      if (std::abs(poles[i] - poles[k]) < 1e-6 * std::abs(poles[i])) decay_.back() = 0.0;
+    }
+  }
+  static_gain_ = std::abs(feedback.dot(a.partialPivLu().solve(b)));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template SlowSamplingBound::SlowSamplingBound(const TwoDof<double>&, const PdGains<double>&,
                                                      double);
+extern template SlowSamplingBound::SlowSamplingBound(const LinearPlant<double>&,
+                                                     const PdGains<double>&, double);
 #endif
 
 }  // namespace holdfast

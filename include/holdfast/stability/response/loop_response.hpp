@@ -86,4 +86,8 @@ CommandResponse<Scalar> LoopResponse<Scalar>::at_distance_from_one(const Complex
           (velocity_.template cast<Complex>() * solution).value()};
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class LoopResponse<double>;
+#endif
+
 }  // namespace holdfast

@@ -29,6 +29,27 @@ struct ResponsePhasors {
   }
 };
 
+/// The steady response to unit forces at ω where what is measured need not be the conductor's own
+/// motion, but for instance a filter's.
+template <class Scalar>
+struct LoopPhasors {
+  ResponsePhasors<Scalar> measured;           ///< t_z, t_v, f_z, f_v: of what P and D multiply
+  std::complex<Scalar> control_conductor;     ///< t_c (m/N): z to the control force
+  std::complex<Scalar> excitation_conductor;  ///< f_c (m/N): z to the excitation
+
+  /// t_c f_z − f_c t_z, by which P enters the numerator of the controlled amplitude; 0 where z
+  /// itself is measured.
+  std::complex<Scalar> proportional_slope() const {
+    return control_conductor * measured.force_displacement -
+           excitation_conductor * measured.control_displacement;
+  }
+  /// t_c f_v − f_c t_v, by which D enters it.
+  std::complex<Scalar> differential_slope() const {
+    return control_conductor * measured.force_velocity -
+           excitation_conductor * measured.control_velocity;
+  }
+};
+
 /// A quotient of two quadratics in D, coefficients constant first.
 template <class Scalar>
 struct RatioOfQuadratics {
@@ -57,8 +78,13 @@ struct RatioOfQuadratics {
 ///
 ///     Z₁ / F_m = (f₁ + D (t₁ f₂ − t₂ f₁)) / (1 − P t₁ − D t₂)
 ///
-/// t, f: responses of (z₁, ż₁) to the control force and to the excitation. The amplitude is that of
-/// the samples; it is a steady motion only where the loop is stable. Used for Kollár 2022, Fig. 5.
+/// t, f: responses of (z₁, ż₁) to the control force and to the excitation. Where others than the
+/// conductor's z and ż are measured (`LoopPhasors`), the amplitude is
+///
+///     Z / F_m = (f_c + P (t_c f_z − f_c t_z) + D (t_c f_v − f_c t_v)) / (1 − P t_z − D t_v)
+///
+/// The amplitude is that of the samples; it is a steady motion only where the loop is stable. Used
+/// for Kollár 2022, Fig. 5.
 template <class Scalar>
 class SteadyResponse {
  public:
@@ -70,18 +96,26 @@ class SteadyResponse {
   SteadyResponse(const SampledLoop<Scalar>& loop, const HarmonicInput<Scalar>& input,
                  const Scalar& angular_frequency);
 
-  /// The responses to unit forces, from which everything else follows.
+  /// Of a loop of any order.
+  explicit SteadyResponse(const LoopPhasors<Scalar>& phasors)
+      : phasors_(phasors.measured),
+        uncontrolled_(phasors.excitation_conductor),
+        proportional_slope_(phasors.proportional_slope()),
+        numerator_slope_(phasors.differential_slope()) {}
+
+  /// The responses of what is measured to unit forces.
   const ResponsePhasors<Scalar>& phasors() const { return phasors_; }
 
   /// |Z₁| / F_m in m/N at the given gains.
   Scalar amplitude_per_force(const PdGains<Scalar>& gains) const {
-    return std::abs(phasors_.force_displacement + gains.differential * numerator_slope_) /
+    return std::abs(without_differential(gains.proportional) +
+                    gains.differential * numerator_slope_) /
            std::abs(Complex(1) - gains.proportional * phasors_.control_displacement -
                     gains.differential * phasors_.control_velocity);
   }
 
   /// |Z₁| / F_m without control, m/N.
-  Scalar uncontrolled_amplitude_per_force() const { return std::abs(phasors_.force_displacement); }
+  Scalar uncontrolled_amplitude_per_force() const { return std::abs(uncontrolled_); }
 
   /// Amplitude relative to no control; below 1 the control attenuates.
   Scalar ratio_to_uncontrolled(const PdGains<Scalar>& gains) const {
@@ -91,9 +125,11 @@ class SteadyResponse {
   /// The square of `ratio_to_uncontrolled` as a function of D at a fixed P:
   ///
   ///     |f₁ + D (t₁ f₂ − t₂ f₁)|² / (|1 − P t₁ − D t₂|² |f₁|²)
+  ///
+  /// or, f₁ above being f_c + P (t_c f_z − f_c t_z) where z itself is not measured.
   RatioOfQuadratics<Scalar> squared_ratio(const Scalar& proportional_gain) const {
-    return {squared_modulus(phasors_.force_displacement, numerator_slope_),
-            std::norm(phasors_.force_displacement) *
+    return {squared_modulus(without_differential(proportional_gain), numerator_slope_),
+            std::norm(uncontrolled_) *
                 squared_modulus(Complex(1) - proportional_gain * phasors_.control_displacement,
                                 -phasors_.control_velocity)};
   }
@@ -125,13 +161,20 @@ class SteadyResponse {
   /// Roots of N′M − N M′ for |Z₁|² = N(D) / M(D), both quadratics in D.
   std::vector<Scalar> stationary_differential_gains(const Scalar& proportional_gain) const;
 
+  /// f_c + P (t_c f_z − f_c t_z), the numerator of Z at D = 0.
+  Complex without_differential(const Scalar& proportional_gain) const {
+    return uncontrolled_ + proportional_gain * proportional_slope_;
+  }
+
   /// Coefficients of |a + x b|² = |a|² + 2 Re(ā b) x + |b|² x².
   static Vector<Scalar, 3> squared_modulus(const Complex& a, const Complex& b) {
     return {std::norm(a), Scalar(2) * std::real(std::conj(a) * b), std::norm(b)};
   }
 
-  ResponsePhasors<Scalar> phasors_;
-  Complex numerator_slope_;  // t₁ f₂ − t₂ f₁
+  ResponsePhasors<Scalar> phasors_;          // of what is measured
+  Complex uncontrolled_;                     // f_c
+  Complex proportional_slope_ = Complex(0);  // t_c f_z − f_c t_z
+  Complex numerator_slope_;                  // t_c f_v − f_c t_v
 };
 
 template <class Scalar>
@@ -152,6 +195,7 @@ SteadyResponse<Scalar>::SteadyResponse(const SampledLoop<Scalar>& loop,
       input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
   const Matrix<Complex, 4, 2> solution = resolvent.partialPivLu().solve(sources);
   phasors_ = {solution(0, 0), solution(1, 0), solution(0, 1), solution(1, 1)};
+  uncontrolled_ = phasors_.force_displacement;
   numerator_slope_ = phasors_.numerator_slope();
 }
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// How an eigenvalue of M moves with M, λ′ = tr(R M′)/tr R for the resolvent R = (νI − M)⁻¹ at a ν
+/// next to it, where R is all but the projector on its eigenvectors; of several that coincide, the
+/// mean. To about 10⁻⁸ of itself in `double`.
+/// @param matrix  M, n × n
+/// @param rate    M′, n × n, per unit of whatever varies
+/// @param value   the eigenvalue λ
+/// @return        λ′; NaN or infinite for λ = 0, where no ν lies next to it
+/// Work: the inverse of one complex matrix.
+template <class Scalar>
+std::complex<Scalar> eigenvalue_rate(const Matrix<Scalar, Eigen::Dynamic>& matrix,
+                                     const Matrix<Scalar, Eigen::Dynamic>& rate,
+                                     const std::complex<Scalar>& value) {
+  using Complex = std::complex<Scalar>;
+  Matrix<Complex, Eigen::Dynamic> shifted = -matrix.template cast<Complex>();
+  shifted.diagonal().array() +=
+      value * (Scalar(1) + std::sqrt(std::numeric_limits<Scalar>::epsilon()));
+  const Matrix<Complex, Eigen::Dynamic> resolvent = shifted.partialPivLu().inverse();
+  return resolvent.transpose().cwiseProduct(rate.template cast<Complex>()).sum() /
+         resolvent.trace();
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::complex<double> eigenvalue_rate(const Matrix<double, Eigen::Dynamic>&,
+                                                     const Matrix<double, Eigen::Dynamic>&,
+                                                     const std::complex<double>&);
+#endif
+
+}  // namespace holdfast

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <complex>
+#include <type_traits>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/stability/boundary/circle_crossings.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/margins/map_family.hpp"
+#include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+
+namespace holdfast {
+
+/// The open intervals of one gain, the other being held, in which the loop of the two masses is
+/// stable: in closed form (`stable_intervals`).
+/// @param loop   of `sampled_loop`
+/// @param free   the gain that varies
+/// @param gains  the other one; the value of the free one does not matter
+template <class Scalar>
+std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, FreeGain free,
+                                           const PdGains<detail::Undeduced<Scalar>>& gains) {
+  const auto polynomial = characteristic_polynomial(loop);
+  return free == FreeGain::differential ? stable_differential_gains(polynomial, gains.proportional)
+                                        : stable_proportional_gains(polynomial, gains.differential);
+}
+
+/// The loop whose roots are those of another divided by r: stable where all of those have |λ| < r.
+/// @param offset  r − 1, above −1
+template <class Scalar>
+LoopMap<Scalar> at_radius(LoopMap<Scalar> map, const detail::Undeduced<Scalar>& offset) {
+  const Scalar radius = Scalar(1) + offset;
+  map.open_map /= radius;
+  map.command /= radius;
+  map.increment.diagonal().array() -= offset;
+  map.increment /= radius;
+  return map;
+}
+
+/// The open intervals of D (N s/m) at which every root of a loop of any order has |λ| < radius;
+/// radius 1 gives `stable_gains`.
+/// @param map                of `loop_map`
+/// @param proportional_gain  P (N/m), finite
+/// @param radius             > 0
+template <class Scalar>
+std::vector<Interval<Scalar>> differential_gains_within_radius(
+    const LoopMap<Scalar>& map, const detail::Undeduced<Scalar>& proportional_gain,
+    const detail::Undeduced<Scalar>& radius) {
+  return stable_gains(at_radius(map, radius - Scalar(1)), FreeGain::differential,
+                      {proportional_gain, Scalar(0)});
+}
+
+namespace detail {
+
+// What the searches ask of a loop, twice: of the two masses in closed form, of any order from its
+// map.
+
+/// The samplings of a plant, along τ or δ.
+template <class Plant>
+using SamplingFamily =
+    std::conditional_t<has_closed_forms<Plant>, SamplingPath<Plant>, MapFamily<Plant>>;
+
+/// The sampled loop of a plant: `SampledLoop` of the two masses, `LoopMap` of any other.
+template <class Plant>
+auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
+  if constexpr (has_closed_forms<Plant>) {
+    validate(sampling);
+    return sampled_loop(plant, sampling);
+  } else {
+    return loop_map(plant, sampling);
+  }
+}
+
+/// ρ − 1.
+template <class Scalar>
+Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scalar>>& gains) {
+  return loop_polynomial(loop).excess(gains);
+}
+
+/// λ − 1 of all roots.
+template <class Scalar>
+std::vector<std::complex<Scalar>> roots_from_one(const SampledLoop<Scalar>& loop,
+                                                 const PdGains<Undeduced<Scalar>>& gains) {
+  return roots(characteristic_polynomial(loop).at(gains));
+}
+
+/// The roots s of the continuous loop without delay, to which the sampled loop tends as τ → 0.
+template <class Plant>
+auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
+  if constexpr (has_closed_forms<Plant>) {
+    return roots(characteristic_polynomial(plant).at(gains));
+  } else {
+    return balanced_eigenvalues<double, Eigen::Dynamic>(
+        plant.state_matrix() + plant.control_input() * ports_of(plant).feedback_row(
+                                                           gains.proportional, gains.differential));
+  }
+}
+
+/// The poles of the plant without control.
+template <class Plant>
+auto open_poles(const Plant& plant) {
+  if constexpr (has_closed_forms<Plant>) {
+    return roots(characteristic_polynomial(plant).base);
+  } else {
+    return balanced_eigenvalues<double, Eigen::Dynamic>(plant.state_matrix());
+  }
+}
+
+}  // namespace detail
+
+}  // namespace holdfast

@@ -1,0 +1,146 @@
+// Largest sampling periods, least amplitudes and least radii of loops of any order: against the
+// closed forms of the two masses, and against scans of the loop's map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
+#include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/stability/design/minimum_radius.hpp"
+
+namespace holdfast::test {
+namespace {
+
+LinearPlant<double, 7> filtered_and_lagging(double filter, double drive) {
+  return with_drive_lag(with_measurement_filter(linear_plant(kollar2022_plant()), filter), drive,
+                        0.7);
+}
+
+MaxDelayQuestion tuned_to(double frequency, DelayCriterion criterion, double fraction = 0.0) {
+  MaxDelayQuestion question;
+  question.frequency = frequency;
+  question.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
+  question.criterion = criterion;
+  question.delay_fraction = fraction;
+  question.search_ratio = 1.01;
+  return question;
+}
+
+TEST(AnyOrderDelay, OfTwoMassesIsThatOfTheClosedForms) {
+  const TwoDof<double> plant = kollar2022_plant();
+  for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
+    for (const double frequency : {8.0, 20.0}) {
+      const auto question = tuned_to(frequency, criterion, frequency > 10.0 ? 0.5 : 0.0);
+      const MaxDelay closed = max_sampling_period(plant, question);
+      const MaxDelay general = max_sampling_period(linear_plant(plant), question);
+      EXPECT_EQ(general.outcome, closed.outcome);
+      EXPECT_EQ(general.limit, closed.limit);
+      EXPECT_NEAR(general.sampling_period, closed.sampling_period, 1e-7 * closed.sampling_period);
+    }
+  }
+}
+
+/// Whether one of many D serves, by the eigenvalues of the map.
+template <class Plant>
+bool feasible_in_a_scan(const Plant& plant, const MaxDelayQuestion& question, double period) {
+  const Sampling<double> sampling = question.sampling(period);
+  const LoopMap<double> map = loop_map(plant, sampling);
+  const auto response =
+      steady_response(plant, sampling, question.hold, question.angular_frequency());
+  for (double d = -20.0; d < 20.0; d += 0.002) {
+    const PdGains<double> gains{question.proportional_gain, d};
+    if (spectral_radius(map.closed_map(gains)) < 1.0 &&
+        (question.criterion == DelayCriterion::stable ||
+         response.ratio_to_uncontrolled(gains) < 1.0))
+      return true;
+  }
+  return false;
+}
+
+TEST(AnyOrderDelay, OfSevenStatesJustBelowIsFeasibleAndJustAboveIsNot) {
+  const auto plant = filtered_and_lagging(100.0, 150.0);
+  for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
+    const auto question = tuned_to(10.0, criterion, 0.3);
+    const MaxDelay answer = max_sampling_period(plant, question);
+    ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
+    EXPECT_TRUE(feasible_differential_gain(plant, question, answer.sampling_period));
+    EXPECT_FALSE(
+        feasible_differential_gain(plant, question, answer.sampling_period * (1.0 + 1e-6)));
+    for (int k = 1; k < 60; ++k)
+      EXPECT_TRUE(feasible_differential_gain(plant, question, answer.sampling_period * k / 60.0));
+    EXPECT_TRUE(feasible_in_a_scan(plant, question, 0.98 * answer.sampling_period));
+    EXPECT_FALSE(feasible_in_a_scan(plant, question, 1.002 * answer.sampling_period));
+  }
+}
+
+TEST(AnyOrderAmplitude, OfTwoMassesIsThatOfTheClosedForms) {
+  const TwoDof<double> plant = kollar2022_plant();
+  for (const double largest_radius : {1.0, 0.995}) {
+    const AmplitudeQuestion question{{0.002, 0.001}, ForceHold::exact, largest_radius};
+    for (const double frequency : {8.0, 10.0}) {
+      const double p = tuned_proportional_gain(74.4, 0.16, frequency);
+      const LeastAmplitude closed = least_amplitude(plant, question, frequency, p);
+      const LeastAmplitude general = least_amplitude(linear_plant(plant), question, frequency, p);
+      EXPECT_EQ(general.outcome, closed.outcome);
+      if (closed.outcome == LeastAmplitudeOutcome::none) continue;
+      EXPECT_NEAR(general.differential_gain, closed.differential_gain,
+                  1e-7 * std::abs(closed.differential_gain));
+      EXPECT_NEAR(general.ratio_to_uncontrolled, closed.ratio_to_uncontrolled,
+                  1e-7 * closed.ratio_to_uncontrolled);
+    }
+  }
+}
+
+TEST(AnyOrderAmplitude, OfSevenStatesIsTheLeastOfAScan) {
+  const auto plant = filtered_and_lagging(100.0, 150.0);
+  const AmplitudeQuestion question{{0.002, 0.001}, ForceHold::sampled, 1.0};
+  const LeastAmplitude least = least_amplitude(plant, question, 9.0, -50.0);
+  ASSERT_NE(least.outcome, LeastAmplitudeOutcome::none);
+  const LoopMap<double> map = loop_map(plant, question.sampling);
+  const auto response =
+      steady_response(plant, question.sampling, question.hold, 2.0 * pi<double> * 9.0);
+  double scanned = 1e300;
+  for (double d = -8.0; d < 8.0; d += 0.01) {
+    if (spectral_radius(map.closed_map({-50.0, d})) >= 1.0) continue;
+    scanned = std::min(scanned, response.ratio_to_uncontrolled({-50.0, d}));
+  }
+  EXPECT_LE(least.ratio_to_uncontrolled, scanned * (1.0 + 1e-12));
+  EXPECT_GT(least.ratio_to_uncontrolled, 0.98 * scanned);
+}
+
+TEST(AnyOrderRadius, OfTwoMassesIsThatOfTheClosedForms) {
+  const TwoDof<double> plant = kollar2022_plant();
+  for (const Sampling<double>& sampling :
+       {Sampling<double>{0.001, 0.0}, {0.005, 0.002}, {0.02, 0.02}}) {
+    for (const double p : {-300.0, -20.0}) {
+      const LeastRadius closed = least_radius(sampled_loop(plant, sampling), p);
+      const LeastRadius general = least_radius(loop_map(plant, sampling), p);
+      EXPECT_NEAR(general.radius, closed.radius, 1e-8);
+      EXPECT_LE(general.lower_bound, general.radius);
+    }
+  }
+}
+
+TEST(AnyOrderRadius, OfSevenStatesIsTheLeastOfAScan) {
+  const auto plant = filtered_and_lagging(100.0, 150.0);
+  for (const double delay : {0.001, 0.005}) {
+    const LoopMap<double> map = loop_map(plant, {0.002, delay});
+    const LeastRadius least = least_radius(map, -50.0);
+    double scanned = 1e300;
+    for (double d = -10.0; d < 10.0; d += 0.005)
+      scanned = std::min(scanned, spectral_radius(map.closed_map({-50.0, d})));
+    EXPECT_LE(least.radius, scanned + 1e-9);
+    EXPECT_GT(least.radius, scanned - 1e-4);
+    EXPECT_NEAR(spectral_radius(map.closed_map({-50.0, least.differential_gain})), least.radius,
+                1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast::test
