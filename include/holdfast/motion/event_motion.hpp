@@ -209,6 +209,8 @@ class EventMotion {
   double command() const { return command_; }
   /// The contact in its present mode.
   const Contact& contact() const { return contact_; }
+  /// How states of the plant are read.
+  const PortReadings<Plant>& readings() const { return readings_; }
   /// The controller with what it remembers of the past samples.
   const Controller& controller() const { return controller_; }
   /// The digital side and the excitation, as given.
@@ -226,6 +228,9 @@ class EventMotion {
 
   /// Forgets what the motion has met with.
   void restart_counts() { counts_ = {}; }
+
+  /// Goes on as if the computer had read a displacement (m) at the sample before.
+  void remember_reading(double displacement) { controller_.restore({displacement, true}); }
 
   /// Goes on at sample `index` from a state, a command in force until t_j + δ, and a contact. What
   /// the controller last read stays.
