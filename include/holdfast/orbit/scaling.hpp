@@ -6,6 +6,8 @@
 
 namespace holdfast {
 
+namespace detail {
+
 /// The largest power of two that is not larger than a size; 1 where that is not finite and > 0.
 template <class Scalar>
 Scalar power_of_two_below(const Scalar& size) {
@@ -14,6 +16,8 @@ Scalar power_of_two_below(const Scalar& size) {
   using std::ldexp;
   return size > Scalar(0) && isfinite(size) ? ldexp(Scalar(1), ilogb(size)) : Scalar(1);
 }
+
+}  // namespace detail
 
 /// Units of z̃ = [z; u_{j−1}] that belong to a plant: 1 m, ω · 1 m and k · 1 m, where a displacement
 /// z₁ of 1 m is pulled back with the acceleration ω² and the force k.
@@ -30,9 +34,9 @@ Vector<Scalar, 5> plant_units(const Matrix<Scalar, 4>& state_matrix,
   using std::abs;
   using std::sqrt;
   const Scalar acceleration = abs(state_matrix(1, 0));
-  const Scalar velocity = power_of_two_below(Scalar(sqrt(acceleration)));
+  const Scalar velocity = detail::power_of_two_below(Scalar(sqrt(acceleration)));
   return {Scalar(1), velocity, Scalar(1), velocity,
-          power_of_two_below(Scalar(acceleration / abs(excitation_input[1])))};
+          detail::power_of_two_below(Scalar(acceleration / abs(excitation_input[1])))};
 }
 
 }  // namespace holdfast
