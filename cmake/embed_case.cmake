@@ -6,7 +6,7 @@ if(text MATCHES "\\)holdfast_case\"")
 endif()
 get_filename_component(name "${CASE_FILE}" NAME)
 file(WRITE "${SOURCE_FILE}" "// Generated from ${name}; edit that file instead.
-#include \"builtin_case.hpp\"
+#include \"case/builtin_case.hpp\"
 
 namespace holdfast::program {
 

@@ -15,16 +15,16 @@ constexpr const char* clear_line = "\r\033[K";
 
 bool standard_error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-std::string rounded(double value) {
+std::string whole_or_tenth(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), value < 10.0 ? "%.1f" : "%.4g", value);
   return digits.data();
 }
 
 std::string duration_text(double seconds) {
-  if (seconds < 60.0) return rounded(seconds) + " s";
-  if (seconds < 3600.0) return rounded(seconds / 60.0) + " min";
-  return rounded(seconds / 3600.0) + " h";
+  if (seconds < 60.0) return whole_or_tenth(seconds) + " s";
+  if (seconds < 3600.0) return whole_or_tenth(seconds / 60.0) + " min";
+  return whole_or_tenth(seconds / 3600.0) + " h";
 }
 
 void show(const std::string& text) {
@@ -45,8 +45,8 @@ std::string progress_text(const std::string& label, const ProgressCount& count, 
                      std::to_string(count.total) + steps;
   if (count.done == count.skipped || !(seconds > 0.0)) return text;
   const double rate = static_cast<double>(count.done - count.skipped) / seconds;
-  text += ", " + rounded(rate) + steps + "/s";
-  if (count.samples > 0.0) text += ", " + rounded(count.samples / seconds) + " samples/s";
+  text += ", " + whole_or_tenth(rate) + steps + "/s";
+  if (count.samples > 0.0) text += ", " + whole_or_tenth(count.samples / seconds) + " samples/s";
   if (count.done >= count.total) return text + ", " + duration_text(seconds);
   const double left = static_cast<double>(count.total - count.done) / rate;
   return text + ", " + duration_text(left) + " left";

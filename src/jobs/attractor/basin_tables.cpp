@@ -43,13 +43,14 @@ struct ThreadedTiles {
 
 class CatalogueTest final : public CaptureTest {
  public:
-  explicit CatalogueTest(const OrbitCatalogue& catalogue) : catalogue_(catalogue) {}
+  explicit CatalogueTest(const OrbitCatalogue<ForcedLoop<double>>& catalogue)
+      : catalogue_(catalogue) {}
   int captured_by(const ForcedMotionMemory<double>& memory) const override {
     return catalogue_.captured_by(memory);
   }
 
  private:
-  const OrbitCatalogue& catalogue_;
+  const OrbitCatalogue<ForcedLoop<double>>& catalogue_;
 };
 
 /// MotionBatch on the packs of an instruction set.
@@ -57,7 +58,7 @@ class TravelOnPacks : public CopiedKernel<TravelKernel> {
  public:
   using CopiedKernel::CopiedKernel;
   void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
-           const OrbitCatalogue& catalogue) {
+           const OrbitCatalogue<ForcedLoop<double>>& catalogue) {
     kernel().run(motions, count, samples, CatalogueTest(catalogue));
   }
 };

@@ -7,6 +7,7 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/sampled_classification.hpp"
 #include "holdfast/sweep/event_metrics.hpp"

@@ -248,7 +248,7 @@ constexpr const char* nowhere = "the motion diverges in all of them";
 
 SwitchingFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>& studied) {
   const std::vector<ContactStrip> strips = strips_of_laws(studied);
-  const bool none = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
+  const bool empty = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
     return strip.window.phases.empty();
   });
   const std::string name = "switching-laws";
@@ -259,7 +259,7 @@ SwitchingFigure write_laws(const JobContext& context, const std::vector<StudiedL
       "all; at the right the largest |z₁| of the steady motion. Exactly taken, kollar, immediate "
       "and play are one law. The gap of the dead zone lies about z₂ − z₁ = 0 and does not move.",
       strips);
-  return {figure, none ? nowhere : ""};
+  return {figure, empty ? nowhere : ""};
 }
 
 /// What the charts show: half as much again as without control, and the case's own motions.
@@ -274,10 +274,10 @@ ShownAmplitudes shown_amplitudes(const Case& the_case, const Motions& of_case) {
 SwitchingFigure write_chart(const JobContext& context, const Figure& figure, const Loops& loops) {
   const Motions motions = study(loops, context.threads);
   write_motions(context, figure.name, motions);
-  const bool none = std::none_of(motions.begin(), motions.end(), [](const StudiedMotion& motion) {
+  const bool empty = std::none_of(motions.begin(), motions.end(), [](const StudiedMotion& motion) {
     return std::isfinite(motion.steady.largest_displacement);
   });
-  return {figure, none ? nowhere : ""};
+  return {figure, empty ? nowhere : ""};
 }
 
 /// The charts without their pictures: they take two hundred motions, whose work grows with the

@@ -118,7 +118,7 @@ class DominantFactor {
   void start_nearby(const Polynomial<Scalar, Degree>& polynomial, Factor& factor,
                     Quotient& quotient, Mask<Scalar>& settled) const {
     Factor other = history_[0];
-    Quotient other_quotient{};
+    Quotient other_quotient = Quotient::Zero();
     const Mask<Scalar> also = converge(polynomial, other, other_quotient, 3 * most_iterations_);
     const Mask<Scalar> better = also & !settled;
     factor.linear = select(better, other.linear, factor.linear);
