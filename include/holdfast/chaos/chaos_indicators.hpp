@@ -111,7 +111,7 @@ class MotionCollector {
         contact_(contact),
         plan_(plan),
         guard_(plan.divergence_growth, initial),
-        exponent_(plan.samples) {}
+        exponent_(plan.samples, initial.size()) {}
 
   CollectedMotion<Size> run() {
     settle();
@@ -251,7 +251,7 @@ MotionEvidence gather_evidence(const Vector<double, Size>& initial, Advance adva
                                Observable observable, const EvidencePlan& plan = {},
                                Tangent tangent = {}, Contact contact = {}) {
   validate(plan);
-  for (int i = 0; i < Size; ++i) require_finite("initial state", initial[i], "");
+  for (Eigen::Index i = 0; i < initial.size(); ++i) require_finite("initial state", initial[i], "");
   detail::MotionCollector<Size, Advance, Observable, Tangent, Contact> collector(
       initial, advance, observable, tangent, contact, plan);
   const detail::CollectedMotion<Size> motion = collector.run();

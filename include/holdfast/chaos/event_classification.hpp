@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "holdfast/chaos/chaos_indicators.hpp"
@@ -21,31 +20,47 @@
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/natural_modes.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
 /// What a search for the periodic orbit of a RealLoop's motion found, whatever its contact.
-struct HybridSearch {
+/// @tparam States  N, the order of the plant
+template <int States>
+struct HybridSearchOf {
   /// How the search ended; `incommensurate` also under a recorded force or where samples stray.
   OrbitOutcome outcome = OrbitOutcome::none_found;
-  std::optional<HybridOrbit> orbit;  ///< as in HybridOrbitResult
-  std::int64_t samples = 0;          ///< of the motion that was looked at
-  int candidates = 0;                ///< returns that were solved for
+  std::optional<HybridOrbitOf<States>> orbit;  ///< as in HybridOrbitResult
+  std::int64_t samples = 0;                    ///< of the motion that was looked at
+  int candidates = 0;                          ///< returns that were solved for
 };
 
+/// That of the two masses.
+using HybridSearch = HybridSearchOf<4>;
+
 /// What a motion of a RealLoop is, with its certificate or the evidence.
-struct HybridVerdict {
-  Verdict verdict;          ///< what the motion is, and what that rests on
-  HybridSearch search;      ///< the orbit, where there is one
-  MotionEvidence evidence;  ///< of a certified orbit its period and its exponent alone
+/// @tparam States  N, the order of the plant
+template <int States>
+struct HybridVerdictOf {
+  Verdict verdict;                ///< what the motion is, and what that rests on
+  HybridSearchOf<States> search;  ///< the orbit, where there is one
+  MotionEvidence evidence;        ///< of a certified orbit its period and its exponent alone
 };
+
+/// That of the two masses.
+using HybridVerdict = HybridVerdictOf<4>;
 
 namespace detail {
 
-/// A motion seen by gather_evidence(): states [z; u_{j−1}; 0; 0], as those of the evidence of a
+/// A motion seen by gather_evidence(): states [x; u_{j−1}; 0; 0], as those of the evidence of a
 /// ForcedLoop with room for the tangent of HybridTangent.
 template <class Contact>
 class WitnessedMotion {
+  static constexpr int size = HybridTangent<Contact>::size;
+
  public:
   /// @param gap_counts  whether a deviation of the gap is one of the motion
   WitnessedMotion(const HybridMotion<Contact>& start, bool gap_counts)
@@ -54,14 +69,16 @@ class WitnessedMotion {
   /// The types of the callables are the same for every contact, so that gather_evidence() is
   /// compiled once.
   MotionEvidence evidence(const EvidencePlan& plan) {
-    using State = Vector<double, 7>;
+    using State = Vector<double, size>;
     const std::function<void(State&)> advance = [this](State& state) { take(state); };
-    const std::function<double(const State&)> displacement = [](const State& s) { return s[0]; };
-    const std::function<Matrix<double, 7>(const State&)> tangent = [this](const State&) {
+    const std::function<double(const State&)> displacement = [this](const State& s) {
+      return motion_.readings().displacement(s.head(motion_.state().size()));
+    };
+    const std::function<Matrix<double, size>(const State&)> tangent = [this](const State&) {
       return map();
     };
     const std::function<bool()> contact = [this] { return engaged_; };
-    return gather_evidence<7>(state(), advance, displacement, plan, tangent, contact);
+    return gather_evidence<size>(state(), advance, displacement, plan, tangent, contact);
   }
 
   /// The sample since which the drive has not left its gap.
@@ -69,13 +86,13 @@ class WitnessedMotion {
   bool accumulates() const { return motion_.counts().accumulates; }
 
  private:
-  Vector<double, 7> state() const {
-    Vector<double, 7> state;
+  Vector<double, size> state() const {
+    Vector<double, size> state(motion_.state().size() + 3);
     state << motion_.state(), motion_.previous_command(), 0.0, 0.0;
     return state;
   }
 
-  void take(Vector<double, 7>& after) {
+  void take(Vector<double, size>& after) {
     const std::int64_t left = times_engaged();
     engaged_ = motion_.sense().engaged;
     tangent_.begin_sample(motion_);
@@ -89,9 +106,9 @@ class WitnessedMotion {
     return motion_.counts().entered[static_cast<std::size_t>(ContactMode::engaged)];
   }
 
-  Matrix<double, 7> map() const {
-    constexpr int gap = 5;
-    Matrix<double, 7> map = tangent_.map();
+  Matrix<double, size> map() const {
+    const Eigen::Index gap = motion_.state().size() + 1;
+    Matrix<double, size> map = tangent_.map();
     if (gap_counts_) return map;
     map.row(gap).setZero();
     map.col(gap).setZero();
@@ -132,13 +149,26 @@ inline const Harmonic* first_harmonic(const ComposedForce& force) {
   return first == force.harmonics.end() ? nullptr : &*first;
 }
 
-/// The plan for a loop, by its first harmonic or else by the conductor's own frequency. A recorded
-/// force is not outlived by it.
+/// The frequency (Hz) at which a plant swings by itself: the conductor's own of the two masses,
+/// that of the slowest mode of another one; without any, its fastest rate.
+inline double own_frequency(const TwoDof<double>& plant) {
+  const double own = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
+  return own / (2.0 * pi<double>);
+}
+template <class Plant>
+double own_frequency(const Plant& plant) {
+  const auto modes = natural_modes(plant);
+  if (!modes.empty()) return modes.front().frequency();
+  return balanced_norm(plant.state_matrix()) / (2.0 * pi<double>);
+}
+
+/// The plan for a loop, by its first harmonic or else by its own frequency. A recorded force is not
+/// outlived by it.
 /// @return nothing where the record ends before enough samples
-inline std::optional<EvidencePlan> evidence_plan(const RealLoop& loop) {
+template <class Plant>
+std::optional<EvidencePlan> evidence_plan(const RealLoopOf<Plant>& loop) {
   const Harmonic* const harmonic = first_harmonic(loop.digital.force);
-  const double own = std::sqrt(loop.plant.conductor_stiffness / loop.plant.conductor_mass);
-  const double frequency = harmonic != nullptr ? harmonic->frequency : own / (2.0 * pi<double>);
+  const double frequency = harmonic != nullptr ? harmonic->frequency : own_frequency(loop.plant);
   EvidencePlan plan = evidence_plan(frequency * loop.digital.sampling.period);
   if (loop.digital.force.record == nullptr) return plan;
   constexpr double fewest = 2100.0, parts = 210.0;  // whole parts: see EvidencePlan::samples
@@ -154,8 +184,9 @@ inline std::optional<EvidencePlan> evidence_plan(const RealLoop& loop) {
 inline Verdict undecided_since(const std::string& why) { return {MotionKind::undecided, 0, why}; }
 
 /// The verdict of a motion by its samples.
-template <class Contact>
-void weigh_samples(const RealLoop& loop, const HybridMotion<Contact>& start, HybridVerdict& found) {
+template <class Plant, class Contact>
+void weigh_samples(const RealLoopOf<Plant>& loop, const HybridMotion<Contact>& start,
+                   HybridVerdictOf<states_of<Plant>>& found) {
   const DigitalLoop& digital = loop.digital;
   std::optional<EvidencePlan> plan = evidence_plan(loop);
   if (!plan) {
@@ -196,20 +227,21 @@ void weigh_samples(const RealLoop& loop, const HybridMotion<Contact>& start, Hyb
 ///    between them;
 ///  - where changes of contact accumulate the verdict is undecided.
 /// @param loop           as it is built
-/// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
+/// @param initial_state  x₀, N × 1, finite; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
 /// @param limits         of the search for an orbit
 /// Work: that of find_hybrid_orbit() and of gather_evidence() for up to 10⁵ samples.
 /// @throws InvalidParameter where one of them is not admissible
-/// @tparam Loop  RealLoop; a template so that only who calls it compiles it
-template <class Loop, std::enable_if_t<std::is_same_v<Loop, RealLoop>, int> = 0>
-HybridVerdict classify_motion(const Loop& loop, const Vector<double, 4>& initial_state,
-                              const OrbitLimits& limits = {}) {
+/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+template <class Plant>
+HybridVerdictOf<states_of<Plant>> classify_motion(const RealLoopOf<Plant>& loop,
+                                                  const StateOf<Plant>& initial_state,
+                                                  const OrbitLimits& limits = {}) {
   validate(loop);
   validate(limits);
   require_finite("initial state", initial_state.sum(), "");
   return with_motion(loop, initial_state, [&](const auto& motion) {
     auto search = find_hybrid_orbit(motion, limits);
-    HybridVerdict found{
+    HybridVerdictOf<states_of<Plant>> found{
         {}, {search.outcome, std::move(search.orbit), search.samples, search.candidates}, {}};
     if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
       detail::weigh_samples(loop, motion, found);

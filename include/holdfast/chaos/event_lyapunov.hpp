@@ -21,11 +21,13 @@ namespace detail {
 
 /// An orthogonal basis in which no map of a loop has an invariant or an annihilated direction along
 /// an axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
-template <class Scalar = double>
-Matrix<Scalar, 7> oblique_basis() {
-  Vector<Scalar, 7> normal;
-  for (int i = 0; i < 7; ++i) normal[i] = std::sqrt(i + 1.0);
-  return Matrix<Scalar, 7>::Identity() - normal * normal.transpose() * (2.0 / normal.squaredNorm());
+/// @param size  of the maps
+template <class Scalar = double, int Size = 7>
+Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
+  Vector<Scalar, Size> normal(size);
+  for (Eigen::Index i = 0; i < size; ++i) normal[i] = std::sqrt(static_cast<double>(i) + 1.0);
+  return Matrix<Scalar, Size>::Identity(size, size) -
+         normal * normal.transpose() * (2.0 / normal.squaredNorm());
 }
 
 }  // namespace detail
@@ -35,21 +37,22 @@ Matrix<Scalar, 7> oblique_basis() {
 /// It stands in for the motion in run_trajectory, so that a history may be kept beside it:
 ///
 ///     HybridLyapunov lyapunov(motion);
-///     run_trajectory(lyapunov, samples, kick, [&](const MotionSample<double>& sample) {
+///     run_trajectory(lyapunov, samples, kick, [&](const auto& sample) {
 ///       … lyapunov.spectrum().exponents() …      // of the samples before this one
 ///     });
 ///
-/// The tangent is that of HybridTangent, orthogonalised at every sample. Of its seven exponents
+/// The tangent is that of HybridTangent, orthogonalised at every sample. Of its N + 3 exponents,
+/// N being the order of the plant,
 ///  - one is −∞ once the drive has been engaged for an instant: where its gap lies is a function of
 ///    the state from then on;
 ///  - one is −∞ unless the controller takes differences of displacements: else it does not use the
 ///    displacement that it read before;
 ///  - one is −∞ without processing delay: u_{j−1} is without effect from t_j on;
 ///  - after a stick phase, in which Δż = 0 and the drive knows its place, no more are finite than
-///    three and the commands (and readings) that have been decided but act later, at whichever
+///    N − 1 and the commands (and readings) that have been decided but act later, at whichever
 ///    instant of it these are fewest: without processing delay one less, with one up to two less.
 ///
-/// With a delay and a difference together six may be finite; one less if this is made before the
+/// With a delay and a difference together N + 2 may be finite; one less if this is made before the
 /// first sample of all, when nothing has been read that could be varied. A gap that is never left
 /// is neutral, an exponent of 0: the motions differ in where it lies.
 ///
@@ -57,16 +60,21 @@ Matrix<Scalar, 7> oblique_basis() {
 /// by a pivot: a product of maps with different kernels annihilates its directions in exact
 /// arithmetic, but shows it only up to a rounding that the maps in between magnify. Once
 /// annihilated, a direction stays so.
-/// Work per sample: that of the tangent, and some 1500 multiply-adds for the QR.
+/// Work per sample of the two masses: that of the tangent, and some 1500 multiply-adds for the QR.
 template <class Contact>
 class HybridLyapunov {
  public:
+  /// N + 3.
+  static constexpr int size = HybridTangent<Contact>::size;
+
   /// @param motion  goes on from where it stands; must outlive this
   explicit HybridLyapunov(HybridMotion<Contact>& motion)
-      : motion_(&motion), tangent_(motion), spectrum_(detail::oblique_basis()) {}
+      : motion_(&motion),
+        tangent_(motion),
+        spectrum_(detail::oblique_basis<double, size>(motion.state().size() + 3)) {}
 
   /// Takes the sample; once before each `advance()`.
-  HybridSample sense() { return motion_->sense(); }
+  typename EventMotion<Contact>::Sample sense() { return motion_->sense(); }
 
   /// Moves on to the next sample, and the tangent vectors with it.
   void advance() {
@@ -75,23 +83,23 @@ class HybridLyapunov {
     spectrum_.push(tangent_.map(), tangent_.rank_of_product());
   }
 
-  /// Adds a displacement (m) to z₁, which leaves the tangent vectors as they are; call before
-  /// `sense()`.
+  /// Adds a displacement (m) to the conductor, which leaves the tangent vectors as they are; call
+  /// before `sense()`.
   void displace_conductor(double displacement) { motion_->displace_conductor(displacement); }
   /// t_j (s) of the present sample.
   double time() const { return motion_->time(); }
-  /// z_j (m, m/s, m, m/s).
-  const Vector<double, 4>& state() const { return motion_->state(); }
+  /// x_j, N × 1; of the two masses z_j (m, m/s, m, m/s).
+  const typename EventMotion<Contact>::State& state() const { return motion_->state(); }
 
   /// Natural logarithm per sample, over the samples since the last restart.
-  const LyapunovSpectrum<double, 7>& spectrum() const { return spectrum_; }
+  const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
   /// Forgets all but the tangent vectors.
   void restart() { spectrum_.restart(); }
 
  private:
   HybridMotion<Contact>* motion_;
   HybridTangent<Contact> tangent_;
-  LyapunovSpectrum<double, 7> spectrum_;
+  LyapunovSpectrum<double, size> spectrum_;
 };
 
 namespace detail {

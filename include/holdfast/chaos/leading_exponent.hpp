@@ -34,9 +34,12 @@ template <int Size>
 class SettledExponent {
  public:
   /// @param expected_steps  how many maps will be pushed after settling, ≥ 64
+  /// @param size            of the maps, where that is known at run time alone
   /// @throws InvalidParameter for fewer
-  explicit SettledExponent(std::int64_t expected_steps)
-      : watched_from_(expected_steps - expected_steps / 32) {
+  explicit SettledExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
+      : basis_(Matrix<double, Size>::Identity(size, size)),
+        spectrum_(basis_),
+        watched_from_(expected_steps - expected_steps / 32) {
     require_within("number of steps", static_cast<double>(expected_steps), "", 64.0, 1e15);
     sums_.reserve(static_cast<std::size_t>(std::min<std::int64_t>(expected_steps / 32, most_sums)));
   }
@@ -89,7 +92,7 @@ class SettledExponent {
     return std::isfinite(high - low) ? high - low : 0.0;
   }
 
-  Matrix<double, Size> basis_ = Matrix<double, Size>::Identity();
+  Matrix<double, Size> basis_;
   LyapunovSpectrum<double, Size> spectrum_;
   std::int64_t watched_from_;
   std::vector<Vector<double, Size>> sums_;

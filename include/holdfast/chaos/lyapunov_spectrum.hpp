@@ -36,9 +36,12 @@ class LyapunovSpectrum {
   /// @param initial_basis  Q₀, orthogonal; the exponents are those of the space that its leading
   ///                       columns reach, so that maps with an invariant coordinate axis need
   ///                       another than the identity
-  explicit LyapunovSpectrum(
-      const Matrix<Scalar, Size>& initial_basis = Matrix<Scalar, Size>::Identity())
-      : state_{initial_basis, BatchSums<Scalar, Size>(), Vector<Scalar, Size>::Zero(), Size} {}
+  explicit LyapunovSpectrum(const Matrix<Scalar, Size>& initial_basis =
+                                Matrix<Scalar, Size>::Identity(Size < 0 ? 0 : Size,
+                                                               Size < 0 ? 0 : Size))
+      : state_{initial_basis, BatchSums<Scalar, Size>(1, initial_basis.rows()),
+               Vector<Scalar, Size>::Zero(initial_basis.rows()),
+               static_cast<int>(initial_basis.rows())} {}
 
   /// Goes on from steps that were taken otherwise.
   explicit LyapunovSpectrum(const State& state) : state_(state) {}
@@ -73,14 +76,14 @@ class LyapunovSpectrum {
   /// Forgets all but the directions of the tangent vectors and how many of them are annihilated:
   /// the exponents are those of the steps from here on.
   void restart() {
-    state_.sums = BatchSums<Scalar, Size>();
+    state_.sums = BatchSums<Scalar, Size>(1, state_.basis.rows());
     state_.remainder.setZero();
   }
 
  private:
   Vector<Scalar, Size> with(const Vector<Scalar, Size>& values, Scalar where_annihilated) const {
     Vector<Scalar, Size> result = values;
-    result.tail(Size - state_.finite).setConstant(where_annihilated);
+    result.tail(result.size() - state_.finite).setConstant(where_annihilated);
     return result;
   }
 
@@ -98,7 +101,7 @@ void LyapunovSpectrum<Scalar, Size>::push(const Matrix<Scalar, Size>& tangent, i
   const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
   state_.basis = qr.householderQ();
   state_.finite = std::min(state_.finite, rank);
-  Vector<Scalar, Size> logarithms = Vector<Scalar, Size>::Zero();
+  Vector<Scalar, Size> logarithms = Vector<Scalar, Size>::Zero(tangent.rows());
   for (int i = 0; i < state_.finite; ++i) {
     const Scalar stretch = std::abs(qr.matrixQR()(i, i));
     if (stretch == Scalar(0)) {

@@ -26,19 +26,25 @@ class RelativeDistance {
   ///                motion has decayed from there
   /// @throws InvalidParameter for an empty series or a state that is not finite
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
-                            const Vector<double, Size>& sizes = Vector<double, Size>::Zero()) {
+                            const Vector<double, Size>& sizes = no_sizes()) {
     require_positive("number of states", static_cast<double>(states.size()), "");
+    const Eigen::Index size = states.front().size();
     Vector<double, Size> low = states.front(), high = states.front();
     for (const auto& state : states) {
-      for (int i = 0; i < Size; ++i) require_finite("coordinate of a state", state[i], "");
+      for (Eigen::Index i = 0; i < size; ++i) require_finite("coordinate of a state", state[i], "");
       low = low.cwiseMin(state);
       high = high.cwiseMax(state);
     }
-    for (int i = 0; i < Size; ++i) {
-      const double floor = 1e-13 * std::max({std::abs(low[i]), std::abs(high[i]), sizes[i]});
+    weights_.resize(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const double given = sizes.size() > 0 ? sizes[i] : 0.0;
+      const double floor = 1e-13 * std::max({std::abs(low[i]), std::abs(high[i]), given});
       weights_[i] = high[i] - low[i] > floor ? 1.0 / (high[i] - low[i]) : 0.0;
     }
   }
+
+  /// Stands for sizes that are not known.
+  static Vector<double, Size> no_sizes() { return Vector<double, Size>::Zero(Size < 0 ? 0 : Size); }
 
   /// d of two states, of which either may lie outside the series; 0 where no coordinate varies.
   double operator()(const Vector<double, Size>& one, const Vector<double, Size>& other) const {
@@ -102,7 +108,7 @@ struct RepeatSearch {
 template <int Size>
 RepeatSearch repeats_after(const std::vector<Vector<double, Size>>& states, double tolerance,
                            std::size_t repeats = 3,
-                           const Vector<double, Size>& sizes = Vector<double, Size>::Zero()) {
+                           const Vector<double, Size>& sizes = RelativeDistance<Size>::no_sizes()) {
   require_within("number of states", static_cast<double>(states.size()), "", 1.0, 1e6);
   require_within("tolerance of a repeat", tolerance, "", 0.0, 1.0);
   require_within("number of repeats", static_cast<double>(repeats), "", 1.0, 1e6);

@@ -229,6 +229,9 @@ class EventMotion {
   /// Forgets what the motion has met with.
   void restart_counts() { counts_ = {}; }
 
+  /// Goes on as if the computer had read a displacement (m) at the sample before.
+  void remember_reading(double displacement) { controller_.restore({displacement, true}); }
+
   /// Goes on at sample `index` from a state, a command in force until t_j + δ, and a contact. What
   /// the controller last read stays.
   void restore(std::int64_t index, const State& state, double previous_command,

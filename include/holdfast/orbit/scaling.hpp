@@ -6,6 +6,19 @@
 
 namespace holdfast {
 
+namespace detail {
+
+/// The largest power of two that is not larger than a size; 1 where that is not finite and > 0.
+template <class Scalar>
+Scalar power_of_two_below(const Scalar& size) {
+  using std::ilogb;
+  using std::isfinite;
+  using std::ldexp;
+  return size > Scalar(0) && isfinite(size) ? ldexp(Scalar(1), ilogb(size)) : Scalar(1);
+}
+
+}  // namespace detail
+
 /// Units of z̃ = [z; u_{j−1}] that belong to a plant: 1 m, ω · 1 m and k · 1 m, where a displacement
 /// z₁ of 1 m is pulled back with the acceleration ω² and the force k.
 ///
@@ -19,16 +32,11 @@ template <class Scalar>
 Vector<Scalar, 5> plant_units(const Matrix<Scalar, 4>& state_matrix,
                               const Vector<Scalar, 4>& excitation_input) {
   using std::abs;
-  using std::ilogb;
-  using std::isfinite;
-  using std::ldexp;
   using std::sqrt;
-  const auto unit = [](const Scalar& size) {
-    return size > Scalar(0) && isfinite(size) ? ldexp(Scalar(1), ilogb(size)) : Scalar(1);
-  };
   const Scalar acceleration = abs(state_matrix(1, 0));
-  const Scalar velocity = unit(sqrt(acceleration));
-  return {Scalar(1), velocity, Scalar(1), velocity, unit(acceleration / abs(excitation_input[1]))};
+  const Scalar velocity = detail::power_of_two_below(Scalar(sqrt(acceleration)));
+  return {Scalar(1), velocity, Scalar(1), velocity,
+          detail::power_of_two_below(Scalar(acceleration / abs(excitation_input[1])))};
 }
 
 }  // namespace holdfast

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "holdfast/core/types.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -47,6 +51,70 @@ struct StateExtent {
 
  private:
   static double share(double part, double whole) { return part == 0.0 ? 0.0 : part / whole; }
+};
+
+/// How far a motion of a plant of order N reaches.
+///
+/// States of the two masses are measured as StateExtent says. Those of another plant are measured
+/// coordinate by coordinate, each in the largest value that it has taken, since their units may be
+/// any: x apart is max_i |x_i| / max |x_i seen|. Its displacements and velocities are those of both
+/// sides of the gap.
+template <class Plant>
+class StateExtentOf {
+ public:
+  using State = StateOf<Plant>;  ///< x, N × 1
+
+  /// Nothing yet.
+  explicit StateExtentOf(const PortReadings<Plant>& readings) : readings_(readings) {}
+
+  /// That of some states.
+  StateExtentOf(const PortReadings<Plant>& readings, const std::vector<State>& states)
+      : readings_(readings) {
+    for (const State& state : states) include(state);
+  }
+
+  /// One more state.
+  void include(const State& state) {
+    sides_.include(readings_.both_sides(state));
+    if constexpr (!of_two_masses) {
+      if (largest_.size() == 0) largest_ = State::Zero(state.size());
+      largest_ = largest_.cwiseMax(state.cwiseAbs());
+    }
+  }
+
+  /// Of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
+  const StateExtent& sides() const { return sides_; }
+
+  /// A state, most often the difference of two: the largest of its shares; infinite where a
+  /// coordinate has always been 0 and is not.
+  double share_of(const State& state) const {
+    if constexpr (of_two_masses) {
+      return sides_.share_of(state);
+    } else {
+      double largest = 0.0;
+      for (Eigen::Index i = 0; i < state.size(); ++i)
+        if (state[i] != 0.0) largest = std::max(largest, std::abs(state[i]) / largest_seen(i));
+      return largest;
+    }
+  }
+
+  /// The largest |x_i| of another plant than the two masses.
+  const State& largest() const { return largest_; }
+
+  /// Takes each coordinate of another plant than the two masses for no less than a share of its
+  /// size in another motion, so that what has decayed to rounding is measured by what it was.
+  void widen(double share, const StateExtentOf& other) {
+    if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
+  }
+
+ private:
+  static constexpr bool of_two_masses = std::is_same_v<Plant, TwoDof<double>>;
+
+  double largest_seen(Eigen::Index i) const { return largest_.size() == 0 ? 0.0 : largest_[i]; }
+
+  PortReadings<Plant> readings_;
+  StateExtent sides_;
+  State largest_ = State::Zero(states_of<Plant> < 0 ? 0 : states_of<Plant>);
 };
 
 }  // namespace holdfast

@@ -21,6 +21,12 @@ class PortReadings {
   Scalar displacement(const State& x) const { return ports_.displacement.dot(x); }
   /// ż there (m/s).
   Scalar velocity(const State& x) const { return ports_.velocity.dot(x); }
+  /// [z, ż, z + Δz, ż + Δż], both sides of the gap (m, m/s, m, m/s).
+  Vector<Scalar, 4> both_sides(const State& x) const {
+    const Scalar displacement = ports_.displacement.dot(x), velocity = ports_.velocity.dot(x);
+    return {displacement, velocity, displacement + relative_displacement(x),
+            velocity + relative_velocity(x)};
+  }
   /// What P multiplies (m).
   Scalar measured_displacement(const State& x) const { return ports_.measured_displacement.dot(x); }
   /// What D multiplies (m/s).
@@ -48,6 +54,11 @@ class PortReadings {
     stop_relative_motion(x);
   }
 
+  /// ż of states as columns of a matrix, N × M. @return 1 × M
+  template <class Columns>
+  auto velocities(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(ports_.velocity * x);
+  }
   /// What P multiplies, of deviations of the state as columns of a matrix, N × M. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {
@@ -94,6 +105,8 @@ class PortReadings<TwoDof<Number>> {
   const Scalar& displacement(const State& x) const { return x[0]; }
   /// ż₁ (m/s).
   const Scalar& velocity(const State& x) const { return x[1]; }
+  /// x itself.
+  const State& both_sides(const State& x) const { return x; }
   /// z₁ (m).
   const Scalar& measured_displacement(const State& x) const { return x[0]; }
   /// ż₁ (m/s).
@@ -117,6 +130,11 @@ class PortReadings<TwoDof<Number>> {
     x[3] = x[1];
   }
 
+  /// The second row of a matrix whose columns are states, 4 × M. @return 1 × M
+  template <class Columns>
+  auto velocities(const Columns& x) const {
+    return RowVector<Scalar, Columns::ColsAtCompileTime>(x.row(1));
+  }
   /// The first row of a matrix whose columns are deviations of the state, 4 × M. @return 1 × M
   template <class Columns>
   auto measured_displacements(const Columns& x) const {

@@ -30,7 +30,11 @@ class BatchSums {
   using Sums = Vector<Number, Series>;  ///< one number for each series
 
   /// @param first_length  steps of a batch before the first merging, ≥ 1
-  explicit BatchSums(std::int64_t first_length = 1) : length_(first_length) { sums_.fill(open_); }
+  /// @param series        how many, where that is known at run time alone
+  explicit BatchSums(std::int64_t first_length = 1, Eigen::Index series = Series < 0 ? 0 : Series)
+      : open_(Sums::Constant(series, Number(0))), length_(first_length) {
+    sums_.fill(open_);
+  }
 
   /// Takes in the sums over the next `steps` steps, 0 ≤ steps ≤ steps_left().
   void add(const Sums& sums, std::int64_t steps) {
@@ -57,7 +61,7 @@ class BatchSums {
 
   /// The series of one lane of a pack.
   BatchSums<double, Series, Batches> lane(std::size_t lane) const {
-    BatchSums<double, Series, Batches> result(length_);
+    BatchSums<double, Series, Batches> result(length_, open_.size());
     for (std::size_t k = 0; k < complete_; ++k) result.sums_[k] = lane_of(sums_[k], lane);
     result.complete_ = complete_;
     result.open_ = lane_of(open_, lane);
@@ -70,8 +74,9 @@ class BatchSums {
   Sums standard_errors(std::size_t merged = 1) const {
     using std::sqrt;
     const std::size_t batches = complete_ / merged;
-    if (batches < 4) return Sums::Constant(Number(std::numeric_limits<double>::quiet_NaN()));
-    Sums centre = Sums::Constant(Number(0)), spread = centre;
+    if (batches < 4)
+      return Sums::Constant(open_.size(), Number(std::numeric_limits<double>::quiet_NaN()));
+    Sums centre = Sums::Constant(open_.size(), Number(0)), spread = centre;
     for (std::size_t k = 0; k < batches * merged; ++k) centre += sums_[k];
     const Number share(1.0 / static_cast<double>(batches));
     for (std::size_t k = 0; k < batches; ++k) {
@@ -90,9 +95,9 @@ class BatchSums {
   friend class BatchSums;
 
   static Vector<double, Series> lane_of(const Sums& sums, std::size_t lane) {
-    Vector<double, Series> result;
+    Vector<double, Series> result(sums.size());
     typename Lanes<Number>::Value values[Lanes<Number>::count];
-    for (int i = 0; i < Series; ++i) {
+    for (Eigen::Index i = 0; i < sums.size(); ++i) {
       Lanes<Number>::store(sums[i], values);
       result[i] = static_cast<double>(values[lane]);
     }
@@ -101,7 +106,7 @@ class BatchSums {
 
   void close() {
     sums_[complete_++] = open_;
-    open_ = Sums::Constant(Number(0));
+    open_ = Sums::Constant(open_.size(), Number(0));
     open_steps_ = 0;
     if (complete_ < Batches) return;
     for (std::size_t k = 0; k < Batches / 2; ++k) sums_[k] = sums_[2 * k] + sums_[2 * k + 1];
@@ -110,7 +115,7 @@ class BatchSums {
   }
 
   std::array<Sums, Batches> sums_;
-  Sums open_ = Sums::Constant(Number(0));
+  Sums open_;
   std::size_t complete_ = 0;
   std::int64_t open_steps_ = 0;
   std::int64_t length_;

@@ -43,9 +43,11 @@ struct SwitchingMargins {
 /// from switching otherwise. Not certified is what interval arithmetic would: that a true orbit
 /// lies within a bound of the computed one.
 ///
-/// Its multipliers are those of [z; u_{j−1}; the gap; the displacement as last read] that depend on
+/// Its multipliers are those of [x; u_{j−1}; the gap; the displacement as last read] that depend on
 /// the past at all, padded to five.
-struct HybridOrbit : LoopOrbit<4> {
+/// @tparam States  N, the order of the plant
+template <int States>
+struct HybridOrbitOf : LoopOrbit<States> {
   std::vector<ContactMode> modes;  ///< from each sample on
   /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on, 0 in the gap,
   /// and in stick what holds the sides together at t_j.
@@ -53,7 +55,12 @@ struct HybridOrbit : LoopOrbit<4> {
   std::vector<ContactSwitch> switches;  ///< of one period, s after its first sample
   SwitchingMargins margins;             ///< the nearest of all switches and all that do not happen
   std::array<double, 3> time_share;     ///< of each ContactMode; their sum is 1
-  double largest_displacement;          ///< max |z₁(t)| (m), between the samples too
+  double largest_displacement;          ///< max |z(t)| (m), between the samples too
+  double largest_sample;                ///< max |z_j| (m), at the samples
+  StateExtent extent;                   ///< of both sides of the gap, at the samples
+
+  /// Largest |z| (m) of the conductor at the samples.
+  double amplitude() const { return largest_sample; }
 
   /// Share of the samples after which the drive is engaged.
   double engaged_fraction() const {
@@ -67,7 +74,6 @@ struct HybridOrbit : LoopOrbit<4> {
   /// in the orbit's largest displacement x, its largest velocity v and v²/x. Infinite where it
   /// comes to no surface.
   double border_share() const {
-    const StateExtent extent(states);
     const double acceleration = extent.velocity * extent.velocity / extent.displacement;
     return std::min({extent.share_of_displacement(margins.border_distance),
                      extent.share_of_displacement(margins.shortest_travel),
@@ -82,5 +88,8 @@ struct HybridOrbit : LoopOrbit<4> {
                          [mode](const ContactSwitch& change) { return change.mode == mode; });
   }
 };
+
+/// That of the two masses.
+using HybridOrbit = HybridOrbitOf<4>;
 
 }  // namespace holdfast

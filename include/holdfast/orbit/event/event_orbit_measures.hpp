@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "holdfast/contact/contact_guard.hpp"
@@ -14,6 +15,7 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/taylor_step.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/plant/port_readings.hpp"
 
 namespace holdfast {
 
@@ -46,11 +48,15 @@ void for_each_sign_change(Series p, Visit&& visit) {
   }
 }
 
-inline bool is_of_displacement(const Guard& guard) {
-  return guard.state[1] == 0.0 && guard.state[3] == 0.0 && guard.force == 0.0;
-}
-inline bool is_of_velocity(const Guard& guard) {
-  return guard.state[0] == 0.0 && guard.state[2] == 0.0 && guard.force == 0.0;
+/// Whether a guard is a multiple of a functional of the state alone, Δz or Δż.
+template <int States>
+bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
+  Eigen::Index largest = 0;
+  const double whole = row.cwiseAbs().maxCoeff(&largest);
+  const double factor = guard.state[largest] / row[largest];
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  return guard.force == 0.0 &&
+         (guard.state - factor * row).cwiseAbs().maxCoeff() <= rounding * std::abs(factor) * whole;
 }
 
 }  // namespace detail
@@ -69,9 +75,20 @@ inline bool is_of_velocity(const Guard& guard) {
 /// @tparam Contact  of the motion
 template <class Contact>
 class HybridMeasures {
+  using Motion = HybridMotion<Contact>;
+  using ModeGuard = GuardOf<Motion::states>;
+  using ModeGuards = GuardsOf<Motion::states>;
+  using Expansion = typename Motion::Expansion;
+  using Instant = typename Motion::Instant;
+
  public:
   /// Measures from the motion's present sample on.
-  explicit HybridMeasures(const HybridMotion<Contact>& motion) : motion_(&motion), trace_(motion) {}
+  explicit HybridMeasures(const HybridMotion<Contact>& motion)
+      : motion_(&motion),
+        readings_(motion.readings()),
+        displacement_row_(readings_.displacement_row()),
+        velocity_row_(readings_.velocity_row()),
+        trace_(motion) {}
 
   /// To be called after `sense()` and before `advance(measures)`.
   void begin() {
@@ -86,7 +103,7 @@ class HybridMeasures {
     const double all = time_[0] + time_[1] + time_[2];
     return {time_[0] / all, time_[1] / all, time_[2] / all};
   }
-  /// max |z₁(t)| (m).
+  /// max |z(t)| (m) of the conductor.
   double largest_displacement() const { return largest_displacement_; }
 
   // The observer of HybridMotion::advance.
@@ -96,26 +113,26 @@ class HybridMeasures {
     guards_ = motion_->contact().guards();
     time_[static_cast<std::size_t>(motion_->contact().word())] += length;
     trace_.flowed(mode, begin, length);
-    Guards guards = guards_;
+    ModeGuards guards = guards_;
     for (; seen_ < trace_.parts().size(); ++seen_) {
-      const AffineExpansion& part = trace_.parts()[seen_].state;
+      const Expansion& part = trace_.parts()[seen_].state;
       look_at_displacement(part);
       for (int g = 0; g < guards.count; ++g) look_at_guard(guards, at(g), part);
-      for (Guard& guard : guards.guard) guard.zeros = 0;
+      for (ModeGuard& guard : guards.guard) guard.zeros = 0;
     }
   }
   /// From here on u_j is in force.
   void commanded() { trace_.commanded(); }
   /// Takes the speed or the accelerations at a guard that was reached; a switch by a jump of force
   /// or command, guard −1, has no margin.
-  void switched(int from, int, int guard, const ContactInstant& instant) {
+  void switched(int from, int, int guard, const Instant& instant) {
     last_slope_ = {};
     if (guard < 0) return;
-    const Guard& reached = guards_.guard[at(guard)];
-    if (detail::is_of_displacement(reached)) {
-      keep_least(margins_.exit_velocity, std::abs(velocity_row().dot(instant.state)));
-      exit_ = displacement_row().dot(instant.state);
-    } else if (detail::is_of_velocity(reached)) {
+    const ModeGuard& reached = guards_.guard[at(guard)];
+    if (detail::is_of(displacement_row_, reached)) {
+      keep_least(margins_.exit_velocity, std::abs(velocity_row_.dot(instant.state)));
+      exit_ = displacement_row_.dot(instant.state);
+    } else if (detail::is_of(velocity_row_, reached)) {
       look_at_reversal(motion_->dynamics(from), instant);
     }
   }
@@ -126,25 +143,27 @@ class HybridMeasures {
     margin = std::min(margin, std::max(value, 0.0));
   }
 
-  void look_at_displacement(const AffineExpansion& part) {
+  void look_at_displacement(const Expansion& part) {
     const auto keep = [&](double x, bool) {
-      largest_displacement_ = std::max(largest_displacement_, std::abs(part.state(x)[0]));
+      largest_displacement_ =
+          std::max(largest_displacement_, std::abs(readings_.displacement(part.state(x))));
     };
     keep(0.0, false);
     keep(1.0, false);
-    detail::for_each_sign_change(Series(part.coefficients().row(1).transpose()), keep);
+    detail::for_each_sign_change(Series(readings_.velocities(part.coefficients()).transpose()),
+                                 keep);
   }
 
-  double* margin_of(const Guard& guard) {
-    if (detail::is_of_displacement(guard)) return &margins_.border_distance;
-    if (detail::is_of_velocity(guard)) return &margins_.reversal_velocity;
+  double* margin_of(const ModeGuard& guard) {
+    if (detail::is_of(displacement_row_, guard)) return &margins_.border_distance;
+    if (detail::is_of(velocity_row_, guard)) return &margins_.reversal_velocity;
     return nullptr;
   }
 
   /// Least values of a guard at which it does not end the mode: where its slope rises through zero,
   /// be it by a jump.
-  void look_at_guard(const Guards& guards, std::size_t g, const AffineExpansion& part) {
-    const Guard& guard = guards.guard[g];
+  void look_at_guard(const ModeGuards& guards, std::size_t g, const Expansion& part) {
+    const ModeGuard& guard = guards.guard[g];
     double* const margin = margin_of(guard);
     if (margin == nullptr) return;
     Series value = (guard.state.transpose() * part.coefficients()).transpose();
@@ -162,21 +181,22 @@ class HybridMeasures {
     last_slope_[g] = slope.sum();
   }
 
-  void look_at_reversal(const AffineDynamics& dynamics, const ContactInstant& instant) {
+  void look_at_reversal(const typename Motion::Dynamics& dynamics, const Instant& instant) {
     if (exit_)
-      keep_least(margins_.shortest_travel,
-                 std::abs(displacement_row().dot(instant.state) - *exit_));
-    const double free = velocity_row().dot(dynamics.state * instant.state + dynamics.drift +
-                                           dynamics.force * instant.force);
-    const double driven = free + velocity_row().dot(dynamics.command) * instant.command;
+      keep_least(margins_.shortest_travel, std::abs(displacement_row_.dot(instant.state) - *exit_));
+    const double free = velocity_row_.dot(dynamics.state * instant.state + dynamics.drift +
+                                          dynamics.force * instant.force);
+    const double driven = free + velocity_row_.dot(dynamics.command) * instant.command;
     keep_least(margins_.reversal_acceleration, std::abs(driven));
     keep_least(margins_.stick_acceleration, std::abs(free));
   }
 
-  const HybridMotion<Contact>* motion_;
+  const Motion* motion_;
+  PortReadings<typename Motion::Plant> readings_;
+  typename Motion::State displacement_row_, velocity_row_;  // of Δz and Δż, N × 1
   FlowTrace<Contact> trace_;
   std::size_t seen_ = 0;                // parts of the trace
-  Guards guards_;                       // of the last stretch
+  ModeGuards guards_;                   // of the last stretch
   std::array<double, 2> last_slope_{};  // of the guards where the last part ended; 0: not known
   std::optional<double> exit_;          // Δz where the last gap was left
   SwitchingMargins margins_;

@@ -22,8 +22,9 @@ namespace holdfast {
 /// What a search for the periodic orbit of a HybridMotion found.
 template <class Contact>
 struct HybridOrbitResult {
-  OrbitOutcome outcome;              ///< how the search ended
-  std::optional<HybridOrbit> orbit;  ///< certified, approached, touching a surface, not reproduced
+  OrbitOutcome outcome;  ///< how the search ended
+  std::optional<HybridOrbitOf<EventMotion<Contact>::states>>
+      orbit;  ///< certified, approached, touching a surface, not reproduced
   std::optional<HybridPoint<Contact>> point;  ///< of the orbit, at its first sample
   std::int64_t samples = 0;                   ///< of the motion that was looked at
   int candidates = 0;                         ///< returns that were solved for
@@ -49,10 +50,13 @@ class HybridOrbitSearch {
       : ratio_(ratio),
         limits_(limits),
         motion_(start, ratio.denominator),
-        solver_(motion_, ratio) {}
+        solver_(motion_, ratio),
+        extent_(start.readings()) {}
 
   Result run() {
     if (limits_.most_samples == 0) limits_.most_samples = 8 * limits_.largest_period;
+    largest_ever_ = State::Zero(state().size());
+    extent_.include(state());
     set_reference();
     while (taken() + ratio_.denominator <= limits_.most_samples) {
       take_coincidence();
@@ -70,10 +74,14 @@ class HybridOrbitSearch {
   }
 
  private:
-  using Candidate = typename HybridOrbitSolver<Contact>::Candidate;
+  using Solver = HybridOrbitSolver<Contact>;
+  using Candidate = typename Solver::Candidate;
+  using Extent = typename Solver::Extent;
+  using Orbit = typename Solver::Orbit;
+  using State = typename Solver::State;
 
   std::int64_t taken() const { return static_cast<std::int64_t>(modes_.size()); }
-  const Vector<double, 4>& state() const { return motion_.motion().state(); }
+  const State& state() const { return motion_.motion().state(); }
 
   void take_coincidence() {
     for (std::int64_t j = 0; j < ratio_.denominator; ++j) {
@@ -82,7 +90,7 @@ class HybridOrbitSearch {
     }
     largest_ = largest_.cwiseMax(state().cwiseAbs());
     largest_ever_ = largest_ever_.cwiseMax(largest_);
-    extent_.include(largest_);
+    extent_.include(state());
   }
 
   void set_reference() {
@@ -93,7 +101,7 @@ class HybridOrbitSearch {
   }
 
   bool near_reference() const {
-    const Vector<double, 4> near = 1e-3 * largest_ + 1e-9 * largest_ever_;
+    const State near = 1e-3 * largest_ + 1e-9 * largest_ever_;
     return motion_.motion().contact().mode() == reference_mode_ &&
            ((state() - reference_).cwiseAbs().array() <= near.array()).all();
   }
@@ -125,15 +133,17 @@ class HybridOrbitSearch {
     periods_on_orbit_ = 0;
   }
 
-  static bool is_same(const HybridOrbit& known, const HybridOrbit& other) {
-    const Vector<double, 4> apart = other.states.front() - known.states.front();
-    return known.modes == other.modes && StateExtent(known.states).share_of(apart) <= 1e-9;
+  bool is_same(const Orbit& known, const Orbit& other) const {
+    if (known.modes != other.modes) return false;
+    Extent extent(motion_.motion().readings(), known.states);
+    extent.widen(1e-3, extent_);
+    return extent.share_of(other.states.front() - known.states.front()) <= 1e-9;
   }
 
-  const Vector<double, 4>& proposed_state() const { return proposed_->orbit->states.front(); }
+  const State& proposed_state() const { return proposed_->orbit->states.front(); }
 
   /// Of the motion from the proposed orbit, as a share of the motion's extent.
-  double distance() const { return extent_.share_of<double, 4>(state() - proposed_state()); }
+  double distance() const { return extent_.share_of(state() - proposed_state()); }
 
   /// Asked at every coincidence, looks at those at which the motion began the proposed orbit.
   bool has_come() {
@@ -166,14 +176,13 @@ class HybridOrbitSearch {
   Rational ratio_;
   OrbitLimits limits_;
   RepeatingMotion<Contact> motion_;
-  HybridOrbitSolver<Contact> solver_;
+  Solver solver_;
   std::vector<ContactMode> modes_;
-  Vector<double, 4> reference_ = Vector<double, 4>::Zero();
+  State reference_;
   int reference_mode_ = 0;
   std::int64_t reference_taken_ = 0;
-  Vector<double, 4> largest_ = Vector<double, 4>::Zero();
-  Vector<double, 4> largest_ever_ = Vector<double, 4>::Zero();
-  StateExtent extent_;  // of the motion
+  State largest_, largest_ever_;  // |x_i| since the reference, and of all
+  Extent extent_;                 // of the motion
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
   std::optional<Candidate> proposed_;  // certified but for the motion's coming to it

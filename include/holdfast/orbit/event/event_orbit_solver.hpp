@@ -23,8 +23,10 @@
 namespace holdfast::detail {
 
 /// One period of a motion, sample by sample.
+/// @tparam States  N, the order of the plant
+template <int States>
 struct HybridTurn {
-  std::vector<Vector<double, 4>> states;
+  std::vector<Vector<double, States>> states;
   std::vector<ContactMode> modes_before, modes;  // of the contact before and after each sample
   std::vector<double> forces;
   std::vector<ContactSwitch> switches;
@@ -43,8 +45,10 @@ struct HybridTurn {
 template <class Contact>
 class TurnRecorder {
  public:
-  TurnRecorder(const HybridMotion<Contact>& motion, HybridMeasures<Contact>& measures,
-               HybridTurn& turn)
+  using Motion = HybridMotion<Contact>;
+  using Turn = HybridTurn<Motion::states>;
+
+  TurnRecorder(const Motion& motion, HybridMeasures<Contact>& measures, Turn& turn)
       : motion_(motion), measures_(measures), turn_(turn) {}
 
   void flowed(int mode, double begin, double length) {
@@ -52,13 +56,13 @@ class TurnRecorder {
     measures_.flowed(mode, begin, length);
   }
   void commanded() { measures_.commanded(); }
-  void switched(int from, int to, int guard, const ContactInstant& instant) {
+  void switched(int from, int to, int guard, const typename Motion::Instant& instant) {
     measures_.switched(from, to, guard, instant);
     turn_.switches.push_back({sample_time() + reached_, motion_.contact().word()});
   }
 
   /// Takes a sample whose contact was in a mode before it.
-  void take(ContactMode before, const HybridSample& sample) {
+  void take(ContactMode before, const typename Motion::Sample& sample) {
     turn_.states.push_back(sample.state);
     turn_.modes_before.push_back(before);
     turn_.modes.push_back(sample.mode);
@@ -74,17 +78,18 @@ class TurnRecorder {
     return static_cast<double>(turn_.states.size() - 1) * motion_.loop().sampling.period;
   }
 
-  const HybridMotion<Contact>& motion_;
+  const Motion& motion_;
   HybridMeasures<Contact>& measures_;
-  HybridTurn& turn_;
+  Turn& turn_;
   double reached_ = 0.0;  // s after the sample
 };
 
 /// The next N samples of a motion.
 template <class Contact>
-HybridTurn turn_of(RepeatingMotion<Contact>& motion, std::int64_t samples,
-                   HybridMeasures<Contact>& measures) {
-  HybridTurn turn;
+HybridTurn<EventMotion<Contact>::states> turn_of(RepeatingMotion<Contact>& motion,
+                                                 std::int64_t samples,
+                                                 HybridMeasures<Contact>& measures) {
+  HybridTurn<EventMotion<Contact>::states> turn;
   TurnRecorder<Contact> recorder(motion.motion(), measures, turn);
   for (std::int64_t j = 0; j < samples; ++j) {
     const ContactMode before = motion.motion().contact().word();
@@ -96,7 +101,9 @@ HybridTurn turn_of(RepeatingMotion<Contact>& motion, std::int64_t samples,
 
 /// Of the samples at which the contact is in a mode, that which is farthest from any switch in
 /// time; −1 where there is none.
-inline std::int64_t quiet_sample(const HybridTurn& turn, ContactMode mode, double sampling_period) {
+template <int States>
+std::int64_t quiet_sample(const HybridTurn<States>& turn, ContactMode mode,
+                          double sampling_period) {
   const auto samples = static_cast<std::int64_t>(turn.states.size());
   const double period = static_cast<double>(samples) * sampling_period;
   std::int64_t best = -1;
@@ -123,10 +130,10 @@ inline std::int64_t quiet_sample(const HybridTurn& turn, ContactMode mode, doubl
 }
 
 /// Whether an orbit comes so near to grazing that rounding may decide how it switches.
-/// @param closure  z_N − z₀
-inline bool touches_surface(const HybridOrbit& orbit, const Vector<double, 4>& closure) {
-  const StateExtent extent(orbit.states);
-  const SurfaceRounding rounding = surface_rounding(extent, extent.share_of(closure));
+/// @param closure  z_N − z₀ of both sides of the gap
+template <int States>
+bool touches_surface(const HybridOrbitOf<States>& orbit, const Vector<double, 4>& closure) {
+  const SurfaceRounding rounding = surface_rounding(orbit.extent, orbit.extent.share_of(closure));
   const SwitchingMargins& margins = orbit.margins;
   return margins.border_distance <= rounding.displacement ||
          std::min(margins.exit_velocity, margins.reversal_velocity) <= rounding.velocity;
@@ -136,32 +143,42 @@ inline bool touches_surface(const HybridOrbit& orbit, const Vector<double, 4>& c
 template <class Contact>
 class HybridOrbitSolver {
  public:
+  using Motion = HybridMotion<Contact>;
+  using State = typename Motion::State;
+  using Extent = StateExtentOf<typename Motion::Plant>;
+  using Orbit = HybridOrbitOf<Motion::states>;
+  using Turn = HybridTurn<Motion::states>;
   using Point = HybridPoint<Contact>;
 
   struct Candidate {
     CandidateOutcome outcome;
-    std::optional<HybridOrbit> orbit;
+    std::optional<Orbit> orbit;
     std::optional<Point> point;
   };
 
   HybridOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
-      : motion_(motion), ratio_(ratio), sampling_period_(motion.motion().loop().sampling.period) {}
+      : motion_(motion),
+        readings_(motion.motion().readings()),
+        ratio_(ratio),
+        sampling_period_(motion.motion().loop().sampling.period) {}
 
   /// @param near  at a coincidence
   Candidate solve(const Point& near, std::int64_t samples) {
     motion_.go_to(near);
     HybridMeasures<Contact> unused(motion_.motion());
-    const HybridTurn turn = turn_of(motion_, samples, unused);
+    const Turn turn = turn_of(motion_, samples, unused);
+    const Extent extent(readings_, turn.states);
     const std::int64_t section = section_of(turn);
     if (section < 0) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
     const bool gap_opens = !turn.switches.empty();
-    HybridReturn<Contact> map(motion_, samples);
+    const auto units = return_units(motion_.motion(), extent, turn.forces);
+    HybridReturn<Contact> map(motion_, samples, units);
     const auto solution = map.fixed_point(moved(near, section), gap_opens);
     if (!solution) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
     const Point first = moved(*solution, samples - section);
-    Candidate candidate = measured(first, samples, StateExtent(turn.states));
-    HybridOrbit& orbit = *candidate.orbit;
-    if (orbit.period_samples() < samples) map = {motion_, orbit.period_samples()};
+    Candidate candidate = measured(first, samples, extent);
+    Orbit& orbit = *candidate.orbit;
+    if (orbit.period_samples() < samples) map = {motion_, orbit.period_samples(), units};
     orbit.multipliers = map.multipliers(*solution, gap_opens);
     return candidate;
   }
@@ -169,7 +186,7 @@ class HybridOrbitSolver {
  private:
   /// Where a fixed point is sought: with the drive engaged if it ever is, since it has forgotten
   /// its gap then.
-  std::int64_t section_of(const HybridTurn& turn) const {
+  std::int64_t section_of(const Turn& turn) const {
     const std::int64_t engaged = quiet_sample(turn, ContactMode::engaged, sampling_period_);
     return engaged >= 0 ? engaged : quiet_sample(turn, ContactMode::gap, sampling_period_);
   }
@@ -185,28 +202,33 @@ class HybridOrbitSolver {
 
   /// Three periods from a point: they must switch alike.
   /// @param extent  of the states among which the orbit was sought; its own may be rounding
-  Candidate measured(const Point& first, std::int64_t samples, const StateExtent& extent) {
+  Candidate measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
     HybridMeasures<Contact> measures(motion_.motion());
-    HybridTurn turn = turn_of(motion_, samples, measures);
+    Turn turn = turn_of(motion_, samples, measures);
     const std::int64_t shortest = shortest_period(turn, extent);
     if (shortest < samples) return measured(first, shortest, extent);
     bool alike = !motion_.motion().counts().accumulates;
-    const Vector<double, 4> end = motion_.motion().state();
+    const State end = motion_.motion().state();
     for (int more = 0; more < 2; ++more)
       alike =
           turn_of(motion_, samples, measures).switches_like(turn, 1e-6 * sampling_period_) && alike;
-    HybridOrbit orbit = orbit_of(std::move(turn), measures);
-    const Vector<double, 4> closure = end - orbit.states.front();
+    Orbit orbit = orbit_of(std::move(turn), measures);
+    const State closure = end - orbit.states.front();
     orbit.closure_error = closure.norm();
-    const auto outcome = touches_surface(orbit, closure) ? CandidateOutcome::on_surface
-                         : alike                         ? CandidateOutcome::verified
-                                                         : CandidateOutcome::other_contacts;
+    const auto outcome = touches_surface(orbit, readings_.both_sides(closure))
+                             ? CandidateOutcome::on_surface
+                         : alike ? CandidateOutcome::verified
+                                 : CandidateOutcome::other_contacts;
     return {outcome, std::move(orbit), first};
   }
 
-  HybridOrbit orbit_of(HybridTurn turn, const HybridMeasures<Contact>& measures) const {
-    HybridOrbit orbit{};
+  Orbit orbit_of(Turn turn, const HybridMeasures<Contact>& measures) const {
+    Orbit orbit{};
+    orbit.extent = Extent(readings_, turn.states).sides();
+    for (const State& state : turn.states)
+      orbit.largest_sample =
+          std::max(orbit.largest_sample, std::abs(readings_.displacement(state)));
     orbit.ratio = ratio_;
     orbit.sampling_period = sampling_period_;
     orbit.states = std::move(turn.states);
@@ -220,12 +242,11 @@ class HybridOrbitSolver {
   }
 
   /// The shortest period of which a turn is a whole number of repetitions.
-  std::int64_t shortest_period(const HybridTurn& turn, const StateExtent& extent) const {
+  std::int64_t shortest_period(const Turn& turn, const Extent& extent) const {
     const auto samples = static_cast<std::int64_t>(turn.states.size());
     for (std::int64_t period = ratio_.denominator; period < samples; period += ratio_.denominator) {
       if (samples % period != 0) continue;
-      const Vector<double, 4> apart =
-          turn.states[static_cast<std::size_t>(period)] - turn.states.front();
+      const State apart = turn.states[static_cast<std::size_t>(period)] - turn.states.front();
       if (extent.share_of(apart) > 1e-10) continue;
       if (std::equal(turn.modes.begin() + period, turn.modes.end(), turn.modes.begin()))
         return period;
@@ -234,6 +255,7 @@ class HybridOrbitSolver {
   }
 
   RepeatingMotion<Contact> motion_;
+  PortReadings<typename Motion::Plant> readings_;
   Rational ratio_;
   double sampling_period_;
 };

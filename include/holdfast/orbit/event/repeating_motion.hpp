@@ -15,11 +15,11 @@ namespace holdfast {
 /// every q samples.
 template <class Contact>
 struct HybridPoint {
-  std::int64_t phase;       ///< samples since the last coincidence, 0 … q − 1
-  Vector<double, 4> state;  ///< z_j (m, m/s, m, m/s)
-  double previous_command;  ///< u_{j−1} (N)
-  double previous_reading;  ///< z₁ at t_{j−1} as read (m)
-  Contact contact;          ///< before sample j
+  std::int64_t phase;  ///< samples since the last coincidence, 0 … q − 1
+  typename EventMotion<Contact>::State state;  ///< x_j, N × 1; of two masses z_j (m, m/s, m, m/s)
+  double previous_command;                     ///< u_{j−1} (N)
+  double previous_reading;                     ///< the displacement at t_{j−1} as read (m)
+  Contact contact;                             ///< before sample j
 };
 
 namespace detail {
@@ -40,26 +40,32 @@ bool remembers_gap([[maybe_unused]] const Contact& contact) {
   }
 }
 
-/// to − from as X = [z (4); u_{j−1}; the gap; z₁ as last read] of HybridTangent.
+/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] of HybridTangent.
 template <class Contact>
-Vector<double, 7> difference(const HybridPoint<Contact>& from, const HybridPoint<Contact>& to) {
-  Vector<double, 7> apart;
+using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
+
+/// to − from.
+template <class Contact>
+PointDeviation<Contact> difference(const HybridPoint<Contact>& from,
+                                   const HybridPoint<Contact>& to) {
+  PointDeviation<Contact> apart(from.state.size() + 3);
   apart << to.state - from.state, to.previous_command - from.previous_command, 0.0,
       to.previous_reading - from.previous_reading;
   if constexpr (HasMovingGap<Contact>::value) {
     if (remembers_gap(from.contact) && remembers_gap(to.contact))
-      apart[5] = to.contact.lower() - from.contact.lower();
+      apart[from.state.size() + 1] = to.contact.lower() - from.contact.lower();
   }
   return apart;
 }
 
 template <class Contact>
-HybridPoint<Contact> shifted(HybridPoint<Contact> point, const Vector<double, 7>& by) {
-  point.state += by.head<4>();
-  point.previous_command += by[4];
-  point.previous_reading += by[6];
+HybridPoint<Contact> shifted(HybridPoint<Contact> point, const PointDeviation<Contact>& by) {
+  const Eigen::Index order = point.state.size();
+  point.state += by.head(order);
+  point.previous_command += by[order];
+  point.previous_reading += by[order + 2];
   if constexpr (HasMovingGap<Contact>::value) {
-    if (remembers_gap(point.contact)) point.contact.shift_gap(by[5]);
+    if (remembers_gap(point.contact)) point.contact.shift_gap(by[order + 1]);
   }
   return point;
 }
@@ -79,7 +85,7 @@ class RepeatingMotion {
   }
 
   /// Takes the present sample; once before each `advance()`.
-  HybridSample sense() { return motion_.sense(); }
+  typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
   /// Moves to the next sample.
   void advance() { advance(IgnoreFlow()); }
   /// The same past an observer as that of HybridMotion::advance.
@@ -97,12 +103,8 @@ class RepeatingMotion {
 
   /// Goes on from a point, its counts begun anew.
   void go_to(const HybridPoint<Contact>& point) {
-    if (motion_.loop().limits.velocity == VelocitySensing::difference) {
-      // A sample taken at the last reading is how the controller comes to remember it.
-      const Vector<double, 4> read(point.previous_reading, 0.0, 0.0, 0.0);
-      motion_.restore(0, read, 0.0, point.contact);
-      motion_.sense();
-    }
+    if (motion_.loop().limits.velocity == VelocitySensing::difference)
+      motion_.remember_reading(point.previous_reading);
     motion_.restore(point.phase, point.state, point.previous_command, point.contact);
     motion_.restart_counts();
   }

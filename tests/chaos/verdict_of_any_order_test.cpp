@@ -1,0 +1,112 @@
+// Exponents and verdicts of a plant of another order than that of the two masses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+
+#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/event_lyapunov.hpp"
+#include "holdfast/motion/real_loop.hpp"
+#include "support/lagging_loop.hpp"
+
+namespace holdfast {
+namespace {
+
+template <class Plant>
+StateOf<Plant> rest_of_plant(const RealLoopOf<Plant>& loop) {
+  return StateOf<Plant>::Zero(loop.plant.state_matrix().rows());
+}
+
+template <class Plant>
+LyapunovResult exponents_from_rest(const RealLoopOf<Plant>& loop, const LyapunovRun& run) {
+  auto motion = event_motion(loop, rest_of_plant(loop));
+  return run_hybrid_lyapunov(motion, run);
+}
+
+/// A loop under two frequencies that have no common period, whose verdict rests on its samples.
+template <class Plant>
+RealLoopOf<Plant> without_common_period(RealLoopOf<Plant> loop) {
+  loop.digital.force.harmonics.push_back({0.2, 10.0 * std::sqrt(2.0)});
+  return loop;
+}
+
+TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
+  const TwoDof<double> plant = kollar2022_plant();
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const auto masses = test::lagging_loop(plant, switching);
+    const auto ported = test::lagging_loop(linear_plant(plant), switching);
+    const LyapunovRun run{2000, 500};
+    const LyapunovResult first = exponents_from_rest(masses, run);
+    const LyapunovResult second = exponents_from_rest(ported, run);
+    for (int i = 0; i < 5; ++i) {
+      if (std::isinf(first.exponents[i])) {
+        EXPECT_EQ(first.exponents[i], second.exponents[i]);
+      } else {
+        EXPECT_NEAR(first.exponents[i], second.exponents[i], 1e-9);
+      }
+    }
+    const HybridVerdict one = classify_motion(masses, rest_of_plant(masses));
+    const HybridVerdict other = classify_motion(ported, rest_of_plant(ported));
+    EXPECT_EQ(one.verdict.kind, MotionKind::periodic);
+    EXPECT_EQ(one.verdict.kind, other.verdict.kind);
+    EXPECT_EQ(one.verdict.period, other.verdict.period);
+  }
+}
+
+TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMassesByItsSamplesToo) {
+  const TwoDof<double> plant = kollar2022_plant();
+  const auto masses = without_common_period(test::lagging_loop(plant, Switching::exact));
+  const auto ported =
+      without_common_period(test::lagging_loop(linear_plant(plant), Switching::exact));
+  const HybridVerdict one = classify_motion(masses, rest_of_plant(masses));
+  const HybridVerdict other = classify_motion(ported, rest_of_plant(ported));
+  ASSERT_EQ(one.search.outcome, OrbitOutcome::incommensurate);
+  ASSERT_EQ(other.search.outcome, OrbitOutcome::incommensurate);
+  EXPECT_EQ(one.verdict.kind, other.verdict.kind);
+  EXPECT_EQ(one.verdict.kind, MotionKind::quasi_periodic);
+  EXPECT_NEAR(one.evidence.largest_exponent->value, other.evidence.largest_exponent->value, 1e-9);
+}
+
+TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
+  for (const Switching switching : {Switching::sampled, Switching::exact}) {
+    const auto loop = test::lagging_loop(test::filtered_and_lagging_plant(), switching);
+    const HybridVerdictOf<7> found = classify_motion(loop, rest_of_plant(loop));
+    EXPECT_EQ(found.verdict.kind, MotionKind::periodic);
+    ASSERT_TRUE(found.search.orbit.has_value());
+    EXPECT_EQ(found.verdict.period, found.search.orbit->period_samples());
+    const double expected = found.search.orbit->multipliers.front().log_modulus /
+                            static_cast<double>(found.search.orbit->period_samples());
+    const LyapunovRun run{100000, 2000};
+    const LyapunovResult result = exponents_from_rest(loop, run);
+    std::cout << "exponent " << expected << ", over the run less " << result.exponents[0] - expected
+              << "\n";
+    EXPECT_NEAR(result.exponents[0], expected, 3.0 / static_cast<double>(run.most_samples));
+  }
+}
+
+TEST(VerdictOfAnyOrder, OfSevenUnderTwoFrequenciesIsJudgedByItsSamples) {
+  const auto plant = test::filtered_and_lagging_plant();
+  const auto loop = without_common_period(test::lagging_loop(plant, Switching::exact));
+  const auto found = classify_motion(loop, rest_of_plant(loop));
+  EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);
+  EXPECT_EQ(found.verdict.kind, MotionKind::quasi_periodic);
+  EXPECT_TRUE(found.evidence.largest_exponent->negative());
+}
+
+TEST(VerdictOfAnyOrder, KnownAtRunTimeAloneIsTheSame) {
+  const auto plant = test::filtered_and_lagging_plant();
+  const auto fixed = test::lagging_loop(plant, Switching::exact);
+  const auto dynamic = test::lagging_loop(test::of_dynamic_order(plant), Switching::exact);
+  const LyapunovRun run{2000, 500};
+  const LyapunovResult first = exponents_from_rest(fixed, run);
+  const LyapunovResult second = exponents_from_rest(dynamic, run);
+  EXPECT_NEAR(first.exponents[0], second.exponents[0], 1e-9);
+  const auto one = classify_motion(fixed, rest_of_plant(fixed));
+  const auto other = classify_motion(dynamic, rest_of_plant(dynamic));
+  EXPECT_EQ(one.verdict.kind, other.verdict.kind);
+  EXPECT_EQ(one.verdict.period, other.verdict.period);
+}
+
+}  // namespace
+}  // namespace holdfast
