@@ -7,7 +7,7 @@
 
 namespace holdfast::program {
 
-CableDecayQuestion CableOptions::question(double force, double usual_duration) const {
+CableDecayOptions CableOptions::question(double force, double usual_duration) const {
   const auto reading = absorber == "rigid"    ? AbsorberReading::rigid_mass
                        : absorber == "spring" ? AbsorberReading::spring_mass
                                               : AbsorberReading::weight;

@@ -18,7 +18,7 @@ struct CableOptions {
 
   /// @param usual_duration  s, where none is given
   /// Throws WrongInput for an interval beyond the duration, or so short that the rows are too many.
-  CableDecayQuestion question(double force, double usual_duration) const;
+  CableDecayOptions question(double force, double usual_duration) const;
 };
 
 /// `--elements`, `--absorber`, `--equal-displacement`, `--duration` and `--interval`.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "case/model/settled_plant.hpp"
+#include "case/model/resolved_plant.hpp"
 #include "io/file/input.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"

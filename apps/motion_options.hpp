@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "job.hpp"
 
 namespace holdfast::program {

@@ -44,7 +44,7 @@ auto radius_rows(const LoopChart& chart) {
 
 class Source final : public program::MotionSource {
  public:
-  const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) override {
+  const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) override {
     return matrices_.of(loop);
   }
   void pause() override {}

@@ -1,4 +1,4 @@
-// Lyapunov exponents of the sampled loop with backlash: words of contacts, one trajectory and many
+// Lyapunov exponents of the sampled loop with backlash: blocks of contacts, one trajectory and many
 // at a time. Peer: Eigen's 5 × 5 product and Gram–Schmidt at every sample on a motion stepped
 // beside it. All sides alternate in one run; the medians and their ratios are printed.
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr std::size_t trajectories = 64;
 
 volatile double sink = 0.0;
 
-ForcedLoop<double> loop_of(double period, double delay_fraction) {
+IdealLoop<double> loop_of(double period, double delay_fraction) {
   return {
       kollar2022_plant(), {period, delay_fraction * period}, {-557.0, -13.0}, {0.5, 10.0}, 0.002};
 }
@@ -64,14 +64,14 @@ std::vector<Vector<double, 4>> states_of(std::size_t count) {
 }
 
 struct Sides {
-  explicit Sides(const ForcedLoop<double>& of)
+  explicit Sides(const IdealLoop<double>& of)
       : loop(of),
         sampled(sampled_loop(of.plant, of.sampling)),
-        words(std::make_shared<const ContactWords>(sampled, of.gains)),
+        blocks(std::make_shared<const ItineraryBlocks>(sampled, of.gains)),
         ratio(*forcing_ratio(of)) {
     auto motion = start();
     for (std::int64_t taken = 0; taken < samples; ++taken) {
-      contacts.push_back(motion.sense().engaged ? 1 : 0);
+      itinerary.push_back(motion.sense().engaged ? 1 : 0);
       motion.advance();
     }
   }
@@ -93,27 +93,27 @@ struct Sides {
 
   Vector<double, 5> every_step_on_contacts() const {
     EveryStep peer(sampled, loop.gains);
-    for (const std::uint8_t contact : contacts) peer.push(contact != 0);
+    for (const std::uint8_t contact : itinerary) peer.push(contact != 0);
     return peer.exponents();
   }
 
-  Vector<double, 5> by_words(LyapunovScope scope) const {
+  Vector<double, 5> by_blocks(LyapunovScope scope) const {
     auto motion = start();
     LyapunovRun run{samples};
     run.scope = scope;
-    return run_lyapunov(motion, words, run).exponents;
+    return run_lyapunov(motion, blocks, run).exponents;
   }
 
-  Vector<double, 5> by_words_on_contacts() const {
-    ContactSpectrum<double> spectrum(words);
-    LaneWords<double> word = no_contacts<double>();
-    for (const std::uint8_t contact : contacts) {
-      word[0] = followed_by(word[0], contact != 0);
-      if (!is_whole(word[0])) continue;
-      spectrum.push(word);
-      word = no_contacts<double>();
+  Vector<double, 5> by_blocks_on_contacts() const {
+    BlockSpectrum<double> spectrum(blocks);
+    LaneBlocks<double> block = empty_blocks<double>();
+    for (const std::uint8_t contact : itinerary) {
+      block[0] = followed_by(block[0], contact != 0);
+      if (!is_whole(block[0])) continue;
+      spectrum.push(block);
+      block = empty_blocks<double>();
     }
-    return spectrum.spectrum(word).exponents();
+    return spectrum.spectrum(block).exponents();
   }
 
   double motion_alone() const {
@@ -126,11 +126,11 @@ struct Sides {
     return sum;
   }
 
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   SampledLoop<double> sampled;
-  std::shared_ptr<const ContactWords> words;
+  std::shared_ptr<const ItineraryBlocks> blocks;
   Rational ratio;
-  std::vector<std::uint8_t> contacts;
+  std::vector<std::uint8_t> itinerary;
 };
 
 void measure(double period, double delay_fraction) {
@@ -138,15 +138,15 @@ void measure(double period, double delay_fraction) {
   const auto states = states_of(trajectories);
   const auto time = bench::medians(
       {[&] { sink = sides.every_step()[0]; }, [&] { sink = sides.every_step_on_contacts()[0]; },
-       [&] { sink = sides.motion_alone(); }, [&] { sink = sides.by_words(LyapunovScope::all)[0]; },
-       [&] { sink = sides.by_words_on_contacts()[0]; },
-       [&] { sink = sides.by_words(LyapunovScope::largest)[0]; },
+       [&] { sink = sides.motion_alone(); }, [&] { sink = sides.by_blocks(LyapunovScope::all)[0]; },
+       [&] { sink = sides.by_blocks_on_contacts()[0]; },
+       [&] { sink = sides.by_blocks(LyapunovScope::largest)[0]; },
        [&] {
          sink = simd::lyapunov_spectra(sides.loop, states, {samples_of_many}, 1)[0].exponents[0];
        }});
   const auto per_sample = [](double seconds) { return seconds / samples * 1e9; };
   const double many = time[6] / (samples_of_many * trajectories) * 1e9;
-  const double error = (sides.every_step_on_contacts() - sides.by_words_on_contacts())
+  const double error = (sides.every_step_on_contacts() - sides.by_blocks_on_contacts())
                            .head<4>()
                            .cwiseAbs()
                            .maxCoeff();

@@ -16,7 +16,7 @@ namespace {
 using namespace holdfast;
 using States = std::vector<Vector<double, 4>>;
 
-ForcedLoop<double> loop_of(double sampling_period, double width) {
+IdealLoop<double> loop_of(double sampling_period, double width) {
   return {kollar2022_plant(), {sampling_period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
 }
 
@@ -35,12 +35,12 @@ States states_of(int side) {
 volatile double sink = 0.0;
 
 void orbit(double sampling_period, double width) {
-  const ForcedLoop<double> loop = loop_of(sampling_period, width);
+  const IdealLoop<double> loop = loop_of(sampling_period, width);
   const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
   const auto seconds = bench::medians(
       {[&] { sink = find_periodic_orbit(loop, Vector<double, 4>::Zero()).orbit->closure_error; },
-       [&] { sink = static_cast<double>(capture_points(loop, *found.orbit).size()); },
-       [&] { sink = recheck_orbit<long double>(loop, *found.orbit).closure_error; }});
+       [&] { sink = static_cast<double>(attraction_balls(loop, *found.orbit).size()); },
+       [&] { sink = verify_orbit<long double>(loop, *found.orbit).closure_error; }});
   std::printf(
       "%2.0f ms, %.1f mm: orbit of %4ld samples found and verified in %.2f ms (%ld samples from "
       "rest), radius of capture %.2f ms, extended precision %.2f ms\n",
@@ -49,14 +49,14 @@ void orbit(double sampling_period, double width) {
 }
 
 /// Every `stride`-th state by itself.
-void one_after_another(const ForcedLoop<double>& loop, const States& states,
+void one_after_another(const IdealLoop<double>& loop, const States& states,
                        const OrbitLimits& limits, std::size_t stride) {
   for (std::size_t k = 0; k < states.size(); k += stride)
     sink = static_cast<double>(find_periodic_orbit(loop, states[k], limits).samples);
 }
 
 void basins(double sampling_period, double width) {
-  const ForcedLoop<double> loop = loop_of(sampling_period, width);
+  const IdealLoop<double> loop = loop_of(sampling_period, width);
   const States states = states_of(100);
   constexpr std::size_t stride = 101;
   const OrbitLimits limits{100'000, 0};

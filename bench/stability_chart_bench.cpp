@@ -130,9 +130,9 @@ void stable_or_not(double delay_fraction) {
 /// precision.
 double largest_error(const LoopChart& chart, const std::vector<double>& radii, std::int64_t cells) {
   using Precise = long double;
-  const TwoDof<double>& p = chart.point.plant;
-  const TwoDof<Precise> plant{p.conductor_mass, p.conductor_stiffness, p.conductor_damping,
-                              p.absorber_mass,  p.absorber_stiffness,  p.absorber_damping};
+  const TwoMass<double>& p = chart.point.plant;
+  const TwoMass<Precise> plant{p.conductor_mass, p.conductor_stiffness, p.conductor_damping,
+                               p.absorber_mass,  p.absorber_stiffness,  p.absorber_damping};
   const auto polynomial = characteristic_polynomial(sampled_loop(
       plant,
       Sampling<Precise>{chart.point.sampling.period, chart.point.sampling.processing_delay}));

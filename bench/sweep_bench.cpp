@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/simd/motion_metrics.hpp"

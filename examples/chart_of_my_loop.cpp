@@ -12,7 +12,7 @@
 
 int main() {
   using namespace holdfast;
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   plant.conductor_mass = 0.12;                    // kg
   plant.conductor_stiffness = 80.0;               // N/m
   plant.conductor_damping = 0.1;                  // N s/m

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -34,7 +34,7 @@ class DriveDuty {
 };
 
 int main() {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   loop.plant = kollar2022_plant();
   loop.sampling = {0.001};
   loop.gains = {-557.0, -13.0};

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
@@ -29,11 +29,11 @@ int main() {
 
   // The same plant under 0.5 N at 10 Hz, with 0.5 mm of play that the drive enters and leaves when
   // it happens, from rest.
-  RealLoopOf<LinearPlant<double, 7>> loop;
+  ImplementedLoopOf<LinearPlant<double, 7>> loop;
   loop.plant = plant;
   loop.digital.sampling = sampling;
   loop.digital.gains = {-200.0, -5.0};
-  loop.digital.force = composed_force({0.5, 10.0});
+  loop.digital.force = multi_harmonic_force({0.5, 10.0});
   loop.backlash = {ContactLaw::play, 0.0005};
   loop.switching = Switching::exact;
   auto motion = event_motion(loop, Vector<double, 7>::Zero());
@@ -42,7 +42,7 @@ int main() {
       "after %.0f s the drive has entered its gap %lld times\n", motion.time(),
       static_cast<long long>(motion.counts().entered[static_cast<std::size_t>(ContactMode::gap)]));
 
-  const auto found = find_hybrid_orbit(motion);
+  const auto found = find_event_orbit(motion);
   if (found.outcome != OrbitOutcome::certified) return 1;
   std::printf("orbit of %.2f s, amplitude %.2f mm, engaged %.0f %% of the time\n",
               found.orbit->period(), 1e3 * found.orbit->largest_displacement,

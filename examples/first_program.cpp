@@ -10,7 +10,7 @@
 
 int main() {
   using namespace holdfast;
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const SampledLoop<double> loop = sampled_loop(plant, Sampling<double>{0.010});
   const double frequency = 10.0, omega = 2.0 * pi<double> * frequency;
   const double p =

@@ -30,11 +30,11 @@ int main(int argc, char** argv) {
               measures.first_peak_time, measures.period);
 
   // As it stands the question is for the absorber's damping, by the whole time history.
-  fit::DecayQuestion question;
+  fit::DecayFitOptions options;
   for (const bool whole : {true, false}) {
-    if (!whole) question.target = fit::DecayTarget::first_peak_and_period;
+    if (!whole) options.target = fit::DecayTarget::first_peak_and_period;
     std::printf("by the %s:\n", whole ? "time history" : "first peak and period");
-    const fit::DecayFit fit = fit::fit_decay(record, kollar2022_plant(), question);
+    const fit::DecayFit fit = fit::fit_decay(record, kollar2022_plant(), options);
     for (const fit::DecayMinimum& minimum : fit.minima)
       std::printf("  c2 = %.1f +- %.1f N s/m, found from %d of %d starts\n",
                   minimum.plant.absorber_damping, minimum.standard_errors.front(),

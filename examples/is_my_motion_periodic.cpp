@@ -9,9 +9,9 @@ using namespace holdfast;
 
 template <class Found>
 void print(const char* switching, const Found& found) {
-  std::printf("%s: %s\n", switching, motion_kind_text(found.verdict).c_str());
+  std::printf("%s: %s\n", switching, attractor_type_text(found.classification).c_str());
   if (!found.search.orbit) {
-    std::printf("  %s\n", found.verdict.rests_on.c_str());
+    std::printf("  %s\n", found.classification.rests_on.c_str());
     return;
   }
   const auto& orbit = *found.search.orbit;
@@ -21,7 +21,7 @@ void print(const char* switching, const Found& found) {
 }
 
 int main() {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   loop.plant = kollar2022_plant();
   loop.sampling = {0.011};
   loop.gains = {-557.0, -13.0};
@@ -30,7 +30,7 @@ int main() {
   const Vector<double, 4> rest = Vector<double, 4>::Zero();
   print("the drive switches at samples", classify_motion(loop, rest));
 
-  RealLoop real = real_loop(loop);
+  ImplementedLoop real = implemented_loop(loop);
   real.switching = Switching::exact;
   print("the drive switches when it happens", classify_motion(real, rest));
 }

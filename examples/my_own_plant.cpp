@@ -14,10 +14,10 @@ using namespace holdfast;
 
 // Four states, [z₁, ż₁, z₂, ż₂] with the law u = P z₁ + D ż₁: a template with these three members
 // is a plant for `sampled_loop`, and so for charts, boundaries and responses; margins and motions
-// take a TwoDof alone. Here the motor pushes against the ground instead of the absorber.
+// take a TwoMass alone. Here the motor pushes against the ground instead of the absorber.
 template <class Scalar>
 struct GroundedMotor {
-  TwoDof<Scalar> masses;
+  TwoMass<Scalar> masses;
 
   Matrix<Scalar, 4> state_matrix() const { return masses.state_matrix(); }
   Vector<Scalar, 4> control_input() const { return masses.excitation_input(); }

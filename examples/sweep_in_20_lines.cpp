@@ -9,7 +9,7 @@
 int main() {
   using namespace holdfast;
   const Axis periods{0.002, 0.010, 5}, widths{0.0, 0.003, 7};  // τ (s), r₀ (m)
-  const ForcedLoop<double> free{kollar2022_plant(), {}, {0.0, 0.0}, {0.5, 10.0}};
+  const IdealLoop<double> free{kollar2022_plant(), {}, {0.0, 0.0}, {0.5, 10.0}};
   std::vector<SweepMotion> motions;  // of each period one without control, then one of each width
   for (int i = 0; i < periods.count; ++i) {
     motions.push_back({free, Vector<double, 4>::Zero()});

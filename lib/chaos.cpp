@@ -11,20 +11,20 @@
 
 namespace holdfast {
 
-template ContactSpectrum<double>::ContactSpectrum(std::shared_ptr<const ContactWords>,
-                                                  LyapunovScope);
-template void ContactSpectrum<double>::restart(const Words&);
-template std::array<LyapunovSpectrum<double, 5>, 1> ContactSpectrum<double>::spectra(
-    const Words&) const;
-template void ContactSpectrum<double>::close_block();
+template BlockSpectrum<double>::BlockSpectrum(std::shared_ptr<const ItineraryBlocks>,
+                                              LyapunovScope);
+template void BlockSpectrum<double>::restart(const Blocks&);
+template std::array<LyapunovSpectrum<double, 5>, 1> BlockSpectrum<double>::spectra(
+    const Blocks&) const;
+template void BlockSpectrum<double>::close_block();
 
-template HybridVerdict classify_motion(const RealLoop&, const Vector<double, 4>&,
-                                       const OrbitLimits&);
+template EventClassification classify_motion(const ImplementedLoop&, const Vector<double, 4>&,
+                                             const OrbitLimits&);
 
-template LyapunovResult run_hybrid_lyapunov(HybridMotion<DriveContact<>>&, const LyapunovRun&,
-                                            const std::function<void()>&);
+template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<>>&, const LyapunovRun&,
+                                           const std::function<void()>&);
 
-template ContactWords::ContactWords(const Matrix<double, 5>&, const Matrix<double, 5>&);
+template ItineraryBlocks::ItineraryBlocks(const Matrix<double, 5>&, const Matrix<double, 5>&);
 
 template int LyapunovSpectrum<double, 5>::rank_of(const Matrix<double, 5>&);
 template void LyapunovSpectrum<double, 5>::push(const Matrix<double, 5>&, int);
@@ -35,8 +35,8 @@ template void LyapunovSpectrum<double, 7>::push(const Matrix<double, 7>&, int);
 template Vector<double, 7> LyapunovSpectrum<double, 7>::exponents() const;
 template Vector<double, 7> LyapunovSpectrum<double, 7>::cautious_standard_errors() const;
 
-template MotionVerdict classify_motion(const ForcedLoop<double>&, const Vector<double, 4>&,
-                                       const OrbitLimits&);
+template SampledClassification classify_motion(const IdealLoop<double>&, const Vector<double, 4>&,
+                                               const OrbitLimits&);
 
 template SwitchingComplexity switching_complexity(const std::vector<bool>&);
 

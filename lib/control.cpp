@@ -4,8 +4,8 @@
 
 namespace holdfast {
 
-template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
-template LoopMap<double> loop_map(const TwoDof<double>&, const Sampling<double>&);
+template SampledLoop<double> sampled_loop(const TwoMass<double>&, const Sampling<double>&);
+template LoopMap<double> loop_map(const TwoMass<double>&, const Sampling<double>&);
 template LoopMap<double> loop_map(const LinearPlant<double>&, const Sampling<double>&);
 
 }  // namespace holdfast

@@ -2,18 +2,18 @@
 #include <vector>
 
 #include "holdfast/contact/contact.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/subinterval_step.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 
 namespace holdfast {
 
-template SegmentStepOf<4>::SegmentStepOf(const AffineDynamicsOf<4>&, const std::vector<Harmonic>&,
-                                         double, double);
-template HeldStep<double, 4, 1> HybridTangent<DriveContact<>>::exponential(int, double) const;
+template SubintervalStepOf<4>::SubintervalStepOf(const AffineDynamicsOf<4>&,
+                                                 const std::vector<Harmonic>&, double, double);
+template HeldStep<double, 4, 1> VariationalFlow<DriveContact<>>::exponential(int, double) const;
 template HarmonicallyForcedMotion<double> harmonically_forced_motion(
-    const ForcedLoop<double>&, const StateOf<TwoDof<double>>&);
+    const IdealLoop<double>&, const StateOf<TwoMass<double>>&);
 template PeriodicallyForcedMotion<double> periodically_forced_motion(
-    const ForcedLoop<double>&, const Rational&, const StateOf<TwoDof<double>>&);
+    const IdealLoop<double>&, const Rational&, const StateOf<TwoMass<double>>&);
 
 }  // namespace holdfast

@@ -8,23 +8,24 @@
 
 namespace holdfast {
 
-template ContactMaps<double>::ContactMaps(const ForcedLoop<double>&, const Rational&);
-template double ContactMaps<double>::spread_of(const Matrix<double, 5>&) const;
-template std::vector<AffineMap<double>> affine_blocks(const ContactMaps<double>&, const Contacts&);
+template ItineraryMaps<double>::ItineraryMaps(const IdealLoop<double>&, const Rational&);
+template double ItineraryMaps<double>::spread_of(const Matrix<double, 5>&) const;
+template std::vector<AffineMap<double>> affine_blocks(const ItineraryMaps<double>&,
+                                                      const Itinerary&);
 
 template OrbitResult detail::OrbitSearch<double>::run();
-template OrbitResult find_periodic_orbit(const ForcedLoop<double>&, const Vector<double, 4>&,
+template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<double, 4>&,
                                          const OrbitLimits&);
 
-template OrbitCandidate orbit_of_contacts(const ForcedLoop<double>&, const Rational&,
-                                          const ContactMaps<double>&, const Contacts&,
-                                          const Backlash<double>&);
+template OrbitCandidate orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
+                                           const ItineraryMaps<double>&, const Itinerary&,
+                                           const Backlash<double>&);
 
-template EndRelation<double> relation_of_ends(const std::vector<AffineMap<double>>&);
-template std::optional<PeriodicSolution<double>> periodic_solution(const ContactMaps<double>&,
-                                                                   const Contacts&,
-                                                                   const EndRelation<double>&);
+template CondensedBoundary<double> condensed_boundary(const std::vector<AffineMap<double>>&);
+template std::optional<PeriodicSolution<double>> periodic_solution(
+    const ItineraryMaps<double>&, const Itinerary&, const CondensedBoundary<double>&);
 
-template std::vector<CapturePoint> capture_points(const ForcedLoop<double>&, const PeriodicOrbit&);
+template std::vector<AttractionBall> attraction_balls(const IdealLoop<double>&,
+                                                      const PeriodicOrbit&);
 
 }  // namespace holdfast

@@ -3,7 +3,7 @@
 
 namespace holdfast {
 
-template HybridOrbitResult<DriveContact<>> find_hybrid_orbit(const HybridMotion<DriveContact<>>&,
-                                                             const Rational&, const OrbitLimits&);
+template EventOrbitResult<DriveContact<>> find_event_orbit(const EventMotion<DriveContact<>>&,
+                                                           const Rational&, const OrbitLimits&);
 
 }  // namespace holdfast

@@ -5,7 +5,7 @@
 
 namespace holdfast {
 
-template DecayEvents free_decay_events(const TwoDof<double>&);
+template DecayEvents free_decay_events(const TwoMass<double>&);
 template ReductionResult reduce_to_frequencies(const FrequencyReduction<double>&);
 
 }  // namespace holdfast

@@ -8,7 +8,7 @@ namespace holdfast {
 
 template class StabilityRows<4>;
 template class StabilityRows<5>;
-template AffinePolynomial<double, 5> characteristic_polynomial(const LoopPoint&);
+template AffinePolynomial<double, 5> characteristic_polynomial(const OperatingPoint&);
 template std::vector<std::uint8_t> stability_chart(const LoopMap<double>&, const GainGrid&);
 
 }  // namespace holdfast

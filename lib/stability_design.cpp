@@ -9,24 +9,24 @@
 
 namespace holdfast {
 
-template std::vector<Interval<double>> feasible_differential_gains(const TwoDof<double>&,
-                                                                   const MaxDelayQuestion&, double);
-template std::optional<double> feasible_differential_gain(const TwoDof<double>&,
-                                                          const MaxDelayQuestion&, double);
-template MaxDelay max_sampling_period(const TwoDof<double>&, const MaxDelayQuestion&);
-template LeastAmplitude least_amplitude(const TwoDof<double>&, const AmplitudeQuestion&, double,
-                                        double);
-template LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>&, const AmplitudeQuestion&,
-                                                   double, const FrequencyBand&);
-template LeastRadius least_radius(const SampledLoop<double>&, double, double);
-template LeastRadiusGains least_radius_gains(const SampledLoop<double>&);
+template std::vector<Interval<double>> feasible_differential_gains(const TwoMass<double>&,
+                                                                   const MaxDelayOptions&, double);
+template std::optional<double> feasible_differential_gain(const TwoMass<double>&,
+                                                          const MaxDelayOptions&, double);
+template MaxDelay max_sampling_period(const TwoMass<double>&, const MaxDelayOptions&);
+template MinimumAmplitude minimum_amplitude(const TwoMass<double>&, const AmplitudeOptions&, double,
+                                            double);
+template MinimaxAmplitude minimax_amplitude(const TwoMass<double>&, const AmplitudeOptions&, double,
+                                            const FrequencyBand&);
+template MinimumRadius minimum_radius(const SampledLoop<double>&, double, double);
+template MinimumRadiusGains minimum_radius_gains(const SampledLoop<double>&);
 template std::vector<Interval<double>> feasible_differential_gains(const LinearPlant<double>&,
-                                                                   const MaxDelayQuestion&, double);
+                                                                   const MaxDelayOptions&, double);
 template std::optional<double> feasible_differential_gain(const LinearPlant<double>&,
-                                                          const MaxDelayQuestion&, double);
-template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayQuestion&);
-template LeastAmplitude least_amplitude(const LinearPlant<double>&, const AmplitudeQuestion&,
-                                        double, double);
-template LeastRadius least_radius(const LoopMap<double>&, double, double);
+                                                          const MaxDelayOptions&, double);
+template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayOptions&);
+template MinimumAmplitude minimum_amplitude(const LinearPlant<double>&, const AmplitudeOptions&,
+                                            double, double);
+template MinimumRadius minimum_radius(const LoopMap<double>&, double, double);
 
 }  // namespace holdfast

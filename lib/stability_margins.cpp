@@ -7,10 +7,10 @@
 
 namespace holdfast {
 
-template class SamplingPath<TwoDof<double>>;
-template SlowSamplingBound::SlowSamplingBound(const TwoDof<double>&, const PdGains<double>&,
+template class SamplingFamily<TwoMass<double>>;
+template SlowSamplingBound::SlowSamplingBound(const TwoMass<double>&, const PdGains<double>&,
                                               double);
-template StabilityMargins stability_margins(const TwoDof<double>&, const Sampling<double>&,
+template StabilityMargins stability_margins(const TwoMass<double>&, const Sampling<double>&,
                                             const PdGains<double>&, const MarginSearch&);
 template class MapFamily<LinearPlant<double>>;
 template SlowSamplingBound::SlowSamplingBound(const LinearPlant<double>&, const PdGains<double>&,
@@ -22,8 +22,8 @@ template StabilityMargins stability_margins(const LinearPlant<double>&, const Sa
 
 namespace holdfast::detail {
 
-template WatchedPoints watched_roots(const LoopMap<double>&, const LoopMapRate<double>&,
-                                     const PdGains<double>&, bool);
+template TrackedPointSets tracked_roots(const LoopMap<double>&, const LoopMapDerivative<double>&,
+                                        const PdGains<double>&, bool);
 template double loop_excess(const LoopMap<double>&, const PdGains<double>&);
 
 }  // namespace holdfast::detail

@@ -9,16 +9,18 @@
 namespace holdfast {
 
 template class SteadyResponse<double>;
-template class AmplitudeBand<TwoDof<double>>;
-template class BasicResponseRates<double>;
-template HarmonicInput<double> input_rate_by_period(const TwoDof<double>&,
-                                                    const SampledLoop<double>&, ForceHold,
-                                                    const HarmonicInput<double>&, const double&);
-template HarmonicInput<double> exact_input_rate_by_plant(const TwoDof<double>&, const PlantRate&,
-                                                         const double&, const double&);
+template class AmplitudeBand<TwoMass<double>>;
+template class BasicResponseDerivatives<double>;
+template HarmonicInput<double> input_derivative_by_period(const TwoMass<double>&,
+                                                          const SampledLoop<double>&, ForceHold,
+                                                          const HarmonicInput<double>&,
+                                                          const double&);
+template HarmonicInput<double> exact_input_derivative_by_plant(const TwoMass<double>&,
+                                                               const PlantDerivative&,
+                                                               const double&, const double&);
 template class LoopResponse<double>;
 template class AnyOrderResponse<double>;
-template SteadyResponse<double> steady_response(const TwoDof<double>&, const Sampling<double>&,
+template SteadyResponse<double> steady_response(const TwoMass<double>&, const Sampling<double>&,
                                                 ForceHold, double);
 template SteadyResponse<double> steady_response(const LinearPlant<double>&, const Sampling<double>&,
                                                 ForceHold, double);

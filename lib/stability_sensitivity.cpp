@@ -7,16 +7,16 @@
 
 namespace holdfast {
 
-template LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>&, const Sampling<double>&,
+template LoopSensitivity boundary_gain_sensitivity(const TwoMass<double>&, const Sampling<double>&,
                                                    const PdGains<double>&, BoundaryGain, double);
-template LoopSensitivity radius_sensitivity(const TwoDof<double>&, const Sampling<double>&,
+template LoopSensitivity radius_sensitivity(const TwoMass<double>&, const Sampling<double>&,
                                             const PdGains<double>&);
-template LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<double>&,
-                                                         const Sampling<double>&,
-                                                         const PdGains<double>&);
-template AmplitudeSensitivity amplitude_sensitivity(const TwoDof<double>&, const AmplitudeQuestion&,
+template MinimumRadiusSensitivity minimum_radius_sensitivity(const TwoMass<double>&,
+                                                             const Sampling<double>&,
+                                                             const PdGains<double>&);
+template AmplitudeSensitivity amplitude_sensitivity(const TwoMass<double>&, const AmplitudeOptions&,
                                                     double, double);
-template MaxDelaySensitivity max_delay_sensitivity(const TwoDof<double>&, const MaxDelayQuestion&,
+template MaxDelaySensitivity max_delay_sensitivity(const TwoMass<double>&, const MaxDelayOptions&,
                                                    const MaxDelay&);
 
 }  // namespace holdfast

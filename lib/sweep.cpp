@@ -4,7 +4,7 @@
 
 namespace holdfast {
 
-template MotionMetrics hybrid_metrics(const RealLoop&, const Vector<double, 4>&, double,
-                                      const std::function<void()>&);
+template MotionMetrics event_metrics(const ImplementedLoop&, const Vector<double, 4>&, double,
+                                     const std::function<void()>&);
 
 }  // namespace holdfast

@@ -8,7 +8,7 @@ namespace holdfast::program {
 namespace {
 
 struct BasinsOptions {
-  BasinQuestion question{{}, 100'000};
+  BasinOptions question{{}, 100'000};
 };
 
 }  // namespace

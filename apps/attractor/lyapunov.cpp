@@ -8,8 +8,8 @@
 namespace holdfast::program {
 namespace {
 
-struct LyapunovOptions {
-  LyapunovQuestion question;
+struct LyapunovArguments {
+  LyapunovOptions question;
   bool history = false;
 };
 
@@ -18,8 +18,8 @@ struct LyapunovOptions {
 void add_lyapunov(CLI::App& program) {
   const Job job(program, "lyapunov", question::attractor,
                 "The five Lyapunov exponents of the motion");
-  const auto options = std::make_shared<LyapunovOptions>();
-  LyapunovQuestion& asked = options->question;
+  const auto options = std::make_shared<LyapunovArguments>();
+  LyapunovOptions& asked = options->question;
   add_duration(job, asked.duration);
   CLI::Option* discard = job->add_option("--discard", asked.discard, "Left out at the start, s")
                              ->check(number_from(0.0, 1e12))

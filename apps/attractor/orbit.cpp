@@ -3,7 +3,7 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "job.hpp"
-#include "jobs/orbit/hybrid_orbit_tables.hpp"
+#include "jobs/orbit/event_orbit_tables.hpp"
 #include "jobs/orbit/orbit_tables.hpp"
 #include "motion_options.hpp"
 #include "process/errors.hpp"
@@ -20,7 +20,7 @@ struct OrbitOptions {
 };
 
 void write_built(const JobContext& context, const OrbitOptions& options) {
-  const RealLoop loop = real_loop_of(context.case_data, options.switching);
+  const ImplementedLoop loop = implemented_loop_of(context.case_data, options.switching);
   if (options.follow) {
     throw WrongInput(
         "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
@@ -45,7 +45,7 @@ void run(const JobContext& context, const OrbitOptions& options) {
   } else if (options.certificate) {
     write_certificate(context, options.largest_period);
   } else if (options.follow) {
-    write_orbit_ends(context, options.largest_period, *options.follow);
+    write_branch_ends(context, options.largest_period, *options.follow);
   } else {
     write_orbit(context, options.largest_period);
   }

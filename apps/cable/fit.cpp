@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "case/model/cable_of_case.hpp"
-#include "case/model/fit_question.hpp"
+#include "case/model/fit_options.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
 #include "io/file/input.hpp"
@@ -26,16 +26,16 @@ struct FitOptions {
   bool plain = false;
 };
 
-fit::DecayQuestion question_of(const FitOptions& options) {
-  fit::DecayQuestion question =
-      fit_question(options.parameters, options.target.value_or("history"));
+fit::DecayFitOptions question_of(const FitOptions& options) {
+  fit::DecayFitOptions question =
+      fit_options(options.parameters, options.target.value_or("history"));
   question.robust = !options.plain;
   question.fit_initial_displacement = options.data.has_value();
   return question;
 }
 
 /// Quantities of the deepest minimum bear their key's name; those of the next, `_minimum_2` behind.
-void write_minimum(Table& table, const fit::DecayQuestion& question,
+void write_minimum(Table& table, const fit::DecayFitOptions& question,
                    const fit::DecayMinimum& minimum, std::size_t rank) {
   const std::string behind = rank == 1 ? "" : "_minimum_" + std::to_string(rank);
   const double none = std::nan("");
@@ -50,7 +50,7 @@ void write_minimum(Table& table, const fit::DecayQuestion& question,
 }
 
 /// Where a fit starts: the case's plant, or what its conductor reduces to with c2 still open.
-TwoDof<double> start_of(const Case& the_case) {
+TwoMass<double> start_of(const Case& the_case) {
   return plant_is_reduced(the_case) ? plant_without_absorber_damping(the_case) : plant_of(the_case);
 }
 
@@ -64,8 +64,8 @@ std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& rec
 
 /// All minima; where nothing but the case is given, those of `reduce`.
 std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitOptions& options,
-                                         fit::DecayQuestion& question) {
-  const TwoDof<double> plant = start_of(context.case_data);
+                                         fit::DecayFitOptions& question) {
+  const TwoMass<double> plant = start_of(context.case_data);
   require_starts(question, plant);
   const bool damping_alone = question.free == std::vector{fit::PlantParameter::absorber_damping};
   if (damping_alone && !options.data && !options.target && !options.plain) {
@@ -83,7 +83,7 @@ std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitOpt
 }
 
 void run(const JobContext& context, const FitOptions& options) {
-  fit::DecayQuestion question = question_of(options);
+  fit::DecayFitOptions question = question_of(options);
   if (options.data) require_not_overwritten(*options.data, context.output);
   Table table(
       context,

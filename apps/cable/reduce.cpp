@@ -17,7 +17,7 @@ namespace {
 /// None, with a line on standard error, where the fit needs a package that is missing or the decay
 /// does not determine c2.
 std::optional<AbsorberDampingFit> fitted_damping(const JobContext& context) {
-  const TwoDof<double> plant = plant_without_absorber_damping(context.case_data);
+  const TwoMass<double> plant = plant_without_absorber_damping(context.case_data);
   try {
     AbsorberDampingFit found = fit_absorber_damping(context.case_data, plant);
     report_warning(misfit_warning(found), context.quiet);
@@ -38,7 +38,7 @@ void tell_reduction(const JobContext& context) {
                         {"unit", "", "SI", "string"}});
   for (const Quantity& row : reduction_table(context.case_data, fitted_damping(context)))
     table.row(row.name, row.symbol, row.value, row.unit);
-  tell_trust(context, table, trusted_digits_of_reduction(reduction_question_of(context.case_data)));
+  tell_trust(context, table, trusted_digits_of_reduction(reduction_options_of(context.case_data)));
   table.commit();
 }
 

@@ -36,7 +36,7 @@ void write(Table& table, const char* quantity, const char* unit, double value,
 }
 
 void tell_margins(const JobContext& context) {
-  const TwoDof<double> plant = plant_of(context.case_data);
+  const TwoMass<double> plant = plant_of(context.case_data);
   const Sampling<double> sampling = sampling_of(context.case_data);
   const PdGains<double> gains = gains_of(context.case_data);
   const StabilityMargins margins = stability_margins(plant, sampling, gains);

@@ -10,13 +10,13 @@
 namespace holdfast::program {
 namespace {
 
-struct MaxDelayOptions {
+struct MaxDelayArguments {
   std::string frequency = "3:60:58";
   std::string criterion = "attenuates";
 };
 
-MaxDelayQuestion question_of(const Case& the_case, const MaxDelayOptions& options) {
-  MaxDelayQuestion question;
+MaxDelayOptions question_of(const Case& the_case, const MaxDelayArguments& options) {
+  MaxDelayOptions question;
   question.criterion =
       options.criterion == "stable" ? DelayCriterion::stable : DelayCriterion::attenuates;
   question.hold = force_hold_of(the_case);
@@ -24,10 +24,10 @@ MaxDelayQuestion question_of(const Case& the_case, const MaxDelayOptions& option
   return question;
 }
 
-void run(const JobContext& context, const MaxDelayOptions& options) {
-  const TwoDof<double> plant = plant_of(context.case_data);
+void run(const JobContext& context, const MaxDelayArguments& options) {
+  const TwoMass<double> plant = plant_of(context.case_data);
   const Axis axis = parse_axis("--frequency", options.frequency);
-  MaxDelayQuestion question = question_of(context.case_data, options);
+  MaxDelayOptions question = question_of(context.case_data, options);
   Table table(context,
               {{"frequency_Hz", "Hz", "excitation frequency f"},
                {"proportional_gain", "N/m", "P, tuned to the frequency by Eq. 6"},
@@ -54,7 +54,7 @@ void add_max_delay(CLI::App& program) {
       program, "max-delay", question::delay,
       "Largest sampling period against excitation frequency, P tuned by Eq. 6; the processing "
       "delay keeps its fraction of the period");
-  const auto options = std::make_shared<MaxDelayOptions>();
+  const auto options = std::make_shared<MaxDelayArguments>();
   job.add_text("--frequency", options->frequency, "Excitation frequencies, MIN:MAX:COUNT, Hz");
   job->add_option("--criterion", options->criterion,
                   "stable: some D stabilises; attenuates: some stabilising D beats no control")

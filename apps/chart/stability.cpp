@@ -38,7 +38,7 @@ void run_over_gains(const JobContext& context, const StabilityOptions& options) 
   if (options.continuous) {
     append_continuous_chart(context, plant_of(context.case_data), grid, options.radius, table);
   } else {
-    const LoopChart chart{loop_point_of(context.case_data),
+    const LoopChart chart{operating_point_of(context.case_data),
                           {LoopParameter::proportional_gain, grid.proportional},
                           {LoopParameter::differential_gain, grid.differential}};
     append_sampled_chart(context, chart, options.radius, table);

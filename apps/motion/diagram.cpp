@@ -14,9 +14,9 @@
 namespace holdfast::program {
 namespace {
 
-struct DiagramOptions {
+struct DiagramArguments {
   std::string axis = "backlash.width=0:0.003:121";
-  DiagramQuestion question;
+  DiagramOptions question;
   Switching switching = Switching::sampled;
 };
 
@@ -31,7 +31,7 @@ std::vector<double> values_of(const Axis& axis, const std::string& text) {
   return values;
 }
 
-void run(const JobContext& context, const DiagramOptions& options) {
+void run(const JobContext& context, const DiagramArguments& options) {
   const auto [key, axis] = parse_key_axis("--axis", options.axis);
   case_value(context.case_data, key);  // throws where there is no such number
   const std::vector<double> values = values_of(axis, options.axis);
@@ -41,14 +41,14 @@ void run(const JobContext& context, const DiagramOptions& options) {
                         {"v1_m_per_s", "m/s", "velocity of the conductor there"},
                         {"z2_m", "m", "displacement of the absorber there"},
                         {"v2_m_per_s", "m/s", "velocity of the absorber there"}});
-  DiagramQuestion question = options.question;
+  DiagramOptions question = options.question;
   question.watch = throw_if_interrupted;
   const auto write = [&](const StrobePoint& point) {
     table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
               point.state[2], point.state[3]);
   };
   const auto path = [&, name = key](double value) {
-    return real_loop_with(context.case_data, name, value, options.switching);
+    return implemented_loop_with(context.case_data, name, value, options.switching);
   };
   const std::size_t diverged =
       run_orbit_diagram(path, values, initial_state_of(context.case_data), question, write);
@@ -65,7 +65,7 @@ void run(const JobContext& context, const DiagramOptions& options) {
 void add_diagram(CLI::App& program) {
   const Job job(program, "diagram", question::attractor,
                 "Orbit diagram: one state a forcing period against a key, up and back");
-  const auto options = std::make_shared<DiagramOptions>();
+  const auto options = std::make_shared<DiagramArguments>();
   job.add_text("--axis", options->axis, "KEY=MIN:MAX:COUNT, the key that goes up and back");
   job->add_option("--transient", options->question.transient, "Left out at each value, s")
       ->check(number_from(0.0, 1e9))

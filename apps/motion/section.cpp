@@ -39,7 +39,7 @@ void run(const JobContext& context, const SectionOptions& options) {
     table.row(point.time, point.state[0], point.state[1], point.state[2], point.rising ? 1 : 0,
               point.engaged ? 0 : 1);
   };
-  auto motion = event_motion(real_loop_of(context.case_data, options.switching),
+  auto motion = event_motion(implemented_loop_of(context.case_data, options.switching),
                              initial_state_of(context.case_data));
   run_to_completion(motion, before, {});
   require_completed(run_section(motion, samples - before, write), motion.time());

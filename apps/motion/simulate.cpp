@@ -27,7 +27,7 @@ std::optional<Kick> kick_of(const SimulateOptions& options) {
   return Kick{kick.time, kick.displacement};
 }
 
-ContactMode mode_of(const HybridSample& sample) { return sample.mode; }
+ContactMode mode_of(const EventSample& sample) { return sample.mode; }
 ContactMode mode_of(const MotionSample<double>& sample) {
   return sample.engaged ? ContactMode::engaged : ContactMode::gap;
 }

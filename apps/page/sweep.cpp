@@ -8,13 +8,13 @@
 namespace holdfast::program {
 namespace {
 
-struct SweepOptions {
-  SweepQuestion question;
+struct SweepArguments {
+  SweepOptions question;
   bool dry_run = false;
 };
 
 /// How the work is cut, gone on with, or only told.
-void add_tile_options(const Job& job, SweepOptions& options) {
+void add_tile_options(const Job& job, SweepArguments& options) {
   job->add_option("--tile", options.question.tile_cells,
                   "Cells that are computed and kept together; 0: chosen. Results do not depend on "
                   "it")
@@ -32,8 +32,8 @@ void add_tile_options(const Job& job, SweepOptions& options) {
 void add_sweep(CLI::App& program) {
   const Job job(program, "sweep", question::map,
                 "Metrics of the motion over any number of axes, on all cores and machines");
-  const auto options = std::make_shared<SweepOptions>();
-  SweepQuestion& asked = options->question;
+  const auto options = std::make_shared<SweepArguments>();
+  SweepOptions& asked = options->question;
   job->add_option("--axis", asked.axes,
                   "KEY=MIN:MAX:COUNT, KEY=log:MIN:MAX:COUNT or KEY=VALUE,VALUE,...: an axis over a "
                   "key of the case; repeatable, the first slowest")

@@ -3,7 +3,7 @@
 /// Linear algebra, polynomials, roots, statistics and signals.
 
 #include "holdfast/math/linalg/balancing.hpp"
-#include "holdfast/math/linalg/eigenvalue_rate.hpp"
+#include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
 #include "holdfast/math/linalg/gram_schmidt.hpp"
@@ -19,7 +19,7 @@
 #include "holdfast/math/poly/schur_cohn.hpp"
 #include "holdfast/math/poly/unstable_roots.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
-#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/math/roots/series.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"

@@ -178,7 +178,7 @@ void add_control(Keys& keys) {
                             "from taking a sample to applying its force, up to a period"));
 }
 
-void add_digital_limits(Keys& keys) {
+void add_controller_limits(Keys& keys) {
   keys.push_back(number_key("control.displacement_quantum", "m", not_negative(),
                             field<&Case::control, &Control::displacement_quantum>,
                             "step of the measured displacement; 0: none"));
@@ -280,7 +280,7 @@ Keys make_case_keys() {
   add_reduction(keys);
   add_plant(keys);
   add_control(keys);
-  add_digital_limits(keys);
+  add_controller_limits(keys);
   add_backlash(keys);
   add_excitation(keys);
   add_noise(keys);

@@ -42,8 +42,8 @@ class KernelsOn {
    public:
     explicit Travel(const MotionBatch<Pack>& batch) : batch_(batch) {}
     std::unique_ptr<TravelKernel> copy() const override { return std::make_unique<Travel>(*this); }
-    void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
-             const CaptureTest& test) override {
+    void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
+             const AttractionTest& test) override {
       batch_.run(motions, count, samples, test);
     }
 
@@ -54,7 +54,7 @@ class KernelsOn {
   /// The caller's matrices, as MetricGroup wants them.
   struct Matrices {
     MotionSource* source;
-    const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) {
+    const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) {
       return source->of(loop);
     }
   };

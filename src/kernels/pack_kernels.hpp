@@ -42,16 +42,16 @@ class MotionSource {
  public:
   virtual ~MotionSource() = default;
   /// The matrices of a loop, until it is asked again.
-  virtual const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) = 0;
+  virtual const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) = 0;
   /// Called every some hundred samples; may throw.
   virtual void pause() = 0;
 };
 
-/// What says which orbit a motion surely tends to, as OrbitCatalogue does.
-class CaptureTest {
+/// What says which orbit a motion surely tends to, as AttractorSet does.
+class AttractionTest {
  public:
-  virtual ~CaptureTest() = default;
-  virtual int captured_by(const ForcedMotionMemory<double>& memory) const = 0;
+  virtual ~AttractionTest() = default;
+  virtual int attracted_by(const ForcedMotionMemory<double>& memory) const = 0;
 };
 
 /// MotionBatch on the packs of an instruction set.
@@ -59,8 +59,8 @@ class TravelKernel {
  public:
   virtual ~TravelKernel() = default;
   virtual std::unique_ptr<TravelKernel> copy() const = 0;
-  virtual void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
-                   const CaptureTest& test) = 0;
+  virtual void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
+                   const AttractionTest& test) = 0;
 };
 
 /// A kernel that is copied with what has it, as each tile of a chart has its own.

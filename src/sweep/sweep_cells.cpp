@@ -21,9 +21,9 @@ CellOutcome outcome_of(MotionEnd end) {
   return end == MotionEnd::diverged ? CellOutcome::diverges : CellOutcome::computed;
 }
 
-CellOutcome outcome_of(LeastAmplitudeOutcome outcome) {
-  if (outcome == LeastAmplitudeOutcome::none) return CellOutcome::no_gain;
-  if (outcome == LeastAmplitudeOutcome::aliased) return CellOutcome::aliased;
+CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {
+  if (outcome == MinimumAmplitudeOutcome::none) return CellOutcome::no_gain;
+  if (outcome == MinimumAmplitudeOutcome::aliased) return CellOutcome::aliased;
   return CellOutcome::computed;
 }
 
@@ -32,7 +32,7 @@ class TileCells {
  public:
   TileCells(const SweepPlan& plan, std::int64_t tile)
       : plan_(plan), results_(static_cast<std::size_t>(plan.cells_of(tile))) {
-    BestGains gains(plan.question().duration);
+    BestGains gains(plan.options().duration);
     for (std::size_t i = 0; i < results_.size(); ++i) {
       throw_if_interrupted();
       add(i, plan.first_cell(tile) + static_cast<std::int64_t>(i), gains);
@@ -68,8 +68,8 @@ class TileCells {
     try {
       const Case the_case = plan_.case_of(cell);
       CellMotion motion =
-          cell_motion(the_case, plan_.question().switching, plan_.question().duration);
-      if (plan_.question().best_gain && !take_best_gain(place, motion, gains)) return;
+          cell_motion(the_case, plan_.options().switching, plan_.options().duration);
+      if (plan_.options().best_gain && !take_best_gain(place, motion, gains)) return;
       results_[place].differential_gain = motion.of_paper.loop.gains.differential;
       motions_.push_back(motion);
       cells_.push_back(place);
@@ -84,8 +84,8 @@ class TileCells {
 
   /// False where there is no best gain, with the outcome that says why.
   bool take_best_gain(std::size_t place, CellMotion& motion, BestGains& gains) {
-    const ForcedLoop<double>& loop = motion.of_paper.loop;
-    const LeastAmplitude& best = gains.of(loop);
+    const IdealLoop<double>& loop = motion.of_paper.loop;
+    const MinimumAmplitude& best = gains.of(loop);
     set_differential_gain(motion, best.differential_gain);
     const CellOutcome outcome = outcome_of(best.outcome);
     if (has_motion(outcome)) return true;
@@ -104,7 +104,7 @@ class TileCells {
 
   void find_motions() {
     const std::vector<MotionMetrics> metrics =
-        metrics_of(motions_, plan_.question().duration, plan_.context().instructions);
+        metrics_of(motions_, plan_.options().duration, plan_.context().instructions);
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       CellResult& result = results_[cells_[k]];
       result.motion = metrics[k];
@@ -127,7 +127,7 @@ class TileCells {
       if (added) distinct.push_back(motion);
     }
     const std::vector<MotionMetrics> metrics =
-        metrics_of(distinct, plan_.question().duration, plan_.context().instructions);
+        metrics_of(distinct, plan_.options().duration, plan_.context().instructions);
     for (std::size_t k = 0; k < motions_.size(); ++k)
       results_[cells_[k]].uncontrolled_peak = metrics[number_of[k]].steady_peak;
   }
@@ -153,8 +153,8 @@ class TileCells {
 
   void find_attractor(const CellMotion& motion, CellResult& result) const {
     if (plan_.wants(SweepMetric::largest_exponent))
-      result.largest_exponent = largest_exponent_of(motion, plan_.question().duration);
-    const OrbitLimits limits{plan_.question().largest_period, 0, throw_if_interrupted};
+      result.largest_exponent = largest_exponent_of(motion, plan_.options().duration);
+    const OrbitLimits limits{plan_.options().largest_period, 0, throw_if_interrupted};
     if (plan_.wants(SweepMetric::verdict)) {
       const CellVerdict found = verdict_of(motion, limits);
       result.kind = found.kind;

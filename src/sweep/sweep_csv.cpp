@@ -51,7 +51,7 @@ class ColumnText {
 
  private:
   bool whole_;
-  std::vector<std::string> words_;  // as they stand in the file; of a "string"
+  std::vector<std::string> words_;  // as in the file; of a "string"
 };
 
 std::vector<ColumnText> texts_of(const std::vector<SweepColumn>& columns) {

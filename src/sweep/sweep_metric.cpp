@@ -16,8 +16,8 @@ std::vector<std::string> outcome_words() {
   return {"computed", "diverges", "invalid", "no_gain", "aliased", "accumulates"};
 }
 
-/// The code of a verdict on what is not admissible: behind those of MotionKind.
-constexpr double invalid_code = static_cast<double>(MotionKind::undecided) + 1.0;
+/// The code of a verdict on what is not admissible: behind those of AttractorType.
+constexpr double invalid_code = static_cast<double>(AttractorType::undecided) + 1.0;
 
 /// In the order of these codes.
 std::vector<std::string> kind_words() {
@@ -95,9 +95,10 @@ const std::vector<NamedColumn>& columns() {
 }
 
 double verdict_code(const CellResult& result) {
-  if (result.outcome == CellOutcome::accumulates) return static_cast<double>(MotionKind::undecided);
+  if (result.outcome == CellOutcome::accumulates)
+    return static_cast<double>(AttractorType::undecided);
   if (!has_motion(result.outcome)) return invalid_code;
-  if (result.outcome == CellOutcome::diverges) return static_cast<double>(MotionKind::diverges);
+  if (result.outcome == CellOutcome::diverges) return static_cast<double>(AttractorType::diverges);
   return static_cast<double>(result.kind);
 }
 

@@ -53,7 +53,7 @@ struct CellResult {
   double uncontrolled_peak = std::numeric_limits<double>::quiet_NaN();  // m, steady
   double largest_exponent = std::numeric_limits<double>::quiet_NaN();   // per sample
   std::int64_t period = 0;  // samples of the certified orbit; 0: none
-  MotionKind kind = MotionKind::undecided;
+  AttractorType kind = AttractorType::undecided;
   double differential_gain = std::numeric_limits<double>::quiet_NaN();  // N s/m, in force
 };
 

@@ -13,7 +13,7 @@ namespace holdfast::program {
 /// all of them: doubles, integers of 64 bits, and for words bytes with their meanings. There is no
 /// metadata file beside it (NetcdfDataset). Cells are written 2^16 at a time, in chunks of so
 /// many at most that are contiguous in their order, so that each chunk is compressed once; memory
-/// holds a chunk and a portion of every column, whatever the grid.
+/// holds a chunk and a portion of every column, for any grid.
 ///
 /// Throws NoAnswer in a program without netCDF, and what NetcdfDataset throws.
 std::unique_ptr<SweepWriter> sweep_netcdf(const JobContext& context, SweepLayout layout);

@@ -10,7 +10,7 @@
 #include "case/axes/key_axis.hpp"
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/settled_plant.hpp"
+#include "case/model/resolved_plant.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "io/text/checksum.hpp"
@@ -88,9 +88,9 @@ std::vector<std::size_t> axes_shaping_plant(const Case& the_case,
 }
 
 /// The best gain takes the place of D, and a motion needs time to settle.
-void require_room_for_best_gain(const SweepQuestion& question, const std::vector<GridAxis>& axes) {
-  if (!question.best_gain) return;
-  if (!(question.duration > 0.0)) throw WrongInput("--best-gain needs a --duration above 0");
+void require_room_for_best_gain(const SweepOptions& options, const std::vector<GridAxis>& axes) {
+  if (!options.best_gain) return;
+  if (!(options.duration > 0.0)) throw WrongInput("--best-gain needs a --duration above 0");
   for (const GridAxis& axis : axes) {
     if (axis.column.name == "control.differential_gain")
       throw WrongInput(
@@ -115,19 +115,19 @@ double samples_of(double duration, double sampling_period) {
 
 }  // namespace
 
-SweepPlan::SweepPlan(const JobContext& context, const SweepQuestion& question)
+SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
     : context_(context),
-      question_(question),
-      metrics_(sweep_metrics(question.metrics)),
-      layout_{sweep_axes(question.axes), {}} {
+      options_(options),
+      metrics_(sweep_metrics(options.metrics)),
+      layout_{sweep_axes(options.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
-  require_room_for_best_gain(question_, layout_.axes);
+  require_room_for_best_gain(options_, layout_.axes);
   for (const GridAxis& axis : layout_.axes)
     require_in_force(context_.case_data, *find_case_key(axis.column.name));
   shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
   settle_case();
   samples_ = counted_samples();
-  tile_cells_ = question_.tile_cells > 0 ? question_.tile_cells : chosen_tile_cells();
+  tile_cells_ = options_.tile_cells > 0 ? options_.tile_cells : chosen_tile_cells();
 }
 
 void SweepPlan::settle_case() {
@@ -173,11 +173,11 @@ double SweepPlan::counted_samples() const {
     const std::size_t stride = axis.count() / most_counted + 1;
     double sum = 0.0, counted = 0.0;
     for (std::size_t i = 0; i < axis.count(); i += stride, ++counted)
-      sum += samples_of(question_.duration, axis.at(i));
+      sum += samples_of(options_.duration, axis.at(i));
     return sum / counted * static_cast<double>(cells());
   }
   return static_cast<double>(cells()) *
-         samples_of(question_.duration, context_.case_data.control.sampling_period);
+         samples_of(options_.duration, context_.case_data.control.sampling_period);
 }
 
 /// Tiles that take some tenths of a second, so that little is lost with one and much is done by
@@ -190,7 +190,7 @@ std::int64_t SweepPlan::chosen_tile_cells() const {
   const auto all = static_cast<double>(cells());
   double cost = std::max(samples() / all, 1.0);
   if (exponents) cost *= 5.0;
-  if (orbits) cost += 20.0 * static_cast<double>(question_.largest_period);
+  if (orbits) cost += 20.0 * static_cast<double>(options_.largest_period);
   // A reduction takes some tenths of a second, and every cell may need one.
   const bool reductions = !shaping_axes_.empty();
   if (reductions) cost += 0.1 * samples_of_tile;
@@ -204,18 +204,17 @@ TilePlan SweepPlan::tile_plan() const {
   TilePlan plan{{{"version", HOLDFAST_VERSION}}, tiles()};
   auto& entries = plan.entries;
   entries.emplace_back("--tile", std::to_string(tile_cells_));
-  for (std::size_t k = 0; k < question_.axes.size(); ++k)
-    entries.emplace_back("--axis " + std::to_string(k + 1), question_.axes[k]);
+  for (std::size_t k = 0; k < options_.axes.size(); ++k)
+    entries.emplace_back("--axis " + std::to_string(k + 1), options_.axes[k]);
   for (std::size_t k = 0; k < metrics_.size(); ++k)
     entries.emplace_back("--metric " + std::to_string(k + 1),
                          metric_column(metrics_[k]).column.name);
-  entries.emplace_back("--duration", format_number(question_.duration));
-  entries.emplace_back("--max-period", std::to_string(question_.largest_period));
-  entries.emplace_back("--switching",
-                       question_.switching == Switching::exact ? "exact" : "sampled");
+  entries.emplace_back("--duration", format_number(options_.duration));
+  entries.emplace_back("--max-period", std::to_string(options_.largest_period));
+  entries.emplace_back("--switching", options_.switching == Switching::exact ? "exact" : "sampled");
   if (context_.case_data.force_record)
     entries.emplace_back("force record", checksum_of(*context_.case_data.force_record));
-  entries.emplace_back("--best-gain", question_.best_gain ? "yes" : "no");
+  entries.emplace_back("--best-gain", options_.best_gain ? "yes" : "no");
   if (reduced_cases_) {
     const CaseSource& source = context_.case_source;
     entries.emplace_back("case file", source.text.value_or("built-in"));

@@ -7,7 +7,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/reduced_cases.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "process/job_context.hpp"
 #include "sweep/sweep_metric.hpp"
@@ -17,7 +17,7 @@
 namespace holdfast::program {
 
 /// What the job `sweep` was asked.
-struct SweepQuestion {
+struct SweepOptions {
   std::vector<std::string> axes;     // KEY=AXIS, the first slowest
   std::vector<std::string> metrics;  // by name; none: usual_metrics()
   double duration = 20.0;            // s
@@ -38,7 +38,7 @@ struct SweepQuestion {
 /// the plan but the outcome of its cells.
 class SweepPlan {
  public:
-  SweepPlan(const JobContext& context, const SweepQuestion& question);
+  SweepPlan(const JobContext& context, const SweepOptions& options);
 
   std::int64_t cells() const { return layout_.cells(); }
   std::int64_t tiles() const { return (cells() + tile_cells_ - 1) / tile_cells_; }
@@ -48,7 +48,7 @@ class SweepPlan {
   const SweepLayout& layout() const { return layout_; }
   const std::vector<SweepMetric>& metrics() const { return metrics_; }
   bool wants(SweepMetric metric) const;
-  const SweepQuestion& question() const { return question_; }
+  const SweepOptions& options() const { return options_; }
 
   /// The context that was given, its case's plant reduced where no axis shapes that.
   const JobContext& context() const { return context_; }
@@ -74,7 +74,7 @@ class SweepPlan {
   double axis_value(std::size_t axis, std::int64_t cell) const;
 
   JobContext context_;
-  SweepQuestion question_;
+  SweepOptions options_;
   std::vector<SweepMetric> metrics_;
   SweepLayout layout_;
   std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from

@@ -11,13 +11,13 @@
 #include "io/file/whole_file.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "kernels/instruction_set.hpp"
+#include "process/collective_call.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/group/mpi_launch.hpp"
 #include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
-#include "process/shared_step.hpp"
 #include "process/system_words.hpp"
 #include "process/worker_threads.hpp"
 #include "sweep/sweep_cells.hpp"
@@ -95,18 +95,18 @@ struct SweepFaults {
 /// One sweep in one of the processes that work on it.
 class SweepRun {
  public:
-  SweepRun(const JobContext& context, const SweepQuestion& question)
-      : plan_(context, question), named_(has_named_output(context)), group_(join_process_group()) {}
+  SweepRun(const JobContext& context, const SweepOptions& options)
+      : plan_(context, options), named_(has_named_output(context)), group_(join_process_group()) {}
 
   void run() {
     threads_ = worker_threads(context().threads, *group_);
     agree_on_instructions();
-    take_shared_step(*group_, [this] { begin(); });
-    take_shared_step(*group_, [this] { join(); });
+    make_collective_call(*group_, [this] { begin(); });
+    make_collective_call(*group_, [this] { join(); });
     try {
-      take_shared_step(*group_, [this] { compute_tiles(); });
+      make_collective_call(*group_, [this] { compute_tiles(); });
       end_progress();
-      take_shared_step(*group_, [this] { assemble(); });
+      make_collective_call(*group_, [this] { assemble(); });
     } catch (...) {
       leave_tiles();
       throw;
@@ -120,12 +120,12 @@ class SweepRun {
   /// All processes compute alike: with the set that was asked for, else with that of the tiles
   /// which are gone on with where all have it, else with the smallest of theirs.
   void agree_on_instructions() {
-    const bool looks = is_first() && named_ && plan_.question().resume;
+    const bool looks = is_first() && named_ && plan_.options().resume;
     const std::string recorded =
         looks ? recorded_instructions(work_folder(context(), named_)) : std::string();
     const auto texts =
         group_->exchange(std::string(name_of(context().instructions)) + " " + recorded);
-    if (plan_.question().instructions_given) return;
+    if (plan_.options().instructions_given) return;
     InstructionSet smallest = context().instructions;
     for (const std::string& text : texts)
       smallest = std::min(smallest, instruction_set_named(text.substr(0, text.find(' '))));
@@ -141,7 +141,7 @@ class SweepRun {
     // What can be written is known now; a process that is killed shall leave nothing of it.
     if (named_) output_.reset();
     const fs::path folder = work_folder(context(), named_);
-    store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.question().resume);
+    store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.options().resume);
     tiles_found_ = contents_of_work_folder(folder).tiles;
   }
 
@@ -260,13 +260,13 @@ class SweepRun {
 
 }  // namespace
 
-void write_sweep(const JobContext& context, const SweepQuestion& question) {
-  if (question.resume && !has_named_output(context))
+void write_sweep(const JobContext& context, const SweepOptions& options) {
+  if (options.resume && !has_named_output(context))
     throw WrongInput("--resume needs --output, the file whose tiles are left");
   if (mpi_launch().size > 1 && !has_named_output(context))
     throw WrongInput(
         "--output: a sweep on several processes needs a file, beside which they share their tiles");
-  SweepRun(context, question).run();
+  SweepRun(context, options).run();
 }
 
 }  // namespace holdfast::program

@@ -10,6 +10,6 @@ namespace holdfast::program {
 ///
 /// Throws WrongInput for what SweepPlan, SweepOutput and TileStore refuse, NoAnswer and OutputError
 /// as they do, Interrupted; where tiles are left for --resume, standard error says so.
-void write_sweep(const JobContext& context, const SweepQuestion& question);
+void write_sweep(const JobContext& context, const SweepOptions& options);
 
 }  // namespace holdfast::program

@@ -5,8 +5,8 @@
 
 namespace holdfast::program {
 
-void write_sweep_size(const JobContext& context, const SweepQuestion& question) {
-  const SweepPlan plan(context, question);
+void write_sweep_size(const JobContext& context, const SweepOptions& options) {
+  const SweepPlan plan(context, options);
   if (mpi_launch().rank > 0) return;
   JobContext to_screen = plan.context();
   to_screen.output.reset();  // the file is for the result

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double start = 3.76e-3;
 
-TwoDof<double> plant_with(double absorber_damping) {
-  TwoDof<double> plant = kollar2022_plant();
+TwoMass<double> plant_with(double absorber_damping) {
+  TwoMass<double> plant = kollar2022_plant();
   plant.absorber_damping = absorber_damping;
   return plant;
 }
 
 /// The plant's own decay over 4 s with Gaussian noise.
-DecayRecord record_of(const TwoDof<double>& plant, double noise, unsigned seed) {
+DecayRecord record_of(const TwoMass<double>& plant, double noise, unsigned seed) {
   DecayRecord record;
   for (int k = 0; k <= 1000; ++k) record.times.push_back(4e-3 * k);
   record.displacements = free_decay(plant, start, record.times);
@@ -59,21 +59,21 @@ TEST(DecayFit, RecoversTheDampingFromNoiseWithinItsStandardError) {
 TEST(DecayFit, RobustLossWithstandsADropout) {
   DecayRecord record = record_of(plant_with(4.0), 0.01 * start, 3);
   for (std::size_t k = 45; k < 62; ++k) record.displacements[k] = 0.0;  // the sensor drops out
-  DecayQuestion question;
-  question.fit_initial_displacement = false;
+  DecayFitOptions options;
+  options.fit_initial_displacement = false;
   record.displacements.front() = start;
   const double robust =
-      fit_decay(record, plant_with(2.0), question).minima.front().plant.absorber_damping;
-  question.robust = false;
+      fit_decay(record, plant_with(2.0), options).minima.front().plant.absorber_damping;
+  options.robust = false;
   const double plain =
-      fit_decay(record, plant_with(2.0), question).minima.front().plant.absorber_damping;
+      fit_decay(record, plant_with(2.0), options).minima.front().plant.absorber_damping;
   EXPECT_NEAR(robust, 4.0, 0.1);
   EXPECT_LT(std::abs(robust - 4.0), 0.3 * std::abs(plain - 4.0));
 }
 
 TEST(DecayFit, TheStandardErrorUnderOutliersIsTheScatterOfTheEstimate) {
   // A twentieth of the samples is displaced by ten times the start.
-  DecayQuestion question;
+  DecayFitOptions options;
   std::vector<double> found;
   double stated = 0.0;
   constexpr int draws = 60;
@@ -82,7 +82,7 @@ TEST(DecayFit, TheStandardErrorUnderOutliersIsTheScatterOfTheEstimate) {
     std::mt19937 generator(1000 + seed);
     std::uniform_int_distribution<std::size_t> place(1, record.times.size() - 1);
     for (int k = 0; k < 50; ++k) record.displacements[place(generator)] += 10.0 * start;
-    const DecayMinimum best = fit_decay(record, plant_with(4.0), question).minima.front();
+    const DecayMinimum best = fit_decay(record, plant_with(4.0), options).minima.front();
     found.push_back(best.plant.absorber_damping);
     stated += best.standard_errors[0] / draws;
     EXPECT_GT(best.residual, start) << "the root mean square is of all samples";
@@ -102,11 +102,11 @@ TEST(DecayFit, OfGaussianNoiseTheRobustLossWastesATwentiethOfTheInformation) {
   double logarithms = 0.0;
   for (unsigned seed = 1; seed <= records; ++seed) {
     const DecayRecord record = record_of(plant_with(4.0), 0.01 * start, seed);
-    DecayQuestion question;
-    question.free = {PlantParameter::conductor_damping};
-    const DecayFit robust = fit_decay(record, plant_with(4.0), question);
-    question.robust = false;
-    const DecayFit plain = fit_decay(record, plant_with(4.0), question);
+    DecayFitOptions options;
+    options.free = {PlantParameter::conductor_damping};
+    const DecayFit robust = fit_decay(record, plant_with(4.0), options);
+    options.robust = false;
+    const DecayFit plain = fit_decay(record, plant_with(4.0), options);
     ASSERT_EQ(robust.outcome, FitOutcome::converged);
     ASSERT_EQ(plain.outcome, FitOutcome::converged);
     logarithms += std::log(robust.minima.front().standard_errors[0] /
@@ -131,8 +131,8 @@ TEST(DecayFit, TheUnitOfLengthDoesNotMatter) {
 }
 
 TEST(DecayFit, MeasuresOfANoisyRecordAreMetNearItsDamping) {
-  DecayQuestion question;
-  question.target = DecayTarget::first_peak_and_period;
+  DecayFitOptions options;
+  options.target = DecayTarget::first_peak_and_period;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     DecayRecord record;
     for (int k = 0; k <= 4000; ++k) record.times.push_back(1e-3 * k);
@@ -141,7 +141,7 @@ TEST(DecayFit, MeasuresOfANoisyRecordAreMetNearItsDamping) {
     std::normal_distribution<double> scatter(0.0, 0.01 * start);
     for (std::size_t k = 1; k < record.times.size(); ++k)
       record.displacements[k] += scatter(generator);
-    const DecayFit fit = fit_decay(record, plant_with(4.0), question);
+    const DecayFit fit = fit_decay(record, plant_with(4.0), options);
     ASSERT_EQ(fit.outcome, FitOutcome::converged) << seed;
     // The peak of the noise lifts r1 by two to three per cent of z0, and r1 falls with c2.
     EXPECT_NEAR(fit.minima.front().plant.absorber_damping, 4.0, 1.5) << seed;
@@ -162,18 +162,18 @@ TEST(DecayFit, ARecordThatSaysNothingHasNoMinimum) {
 }
 
 TEST(DecayFit, FindsAllFiveParameters) {
-  TwoDof<double> guess = plant_with(3.0);
+  TwoMass<double> guess = plant_with(3.0);
   guess.conductor_mass *= 1.1;
   guess.conductor_stiffness *= 0.95;
   guess.conductor_damping *= 1.3;
   guess.absorber_stiffness *= 0.9;
-  DecayQuestion question;
-  question.free = {PlantParameter::conductor_mass, PlantParameter::conductor_stiffness,
-                   PlantParameter::conductor_damping, PlantParameter::absorber_stiffness,
-                   PlantParameter::absorber_damping};
-  const DecayFit fit = fit_decay(record_of(plant_with(4.0), 0.0, 1), guess, question);
+  DecayFitOptions options;
+  options.free = {PlantParameter::conductor_mass, PlantParameter::conductor_stiffness,
+                  PlantParameter::conductor_damping, PlantParameter::absorber_stiffness,
+                  PlantParameter::absorber_damping};
+  const DecayFit fit = fit_decay(record_of(plant_with(4.0), 0.0, 1), guess, options);
   ASSERT_EQ(fit.outcome, FitOutcome::converged);
-  const TwoDof<double>& found = fit.minima.front().plant;
+  const TwoMass<double>& found = fit.minima.front().plant;
   EXPECT_NEAR(found.conductor_mass, 0.0767, 1e-5);
   EXPECT_NEAR(found.conductor_stiffness, 50.3, 1e-3);
   EXPECT_NEAR(found.conductor_damping, 0.079, 1e-4);
@@ -182,7 +182,7 @@ TEST(DecayFit, FindsAllFiveParameters) {
 }
 
 TEST(DecayFit, StandardErrorsKeepTheOrderOfTheQuestion) {
-  DecayQuestion forth, back;
+  DecayFitOptions forth, back;
   forth.free = {PlantParameter::conductor_damping, PlantParameter::absorber_damping};
   back.free = {PlantParameter::absorber_damping, PlantParameter::conductor_damping};
   const DecayRecord record = record_of(plant_with(4.0), 0.01 * start, 5);
@@ -197,13 +197,13 @@ TEST(DecayFit, DerivativesAgreeWithDifferences) {
   const DecayRecord record = record_of(plant_with(4.0), 0.0, 1);
   for (const auto target :
        {DecayTarget::time_history, DecayTarget::first_peak_period_and_decrement}) {
-    DecayQuestion question;
-    question.target = target;
-    question.free = {PlantParameter::conductor_stiffness, PlantParameter::absorber_damping};
-    question.fit_initial_displacement = false;
+    DecayFitOptions options;
+    options.target = target;
+    options.free = {PlantParameter::conductor_stiffness, PlantParameter::absorber_damping};
+    options.fit_initial_displacement = false;
     const detail::DecayResiduals residuals{record, decay_measures(record), target, plant_with(2.5)};
     const auto at = [&](double stiffness, double damping) {
-      return detail::linearise(residuals, question, {0.0, stiffness, 0.0, 0.0, damping, 0.0});
+      return detail::linearise(residuals, options, {0.0, stiffness, 0.0, 0.0, damping, 0.0});
     };
     const double step = 1e-6;
     const Eigen::VectorXd by_damping =
@@ -218,9 +218,9 @@ TEST(DecayFit, DerivativesAgreeWithDifferences) {
 
 TEST(DecayFit, ReportsBothBranchesOfFirstPeakAndPeriod) {
   // r1 falls and rises again with c₂: a record of c₂ = 4.9 has the first peak of c₂ = 0.9 too.
-  DecayQuestion question;
-  question.target = DecayTarget::first_peak_and_period;
-  const DecayFit fit = fit_decay(record_of(plant_with(4.9), 0.0, 1), plant_with(3.0), question);
+  DecayFitOptions options;
+  options.target = DecayTarget::first_peak_and_period;
+  const DecayFit fit = fit_decay(record_of(plant_with(4.9), 0.0, 1), plant_with(3.0), options);
   ASSERT_GE(fit.minima.size(), 2U);
   EXPECT_NEAR(fit.minima[0].plant.absorber_damping, 4.9, 1e-2);
   EXPECT_GT(fit.minima[1].plant.absorber_damping, 0.6);
@@ -241,7 +241,7 @@ TEST(DecayFit, HuberResidualIsSmoothAndLinearFarOut) {
 
 TEST(DecayFit, RefusesWhatCannotBeFitted) {
   const DecayRecord good = record_of(plant_with(4.0), 0.0, 1);
-  const TwoDof<double> plant = plant_with(4.0);
+  const TwoMass<double> plant = plant_with(4.0);
   DecayRecord record = good;
   record.times[5] = record.times[4];
   EXPECT_THROW(fit_decay(record, plant), InvalidParameter);
@@ -255,14 +255,14 @@ TEST(DecayFit, RefusesWhatCannotBeFitted) {
   record.displacements.pop_back();
   EXPECT_THROW(fit_decay(record, plant), InvalidParameter);
   EXPECT_THROW(fit_decay({{0.0, 1.0}, {1.0, 0.5}}, plant), InvalidParameter);
-  DecayQuestion question;
-  question.free = {};
-  EXPECT_THROW(fit_decay(good, plant, question), InvalidParameter);
-  question.free = {PlantParameter::absorber_damping, PlantParameter::absorber_damping};
-  EXPECT_THROW(fit_decay(good, plant, question), InvalidParameter);
-  question.free = {PlantParameter::conductor_mass, PlantParameter::absorber_damping};
-  question.target = DecayTarget::first_peak_and_period;
-  EXPECT_THROW(fit_decay(good, plant, question), InvalidParameter);
+  DecayFitOptions options;
+  options.free = {};
+  EXPECT_THROW(fit_decay(good, plant, options), InvalidParameter);
+  options.free = {PlantParameter::absorber_damping, PlantParameter::absorber_damping};
+  EXPECT_THROW(fit_decay(good, plant, options), InvalidParameter);
+  options.free = {PlantParameter::conductor_mass, PlantParameter::absorber_damping};
+  options.target = DecayTarget::first_peak_and_period;
+  EXPECT_THROW(fit_decay(good, plant, options), InvalidParameter);
 }
 
 TEST(DecayFit, OfARecordWithoutPeaksHasNoMinimum) {
@@ -271,9 +271,9 @@ TEST(DecayFit, OfARecordWithoutPeaksHasNoMinimum) {
     record.times.push_back(0.01 * k);
     record.displacements.push_back(start * std::exp(-0.05 * k));
   }
-  DecayQuestion question;
-  question.target = DecayTarget::first_peak_and_period;
-  EXPECT_EQ(fit_decay(record, plant_with(4.0), question).outcome, FitOutcome::no_minimum);
+  DecayFitOptions options;
+  options.target = DecayTarget::first_peak_and_period;
+  EXPECT_EQ(fit_decay(record, plant_with(4.0), options).outcome, FitOutcome::no_minimum);
 }
 
 }  // namespace

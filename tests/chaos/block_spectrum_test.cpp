@@ -23,20 +23,20 @@ using PreciseSpectrum = LyapunovSpectrum<long double, 5>;
 struct TangentSequence {
   TangentMap engaged;
   TangentMap backlash;
-  std::vector<bool> contacts;
+  std::vector<bool> itinerary;
 
-  ContactSpectrum<double> spectrum(LyapunovScope scope = LyapunovScope::all) const {
-    return ContactSpectrum<double>(std::make_shared<const ContactWords>(engaged, backlash), scope);
+  BlockSpectrum<double> spectrum(LyapunovScope scope = LyapunovScope::all) const {
+    return BlockSpectrum<double>(std::make_shared<const ItineraryBlocks>(engaged, backlash), scope);
   }
 
-  /// Pushes the contacts of [first, last). @return the incomplete word at the end
-  LaneWords<double> push(ContactSpectrum<double>& into, std::size_t first, std::size_t last) const {
-    LaneWords<double> open = no_contacts<double>();
+  /// Pushes the contacts of [first, last). @return the incomplete block at the end
+  LaneBlocks<double> push(BlockSpectrum<double>& into, std::size_t first, std::size_t last) const {
+    LaneBlocks<double> open = empty_blocks<double>();
     for (std::size_t k = first; k < last; ++k) {
-      open[0] = followed_by(open[0], contacts[k]);
+      open[0] = followed_by(open[0], itinerary[k]);
       if (!is_whole(open[0])) continue;
       into.push(open);
-      open = no_contacts<double>();
+      open = empty_blocks<double>();
     }
     return open;
   }
@@ -49,7 +49,7 @@ struct TangentSequence {
                                  s_star = backlash.cast<long double>();
     PreciseSpectrum result;
     for (std::size_t k = 0; k < last; ++k)
-      result.push(contacts[k] ? s : s_star, contacts[k] ? engaged_rank : backlash_rank);
+      result.push(itinerary[k] ? s : s_star, itinerary[k] ? engaged_rank : backlash_rank);
     return result;
   }
 };
@@ -67,7 +67,7 @@ void expect_same_exponents(const Vector<double, 5>& found, const Vector<double, 
 
 void expect_every_step_qr(const TangentSequence& sequence, double tolerance = 1e-10) {
   auto spectrum = sequence.spectrum();
-  const std::size_t samples = sequence.contacts.size();
+  const std::size_t samples = sequence.itinerary.size();
   const auto open = sequence.push(spectrum, 0, samples);
   expect_same_exponents(spectrum.spectrum(open).exponents(),
                         sequence.precise(samples).exponents().cast<double>(), tolerance);
@@ -78,7 +78,7 @@ TangentSequence tangents_along(const test::KollarCase& which, const SampledLoop<
   TangentSequence result{tangent.engaged_map(which.gains), tangent.backlash_map(), {}};
   auto motion = which.motion();
   run_trajectory(motion, samples, std::nullopt, [&](const MotionSample<double>& sample) {
-    result.contacts.push_back(sample.engaged);
+    result.itinerary.push_back(sample.engaged);
   });
   return result;
 }
@@ -100,46 +100,46 @@ TangentSequence random_tangents(test::Random& random, int kind, std::size_t samp
   if (kind == 2) result.engaged.col(4).setZero();
   if (kind == 3) result.backlash.row(2) = result.backlash.row(1);
   const double share = random.unit();
-  for (std::size_t k = 0; k < samples; ++k) result.contacts.push_back(random.unit() < share);
+  for (std::size_t k = 0; k < samples; ++k) result.itinerary.push_back(random.unit() < share);
   return result;
 }
 
-TEST(ContactWord, IsItsFirstSamplesFollowedByItsLast) {
-  ContactWord word = 1;
+TEST(ItineraryBlock, IsItsFirstSamplesFollowedByItsLast) {
+  ItineraryBlock block = 1;
   for (const bool engaged : {true, false, false, true, true, false})
-    word = followed_by(word, engaged);
-  EXPECT_TRUE(is_whole(word));
+    block = followed_by(block, engaged);
+  EXPECT_TRUE(is_whole(block));
   for (int first = 0; first <= 6; ++first) {
-    ContactWord joined = first_of(word, first);
+    ItineraryBlock joined = first_of(block, first);
     EXPECT_EQ(samples_of(joined), first);
-    const ContactWord rest = last_of(word, 6 - first);
+    const ItineraryBlock rest = last_of(block, 6 - first);
     EXPECT_EQ(samples_of(rest), 6 - first);
     EXPECT_FALSE(first < 6 && is_whole(joined));
     for (int k = 5 - first; k >= 0; --k) joined = followed_by(joined, ((rest >> k) & 1) != 0);
-    EXPECT_EQ(joined, word);
+    EXPECT_EQ(joined, block);
   }
 }
 
-TEST(ContactWords, MapsAreTheProductsOfTheSamplesMapsInBalancedCoordinates) {
+TEST(ItineraryBlocks, MapsAreTheProductsOfTheSamplesMapsInBalancedCoordinates) {
   test::Random random(501);
   const TangentSequence maps = random_tangents(random, 1, 0);
-  const ContactWords words(maps.engaged, maps.backlash);
-  for (unsigned word = 1; word < 128; ++word) {
-    const auto code = static_cast<ContactWord>(word);
+  const ItineraryBlocks blocks(maps.engaged, maps.backlash);
+  for (unsigned block = 1; block < 128; ++block) {
+    const auto code = static_cast<ItineraryBlock>(block);
     TangentMap product = TangentMap::Identity();
     int rank = 5;
     for (int k = samples_of(code) - 1; k >= 0; --k) {
-      const bool engaged = ((word >> k) & 1U) != 0;
+      const bool engaged = ((block >> k) & 1U) != 0;
       product = (engaged ? maps.engaged : maps.backlash) * product;
       if (!engaged) rank = 4;
     }
     const TangentMap found =
-        words.scale().asDiagonal() * words.map(code) * words.scale().cwiseInverse().asDiagonal();
-    EXPECT_LE((found - product).norm(), 1e-13 * product.norm()) << word;
-    EXPECT_EQ(words.rank(code), rank);
+        blocks.scale().asDiagonal() * blocks.map(code) * blocks.scale().cwiseInverse().asDiagonal();
+    EXPECT_LE((found - product).norm(), 1e-13 * product.norm()) << block;
+    EXPECT_EQ(blocks.rank(code), rank);
   }
-  EXPECT_EQ(words.reach(), 5);
-  EXPECT_EQ(ContactWords(wide_gap(0.01, 0.0).loop(), {-557.0, -13.0}).reach(), 4);
+  EXPECT_EQ(blocks.reach(), 5);
+  EXPECT_EQ(ItineraryBlocks(wide_gap(0.01, 0.0).loop(), {-557.0, -13.0}).reach(), 4);
 }
 
 TEST(Orthonormalise, FactorsTheColumns) {
@@ -173,7 +173,7 @@ TEST(Orthonormalise, LeavesOutWhatIsNotAliveAndMarksWhatVanishes) {
   EXPECT_NEAR(stretches.inverse, 2.0, 1e-12);
 }
 
-TEST(ContactSpectrum, IsThatOfQrAtEverySampleOnThePapersMotions) {
+TEST(BlockSpectrum, IsThatOfQrAtEverySampleOnThePapersMotions) {
   for (const double period : {0.001, 0.011}) {
     for (const double fraction : {0.0, 0.5, 1.0}) {
       const auto which = wide_gap(period, 0.0);
@@ -186,7 +186,7 @@ TEST(ContactSpectrum, IsThatOfQrAtEverySampleOnThePapersMotions) {
   }
 }
 
-TEST(ContactSpectrum, IsThatOfQrAtEverySampleForRandomMaps) {
+TEST(BlockSpectrum, IsThatOfQrAtEverySampleForRandomMaps) {
   test::Random random(504);
   for (int draw = 0; draw < 400; ++draw) {
     SCOPED_TRACE(draw);
@@ -195,7 +195,7 @@ TEST(ContactSpectrum, IsThatOfQrAtEverySampleForRandomMaps) {
   }
 }
 
-TEST(ContactSpectrum, NeitherOverflowsNorUnderflows) {
+TEST(BlockSpectrum, NeitherOverflowsNorUnderflows) {
   test::Random random(505);
   for (const double size : {1e-4, 1e4}) {
     TangentSequence sequence = random_tangents(random, 1, 3000);
@@ -205,28 +205,28 @@ TEST(ContactSpectrum, NeitherOverflowsNorUnderflows) {
   }
 }
 
-TEST(ContactSpectrum, DoesABlockAgainThatTurnsOutTooLong) {
+TEST(BlockSpectrum, DoesABlockAgainThatTurnsOutTooLong) {
   test::Random random(506);
   const TangentMap turn =
       Eigen::HouseholderQR<TangentMap>(random.matrix<TangentMap>()).householderQ();
   // Long blocks while the maps only turn, then each sample contracts by up to a thousand.
   const Vector<double, 5> contraction(1.0, 0.3, 0.1, 0.03, 0.001);
   TangentSequence sequence{turn, turn * contraction.asDiagonal(), {}};
-  for (int k = 0; k < 6000; ++k) sequence.contacts.push_back(k % 2000 < 1900);
+  for (int k = 0; k < 6000; ++k) sequence.itinerary.push_back(k % 2000 < 1900);
   expect_every_step_qr(sequence);
 }
 
-TEST(ContactSpectrum, SplitsAWordWhoseSamplesAreHardlyRegular) {
+TEST(BlockSpectrum, SplitsAWordWhoseSamplesAreHardlyRegular) {
   test::Random random(507);
   const TangentMap turn =
       Eigen::HouseholderQR<TangentMap>(random.matrix<TangentMap>()).householderQ();
   const Vector<double, 5> contraction(1.0, 0.1, 1e-2, 1e-4, 1e-5);
   TangentSequence sequence{contraction.asDiagonal() * turn, turn, {}};
-  for (int k = 0; k < 300; ++k) sequence.contacts.push_back(random.unit() < 0.8);
+  for (int k = 0; k < 300; ++k) sequence.itinerary.push_back(random.unit() < 0.8);
   expect_every_step_qr(sequence);
 }
 
-TEST(ContactSpectrum, AVanishingColumnIsMinusInfinity) {
+TEST(BlockSpectrum, AVanishingColumnIsMinusInfinity) {
   // Rank 2 as a product of maps of rank 4 and 3, which no rank of a single map tells.
   TangentMap first = TangentMap::Identity(), second = TangentMap::Identity();
   first.diagonal() << 1, 1, 1, 1, 0;
@@ -240,7 +240,7 @@ TEST(ContactSpectrum, AVanishingColumnIsMinusInfinity) {
   for (int i = 2; i < 5; ++i) EXPECT_EQ(exponents[i], -std::numeric_limits<double>::infinity());
 }
 
-TEST(ContactSpectrum, AfterARestartItCountsOnlyWhatFollows) {
+TEST(BlockSpectrum, AfterARestartItCountsOnlyWhatFollows) {
   for (const double delay : {0.0, 0.011}) {
     const auto sequence = tangents_along(wide_gap(0.011, 0.0), wide_gap(0.011, delay).loop(), 3007);
     for (const std::size_t discarded : {1U, 6U, 250U, 1003U}) {
@@ -259,13 +259,13 @@ TEST(ContactSpectrum, AfterARestartItCountsOnlyWhatFollows) {
   }
 }
 
-TEST(ContactSpectrum, TheLargestAloneIsTheFirstOfAll) {
+TEST(BlockSpectrum, TheLargestAloneIsTheFirstOfAll) {
   test::Random random(508);
   for (int draw = 0; draw < 40; ++draw) {
     const auto sequence = random_tangents(random, draw % 4, 1 + random.index(3000));
     auto all = sequence.spectrum(), largest = sequence.spectrum(LyapunovScope::largest);
-    const auto open = sequence.push(all, 0, sequence.contacts.size());
-    sequence.push(largest, 0, sequence.contacts.size());
+    const auto open = sequence.push(all, 0, sequence.itinerary.size());
+    sequence.push(largest, 0, sequence.itinerary.size());
     EXPECT_NEAR(largest.spectrum(open).exponents()[0], all.spectrum(open).exponents()[0], 1e-10);
   }
 }

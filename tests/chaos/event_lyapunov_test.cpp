@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "orbit/event/event_setting.hpp"
 #include "support/kollar_case.hpp"
@@ -23,15 +23,15 @@ namespace {
 
 constexpr double annihilated = -std::numeric_limits<double>::infinity();
 
-RealLoop kollar_loop_exactly(const test::KollarCase& which) {
-  RealLoop loop = real_loop(which.forced_loop());
+ImplementedLoop kollar_loop_exactly(const test::KollarCase& which) {
+  ImplementedLoop loop = implemented_loop(which.ideal_loop());
   loop.switching = Switching::exact;
   loop.digital.hold = ForceHold::exact;
   return loop;
 }
 
-HybridMotion<ExactBacklash> backlash_motion(const test::KollarCase& which) {
-  const RealLoop loop = kollar_loop_exactly(which);
+EventMotion<ExactBacklash> backlash_motion(const test::KollarCase& which) {
+  const ImplementedLoop loop = kollar_loop_exactly(which);
   return {loop.digital, ExactBacklash(loop.plant, loop.backlash.width), which.initial_state};
 }
 
@@ -60,11 +60,11 @@ std::vector<double> logarithms_of_eigenvalues(const Matrix<double, 5>& map) {
 /// Without backlash every map is S. Where its eigenvalues are a pair, the two exponents turn about
 /// their mean; the sum over them, and over all before, is that of ln |λ| once the directions have
 /// settled.
-TEST(HybridLyapunov, WithoutBacklashItIsTheSpectrumOfTheSampledLoop) {
+TEST(EventLyapunov, WithoutBacklashItIsTheSpectrumOfTheSampledLoop) {
   for (const double delay : {0.0, 0.0004, 0.001}) {
     const auto which = kollar_case_of(0.001, 0.0, delay);
     auto motion = backlash_motion(which);
-    const auto result = run_hybrid_lyapunov(motion, {5000, 5000});
+    const auto result = run_event_lyapunov(motion, {5000, 5000});
     const auto expected = logarithms_of_eigenvalues(which.loop().engaged_map(which.gains));
     EXPECT_NEAR(result.exponents.head<2>().sum(), expected[0] + expected[1], 1e-9);
     EXPECT_NEAR(result.exponents.head<4>().sum(),
@@ -76,19 +76,19 @@ TEST(HybridLyapunov, WithoutBacklashItIsTheSpectrumOfTheSampledLoop) {
   }
 }
 
-/// A law that is asked at samples: the maps are S and S*, and the spectrum that of ContactSpectrum.
-TEST(HybridLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
+/// A law that is asked at samples: the maps are S and S*, and the spectrum that of BlockSpectrum.
+TEST(EventLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
   for (const double delay : {0.0, 0.003}) {
     auto which = kollar_case_of(0.011, 0.002, delay);
     which.gains.differential = -8.0;
     const LyapunovRun run{4000, 1000};
-    const RealLoop loop = real_loop(which.forced_loop());
-    HybridMotion<SampledContactMotion> motion(
-        loop.digital, SampledContactMotion(loop.plant, loop.backlash), which.initial_state);
-    const auto result = run_hybrid_lyapunov(motion, run);
+    const ImplementedLoop loop = implemented_loop(which.ideal_loop());
+    EventMotion<SampledLaw> motion(loop.digital, SampledLaw(loop.plant, loop.backlash),
+                                   which.initial_state);
+    const auto result = run_event_lyapunov(motion, run);
     auto sampled = which.motion();
-    const auto words = std::make_shared<const ContactWords>(which.loop(), which.gains);
-    const auto expected = run_lyapunov(sampled, words, run);
+    const auto blocks = std::make_shared<const ItineraryBlocks>(which.loop(), which.gains);
+    const auto expected = run_lyapunov(sampled, blocks, run);
     EXPECT_EQ(result.samples, expected.samples);
     for (const int leading : {2, 3, 4})
       EXPECT_NEAR(result.exponents.head(leading).sum(), expected.exponents.head(leading).sum(),
@@ -103,13 +103,13 @@ TEST(HybridLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
 /// sample.
 class GrowthByDifferences {
  public:
-  explicit GrowthByDifferences(const HybridMotion<ExactBacklash>& motion,
+  explicit GrowthByDifferences(const EventMotion<ExactBacklash>& motion,
                                const Vector<double, 7>& direction)
       : motion_(motion), direction_(direction), sizes_(test::sizes_of(motion)) {}
 
   /// @return false where no neighbour near enough goes the same way
   bool advance() {
-    HybridMotion<ExactBacklash> next = motion_;
+    EventMotion<ExactBacklash> next = motion_;
     test::SwitchRecorder recorder;
     recorder.advance(next);
     double step = 3e-6 / direction_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
@@ -126,16 +126,16 @@ class GrowthByDifferences {
   double logarithm() const { return logarithm_; }
 
  private:
-  HybridMotion<ExactBacklash> motion_;
+  EventMotion<ExactBacklash> motion_;
   Vector<double, 7> direction_, sizes_;
   double logarithm_ = 0.0;
 };
 
-TEST(HybridLyapunov, TheLargestExponentIsThatOfNeighbouringMotions) {
+TEST(EventLyapunov, TheLargestExponentIsThatOfNeighbouringMotions) {
   test::Random random(921);
   int sticking = 0, lost = 0;
   for (int trial = 0; trial < 50; ++trial) {
-    const auto setting = test::bounded_hybrid_setting(random, trial);
+    const auto setting = test::bounded_event_setting(random, trial);
     auto motion = setting.motion();
     for (int left = static_cast<int>(2.0 / setting.loop.sampling.period);
          left > 0 || motion.contact().word() == ContactMode::stick; --left) {
@@ -143,7 +143,7 @@ TEST(HybridLyapunov, TheLargestExponentIsThatOfNeighbouringMotions) {
       motion.advance();
     }
     GrowthByDifferences neighbours(motion, detail::oblique_basis().col(0));
-    HybridLyapunov<ExactBacklash> lyapunov(motion);
+    EventLyapunov<ExactBacklash> lyapunov(motion);
     constexpr int samples = 1500;
     const auto sticks = motion.counts().entered[2];
     bool kept = true;
@@ -164,14 +164,14 @@ TEST(HybridLyapunov, TheLargestExponentIsThatOfNeighbouringMotions) {
   EXPECT_GT(sticking, 20);
 }
 
-TEST(HybridLyapunov, StickAnnihilatesOneDirectionMore) {
+TEST(EventLyapunov, StickHasOneNullDirectionMore) {
   for (const double delay : {0.0, 0.0004}) {
     const auto which = kollar_case_of(0.001, 0.0005, delay);
     const auto largest_finite = [&which](double width) {
       auto other = which;
       other.width = width;
       auto motion = backlash_motion(other);
-      HybridLyapunov<ExactBacklash> lyapunov(motion);
+      EventLyapunov<ExactBacklash> lyapunov(motion);
       run_trajectory(lyapunov, 3000, std::nullopt);
       const bool sticks = motion.counts().entered[2] > 0;
       return std::pair{finite_exponents(lyapunov.spectrum()), sticks};
@@ -187,7 +187,7 @@ TEST(HybridLyapunov, StickAnnihilatesOneDirectionMore) {
 
 /// With a delay and the velocity by difference, u_{j−1} and z₁ as read both act: six exponents are
 /// finite, and the seventh, where the gap lies, is not.
-TEST(HybridLyapunov, WhatIsNotUsedIsAnnihilated) {
+TEST(EventLyapunov, WhatIsNotUsedIsAnnihilated) {
   struct Asked {
     double delay;
     VelocitySensing velocity;
@@ -197,13 +197,13 @@ TEST(HybridLyapunov, WhatIsNotUsedIsAnnihilated) {
        {Asked{0.0, VelocitySensing::measured, 4}, Asked{0.0004, VelocitySensing::measured, 5},
         Asked{0.0, VelocitySensing::difference, 5},
         Asked{0.0004, VelocitySensing::difference, 6}}) {
-    RealLoop loop = kollar_loop_exactly(kollar_case_of(0.001, 0.0, asked.delay));
+    ImplementedLoop loop = kollar_loop_exactly(kollar_case_of(0.001, 0.0, asked.delay));
     loop.digital.limits.velocity = asked.velocity;
-    HybridMotion<ExactBacklash> motion(loop.digital, ExactBacklash(loop.plant, 0.0),
-                                       Vector<double, 4>::Zero());
-    HybridLyapunov<ExactBacklash> from_rest(motion);
+    EventMotion<ExactBacklash> motion(loop.digital, ExactBacklash(loop.plant, 0.0),
+                                      Vector<double, 4>::Zero());
+    EventLyapunov<ExactBacklash> from_rest(motion);
     run_trajectory(from_rest, 1, std::nullopt);
-    HybridLyapunov<ExactBacklash> lyapunov(motion);
+    EventLyapunov<ExactBacklash> lyapunov(motion);
     run_trajectory(lyapunov, 500, std::nullopt);
     EXPECT_EQ(finite_exponents(lyapunov.spectrum()), asked.finite);
     // Before its first sample a controller has read nothing that could be varied.
@@ -212,14 +212,14 @@ TEST(HybridLyapunov, WhatIsNotUsedIsAnnihilated) {
 }
 
 /// A drive that crosses its gap without an end moves by A_d, and where its gap lies stays as it is.
-TEST(HybridLyapunov, AGapThatIsNeverLeftIsNeutral) {
+TEST(EventLyapunov, AGapThatIsNeverLeftIsNeutral) {
   const auto which = kollar_case_of(0.001, 0.05);
   auto motion = backlash_motion(which);
   while (motion.contact().word() != ContactMode::gap || motion.time() < 5.0) {
     motion.sense();
     motion.advance();
   }
-  const auto result = run_hybrid_lyapunov(motion, {4000, 20000});
+  const auto result = run_event_lyapunov(motion, {4000, 20000});
   Matrix<double, 5> map = Matrix<double, 5>::Zero();
   map.topLeftCorner<4, 4>() = which.loop().transition;
   const auto expected = logarithms_of_eigenvalues(map);
@@ -229,11 +229,11 @@ TEST(HybridLyapunov, AGapThatIsNeverLeftIsNeutral) {
 
 /// What is contracted beyond rounding is not mistaken for what is annihilated: with gains of zero
 /// the exponents are those of the plant, at any length of the run.
-TEST(HybridLyapunov, AStrongContractionIsFinite) {
+TEST(EventLyapunov, AStrongContractionIsFinite) {
   auto which = kollar_case_of(0.5, 0.0);
   which.gains = {0.0, 0.0};
   auto motion = backlash_motion(which);
-  const auto result = run_hybrid_lyapunov(motion, {2000, 100});
+  const auto result = run_event_lyapunov(motion, {2000, 100});
   Matrix<double, 5> map = Matrix<double, 5>::Zero();
   map.topLeftCorner<4, 4>() = which.loop().transition;
   const auto expected = logarithms_of_eigenvalues(map);
@@ -243,12 +243,12 @@ TEST(HybridLyapunov, AStrongContractionIsFinite) {
   EXPECT_EQ(result.exponents[4], annihilated);
 }
 
-TEST(HybridLyapunov, GoesBesideATrajectoryAndChangesNothing) {
+TEST(EventLyapunov, GoesBesideATrajectoryAndChangesNothing) {
   const auto which = kollar_case_of(0.001, 0.0005);
   const Kick kick{0.5, 1e-4};
   auto plain = backlash_motion(which), followed = plain;
   std::vector<double> history;
-  HybridLyapunov<ExactBacklash> lyapunov(followed);
+  EventLyapunov<ExactBacklash> lyapunov(followed);
   std::vector<Vector<double, 4>> seen, expected;
   run_trajectory(lyapunov, 2000, kick, [&](const MotionSample<double>& sample) {
     seen.push_back(sample.state);
@@ -263,11 +263,11 @@ TEST(HybridLyapunov, GoesBesideATrajectoryAndChangesNothing) {
   EXPECT_TRUE(std::isfinite(history.back()));
 }
 
-TEST(HybridLyapunov, LeavesOutTheSamplesToBeDiscarded) {
+TEST(EventLyapunov, LeavesOutTheSamplesToBeDiscarded) {
   const auto which = kollar_case_of(0.001, 0.0005);
   const auto sum_over = [&which](const LyapunovRun& run) {
     auto motion = backlash_motion(which);
-    const auto result = run_hybrid_lyapunov(motion, run);
+    const auto result = run_event_lyapunov(motion, run);
     EXPECT_EQ(motion.index(), run.discard + run.most_samples);
     EXPECT_EQ(result.samples, run.most_samples);
     EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
@@ -277,46 +277,46 @@ TEST(HybridLyapunov, LeavesOutTheSamplesToBeDiscarded) {
   EXPECT_LT((sum_over({1300, 700}) - (all - first)).norm(), 1e-9);
 }
 
-TEST(HybridLyapunov, EndsWhenItIsAccurate) {
+TEST(EventLyapunov, EndsWhenItIsAccurate) {
   const auto which = kollar_case_of(0.011, 0.002);
   LyapunovRun run{200000, 2000, 1e-3};
-  run.judged = LyapunovScope::all;
+  run.classified = LyapunovScope::all;
   auto motion = backlash_motion(which);
-  const auto result = run_hybrid_lyapunov(motion, run);
+  const auto result = run_event_lyapunov(motion, run);
   EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
   EXPECT_LT(result.samples, run.most_samples);
   EXPECT_LE(result.standard_errors.maxCoeff(), 1e-3);
   EXPECT_EQ(result.standard_errors[4], 0.0);
   auto again = backlash_motion(which);
-  const auto longer = run_hybrid_lyapunov(again, {20 * result.samples, run.discard});
+  const auto longer = run_event_lyapunov(again, {20 * result.samples, run.discard});
   EXPECT_EQ(longer.outcome, LyapunovOutcome::sample_limit);
   EXPECT_NEAR(result.exponents[0], longer.exponents[0], 5e-3);
   run.scope = LyapunovScope::largest;
   auto third = backlash_motion(which);
-  const auto largest = run_hybrid_lyapunov(third, run);
+  const auto largest = run_event_lyapunov(third, run);
   EXPECT_TRUE(std::isfinite(largest.exponents[0]));
   EXPECT_TRUE(std::isnan(largest.exponents[1]) && std::isnan(largest.standard_errors[4]));
 }
 
-TEST(HybridLyapunov, ADivergingMotionCountsTheSamplesBeforeItLeft) {
+TEST(EventLyapunov, ADivergingMotionCountsTheSamplesBeforeItLeft) {
   const auto which = kollar_case_of(0.011, 0.0, 0.011);  // an eigenvalue outside the unit circle
   auto motion = backlash_motion(which);
-  const auto result = run_hybrid_lyapunov(motion, {100000});
+  const auto result = run_event_lyapunov(motion, {100000});
   EXPECT_EQ(result.outcome, LyapunovOutcome::diverged);
   EXPECT_EQ(result.samples, motion.index());
   EXPECT_GT(result.exponents[0], 0.1);
   auto early = backlash_motion(which);
-  const auto none = run_hybrid_lyapunov(early, {10, 99999});
+  const auto none = run_event_lyapunov(early, {10, 99999});
   EXPECT_EQ(none.outcome, LyapunovOutcome::diverged);
   EXPECT_EQ(none.samples, 0);
   EXPECT_TRUE(std::isnan(none.exponents[0]));
 }
 
-TEST(HybridLyapunov, RefusesWhatIsNoRun) {
+TEST(EventLyapunov, RefusesWhatIsNoRun) {
   auto motion = backlash_motion(kollar_case_of(0.001, 0.0005));
-  EXPECT_THROW(run_hybrid_lyapunov(motion, {0}), InvalidParameter);
-  EXPECT_THROW(run_hybrid_lyapunov(motion, {10, -1}), InvalidParameter);
-  EXPECT_THROW(run_hybrid_lyapunov(motion, {10, 0, -1e-3}), InvalidParameter);
+  EXPECT_THROW(run_event_lyapunov(motion, {0}), InvalidParameter);
+  EXPECT_THROW(run_event_lyapunov(motion, {10, -1}), InvalidParameter);
+  EXPECT_THROW(run_event_lyapunov(motion, {10, 0, -1e-3}), InvalidParameter);
 }
 
 }  // namespace

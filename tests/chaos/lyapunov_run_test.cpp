@@ -21,12 +21,13 @@ test::KollarCase flickering(double period) {
 
 LyapunovResult run_of(const test::KollarCase& which, const LyapunovRun& run) {
   auto motion = which.motion();
-  return run_lyapunov(motion, std::make_shared<const ContactWords>(which.loop(), which.gains), run);
+  return run_lyapunov(motion, std::make_shared<const ItineraryBlocks>(which.loop(), which.gains),
+                      run);
 }
 
-LyapunovRun until(double standard_error, LyapunovScope judged) {
+LyapunovRun until(double standard_error, LyapunovScope classified) {
   LyapunovRun run{2000000, 500, standard_error};
-  run.judged = judged;
+  run.classified = classified;
   return run;
 }
 
@@ -48,7 +49,7 @@ TEST(LyapunovRun, TakesAllSamplesWhereNothingElseIsAskedFor) {
 TEST(LyapunovRun, LeavesTheMotionAfterTheLastSample) {
   const auto which = flickering(0.011);
   auto motion = which.motion();
-  const auto words = std::make_shared<const ContactWords>(which.loop(), which.gains);
+  const auto words = std::make_shared<const ItineraryBlocks>(which.loop(), which.gains);
   run_lyapunov(motion, words, {100, 33});
   EXPECT_EQ(motion.index(), 133);
 }
@@ -78,7 +79,7 @@ TEST(LyapunovRun, EndsWhenTheLargestExponentIsAccurate) {
 TEST(LyapunovRun, IsJudgedFirstByTheFewestBatches) {
   const auto result = run_of(flickering(0.011), {100000, 0, 1e3});
   EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
-  EXPECT_EQ(result.samples, ContactWords::length * static_cast<std::int64_t>(batches_to_judge));
+  EXPECT_EQ(result.samples, ItineraryBlocks::length * static_cast<std::int64_t>(fewest_batches));
 }
 
 TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {

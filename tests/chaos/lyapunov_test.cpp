@@ -124,7 +124,7 @@ TEST(Lyapunov, TheSumIsTheMeanLogarithmOfTheDeterminants) {
   for (int i = 0; i < 4; ++i) EXPECT_GT(spectrum.exponents()[i], spectrum.exponents()[i + 1]);
 }
 
-TEST(Lyapunov, AnAnnihilatedDirectionHasExactlyMinusInfinity) {
+TEST(Lyapunov, ANullDirectionHasExactlyMinusInfinity) {
   test::Random random(133);
   LyapunovSpectrum<double, 3> spectrum;
   for (int n = 0; n < 500; ++n) {

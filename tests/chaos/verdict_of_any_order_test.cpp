@@ -7,32 +7,32 @@
 
 #include "holdfast/chaos/event_classification.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "support/lagging_loop.hpp"
 
 namespace holdfast {
 namespace {
 
 template <class Plant>
-StateOf<Plant> rest_of_plant(const RealLoopOf<Plant>& loop) {
+StateOf<Plant> rest_of_plant(const ImplementedLoopOf<Plant>& loop) {
   return StateOf<Plant>::Zero(loop.plant.state_matrix().rows());
 }
 
 template <class Plant>
-LyapunovResult exponents_from_rest(const RealLoopOf<Plant>& loop, const LyapunovRun& run) {
+LyapunovResult exponents_from_rest(const ImplementedLoopOf<Plant>& loop, const LyapunovRun& run) {
   auto motion = event_motion(loop, rest_of_plant(loop));
-  return run_hybrid_lyapunov(motion, run);
+  return run_event_lyapunov(motion, run);
 }
 
 /// A loop under two frequencies that have no common period, whose verdict rests on its samples.
 template <class Plant>
-RealLoopOf<Plant> without_common_period(RealLoopOf<Plant> loop) {
+ImplementedLoopOf<Plant> without_common_period(ImplementedLoopOf<Plant> loop) {
   loop.digital.force.harmonics.push_back({0.2, 10.0 * std::sqrt(2.0)});
   return loop;
 }
 
 TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const auto masses = test::lagging_loop(plant, switching);
     const auto ported = test::lagging_loop(linear_plant(plant), switching);
@@ -46,35 +46,36 @@ TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
         EXPECT_NEAR(first.exponents[i], second.exponents[i], 1e-9);
       }
     }
-    const HybridVerdict one = classify_motion(masses, rest_of_plant(masses));
-    const HybridVerdict other = classify_motion(ported, rest_of_plant(ported));
-    EXPECT_EQ(one.verdict.kind, MotionKind::periodic);
-    EXPECT_EQ(one.verdict.kind, other.verdict.kind);
-    EXPECT_EQ(one.verdict.period, other.verdict.period);
+    const EventClassification one = classify_motion(masses, rest_of_plant(masses));
+    const EventClassification other = classify_motion(ported, rest_of_plant(ported));
+    EXPECT_EQ(one.classification.kind, AttractorType::periodic);
+    EXPECT_EQ(one.classification.kind, other.classification.kind);
+    EXPECT_EQ(one.classification.period, other.classification.period);
   }
 }
 
 TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMassesByItsSamplesToo) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const auto masses = without_common_period(test::lagging_loop(plant, Switching::exact));
   const auto ported =
       without_common_period(test::lagging_loop(linear_plant(plant), Switching::exact));
-  const HybridVerdict one = classify_motion(masses, rest_of_plant(masses));
-  const HybridVerdict other = classify_motion(ported, rest_of_plant(ported));
+  const EventClassification one = classify_motion(masses, rest_of_plant(masses));
+  const EventClassification other = classify_motion(ported, rest_of_plant(ported));
   ASSERT_EQ(one.search.outcome, OrbitOutcome::incommensurate);
   ASSERT_EQ(other.search.outcome, OrbitOutcome::incommensurate);
-  EXPECT_EQ(one.verdict.kind, other.verdict.kind);
-  EXPECT_EQ(one.verdict.kind, MotionKind::quasi_periodic);
-  EXPECT_NEAR(one.evidence.largest_exponent->value, other.evidence.largest_exponent->value, 1e-9);
+  EXPECT_EQ(one.classification.kind, other.classification.kind);
+  EXPECT_EQ(one.classification.kind, AttractorType::quasi_periodic);
+  EXPECT_NEAR(one.indicators.largest_exponent->value, other.indicators.largest_exponent->value,
+              1e-9);
 }
 
 TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const auto loop = test::lagging_loop(test::filtered_and_lagging_plant(), switching);
-    const HybridVerdictOf<7> found = classify_motion(loop, rest_of_plant(loop));
-    EXPECT_EQ(found.verdict.kind, MotionKind::periodic);
+    const EventClassificationOf<7> found = classify_motion(loop, rest_of_plant(loop));
+    EXPECT_EQ(found.classification.kind, AttractorType::periodic);
     ASSERT_TRUE(found.search.orbit.has_value());
-    EXPECT_EQ(found.verdict.period, found.search.orbit->period_samples());
+    EXPECT_EQ(found.classification.period, found.search.orbit->period_samples());
     const double expected = found.search.orbit->multipliers.front().log_modulus /
                             static_cast<double>(found.search.orbit->period_samples());
     const LyapunovRun run{100000, 2000};
@@ -90,8 +91,8 @@ TEST(VerdictOfAnyOrder, OfSevenUnderTwoFrequenciesIsJudgedByItsSamples) {
   const auto loop = without_common_period(test::lagging_loop(plant, Switching::exact));
   const auto found = classify_motion(loop, rest_of_plant(loop));
   EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);
-  EXPECT_EQ(found.verdict.kind, MotionKind::quasi_periodic);
-  EXPECT_TRUE(found.evidence.largest_exponent->negative());
+  EXPECT_EQ(found.classification.kind, AttractorType::quasi_periodic);
+  EXPECT_TRUE(found.indicators.largest_exponent->negative());
 }
 
 TEST(VerdictOfAnyOrder, KnownAtRunTimeAloneIsTheSame) {
@@ -104,8 +105,8 @@ TEST(VerdictOfAnyOrder, KnownAtRunTimeAloneIsTheSame) {
   EXPECT_NEAR(first.exponents[0], second.exponents[0], 1e-9);
   const auto one = classify_motion(fixed, rest_of_plant(fixed));
   const auto other = classify_motion(dynamic, rest_of_plant(dynamic));
-  EXPECT_EQ(one.verdict.kind, other.verdict.kind);
-  EXPECT_EQ(one.verdict.period, other.verdict.period);
+  EXPECT_EQ(one.classification.kind, other.classification.kind);
+  EXPECT_EQ(one.classification.period, other.classification.period);
 }
 
 }  // namespace

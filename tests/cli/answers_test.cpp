@@ -67,7 +67,7 @@ TEST(Answers, SayWhichGainsAndWhichPlayAreNotOfTheUsersCase) {
   EXPECT_FALSE(holds(table_of("answers --details").text(help, "detail"), "stands in"));
 }
 
-TEST(Verdict, SaysItInWordsWhereProgressIsShown) {
+TEST(Classification, SaysItInWordsWhereProgressIsShown) {
   const Outcome outcome = run_holdfast("verdict --progress");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(holds(outcome.errors, "holdfast: periodic(100), 0.1 s: ")) << outcome.errors;

@@ -171,7 +171,7 @@ TEST(Lyapunov, StopsAtTheErrorAskedForAndLeavesOutTheStart) {
   EXPECT_EQ(run_holdfast(job + " --history").exit_code, 2);
 }
 
-TEST(Lyapunov, AnnihilatedDirectionIsMinusInfinity) {
+TEST(Lyapunov, NullDirectionIsMinusInfinity) {
   const CsvTable table = table_of("lyapunov --duration 5 --quiet");
   ASSERT_EQ(table.rows(), 5U);
   EXPECT_EQ(table.text(4, "per_sample"), "-inf");

@@ -37,7 +37,7 @@ TEST(OrbitJob, TheTraceClosesAndIsWhatSimulateComesTo) {
   ASSERT_EQ(trace.rows(), 2101U);
   for (const std::string column : {"z1_m", "v1_m_per_s", "z2_m", "v2_m_per_s", "control_force_N"})
     EXPECT_NEAR(trace.number(0, column), trace.number(2100, column), 1e-12) << column;
-  // 976.8 s are 888 coincidences of sampling and forcing, so that the phases agree.
+  // 976.8 s are 888 common periods of sampling and forcing, so that the phases agree.
   const CsvTable motion = table_of("simulate --duration 1000 --from 976.8" + slow);
   double nearest = 1.0;
   for (std::size_t row = 0; row < 2100; row += 100)

@@ -131,7 +131,7 @@ TEST(BacklashLaws, ThreeOfThemAreOneBetweenTheSamples) {
   EXPECT_NE(run_holdfast(job + "dead_zone").output, kollar);
 }
 
-TEST(DigitalLimits, OffIsByteIdenticalToNone) {
+TEST(ControllerLimits, OffIsByteIdenticalToNone) {
   const std::string job = "simulate --duration 2";
   const std::string none = run_holdfast(job).output;
   for (const std::string off :
@@ -141,7 +141,7 @@ TEST(DigitalLimits, OffIsByteIdenticalToNone) {
     EXPECT_EQ(run_holdfast(job + " --set '" + off + "'").output, none) << off;
 }
 
-TEST(DigitalLimits, ChangeTheMotionAndTendToNone) {
+TEST(ControllerLimits, ChangeTheMotionAndTendToNone) {
   const std::string job = "simulate --duration 2 --set backlash.width=0";
   const CsvTable smooth = table_of(job);
   const auto distance = [&](const std::string& setting) {
@@ -162,7 +162,7 @@ TEST(DigitalLimits, ChangeTheMotionAndTendToNone) {
   EXPECT_LT(tame, wild / 50.0);
 }
 
-TEST(DigitalLimits, BoundTheForce) {
+TEST(ControllerLimits, BoundTheForce) {
   const CsvTable table = table_of("simulate --duration 1 --set control.largest_force=0.1");
   double largest = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row)

@@ -124,8 +124,8 @@ TEST(DeadZone, UnderASineTheStopsTakeTheEnergyOfTheirDampers) {
 TEST(DeadZone, ATouchedStopIsAStifferMoreDampedPlantUnderAConstantForce) {
   test::Random random(725);
   const double width = 0.002, stiffness = 350.0, damping = 1.5;
-  const TwoDof<double> plant = kollar2022_plant();
-  TwoDof<double> touched = plant;
+  const TwoMass<double> plant = kollar2022_plant();
+  TwoMass<double> touched = plant;
   touched.absorber_stiffness += stiffness;
   touched.absorber_damping += damping;
   const DeadZone<double> zone(width, {stiffness, damping});

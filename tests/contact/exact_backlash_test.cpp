@@ -15,7 +15,7 @@ namespace holdfast {
 namespace {
 
 /// Δz̈ by Newton's law of each mass, a force s being transmitted.
-double relative_acceleration_by_newton(const TwoDof<double>& plant, const ContactInstant& now,
+double relative_acceleration_by_newton(const TwoMass<double>& plant, const ContactInstant& now,
                                        double transmitted) {
   const Vector<double, 4>& z = now.state;
   const double between = plant.absorber_stiffness * (z[2] - z[0]) +
@@ -27,7 +27,7 @@ double relative_acceleration_by_newton(const TwoDof<double>& plant, const Contac
 }
 
 /// An instant at which Δż = 0, with forces of the size of those of the springs.
-ContactInstant reversal_instant(const TwoDof<double>& plant, test::Random& random) {
+ContactInstant reversal_instant(const TwoMass<double>& plant, test::Random& random) {
   ContactInstant now{random.matrix<Vector<double, 4>>(), 0.0, 0.0};
   now.state[3] = now.state[1];
   now.command = plant.absorber_stiffness * random.uniform(-2.0, 2.0);
@@ -36,7 +36,7 @@ ContactInstant reversal_instant(const TwoDof<double>& plant, test::Random& rando
 }
 
 /// A drive that has moved in one direction.
-ExactBacklash moved_drive(const TwoDof<double>& plant, double width, double sign) {
+ExactBacklash moved_drive(const TwoMass<double>& plant, double width, double sign) {
   ExactBacklash drive(plant, width);
   drive.learn_sign(sign);
   return drive;
@@ -121,7 +121,7 @@ TEST(ExactBacklash, WhatIsTransmittedIsWhatItsDynamicsHave) {
 }
 
 /// A drive that sticks; the instant is changed until it does.
-ExactBacklash sticking_drive(const TwoDof<double>& plant, test::Random& random,
+ExactBacklash sticking_drive(const TwoMass<double>& plant, test::Random& random,
                              ContactInstant& now) {
   while (true) {
     ExactBacklash drive = moved_drive(plant, 0.1, random.sign());

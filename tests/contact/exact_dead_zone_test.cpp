@@ -14,17 +14,17 @@
 
 #include "holdfast/contact/dead_zone.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {
 namespace {
 
-using DeadZoneMotion = HybridMotion<ExactDeadZone>;
+using DeadZoneMotion = EventMotion<ExactDeadZone>;
 
 /// ż by Newton's law of each mass, the stops exerting what DeadZone says.
-Vector<double, 4> rate_between_stops(const TwoDof<double>& plant, const DeadZone<double>& stops,
+Vector<double, 4> rate_between_stops(const TwoMass<double>& plant, const DeadZone<double>& stops,
                                      const Vector<double, 4>& z, double command, double force) {
   const double d = z[2] - z[0], v = z[3] - z[1];
   const bool transmits = stops.side(d) != 0.0;
@@ -106,7 +106,7 @@ TEST(ExactDeadZone, SwingsBetweenItsStopsWithTheKnownPeriod) {
   for (int draw = 0; draw < 40; ++draw) {
     const double mass = random.log_uniform(0.1, 2.0), spring = random.log_uniform(5.0, 100.0);
     const double stop = spring * random.log_uniform(0.2, 100.0), half = random.uniform(0.5, 2.0);
-    const TwoDof<double> plant{1e13, 1e13, 0.0, mass, spring, 0.0};
+    const TwoMass<double> plant{1e13, 1e13, 0.0, mass, spring, 0.0};
     const double inner = std::sqrt(spring / mass), outer = std::sqrt((spring + stop) / mass);
     const double speed = inner * half * random.uniform(1.05, 4.0);
     const double at_stop = std::sqrt(speed * speed - inner * inner * half * half);
@@ -168,15 +168,17 @@ TEST(ExactDeadZone, WithoutWidthItIsAStifferPlant) {
     const auto plant = kollar2022_plant();
     const double stiffness = 300.0, damping = 1.5, period = 0.002;
     const Vector<double, 4> state(0.003, -0.05, 0.001, 0.2);
-    const DigitalLoop loop{
-        {period, share * period}, {-100.0, -3.0}, composed_force({0.5, 10.0}), ForceHold::exact};
+    const DigitalLoop loop{{period, share * period},
+                           {-100.0, -3.0},
+                           multi_harmonic_force({0.5, 10.0}),
+                           ForceHold::exact};
     DeadZoneMotion motion(loop, ExactDeadZone(plant, 0.0, stiffness, damping, state), state);
-    const ForcedLoop<double> linear{plant_on_stop(plant, stiffness, damping),
-                                    loop.sampling,
-                                    loop.gains,
-                                    {0.5, 10.0},
-                                    0.0,
-                                    ForceHold::exact};
+    const IdealLoop<double> linear{plant_on_stop(plant, stiffness, damping),
+                                   loop.sampling,
+                                   loop.gains,
+                                   {0.5, 10.0},
+                                   0.0,
+                                   ForceHold::exact};
     auto expected = harmonically_forced_motion(linear, state);
     for (int j = 0; j < 1000; ++j) {
       motion.sense();
@@ -191,7 +193,8 @@ TEST(ExactDeadZone, WithoutWidthItIsAStifferPlant) {
 
 /// A drive in its dead zone, with a force that takes it to both stops.
 DeadZoneMotion rattling_motion(double period, double gain) {
-  const DigitalLoop loop{{period, 0.0}, {gain, 0.0}, composed_force({0.5, 3.0}), ForceHold::exact};
+  const DigitalLoop loop{
+      {period, 0.0}, {gain, 0.0}, multi_harmonic_force({0.5, 3.0}), ForceHold::exact};
   const Vector<double, 4> state = Vector<double, 4>::Zero();
   return {loop, ExactDeadZone(kollar2022_plant(), 0.002, 400.0, 1.0, state), state};
 }
@@ -280,7 +283,7 @@ TEST(ExactDeadZone, ADisplacedDriveTouchesTheStopWhereItIs) {
 // Where the spring pushes out of the gap and the command back into it, the drive rattles at the end
 // of the gap ever faster: the work is bounded, and what it came to is named.
 TEST(ExactDeadZone, RattlingWithoutEndIsBoundedAndNamed) {
-  const TwoDof<double> plant{1.0, 1.0, 0.0, 1.0, 1.0, 300.0};
+  const TwoMass<double> plant{1.0, 1.0, 0.0, 1.0, 1.0, 300.0};
   const Vector<double, 4> state(-1.0, 0.0, -0.99, 0.001);
   DigitalLoop loop{{0.5, 0.0}, {-10.0, 0.0}, {}, ForceHold::exact};
   loop.force.record = std::make_shared<const RecordedForce>(std::vector<double>{-1.0, 10.0},

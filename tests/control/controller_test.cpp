@@ -49,8 +49,8 @@ double command_of(Controller& controller, const Reading& reading) {
   return controller.command(reading.displacement, reading.velocity, reading.elapsed);
 }
 
-DigitalLimits velocity_by_difference(double displacement_quantum = 0) {
-  DigitalLimits limits;
+ControllerLimits velocity_by_difference(double displacement_quantum = 0) {
+  ControllerLimits limits;
   limits.displacement_quantum = displacement_quantum;
   limits.velocity = VelocitySensing::difference;
   return limits;
@@ -93,7 +93,7 @@ TEST(Controller, AMeasuredVelocityNeedsNoElapsedTime) {
 }
 
 TEST(Controller, ReadsMultiplesOfItsQuanta) {
-  DigitalLimits limits;
+  ControllerLimits limits;
   limits.displacement_quantum = 0.25;
   limits.velocity_quantum = 0.5;
   Controller controller({3.0, 10.0}, limits);
@@ -106,7 +106,7 @@ TEST(Controller, TheErrorIsAtMostThatOfHalfAQuantumEach) {
   double largest_share = 0;
   for (int draw = 0; draw < 20000; ++draw) {
     const auto gains = drawn_gains(random);
-    DigitalLimits limits;
+    ControllerLimits limits;
     limits.displacement_quantum = random.log_uniform(1e-6, 1e-2);
     limits.velocity_quantum = random.log_uniform(1e-4, 1e-1);
     const auto reading = drawn_reading(random);
@@ -176,7 +176,7 @@ TEST(Controller, AVelocityQuantumDoesNothingToADifference) {
 
 TEST(Controller, TheForceNeverExceedsTheLargestAndIsElseThatOfTheLaw) {
   test::Random random(715);
-  DigitalLimits limits;
+  ControllerLimits limits;
   limits.largest_force = 2.5;
   int saturated = 0;
   for (int draw = 0; draw < 20000; ++draw) {
@@ -209,7 +209,7 @@ TEST(Controller, AMirroredMotionGivesMirroredForces) {
 constexpr double slope_step = 1e-7;
 
 /// The slope of the command after `before`, by central differences of each of its arguments.
-ControllerSlope differenced_slope(const PdGains<double>& gains, const DigitalLimits& limits,
+ControllerSlope differenced_slope(const PdGains<double>& gains, const ControllerLimits& limits,
                                   const Reading& before, const Reading& now) {
   const auto command = [&](double displacement, double velocity, double previous) {
     Controller controller(gains, limits);
@@ -224,14 +224,14 @@ ControllerSlope differenced_slope(const PdGains<double>& gains, const DigitalLim
 }
 
 /// Whether a step of the differences could cross a jump of a quantiser or the kink of saturation.
-bool next_to_a_switch(const PdGains<double>& gains, const DigitalLimits& limits,
+bool next_to_a_switch(const PdGains<double>& gains, const ControllerLimits& limits,
                       const Reading& before, const Reading& now) {
   const auto near_jump = [](double value, double quantum) {
     if (quantum == 0) return false;
     const double quanta = value / quantum;
     return std::abs(quanta - std::floor(quanta) - 0.5) < 2 * slope_step / quantum;
   };
-  DigitalLimits unlimited = limits;
+  ControllerLimits unlimited = limits;
   unlimited.largest_force = no_limit;
   Controller controller(gains, unlimited);
   command_of(controller, before);
@@ -246,7 +246,7 @@ bool next_to_a_switch(const PdGains<double>& gains, const DigitalLimits& limits,
 }
 
 /// Compares the slope with differences at random readings. @return how many were compared
-int slopes_agree(const DigitalLimits& limits, std::uint64_t seed) {
+int slopes_agree(const ControllerLimits& limits, std::uint64_t seed) {
   test::Random random(seed);
   int compared = 0;
   for (int draw = 0; draw < 5000; ++draw) {
@@ -271,7 +271,7 @@ int slopes_agree(const DigitalLimits& limits, std::uint64_t seed) {
 }
 
 TEST(ControllerSlope, IsThatOfFiniteDifferencesWhereThereIsOne) {
-  DigitalLimits displacement_only, velocity_only, saturating;
+  ControllerLimits displacement_only, velocity_only, saturating;
   displacement_only.displacement_quantum = 1e-3;
   velocity_only.velocity_quantum = 1e-2;
   saturating.largest_force = 10;
@@ -330,9 +330,9 @@ TEST(Controller, ATimeThatDoesNotPassIsRefusedAndForgotten) {
   EXPECT_EQ(controller.command(1.5, 0, 0.25), 2.0);
 }
 
-TEST(DigitalLimits, AreIdealUnlessOneIsSet) {
+TEST(ControllerLimits, AreIdealUnlessOneIsSet) {
   EXPECT_TRUE(is_ideal({}));
-  DigitalLimits displacement, velocity, force;
+  ControllerLimits displacement, velocity, force;
   displacement.displacement_quantum = 1e-300;
   velocity.velocity_quantum = 1e-300;
   force.largest_force = 1e300;
@@ -342,7 +342,7 @@ TEST(DigitalLimits, AreIdealUnlessOneIsSet) {
   }
 }
 
-std::string refused_name(const PdGains<double>& gains, const DigitalLimits& limits) {
+std::string refused_name(const PdGains<double>& gains, const ControllerLimits& limits) {
   try {
     const Controller controller(gains, limits);
   } catch (const InvalidParameter& error) {
@@ -351,18 +351,18 @@ std::string refused_name(const PdGains<double>& gains, const DigitalLimits& limi
   return "";
 }
 
-TEST(DigitalLimits, WhatIsOutOfRangeIsRefusedByName) {
+TEST(ControllerLimits, WhatIsOutOfRangeIsRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const PdGains<double> gains{-557.0, -13.0};
   for (const double value : {-1e-9, nan, no_limit}) {
-    DigitalLimits displacement, velocity;
+    ControllerLimits displacement, velocity;
     displacement.displacement_quantum = value;
     velocity.velocity_quantum = value;
     EXPECT_EQ(refused_name(gains, displacement), "displacement quantum");
     EXPECT_EQ(refused_name(gains, velocity), "velocity quantum");
   }
   for (const double value : {0.0, -1.0, nan, -no_limit}) {
-    DigitalLimits force;
+    ControllerLimits force;
     force.largest_force = value;
     EXPECT_EQ(refused_name(gains, force), "largest force");
   }

@@ -28,7 +28,7 @@ struct FreeMasses {
   }
 };
 
-TwoDof<double> random_plant(test::Random& random) {
+TwoMass<double> random_plant(test::Random& random) {
   return {random.log_uniform(0.03, 3), random.log_uniform(5, 500), random.log_uniform(0.01, 1),
           random.log_uniform(0.03, 3), random.log_uniform(5, 500), random.log_uniform(0.1, 10)};
 }
@@ -36,7 +36,7 @@ TwoDof<double> random_plant(test::Random& random) {
 double largest(const Matrix<double, 4>& m) { return m.cwiseAbs().maxCoeff(); }
 
 /// The state after `duration` under a constant force, by many small Runge–Kutta steps.
-Vector<double, 4> integrate(const TwoDof<double>& plant, Vector<double, 4> z, double force,
+Vector<double, 4> integrate(const TwoMass<double>& plant, Vector<double, 4> z, double force,
                             double duration) {
   const Matrix<double, 4> a = plant.state_matrix();
   const Vector<double, 4> b = plant.control_input() * force;
@@ -82,8 +82,8 @@ TEST(SampledLoop, TheIncrementIsTheTransitionMinusTheIdentity) {
 
 TEST(SampledLoop, TheIncrementKeepsItsDigitsHoweverFastTheSampling) {
   test::Random random(73);
-  const TwoDof<long double> precise{0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L};
-  const TwoDof<double> plant{0.0767, 50.3, 0.079, 0.16, 74.4, 4.0};
+  const TwoMass<long double> precise{0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L};
+  const TwoMass<double> plant{0.0767, 50.3, 0.079, 0.16, 74.4, 4.0};
   for (const double period : {1e-9, 1e-7, 1e-5, 1e-3, 1e-1}) {
     const auto rough = sampled_loop(plant, Sampling<double>{period, period / 3});
     const auto reference =
@@ -107,8 +107,8 @@ TEST(SampledLoop, UnitsOfDisplacementAndVelocityDoNotCostDigits) {
   test::Random random(76);
   for (int draw = 0; draw < 200; ++draw) {
     const auto p = random_plant(random);
-    const TwoDof<long double> precise{p.conductor_mass, p.conductor_stiffness, p.conductor_damping,
-                                      p.absorber_mass,  p.absorber_stiffness,  p.absorber_damping};
+    const TwoMass<long double> precise{p.conductor_mass, p.conductor_stiffness, p.conductor_damping,
+                                       p.absorber_mass,  p.absorber_stiffness,  p.absorber_damping};
     const double period = random.log_uniform(1e-4, 0.2), delay = period * random.unit();
     const auto rough = sampled_loop(p, Sampling<double>{period, delay});
     const auto reference = sampled_loop(precise, Sampling<long double>{period, delay});
@@ -237,11 +237,11 @@ TEST(Sampling, WhatIsOutOfRangeIsRefused) {
 }
 
 TEST(SampledLoop, RefusesWhatWouldGivePlausibleNonsense) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   for (const Sampling<double>& sampling :
        {Sampling<double>{-0.01, 0.0}, {0.01, 0.011}, {0.01, -1e-9}, {std::nan(""), 0.0}})
     EXPECT_THROW(sampled_loop(plant, sampling), InvalidParameter) << sampling.period;
-  TwoDof<double> massless = plant;
+  TwoMass<double> massless = plant;
   massless.conductor_mass = 0.0;
   EXPECT_THROW(sampled_loop(massless, Sampling<double>{0.01}), InvalidParameter);
   EXPECT_EQ(sampled_loop(plant, Sampling<double>{0.0}).transition, (Matrix<double, 4>::Identity()));

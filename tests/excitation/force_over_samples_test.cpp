@@ -15,7 +15,7 @@
 namespace holdfast {
 namespace {
 
-ComposedForce force_of_three_lines() {
+MultiHarmonicForce force_of_three_lines() {
   return {{{0.5, 10.0}, {0.2, 33.0, 0.7}, {0.1, 4.0, -2.0}}, nullptr};
 }
 
@@ -25,8 +25,8 @@ std::shared_ptr<const RecordedForce> record_of_steps(RecordInterpolation interpo
                                                interpolation);
 }
 
-/// The largest force of the harmonics, whatever their phases.
-double sum_of_amplitudes(const ComposedForce& force) {
+/// The largest force of the harmonics, at any phases.
+double sum_of_amplitudes(const MultiHarmonicForce& force) {
   double sum = 0.0;
   for (const Harmonic& line : force.harmonics) sum += line.amplitude;
   return sum;
@@ -34,7 +34,7 @@ double sum_of_amplitudes(const ComposedForce& force) {
 
 TEST(ForceOverSamples, ExactlyItIsTheForceItself) {
   test::Random random(1331);
-  ComposedForce force = force_of_three_lines();
+  MultiHarmonicForce force = force_of_three_lines();
   force.record = record_of_steps(RecordInterpolation::linear);
   ForceOverSamples over(force, ForceHold::exact, 0.001);
   for (std::int64_t j = 0; j < 60; ++j) {
@@ -53,9 +53,9 @@ TEST(ForceOverSamples, ExactlyItIsTheForceItself) {
 }
 
 TEST(ForceOverSamples, AnInstantOfEveryPeriodIsThatInstant) {
-  ComposedForce with_record = force_of_three_lines();
+  MultiHarmonicForce with_record = force_of_three_lines();
   with_record.record = record_of_steps(RecordInterpolation::linear);
-  for (const ComposedForce& force : {force_of_three_lines(), with_record}) {
+  for (const MultiHarmonicForce& force : {force_of_three_lines(), with_record}) {
     for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
       ForceOverSamples over(force, hold, 0.0013);
       for (const double after : {0.0, 0.0004, 0.0013}) {
@@ -70,7 +70,7 @@ TEST(ForceOverSamples, AnInstantOfEveryPeriodIsThatInstant) {
 }
 
 TEST(ForceOverSamples, HeldItIsThatOfTheSample) {
-  ComposedForce force = force_of_three_lines();
+  MultiHarmonicForce force = force_of_three_lines();
   force.record = record_of_steps(RecordInterpolation::linear);
   ForceOverSamples over(force, ForceHold::sampled, 0.001);
   for (std::int64_t j = 0; j < 60; ++j) {
@@ -104,7 +104,7 @@ void expect_phases(const ForceOverSamples& over, const std::vector<Harmonic>& li
 
 TEST(ForceOverSamples, ItsPhasesAreThoseOfTheSampleInAnyOrder) {
   test::Random random(1332);
-  const ComposedForce force = force_of_three_lines();
+  const MultiHarmonicForce force = force_of_three_lines();
   const double period = 0.0037;
   ForceOverSamples over(force, ForceHold::exact, period);
   std::int64_t index = 0;
@@ -122,7 +122,7 @@ TEST(ForceOverSamples, ItsPhasesAreThoseOfTheSampleInAnyOrder) {
 }
 
 TEST(ForceOverSamples, EveryBreakOfARecordIsMetOnceInItsOrder) {
-  ComposedForce force;
+  MultiHarmonicForce force;
   force.record = record_of_steps(RecordInterpolation::held);
   const double period = 0.001;
   ForceOverSamples over(force, ForceHold::exact, period);
@@ -147,7 +147,7 @@ TEST(ForceOverSamples, ABreakIsAlwaysLaterHoweverLateTheSample) {
   for (int draw = 0; draw < 2000; ++draw) {
     const double time = random.log_uniform(1.0, 1e9), period = 0.001;
     const double at = time + random.unit() * period;
-    ComposedForce force;
+    MultiHarmonicForce force;
     force.record = std::make_shared<const RecordedForce>(std::vector<double>{at, at + 1.0},
                                                          std::vector<double>{1.0, 1.0},
                                                          RecordInterpolation::held);
@@ -166,7 +166,7 @@ TEST(ForceOverSamples, ABreakIsAlwaysLaterHoweverLateTheSample) {
 
 TEST(ForceOverSamples, ItsBoundsHoldAtAllTimes) {
   test::Random random(1334);
-  const ComposedForce force = force_of_three_lines();
+  const MultiHarmonicForce force = force_of_three_lines();
   ForceOverSamples over(force, ForceHold::exact, 0.001);
   over.begin_sample(0, 0.0);
   const ForceBounds bounds = over.bounds();
@@ -192,7 +192,7 @@ TEST(ForceOverSamples, ItsBoundsHoldAtAllTimes) {
 // Where the force is said to be regular, its bounds are relied on: a held record is part of it.
 TEST(ForceOverSamples, TheBoundsOfARegularForceBoundAllOfIt) {
   for (const bool with_record : {false, true}) {
-    ComposedForce force = force_of_three_lines();
+    MultiHarmonicForce force = force_of_three_lines();
     if (with_record) {
       force.record = std::make_shared<const RecordedForce>(
           std::vector<double>{0.0, 1.0}, std::vector<double>{7.0, 7.0}, RecordInterpolation::held);

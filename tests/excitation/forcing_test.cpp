@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -42,7 +42,7 @@ TEST(HarmonicForcing, IsTheDirectFormulaAtEverySample) {
   }
 }
 
-TEST(TurningForcing, GivesWhatTheHarmonicOneDoesToTheLastBit) {
+TEST(PhasorForcing, GivesWhatTheHarmonicOneDoesToTheLastBit) {
   test::Random random(912);
   for (const ForceHold hold : both_holds) {
     for (int k = 0; k < 20; ++k) {
@@ -51,8 +51,8 @@ TEST(TurningForcing, GivesWhatTheHarmonicOneDoesToTheLastBit) {
       which.excitation = {2.0, random.log_uniform(0.1, 100.0)};
       const auto input = input_of(which, hold);
       HarmonicForcing<double> harmonic(input, which.excitation, which.sampling_period);
-      TurningTable<double> table(input, which.excitation, which.sampling_period);
-      TurningForcing<double> turning(table);
+      PhasorTable<double> table(input, which.excitation, which.sampling_period);
+      PhasorForcing<double> turning(table);
       for (int j = 0; j < 5000; ++j) {
         if (j % 16 == 0) table.turn_to(j);
         ASSERT_EQ(harmonic.next(), turning.next()) << j;
@@ -79,7 +79,7 @@ TEST(PeriodicForcing, IsTheHarmonicOneAndRepeatsExactly) {
   }
 }
 
-TEST(PeriodicForcing, AddsUpToNothingOverACoincidence) {
+TEST(PeriodicForcing, AddsUpToNothingOverACommonPeriod) {
   const KollarCase which;
   const PeriodicForcing<double> forcing(input_of(which, ForceHold::exact), 0.5, {3, 17});
   Vector<double, 4> sum = Vector<double, 4>::Zero();
@@ -88,7 +88,7 @@ TEST(PeriodicForcing, AddsUpToNothingOverACoincidence) {
   EXPECT_LE(sum.norm(), 1e-15 * size);
 }
 
-TEST(PeriodicForcing, HalfACoincidenceOfAnEvenNumberTurnsTheSign) {
+TEST(PeriodicForcing, HalfACommonPeriodOfAnEvenNumberTurnsTheSign) {
   const KollarCase which;
   const PeriodicForcing<double> forcing(input_of(which, ForceHold::sampled), 0.5, {11, 100});
   const auto& additions = forcing.additions();

@@ -41,7 +41,7 @@ std::shared_ptr<const RecordedForce> rough_record(test::Random& random,
 }
 
 /// Σ F_i, and the largest force of the record.
-double size_of(const ComposedForce& force) {
+double size_of(const MultiHarmonicForce& force) {
   double size = 0.0;
   if (force.record) {
     for (const double row : force.record->forces()) size = std::max(size, std::abs(row));
@@ -58,7 +58,7 @@ double series_at(const Eigen::VectorXd& coefficients, double x) {
 }
 
 /// The largest error of the series against `at` within one piece, over the size of the force.
-double worst_of_series(test::Random& random, const ComposedForce& force, double latest) {
+double worst_of_series(test::Random& random, const MultiHarmonicForce& force, double latest) {
   double worst = 0.0;
   Eigen::VectorXd coefficients(22);
   for (int trial = 0; trial < 3000; ++trial) {
@@ -74,23 +74,23 @@ double worst_of_series(test::Random& random, const ComposedForce& force, double 
   return worst;
 }
 
-TEST(ComposedForce, ItsSeriesIsTheForceWithinAPiece) {
+TEST(MultiHarmonicForce, ItsSeriesIsTheForceWithinAPiece) {
   test::Random random(711);
   for (const auto interpolation : {RecordInterpolation::linear, RecordInterpolation::held}) {
-    const ComposedForce force{three_harmonics(random), rough_record(random, interpolation)};
+    const MultiHarmonicForce force{three_harmonics(random), rough_record(random, interpolation)};
     EXPECT_LT(worst_of_series(random, force, 4.0), 1e-14);
   }
-  const ComposedForce record_alone{{}, rough_record(random, RecordInterpolation::linear)};
+  const MultiHarmonicForce record_alone{{}, rough_record(random, RecordInterpolation::linear)};
   EXPECT_LT(worst_of_series(random, record_alone, 4.0), 1e-14);
-  const ComposedForce noise{band_limited_noise({0.5, 1.0, 50.0, 200, 4}), nullptr};
+  const MultiHarmonicForce noise{band_limited_noise({0.5, 1.0, 50.0, 200, 4}), nullptr};
   EXPECT_LT(worst_of_series(random, noise, 100.0), 1e-14);
-  const ComposedForce harmonic = composed_force({0.5, 10.0});
+  const MultiHarmonicForce harmonic = multi_harmonic_force({0.5, 10.0});
   EXPECT_LT(worst_of_series(random, harmonic, 1e6), 1e-14);
 }
 
-TEST(ComposedForce, ItsCoefficientsAreTheDerivativesOfTheCosine) {
+TEST(MultiHarmonicForce, ItsCoefficientsAreTheDerivativesOfTheCosine) {
   const Harmonic harmonic{0.8, 3.0, 0.4};
-  const ComposedForce force{{harmonic}, nullptr};
+  const MultiHarmonicForce force{{harmonic}, nullptr};
   Eigen::VectorXd coefficients(13);
   const double time = 0.37, length = 0.09;
   force.expand(time, length, coefficients);
@@ -104,7 +104,7 @@ TEST(ComposedForce, ItsCoefficientsAreTheDerivativesOfTheCosine) {
 
 /// The integral of the force from `start` to `end` by the series of one step after the other, no
 /// step across a break; also counts the breaks met.
-double integral_by_series(const ComposedForce& force, double start, double end, int& breaks) {
+double integral_by_series(const MultiHarmonicForce& force, double start, double end, int& breaks) {
   double sum = 0.0;
   Vector<double, 20> coefficients;
   for (double time = start; time < end;) {
@@ -123,10 +123,10 @@ double integral_of_harmonic(const Harmonic& harmonic, double start, double end) 
          (std::sin(omega * end + harmonic.phase) - std::sin(omega * start + harmonic.phase));
 }
 
-TEST(ComposedForce, ItsIntegralFromBreakToBreakIsTheClosedForm) {
+TEST(MultiHarmonicForce, ItsIntegralFromBreakToBreakIsTheClosedForm) {
   test::Random random(712);
   for (const auto interpolation : {RecordInterpolation::linear, RecordInterpolation::held}) {
-    const ComposedForce force{three_harmonics(random), rough_record(random, interpolation)};
+    const MultiHarmonicForce force{three_harmonics(random), rough_record(random, interpolation)};
     const double start = -1.0, end = force.record->last_time() + 1.0;
     const auto& times = force.record->times();
     const auto& forces = force.record->forces();
@@ -145,10 +145,10 @@ TEST(ComposedForce, ItsIntegralFromBreakToBreakIsTheClosedForm) {
   }
 }
 
-TEST(ComposedForce, ABreakBelongsToThePieceAfterIt) {
+TEST(MultiHarmonicForce, ABreakBelongsToThePieceAfterIt) {
   test::Random random(713);
-  const ComposedForce force{three_harmonics(random),
-                            rough_record(random, RecordInterpolation::held)};
+  const MultiHarmonicForce force{three_harmonics(random),
+                                 rough_record(random, RecordInterpolation::held)};
   for (std::size_t row = 1; row + 1 < 60; ++row) {
     const double time = force.record->times()[row];
     Vector<double, 6> before, at, after;
@@ -161,18 +161,18 @@ TEST(ComposedForce, ABreakBelongsToThePieceAfterIt) {
   }
 }
 
-TEST(ComposedForce, ItsPartsAddUp) {
+TEST(MultiHarmonicForce, ItsPartsAddUp) {
   test::Random random(714);
-  const ComposedForce all{three_harmonics(random),
-                          rough_record(random, RecordInterpolation::linear)};
-  std::vector<ComposedForce> parts{{{}, all.record}};
+  const MultiHarmonicForce all{three_harmonics(random),
+                               rough_record(random, RecordInterpolation::linear)};
+  std::vector<MultiHarmonicForce> parts{{{}, all.record}};
   for (const Harmonic& harmonic : all.harmonics) parts.push_back({{harmonic}, nullptr});
   for (int trial = 0; trial < 500; ++trial) {
     const double time = random.uniform(-1.0, 4.0);
     Vector<double, 8> together, sum = Vector<double, 8>::Zero(), part_coefficients;
     all.expand(time, 0.002, together);
     double force = 0.0;
-    for (const ComposedForce& part : parts) {
+    for (const MultiHarmonicForce& part : parts) {
       part.expand(time, 0.002, part_coefficients);
       sum += part_coefficients;
       force += part.at(time);
@@ -182,10 +182,10 @@ TEST(ComposedForce, ItsPartsAddUp) {
   }
 }
 
-TEST(ComposedForce, ASeriesOfAnySizeStartsTheSame) {
+TEST(MultiHarmonicForce, ASeriesOfAnySizeStartsTheSame) {
   test::Random random(715);
-  const ComposedForce force{three_harmonics(random),
-                            rough_record(random, RecordInterpolation::linear)};
+  const MultiHarmonicForce force{three_harmonics(random),
+                                 rough_record(random, RecordInterpolation::linear)};
   Vector<double, 12> longest;
   force.expand(0.7, 0.003, longest);
   for (Eigen::Index size = 0; size <= 12; ++size) {
@@ -200,18 +200,18 @@ TEST(ComposedForce, ASeriesOfAnySizeStartsTheSame) {
   }
 }
 
-TEST(ComposedForce, WithoutLengthOnlyTheForceIsLeft) {
+TEST(MultiHarmonicForce, WithoutLengthOnlyTheForceIsLeft) {
   test::Random random(716);
-  const ComposedForce force{three_harmonics(random),
-                            rough_record(random, RecordInterpolation::linear)};
+  const MultiHarmonicForce force{three_harmonics(random),
+                                 rough_record(random, RecordInterpolation::linear)};
   Vector<double, 8> coefficients;
   force.expand(0.7, 0.0, coefficients);
   EXPECT_NEAR(coefficients[0], force.at(0.7), 1e-15 * size_of(force));
   EXPECT_EQ(coefficients.tail(7).cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST(ComposedForce, WithoutPartsItIsZeroForEver) {
-  const ComposedForce none;
+TEST(MultiHarmonicForce, WithoutPartsItIsZeroForEver) {
+  const MultiHarmonicForce none;
   Vector<double, 4> coefficients = Vector<double, 4>::Constant(9.0);
   none.expand(3.0, 0.1, coefficients);
   EXPECT_EQ(coefficients, (Vector<double, 4>::Zero()));
@@ -221,14 +221,14 @@ TEST(ComposedForce, WithoutPartsItIsZeroForEver) {
   EXPECT_NO_THROW(validate(none));
 }
 
-TEST(ComposedForce, KnowsItsFastestHarmonic) {
-  const ComposedForce force{{{1.0, 2.0}, {0.1, 30.0}, {5.0, 0.5}}, nullptr};
+TEST(MultiHarmonicForce, KnowsItsFastestHarmonic) {
+  const MultiHarmonicForce force{{{1.0, 2.0}, {0.1, 30.0}, {5.0, 0.5}}, nullptr};
   EXPECT_DOUBLE_EQ(force.highest_angular_frequency(), 60.0 * std::acos(-1.0));
 }
 
-TEST(ComposedForce, OneHarmonicIsTheExcitationAtItsSamples) {
+TEST(MultiHarmonicForce, OneHarmonicIsTheExcitationAtItsSamples) {
   const HarmonicExcitation<double> excitation{0.5, 10.0};
-  const ComposedForce force = composed_force(excitation);
+  const MultiHarmonicForce force = multi_harmonic_force(excitation);
   for (int j = 0; j < 2000; ++j) {
     EXPECT_NEAR(force.at(0.003 * j), sample_excitation(excitation, 0.003, j).cosine, 1e-12) << j;
   }
@@ -244,24 +244,24 @@ double cycles_by_digits(double frequency, std::uint64_t time) {
   return cycles;
 }
 
-TEST(ComposedForce, KeepsItsPhaseHoweverLate) {
+TEST(MultiHarmonicForce, KeepsItsPhaseHoweverLate) {
   test::Random random(717);
   for (int trial = 0; trial < 2000; ++trial) {
     const Harmonic harmonic{1.0, random.log_uniform(0.1, 50.0), random.uniform(0.0, 6.0)};
     const auto time = static_cast<std::uint64_t>(random.log_uniform(1.0, 0x1.0p50));
     const double angle = 2.0 * pi<double> * cycles_by_digits(harmonic.frequency, time);
-    const ComposedForce force{{harmonic}, nullptr};
+    const MultiHarmonicForce force{{harmonic}, nullptr};
     const double late = static_cast<double>(time);
     ASSERT_NEAR(force.at(late), std::cos(angle + harmonic.phase), 1e-13) << late;
     ASSERT_NEAR(harmonic.at(-late), std::cos(-angle + harmonic.phase), 1e-13) << late;
   }
 }
 
-TEST(ComposedForce, AHarmonicOutOfRangeIsRefused) {
+TEST(MultiHarmonicForce, AHarmonicOutOfRangeIsRefused) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto with = [](const Harmonic& second) {
-    return ComposedForce{{Harmonic{1.0, 2.0}, second}, nullptr};
+    return MultiHarmonicForce{{Harmonic{1.0, 2.0}, second}, nullptr};
   };
   EXPECT_NO_THROW(validate(with({0.0, 10.0, -3.0})));
   for (const double wrong : {-0.1, infinity, not_a_number}) {

@@ -21,7 +21,7 @@ namespace {
 
 /// A motion in one mode for which a guard is watched.
 struct WatchedFlow {
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   AffineDynamics dynamics;
   Guard guard;
   Harmonic harmonic;
@@ -63,7 +63,7 @@ WatchedFlow random_flow(test::Random& random) {
 std::vector<double> finely_scanned(const WatchedFlow& flow) {
   constexpr int parts = 256;
   const double part = flow.length / parts;
-  const SegmentStep step(flow.dynamics, {flow.harmonic}, 0.0, part);
+  const SubintervalStep step(flow.dynamics, {flow.harmonic}, 0.0, part);
   std::vector<double> values;
   Vector<double, 4> z = flow.begin;
   for (int k = 0; k <= parts; ++k) {
@@ -77,14 +77,14 @@ std::vector<double> finely_scanned(const WatchedFlow& flow) {
   return values;
 }
 
-QuietBound bound_of(const WatchedFlow& flow) {
+NoEventBound bound_of(const WatchedFlow& flow) {
   const double omega = flow.harmonic.angular_frequency(), force = flow.harmonic.amplitude;
   return {flow.dynamics, flow.plant, flow.guard, {force, omega * force, omega * omega * force}};
 }
 
 // The constant of the guard is chosen so that the least value of the scan lies a little above or
 // below zero: where the claim is hardest to make.
-TEST(QuietBound, NeverClaimsQuietWhereAFineScanFindsAZero) {
+TEST(NoEventBound, NeverClaimsQuietWhereAFineScanFindsAZero) {
   test::Random random(1351);
   int claims = 0, zeros = 0;
   double tightest = 1e300;
@@ -93,12 +93,15 @@ TEST(QuietBound, NeverClaimsQuietWhereAFineScanFindsAZero) {
     const std::vector<double> values = finely_scanned(flow);
     const double least = *std::min_element(values.begin(), values.end());
     const double lower = std::min(values.front(), values.back());
-    const double sag = bound_of(flow).sag(flow.begin, flow.command, flow.length);
+    const double drop_below_chord =
+        bound_of(flow).drop_below_chord(flow.begin, flow.command, flow.length);
     const double range = *std::max_element(values.begin(), values.end()) - least;
-    ASSERT_GE(least, lower - sag - 1e-12 * range) << "below the chord by more than was claimed";
-    if (lower > least) tightest = std::min(tightest, sag / (lower - least));
-    flow.guard.constant = -least + random.sign() * random.log_uniform(1e-4, 100.0) * sag;
-    const bool quiet = lower + flow.guard.constant > sag;
+    ASSERT_GE(least, lower - drop_below_chord - 1e-12 * range)
+        << "below the chord by more than was claimed";
+    if (lower > least) tightest = std::min(tightest, drop_below_chord / (lower - least));
+    flow.guard.constant =
+        -least + random.sign() * random.log_uniform(1e-4, 100.0) * drop_below_chord;
+    const bool quiet = lower + flow.guard.constant > drop_below_chord;
     const bool zero = least + flow.guard.constant <= 0.0;
     ASSERT_FALSE(quiet && zero) << draw;
     claims += quiet ? 1 : 0;
@@ -112,29 +115,29 @@ TEST(QuietBound, NeverClaimsQuietWhereAFineScanFindsAZero) {
 }
 
 // A force that is constant: the sag of the parabola of a mass that falls, g̈ h² / 8.
-TEST(QuietBound, OfAFallingMassIsItsParabola) {
-  const TwoDof<double> loose{1.0, 1e-12, 0.0, 1.0, 1e-12, 0.0};
+TEST(NoEventBound, OfAFallingMassIsItsParabola) {
+  const TwoMass<double> loose{1.0, 1e-12, 0.0, 1.0, 1e-12, 0.0};
   const AffineDynamics dynamics{loose.state_matrix(), loose.control_input(),
                                 loose.excitation_input()};
   const Guard guard{displacement_row()};
-  const QuietBound bound(dynamics, loose, guard, {3.0, 0.0, 0.0});
+  const NoEventBound bound(dynamics, loose, guard, {3.0, 0.0, 0.0});
   const double length = 0.01, relative_acceleration = 3.0 + 2.0 * 5.0;
-  EXPECT_NEAR(bound.sag(Vector<double, 4>::Zero(), -5.0, length),
+  EXPECT_NEAR(bound.drop_below_chord(Vector<double, 4>::Zero(), -5.0, length),
               relative_acceleration * length * length / 8.0, 1e-6);
 }
 
 /// How often the bound says at once, for a period without a change of contact, that there is none.
-struct ShareOfQuiet {
+struct ShareWithoutEvent {
   int said = 0, unchanged = 0;
 };
 
-ShareOfQuiet share_of_quiet(double period, double width) {
+ShareWithoutEvent share_without_event(double period, double width) {
   const auto plant = kollar2022_plant();
   const DigitalLoop loop{
-      {period, 0.0}, {-557.0, -13.0}, composed_force({0.5, 10.0}), ForceHold::exact};
-  HybridMotion<ExactBacklash> motion(loop, ExactBacklash(plant, width), Vector<double, 4>::Zero());
+      {period, 0.0}, {-557.0, -13.0}, multi_harmonic_force({0.5, 10.0}), ForceHold::exact};
+  EventMotion<ExactBacklash> motion(loop, ExactBacklash(plant, width), Vector<double, 4>::Zero());
   const double omega = 20.0 * pi<double>;
-  ShareOfQuiet share;
+  ShareWithoutEvent share;
   while (motion.time() < 3.0) {
     motion.sense();
     const int mode = motion.contact().mode();
@@ -145,23 +148,24 @@ ShareOfQuiet share_of_quiet(double period, double width) {
     const bool sticks = mode == static_cast<int>(ContactMode::stick);
     if (sticks || motion.counts().entered != before.entered) continue;
     ++share.unchanged;
-    const QuietBound bound(motion.dynamics(mode), plant, guards.guard[0],
-                           {0.5, 0.5 * omega, 0.5 * omega * omega});
-    const double sag = bound.sag(begin, motion.previous_command(), period);
+    const NoEventBound bound(motion.dynamics(mode), plant, guards.guard[0],
+                             {0.5, 0.5 * omega, 0.5 * omega * omega});
+    const double drop_below_chord =
+        bound.drop_below_chord(begin, motion.previous_command(), period);
     bool quiet = true;
     for (int g = 0; g < guards.count; ++g) {
       const Guard& guard = guards.guard[static_cast<std::size_t>(g)];
       const double lower = std::min(guard.state.dot(begin), guard.state.dot(motion.state()));
-      quiet = quiet && guard.zeros == 0 && lower + guard.constant > sag;
+      quiet = quiet && guard.zeros == 0 && lower + guard.constant > drop_below_chord;
     }
     share.said += quiet ? 1 : 0;
   }
   return share;
 }
 
-TEST(QuietBound, ClaimsQuietInMostPeriodsOfAMillisecond) {
+TEST(NoEventBound, ClaimsQuietInMostPeriodsOfAMillisecond) {
   for (const double width : {0.0005, 0.002}) {
-    const ShareOfQuiet share = share_of_quiet(0.001, width);
+    const ShareWithoutEvent share = share_without_event(0.001, width);
     std::cout << share.said << " of " << share.unchanged << " periods\n";
     EXPECT_GT(share.unchanged, 2000);
     EXPECT_GT(share.said, 8 * share.unchanged / 10);

@@ -12,8 +12,8 @@
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/contact/play.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 #include "holdfast/plant/decaying_norm.hpp"
 #include "holdfast/plant/linear_plant.hpp"
@@ -31,7 +31,7 @@ struct Extras {
   double filter, bandwidth, damping;  // Hz, Hz, ζ_d
 };
 
-Order7 order_seven(const TwoDof<double>& plant, const Extras& extras) {
+Order7 order_seven(const TwoMass<double>& plant, const Extras& extras) {
   return with_drive_lag(with_measurement_filter(linear_plant(plant), extras.filter),
                         extras.bandwidth, extras.damping);
 }
@@ -51,7 +51,7 @@ LinearPlant<double> of_dynamic_order(const Order7& plant) {
 
 /// A loop whose drive lags: far from the edge of stability, with many changes of contact.
 struct OrderSetting {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   Extras extras{80.0, 60.0, 0.7};
   Sampling<double> sampling{0.005, 0.001};
   PdGains<double> gains{-200.0, -5.0};
@@ -60,12 +60,13 @@ struct OrderSetting {
 };
 
 template <class Plant>
-RealLoopOf<Plant> loop_of(const OrderSetting& setting, const Plant& plant, ContactLaw law,
-                          Switching switching) {
-  return {plant,
-          {setting.sampling, setting.gains, composed_force(setting.excitation), ForceHold::exact},
-          {law, setting.width, 60.0, 0.2},
-          switching};
+ImplementedLoopOf<Plant> loop_of(const OrderSetting& setting, const Plant& plant, ContactLaw law,
+                                 Switching switching) {
+  return {
+      plant,
+      {setting.sampling, setting.gains, multi_harmonic_force(setting.excitation), ForceHold::exact},
+      {law, setting.width, 60.0, 0.2},
+      switching};
 }
 
 /// The same plant written out, its contact followed by small steps of the classical Runge–Kutta
@@ -105,7 +106,7 @@ class DenseReference {
   }
 
   State7 rate_under(const State7& x, double s, double u, double t) const {
-    const TwoDof<double>& p = setting_.plant;
+    const TwoMass<double>& p = setting_.plant;
     const double spring = p.absorber_stiffness * (x[2] - x[0]) + p.absorber_damping * (x[3] - x[1]);
     const HarmonicExcitation<double>& f = setting_.excitation;
     const double force = f.amplitude * std::cos(f.angular_frequency() * t);
@@ -236,9 +237,9 @@ TEST(PlantOrder, OfFourThroughPortsIsTheTwoMasses) {
 
 TEST(PlantOrder, OfFourThroughPortsIsTheTwoMassesAtSamples) {
   const OrderSetting setting;
-  const ForcedLoop<double> loop{setting.plant,      setting.sampling, setting.gains,
-                                setting.excitation, setting.width,    ForceHold::exact};
-  const ForcedLoop<double, LinearPlant<double, 4>> ported{
+  const IdealLoop<double> loop{setting.plant,      setting.sampling, setting.gains,
+                               setting.excitation, setting.width,    ForceHold::exact};
+  const IdealLoop<double, LinearPlant<double, 4>> ported{
       linear_plant(setting.plant), setting.sampling, setting.gains,
       setting.excitation,          setting.width,    ForceHold::exact};
   auto masses = harmonically_forced_motion(loop, Vector<double, 4>::Zero());
@@ -278,7 +279,7 @@ TEST(PlantOrder, OfSevenIsThatOfADenseSimulation) {
 TEST(PlantOrder, OfSevenStepsAtSamplesAsItFlows) {
   const OrderSetting setting;
   const Order7 plant = order_seven(setting.plant, setting.extras);
-  const ForcedLoop<double, Order7> loop{
+  const IdealLoop<double, Order7> loop{
       plant, setting.sampling, setting.gains, setting.excitation, setting.width, ForceHold::exact};
   auto stepped = harmonically_forced_motion(loop, State7::Zero());
   auto flowing =
@@ -339,7 +340,7 @@ TEST(PlantOrder, OfSevenHasTheDerivativeOfItsMotion) {
   for (int j = 0; j < 400; ++j) {
     const auto before = motion;
     constexpr int samples = 10;
-    HybridTangent<DriveContact<Order7>> tangent(motion);
+    VariationalFlow<DriveContact<Order7>> tangent(motion);
     Matrix<double, 10> map = Matrix<double, 10>::Identity();
     auto ahead = motion;
     const auto counted = ahead.counts().entered;
@@ -392,7 +393,7 @@ TEST(PlantOrder, AKickMovesTheConductorAlone) {
 TEST(DecayingNorm, NeverGrowsAlongAStablePlant) {
   test::Random random(1711);
   for (int draw = 0; draw < 200; ++draw) {
-    const TwoDof<double> masses = test::random_plant(random);
+    const TwoMass<double> masses = test::random_plant(random);
     if (!(masses.conductor_damping > 0.0 && masses.absorber_damping > 0.0)) continue;
     const Extras extras{random.log_uniform(1.0, 1e3), random.log_uniform(1.0, 1e3), 0.5};
     const Matrix<double, 7> a = order_seven(masses, extras).released_matrix;
@@ -407,7 +408,7 @@ TEST(DecayingNorm, NeverGrowsAlongAStablePlant) {
 }
 
 TEST(DecayingNorm, ThereIsNoneOfAnUnstablePlant) {
-  TwoDof<double> masses = kollar2022_plant();
+  TwoMass<double> masses = kollar2022_plant();
   masses.conductor_damping = -20.0;
   const DecayingNorm<4> norm(masses.state_matrix());
   EXPECT_FALSE(norm.exists());

@@ -37,7 +37,7 @@ TEST(SampledMotion, WithBacklashTwiceTheForceDoesNotMoveTwiceAsFar) {
 }
 
 TEST(SampledMotion, FollowsTheExtendedMaps) {
-  // z̃ = [z; previous force] steps by S outside the backlash and by S* inside, whatever the delay.
+  // z̃ = [z; previous force] steps by S outside the backlash and by S* inside, for any delay.
   for (const double fraction : {0.0, 0.4, 1.0}) {
     KollarCase which;
     which.processing_delay = fraction * which.sampling_period;

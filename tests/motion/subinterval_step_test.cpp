@@ -15,7 +15,7 @@
 namespace holdfast {
 namespace {
 
-AffineDynamics dynamics_of_plant(const TwoDof<double>& plant) {
+AffineDynamics dynamics_of_plant(const TwoMass<double>& plant) {
   return {plant.state_matrix(), plant.control_input(), plant.excitation_input()};
 }
 
@@ -29,15 +29,15 @@ std::vector<ExcitationSample<double>> phases_at(const std::vector<Harmonic>& lin
   return phases;
 }
 
-TEST(SegmentStep, BothPartsOfAPeriodAreTheSampledLoop) {
+TEST(SubintervalStep, BothPartsOfAPeriodAreTheSampledLoop) {
   test::Random random(1341);
   for (int draw = 0; draw < 300; ++draw) {
     const auto plant = test::random_plant(random);
     const Sampling<double> sampling = test::random_sampling(plant, random);
     const SampledLoop<double> loop = sampled_loop(plant, sampling);
     const double delay = sampling.processing_delay;
-    const SegmentStep first(dynamics_of_plant(plant), {}, 0.0, delay);
-    const SegmentStep second(dynamics_of_plant(plant), {}, delay, sampling.period - delay);
+    const SubintervalStep first(dynamics_of_plant(plant), {}, 0.0, delay);
+    const SubintervalStep second(dynamics_of_plant(plant), {}, delay, sampling.period - delay);
     const Vector<double, 4> begin = random.matrix<Vector<double, 4>>();
     const double before = random.uniform(-9, 9), now = random.uniform(-9, 9), held = 2.5;
     const Vector<double, 4> found =
@@ -53,7 +53,7 @@ TEST(SegmentStep, BothPartsOfAPeriodAreTheSampledLoop) {
 }
 
 // z(t_j + begin + length) does not depend on where the part before it was cut.
-TEST(SegmentStep, TwoPartsAreOneLongerPart) {
+TEST(SubintervalStep, TwoPartsAreOneLongerPart) {
   test::Random random(1342);
   const std::vector<Harmonic> lines{{0.5, 10.0}, {0.3, 27.0, 1.1}, {0.2, 1.7, -2.5}};
   for (int draw = 0; draw < 300; ++draw) {
@@ -61,9 +61,9 @@ TEST(SegmentStep, TwoPartsAreOneLongerPart) {
     const AffineDynamics dynamics = dynamics_on_stop(plant, plant.absorber_stiffness, 0.0, 0.01);
     const double begin = random.uniform(0.0, 0.01), cut = random.uniform(0.0, 0.01);
     const double length = cut + random.uniform(0.0, 0.01);
-    const SegmentStep whole(dynamics, lines, begin, length);
-    const SegmentStep first(dynamics, lines, begin, cut);
-    const SegmentStep second(dynamics, lines, begin + cut, length - cut);
+    const SubintervalStep whole(dynamics, lines, begin, length);
+    const SubintervalStep first(dynamics, lines, begin, cut);
+    const SubintervalStep second(dynamics, lines, begin + cut, length - cut);
     const auto phases = phases_at(lines, random.uniform(0.0, 1.0));
     const Vector<double, 4> z = random.matrix<Vector<double, 4>>();
     const double command = random.uniform(-5, 5);
@@ -77,7 +77,7 @@ TEST(SegmentStep, TwoPartsAreOneLongerPart) {
 }
 
 // The quotient of differences of a short part is the equation of motion at its beginning.
-TEST(SegmentStep, ItsRateIsTheEquationOfMotionWithItsPhases) {
+TEST(SubintervalStep, ItsRateIsTheEquationOfMotionWithItsPhases) {
   test::Random random(1343);
   const auto plant = kollar2022_plant();
   const AffineDynamics dynamics = dynamics_on_stop(plant, 300.0, 2.0, 0.001);
@@ -85,7 +85,7 @@ TEST(SegmentStep, ItsRateIsTheEquationOfMotionWithItsPhases) {
   for (int draw = 0; draw < 200; ++draw) {
     const double begin = random.uniform(0.0, 0.01), time = random.uniform(0.0, 1.0);
     const double length = 1e-6, command = random.uniform(-5, 5);
-    const SegmentStep step(dynamics, lines, begin, length);
+    const SubintervalStep step(dynamics, lines, begin, length);
     const Vector<double, 4> z = 0.01 * random.matrix<Vector<double, 4>>();
     const Vector<double, 4> rate =
         (step.state(z, command, 0.0, phases_at(lines, time)) - z) / length;
@@ -100,8 +100,8 @@ TEST(SegmentStep, ItsRateIsTheEquationOfMotionWithItsPhases) {
   }
 }
 
-TEST(SegmentStep, WithoutLengthNothingMoves) {
-  const SegmentStep step(dynamics_of_plant(kollar2022_plant()), {{0.5, 10.0}}, 0.004, 0.0);
+TEST(SubintervalStep, WithoutLengthNothingMoves) {
+  const SubintervalStep step(dynamics_of_plant(kollar2022_plant()), {{0.5, 10.0}}, 0.004, 0.0);
   const Vector<double, 4> z(0.001, -0.02, 0.003, 0.04);
   EXPECT_EQ(step.state(z, 5.0, 0.0, phases_at({{0.5, 10.0}}, 0.3)), z);
   EXPECT_EQ(step.state(z, 5.0, 0.7, {}), z);

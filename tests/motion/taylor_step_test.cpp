@@ -45,12 +45,12 @@ PreciseState precise_state(const AffineDynamics& dynamics, const Vector<double, 
 }
 
 /// The motion of a plant with all its inputs.
-AffineDynamics driven_dynamics(const TwoDof<double>& plant, test::Random& random) {
+AffineDynamics driven_dynamics(const TwoMass<double>& plant, test::Random& random) {
   return {plant.state_matrix(), plant.control_input(), plant.excitation_input(),
           plant.control_input() * random.uniform(-1.0, 1.0)};
 }
 
-TEST(AffineExpansion, IsTheExactMotionToRoundOff) {
+TEST(TaylorStep, IsTheExactMotionToRoundOff) {
   test::Random random(1311);
   double worst = 0.0;
   for (int draw = 0; draw < 1000; ++draw) {
@@ -63,9 +63,9 @@ TEST(AffineExpansion, IsTheExactMotionToRoundOff) {
     const double share = random.log_uniform(1e-3, 1.0), length = share / rate;
     const double time = random.uniform(0.0, 0.1), command = random.uniform(-1.0, 1.0);
     Series force(terms_for(share));
-    ComposedForce{{harmonic}, nullptr}.expand(time, length, force);
+    MultiHarmonicForce{{harmonic}, nullptr}.expand(time, length, force);
     const Vector<double, 4> begin = unit.asDiagonal() * random.matrix<Vector<double, 4>>();
-    const AffineExpansion motion(dynamics, begin, command, force, length);
+    const TaylorStep motion(dynamics, begin, command, force, length);
     for (const double x : {0.0, 0.25, 0.7, 1.0}) {
       const PreciseState exact = precise_state(dynamics, begin, command, harmonic, time,
                                                static_cast<long double>(length) * x);
@@ -84,7 +84,7 @@ TEST(AffineExpansion, IsTheExactMotionToRoundOff) {
   std::cout << "largest relative error " << worst << '\n';
 }
 
-TEST(AffineExpansion, UnderAHeldForceIsTheZeroOrderHold) {
+TEST(TaylorStep, UnderAHeldForceIsTheZeroOrderHold) {
   test::Random random(1312);
   for (int draw = 0; draw < 500; ++draw) {
     const auto plant = test::random_plant(random);
@@ -98,7 +98,7 @@ TEST(AffineExpansion, UnderAHeldForceIsTheZeroOrderHold) {
     Series force = Series::Zero(terms_for(1.0));
     force[0] = held[1];
     const Vector<double, 4> begin = unit.asDiagonal() * random.matrix<Vector<double, 4>>();
-    const AffineExpansion motion(dynamics, begin, held[0], force, length);
+    const TaylorStep motion(dynamics, begin, held[0], force, length);
     const auto step = zero_order_hold<double, 4, 2>(dynamics.state, inputs, length);
     const Vector<double, 4> expected = step.transition * begin + step.input * held;
     const double scale = std::max(expected.cwiseQuotient(unit).norm(),
@@ -108,15 +108,15 @@ TEST(AffineExpansion, UnderAHeldForceIsTheZeroOrderHold) {
   }
 }
 
-TEST(AffineExpansion, ItsCoefficientsSolveTheEquationOfMotion) {
+TEST(TaylorStep, ItsCoefficientsSolveTheEquationOfMotion) {
   test::Random random(1313);
   const auto plant = kollar2022_plant();
   const AffineDynamics dynamics = driven_dynamics(plant, random);
   const double length = 0.005, command = 0.3;
   Series force(20);
-  ComposedForce{{{0.5, 10.0, 0.4}}, nullptr}.expand(0.02, length, force);
+  MultiHarmonicForce{{{0.5, 10.0, 0.4}}, nullptr}.expand(0.02, length, force);
   const Vector<double, 4> begin(0.001, -0.03, 0.002, 0.05);
-  const AffineExpansion motion(dynamics, begin, command, force, length);
+  const TaylorStep motion(dynamics, begin, command, force, length);
   const auto& z = motion.coefficients();
   for (Eigen::Index k = 0; k + 1 < z.cols(); ++k) {
     Vector<double, 4> rate = dynamics.state * z.col(k) + dynamics.force * force[k];

@@ -28,7 +28,7 @@ Matrix<double, 7> scaled_by(const Vector<double, 7>& sizes, const Matrix<double,
 
 /// Takes a motion through samples. @return the product of its maps
 template <class Contact>
-Matrix<double, 7> advance_with(HybridTangent<Contact>& tangent, HybridMotion<Contact>& motion,
+Matrix<double, 7> advance_with(VariationalFlow<Contact>& tangent, EventMotion<Contact>& motion,
                                int samples) {
   Matrix<double, 7> product = Matrix<double, 7>::Identity();
   for (int sample = 0; sample < samples; ++sample) {
@@ -41,7 +41,7 @@ Matrix<double, 7> advance_with(HybridTangent<Contact>& tangent, HybridMotion<Con
 }
 
 template <class Contact>
-void go_on_for(HybridMotion<Contact>& motion, int samples) {
+void go_on_for(EventMotion<Contact>& motion, int samples) {
   for (int sample = 0; sample < samples; ++sample) {
     motion.sense();
     motion.advance();
@@ -70,7 +70,7 @@ struct Comparison {
 /// Directions in which X may be moved: z, u_{j−1}, and the gap where there is one; while the drive
 /// sticks, both masses have one velocity and stand at an end of the gap.
 template <class Contact>
-std::vector<Vector<double, 7>> admissible_directions(const HybridMotion<Contact>& motion,
+std::vector<Vector<double, 7>> admissible_directions(const EventMotion<Contact>& motion,
                                                      bool anchored) {
   const Vector<double, 7> sizes = test::sizes_of(motion);
   const bool sticks = motion.contact().word() == ContactMode::stick;
@@ -89,10 +89,10 @@ std::vector<Vector<double, 7>> admissible_directions(const HybridMotion<Contact>
 
 /// Compares the product of the maps over `samples` with differences of the motion.
 template <class Contact>
-void compare_with_differences(const HybridMotion<Contact>& motion, int samples, double step,
+void compare_with_differences(const EventMotion<Contact>& motion, int samples, double step,
                               Comparison& comparison) {
-  HybridMotion<Contact> followed = motion, recorded = motion;
-  HybridTangent<Contact> tangent(motion);
+  EventMotion<Contact> followed = motion, recorded = motion;
+  VariationalFlow<Contact> tangent(motion);
   const Matrix<double, 7> product = advance_with(tangent, followed, samples);
   test::SwitchRecorder recorder;
   for (int sample = 0; sample < samples; ++sample) recorder.advance(recorded);
@@ -119,7 +119,7 @@ void compare_with_differences(const HybridMotion<Contact>& motion, int samples, 
 
 /// Whether a motion changes its contact in the coming sample.
 template <class Contact>
-bool is_about_to_switch(HybridMotion<Contact> motion) {
+bool is_about_to_switch(EventMotion<Contact> motion) {
   test::SwitchRecorder recorder;
   recorder.advance(motion);
   return !recorder.seen().empty();
@@ -127,7 +127,7 @@ bool is_about_to_switch(HybridMotion<Contact> motion) {
 
 /// Along a motion: all samples with a change of contact, and some without.
 template <class Contact>
-void compare_along(HybridMotion<Contact> motion, int total, int samples, double step,
+void compare_along(EventMotion<Contact> motion, int total, int samples, double step,
                    Comparison& comparison) {
   go_on_for(motion, 20);
   for (int sample = 0; sample < total; ++sample) {
@@ -138,17 +138,17 @@ void compare_along(HybridMotion<Contact> motion, int total, int samples, double 
   }
 }
 
-int samples_in(const test::HybridSetting& setting, double duration) {
+int samples_in(const test::EventSetting& setting, double duration) {
   return static_cast<int>(std::min(1500.0, duration / setting.loop.sampling.period));
 }
 
-TEST(HybridTangent, WithoutBacklashItIsTheMapOfTheSampledLoop) {
+TEST(VariationalFlow, WithoutBacklashItIsTheMapOfTheSampledLoop) {
   test::Random random(901);
   for (int trial = 0; trial < 60; ++trial) {
-    auto setting = test::random_hybrid_setting(random, trial);
+    auto setting = test::random_event_setting(random, trial);
     setting.width = 0.0;
     auto motion = setting.motion();
-    HybridTangent<ExactBacklash> tangent(motion);
+    VariationalFlow<ExactBacklash> tangent(motion);
     const auto sampled = sampled_loop(setting.plant, setting.loop.sampling);
     const Vector<double, 7> sizes = test::sizes_of(motion);
     Matrix<double, 7> expected = Matrix<double, 7>::Zero();
@@ -164,10 +164,10 @@ TEST(HybridTangent, WithoutBacklashItIsTheMapOfTheSampledLoop) {
 
 /// A recorded force with many rows is taken piece by piece, and a jittering clock has no two
 /// periods alike: δX is what the exponential of the whole makes of it.
-TEST(HybridTangent, DoesNotDependOnTheStepsOfTheMotion) {
+TEST(VariationalFlow, DoesNotDependOnTheStepsOfTheMotion) {
   test::Random random(902);
   for (int trial = 0; trial < 30; ++trial) {
-    auto setting = test::random_hybrid_setting(random, trial);
+    auto setting = test::random_event_setting(random, trial);
     setting.width = 0.0;
     setting.loop.hold = ForceHold::exact;
     const double period = setting.loop.sampling.period;
@@ -181,7 +181,7 @@ TEST(HybridTangent, DoesNotDependOnTheStepsOfTheMotion) {
     const bool jitters = trial % 3 == 0;
     if (jitters) setting.loop.jitter = {0.1 * period, 5};
     auto motion = setting.motion();
-    HybridTangent<ExactBacklash> tangent(motion);
+    VariationalFlow<ExactBacklash> tangent(motion);
     const Vector<double, 7> sizes = test::sizes_of(motion);
     for (int sample = 0; sample < 10; ++sample) {
       const Sampling<double> sampling{motion.period(), setting.loop.sampling.processing_delay};
@@ -196,14 +196,14 @@ TEST(HybridTangent, DoesNotDependOnTheStepsOfTheMotion) {
   }
 }
 
-TEST(HybridTangent, ALawThatIsAskedAtSamplesGivesTheMapsOfTheSampledLoop) {
+TEST(VariationalFlow, ALawThatIsAskedAtSamplesGivesTheMapsOfTheSampledLoop) {
   test::Random random(903);
   int engaged = 0, inside = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const auto setting = test::random_hybrid_setting(random, trial);
-    const SampledContactMotion contact(setting.plant, {ContactLaw::kollar, setting.width});
-    HybridMotion<SampledContactMotion> motion(setting.loop, contact, Vector<double, 4>::Zero());
-    HybridTangent<SampledContactMotion> tangent(motion);
+    const auto setting = test::random_event_setting(random, trial);
+    const SampledLaw contact(setting.plant, {ContactLaw::kollar, setting.width});
+    EventMotion<SampledLaw> motion(setting.loop, contact, Vector<double, 4>::Zero());
+    VariationalFlow<SampledLaw> tangent(motion);
     const auto sampled = sampled_loop(setting.plant, setting.loop.sampling);
     const Vector<double, 7> sizes = test::sizes_of(motion);
     for (int sample = 0; sample < 300; ++sample) {
@@ -222,11 +222,11 @@ TEST(HybridTangent, ALawThatIsAskedAtSamplesGivesTheMapsOfTheSampledLoop) {
   EXPECT_GT(inside, 300);
 }
 
-TEST(HybridTangent, IsTheDerivativeOfTheFlowOverASample) {
+TEST(VariationalFlow, IsTheDerivativeOfTheFlowOverASample) {
   test::Random random(904);
   Comparison all;
   for (int trial = 0; trial < 50; ++trial) {
-    const auto setting = test::bounded_hybrid_setting(random, trial);
+    const auto setting = test::bounded_event_setting(random, trial);
     compare_along(setting.motion(), samples_in(setting, 2.0), 1, 1e-5, all);
   }
   EXPECT_LT(all.worst, 1e-7);
@@ -244,11 +244,11 @@ TEST(HybridTangent, IsTheDerivativeOfTheFlowOverASample) {
     EXPECT_GT(all.by_guard(tangent_stick, tangent_engaged, guard), 0) << guard;
 }
 
-TEST(HybridTangent, ProductsAreTheDerivativeOfTheFlowOverFiftySamples) {
+TEST(VariationalFlow, ProductsAreTheDerivativeOfTheFlowOverFiftySamples) {
   test::Random random(905);
   Comparison all;
   for (int trial = 0; trial < 50; ++trial) {
-    const auto setting = test::bounded_hybrid_setting(random, trial);
+    const auto setting = test::bounded_event_setting(random, trial);
     compare_along(setting.motion(), samples_in(setting, 2.0), 50, 1e-6, all);
   }
   EXPECT_LT(all.worst, 5e-6);
@@ -261,11 +261,11 @@ TEST(HybridTangent, ProductsAreTheDerivativeOfTheFlowOverFiftySamples) {
 
 /// With differences of displacements as velocity, a force that saturates and a clock that jitters;
 /// over three samples, so that what was read at one is used at the next.
-TEST(HybridTangent, KnowsWhatTheControllerReads) {
+TEST(VariationalFlow, KnowsWhatTheControllerReads) {
   test::Random random(906);
   Comparison all;
   for (int trial = 0; trial < 24; ++trial) {
-    auto setting = test::bounded_hybrid_setting(random, trial);
+    auto setting = test::bounded_event_setting(random, trial);
     setting.loop.limits.velocity = VelocitySensing::difference;
     if (trial % 4 == 1) setting.loop.limits.largest_force = 0.2;
     if (trial % 4 == 2) setting.loop.limits.displacement_quantum = 2e-5;
@@ -280,16 +280,16 @@ TEST(HybridTangent, KnowsWhatTheControllerReads) {
   EXPECT_LT(all.other_way, all.compared / 20);
 }
 
-TEST(HybridTangent, ADeadZoneWithStops) {
+TEST(VariationalFlow, ADeadZoneWithStops) {
   test::Random random(907);
   Comparison all;
   for (int trial = 0; trial < 24; ++trial) {
-    const auto setting = test::random_hybrid_setting(random, trial);
+    const auto setting = test::random_event_setting(random, trial);
     const double stiffness = trial % 2 == 0 ? 0.0 : random.uniform(50.0, 1000.0);
     const double damping = trial % 4 < 2 ? 0.0 : random.uniform(0.5, 10.0);
     const Vector<double, 4> rest = Vector<double, 4>::Zero();
     const ExactDeadZone contact(setting.plant, setting.width, stiffness, damping, rest);
-    const HybridMotion<ExactDeadZone> motion(setting.loop, contact, rest);
+    const EventMotion<ExactDeadZone> motion(setting.loop, contact, rest);
     if (!test::stays_small(motion, 2.0)) continue;
     compare_along(motion, samples_in(setting, 1.0), 1, 1e-5, all);
   }
@@ -302,13 +302,13 @@ TEST(HybridTangent, ADeadZoneWithStops) {
   }
 }
 
-TEST(HybridTangent, WhileTheDriveSticksTheMassesHaveOneVelocityExactly) {
+TEST(VariationalFlow, WhileTheDriveSticksTheMassesHaveOneVelocityExactly) {
   test::Random random(908);
   int stuck = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const auto setting = test::bounded_hybrid_setting(random, trial);
+    const auto setting = test::bounded_event_setting(random, trial);
     auto motion = setting.motion();
-    HybridTangent<ExactBacklash> tangent(motion);
+    VariationalFlow<ExactBacklash> tangent(motion);
     for (int sample = samples_in(setting, 2.0); sample > 0; --sample) {
       const bool was_stuck = motion.contact().mode() == tangent_stick;
       const Matrix<double, 7> map = advance_with(tangent, motion, 1);
@@ -324,13 +324,13 @@ TEST(HybridTangent, WhileTheDriveSticksTheMassesHaveOneVelocityExactly) {
   EXPECT_GT(stuck, 200);
 }
 
-TEST(HybridTangent, WhileTheDriveIsEngagedTheGapIsForgotten) {
+TEST(VariationalFlow, WhileTheDriveIsEngagedTheGapIsForgotten) {
   test::Random random(909);
   int engaged = 0, inside = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const auto setting = test::bounded_hybrid_setting(random, trial);
+    const auto setting = test::bounded_event_setting(random, trial);
     auto motion = setting.motion();
-    HybridTangent<ExactBacklash> tangent(motion);
+    VariationalFlow<ExactBacklash> tangent(motion);
     for (int sample = samples_in(setting, 2.0); sample > 0; --sample) {
       test::SwitchRecorder recorder;
       auto copy = motion;
@@ -353,18 +353,18 @@ TEST(HybridTangent, WhileTheDriveIsEngagedTheGapIsForgotten) {
 
 /// No direction is left beyond the structural rank but by rounding, and none is missing: over few
 /// samples the contraction of the directions that are left is far from rounding.
-TEST(HybridTangent, TheStructuralRankIsThatOfTheProduct) {
+TEST(VariationalFlow, TheStructuralRankIsThatOfTheProduct) {
   test::Random random(910);
   std::array<int, 8> seen{};
   for (int trial = 0; trial < 60; ++trial) {
-    auto setting = test::bounded_hybrid_setting(random, trial);
+    auto setting = test::bounded_event_setting(random, trial);
     if (trial % 4 == 3) setting.loop.limits.velocity = VelocitySensing::difference;
     if (!test::stays_small(setting.motion(), 3.0)) continue;
     auto motion = setting.motion();
     const Vector<double, 7> sizes = test::sizes_of(motion);
     const int samples = 1 + trial % 3;
     for (int left = samples_in(setting, 2.0); left > samples; left -= samples) {
-      HybridTangent<ExactBacklash> tangent(motion);
+      VariationalFlow<ExactBacklash> tangent(motion);
       const Matrix<double, 7> product = advance_with(tangent, motion, samples);
       const Eigen::JacobiSVD<Matrix<double, 7>> svd(scaled_by(sizes, product));
       const Vector<double, 7> stretches = svd.singularValues() / svd.singularValues()[0];

@@ -10,19 +10,19 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> delayed_loop(double period, double fraction) {
+IdealLoop<double> delayed_loop(double period, double fraction) {
   test::KollarCase which;
   which.sampling_period = period;
   which.processing_delay = fraction * period;
   which.width = 0.002;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
-TEST(ContactMaps, StepTheMotionItself) {
+TEST(ItineraryMaps, StepTheMotionItself) {
   for (const double fraction : {0.0, 0.4, 1.0}) {
-    const ForcedLoop<double> loop = delayed_loop(0.003, fraction);
+    const IdealLoop<double> loop = delayed_loop(0.003, fraction);
     const Rational ratio = forcing_ratio(loop).value();
-    const ContactMaps<double> maps(loop, ratio);
+    const ItineraryMaps<double> maps(loop, ratio);
     ASSERT_EQ(maps.samples_of_forcing(), 100U);
     auto motion = periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval());
     int inside = 0;
@@ -44,32 +44,32 @@ TEST(ContactMaps, StepTheMotionItself) {
 TEST(AffineBlocks, TogetherAreTheWholeSequence) {
   test::Random random(810);
   for (const double period : {0.001, 0.01, 0.05}) {
-    const ForcedLoop<double> loop = delayed_loop(period, 0.3);
-    const ContactMaps<double> maps(loop, forcing_ratio(loop).value());
-    Contacts contacts;
-    for (int j = 0; j < 300; ++j) contacts.push_back(random.unit() < 0.5 ? 1 : 0);
+    const IdealLoop<double> loop = delayed_loop(period, 0.3);
+    const ItineraryMaps<double> maps(loop, forcing_ratio(loop).value());
+    Itinerary itinerary;
+    for (int j = 0; j < 300; ++j) itinerary.push_back(random.unit() < 0.5 ? 1 : 0);
     Vector<double, 5> by_samples = random.matrix<Vector<double, 5>>();
     Vector<double, 5> by_blocks = by_samples.cwiseQuotient(maps.units());
-    const auto blocks = affine_blocks(maps, contacts);
+    const auto blocks = affine_blocks(maps, itinerary);
     for (const auto& block : blocks) by_blocks = block.map * by_blocks + block.addition;
-    for (std::size_t j = 0; j < contacts.size(); ++j)
-      by_samples = maps.step(by_samples, contacts[j] != 0, j % maps.samples_of_forcing());
+    for (std::size_t j = 0; j < itinerary.size(); ++j)
+      by_samples = maps.step(by_samples, itinerary[j] != 0, j % maps.samples_of_forcing());
     by_blocks = by_blocks.cwiseProduct(maps.units());
     EXPECT_LE((by_blocks - by_samples).norm(), 1e-11 * (1.0 + by_samples.norm())) << period;
-    EXPECT_LE(blocks.size(), contacts.size()) << period;
+    EXPECT_LE(blocks.size(), itinerary.size()) << period;
     if (period == 0.001) {
-      EXPECT_LT(2 * blocks.size(), contacts.size()) << "they are what saves the work";
+      EXPECT_LT(2 * blocks.size(), itinerary.size()) << "they are what saves the work";
     }
   }
 }
 
 TEST(AffineBlocks, OfAGrowingLoopStayShort) {
-  ForcedLoop<double> loop = delayed_loop(0.05, 0.0);
+  IdealLoop<double> loop = delayed_loop(0.05, 0.0);
   loop.gains = {-5000.0, -200.0};
-  const ContactMaps<double> maps(loop, forcing_ratio(loop).value());
-  const Contacts contacts(64, 1);
+  const ItineraryMaps<double> maps(loop, forcing_ratio(loop).value());
+  const Itinerary itinerary(64, 1);
   const double one = affine_blocks(maps, {1}).front().map.cwiseAbs().maxCoeff();
-  for (const auto& block : affine_blocks(maps, contacts))
+  for (const auto& block : affine_blocks(maps, itinerary))
     EXPECT_LE(block.map.cwiseAbs().maxCoeff(), 5.0 * one * 1e3);
 }
 

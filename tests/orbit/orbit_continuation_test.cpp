@@ -13,94 +13,94 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> followed_loop(double period, double width) {
+IdealLoop<double> followed_loop(double period, double width) {
   return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
 }
 
-PeriodicOrbit orbit_of(const ForcedLoop<double>& loop) {
+PeriodicOrbit orbit_of(const IdealLoop<double>& loop) {
   const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return *found.orbit;
 }
 
 TEST(OrbitContinuation, WithoutBacklashTheOrbitEndsOnTheStabilityBoundary) {
-  const ForcedLoop<double> loop = followed_loop(0.01, 0.0);
+  const IdealLoop<double> loop = followed_loop(0.01, 0.0);
   const auto path = [&](double gain) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.gains.differential = gain;
     return other;
   };
   const auto stable = stable_differential_gains(
       characteristic_polynomial(sampled_loop(loop.plant, loop.sampling)), -557.0);
   const PeriodicOrbit orbit = orbit_of(loop);
-  const OrbitEnd below = follow_orbit(path, orbit, -13.0, -30.0);
-  const OrbitEnd above = follow_orbit(path, orbit, -13.0, 10.0);
-  EXPECT_EQ(below.outcome, OrbitEndOutcome::unit_circle);
+  const BranchEnd below = continue_orbit(path, orbit, -13.0, -30.0);
+  const BranchEnd above = continue_orbit(path, orbit, -13.0, 10.0);
+  EXPECT_EQ(below.outcome, BranchEndOutcome::unit_circle);
   EXPECT_NEAR(below.parameter, stable.front().lower, 1e-9);
   EXPECT_NEAR(above.parameter, stable.front().upper, 1e-9);
   EXPECT_NEAR(below.multiplier.log_modulus, 0.0, 1e-9);
 }
 
 TEST(OrbitContinuation, AnOrbitIsNearItsBorderJustBeforeTheCollision) {
-  const ForcedLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
   EXPECT_GT(orbit.border_share(), near_border);
   const auto path = [&](double width) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.backlash_width = width;
     return other;
   };
-  const OrbitEnd end = follow_orbit(path, orbit, 0.002, 0.01);
-  ASSERT_EQ(end.outcome, OrbitEndOutcome::border_collision);
+  const BranchEnd end = continue_orbit(path, orbit, 0.002, 0.01);
+  ASSERT_EQ(end.outcome, BranchEndOutcome::border_collision);
   const double width = end.parameter - 1e-8;
   const auto last =
-      orbit_of_contacts(path(width), orbit.ratio, ContactMaps<double>(loop, orbit.ratio),
-                        orbit.contacts, Backlash<double>(width, orbit.memory));
+      orbit_of_itinerary(path(width), orbit.ratio, ItineraryMaps<double>(loop, orbit.ratio),
+                         orbit.itinerary, Backlash<double>(width, orbit.memory));
   ASSERT_EQ(last.outcome, CandidateOutcome::verified);
   EXPECT_GT(last.orbit->border_share(), 0.0);
   EXPECT_LT(last.orbit->border_share(), near_border);
 }
 
 TEST(OrbitContinuation, ACollisionIsWhereTheOrbitIsNoLongerFound) {
-  const ForcedLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
   const auto path = [&](double width) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.backlash_width = width;
     return other;
   };
   for (const double to : {0.0, 0.01}) {
-    const OrbitEnd end = follow_orbit(path, orbit, 0.002, to);
-    ASSERT_EQ(end.outcome, OrbitEndOutcome::border_collision);
+    const BranchEnd end = continue_orbit(path, orbit, 0.002, to);
+    ASSERT_EQ(end.outcome, BranchEndOutcome::border_collision);
     EXPECT_NEAR(end.border.distance, 0.0, 1e-15);
-    const ContactMaps<double> maps(loop, orbit.ratio);
+    const ItineraryMaps<double> maps(loop, orbit.ratio);
     const Backlash<double> law(loop.backlash_width, orbit.memory);
     const double step = to > 0.002 ? 1e-9 : -1e-9;
     const auto outcome_at = [&](double width) {
-      return orbit_of_contacts(path(width), orbit.ratio, maps, orbit.contacts,
-                               Backlash<double>(width, orbit.memory))
+      return orbit_of_itinerary(path(width), orbit.ratio, maps, orbit.itinerary,
+                                Backlash<double>(width, orbit.memory))
           .outcome;
     };
     EXPECT_EQ(outcome_at(end.parameter - step), CandidateOutcome::verified);
-    EXPECT_EQ(outcome_at(end.parameter + step), CandidateOutcome::other_contacts);
+    EXPECT_EQ(outcome_at(end.parameter + step), CandidateOutcome::other_itinerary);
   }
 }
 
 TEST(OrbitContinuation, MotionAndForceScaleTogether) {
-  const ForcedLoop<double> loop = followed_loop(0.001, 0.002);
+  const IdealLoop<double> loop = followed_loop(0.001, 0.002);
   const PeriodicOrbit orbit = orbit_of(loop);
   const auto along_width = [&](double width) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.backlash_width = width;
     return other;
   };
   const auto along_force = [&](double amplitude) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.excitation.amplitude = amplitude;
     return other;
   };
-  const OrbitEnd wider = follow_orbit(along_width, orbit, 0.002, 0.003);
-  const OrbitEnd weaker = follow_orbit(along_force, orbit, 0.5, 0.3);
+  const BranchEnd wider = continue_orbit(along_width, orbit, 0.002, 0.003);
+  const BranchEnd weaker = continue_orbit(along_force, orbit, 0.5, 0.3);
   EXPECT_NEAR(weaker.parameter / 0.5, 0.002 / wider.parameter, 1e-10);
   // The orbit is its own mirror image half a period later: it meets two surfaces at once, and
   // rounding says which is named.
@@ -108,7 +108,7 @@ TEST(OrbitContinuation, MotionAndForceScaleTogether) {
 }
 
 TEST(OrbitContinuation, AnOrbitThatStaysInTheGapEndsWhereNoGapHoldsIt) {
-  const ForcedLoop<double> loop = followed_loop(0.001, 0.003);
+  const IdealLoop<double> loop = followed_loop(0.001, 0.003);
   const PeriodicOrbit orbit = orbit_of(loop);
   ASSERT_EQ(orbit.engaged_fraction(), 0.0);
   double lowest = 1.0, highest = -1.0;
@@ -117,52 +117,52 @@ TEST(OrbitContinuation, AnOrbitThatStaysInTheGapEndsWhereNoGapHoldsIt) {
     highest = std::max(highest, state[2] - state[0]);
   }
   const auto narrower = [&](double width) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.backlash_width = width;
     return other;
   };
   const auto stronger = [&](double amplitude) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.excitation.amplitude = amplitude;
     return other;
   };
-  const OrbitEnd by_width = follow_orbit(narrower, orbit, 0.003, 0.001);
-  const OrbitEnd by_force = follow_orbit(stronger, orbit, 0.5, 2.0);
-  EXPECT_EQ(by_width.outcome, OrbitEndOutcome::border_collision);
+  const BranchEnd by_width = continue_orbit(narrower, orbit, 0.003, 0.001);
+  const BranchEnd by_force = continue_orbit(stronger, orbit, 0.5, 2.0);
+  EXPECT_EQ(by_width.outcome, BranchEndOutcome::border_collision);
   EXPECT_NEAR(by_width.parameter, highest - lowest, 1e-12);
   EXPECT_NEAR(by_force.parameter / 0.5, 0.003 / by_width.parameter, 1e-9);
 }
 
 TEST(OrbitContinuation, ReachesTheEndOfARangeWithoutAnEnd) {
-  const ForcedLoop<double> loop = followed_loop(0.01, 0.002);
+  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
   const auto path = [&](double gain) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.gains.differential = gain;
     return other;
   };
-  const OrbitEnd end = follow_orbit(path, orbit_of(loop), -13.0, -13.5);
-  EXPECT_EQ(end.outcome, OrbitEndOutcome::range_end);
+  const BranchEnd end = continue_orbit(path, orbit_of(loop), -13.0, -13.5);
+  EXPECT_EQ(end.outcome, BranchEndOutcome::range_end);
   EXPECT_EQ(end.parameter, -13.5);
 }
 
-TEST(OrbitContinuation, RefusesAPathThatChangesTheCoincidences) {
-  const ForcedLoop<double> loop = followed_loop(0.01, 0.002);
+TEST(OrbitContinuation, RefusesAFamilyThatChangesTheCommonPeriod) {
+  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
   const auto path = [&](double period) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.sampling.period = period;
     return other;
   };
-  EXPECT_THROW(follow_orbit(path, orbit_of(loop), 0.01, 0.011), InvalidParameter);
+  EXPECT_THROW(continue_orbit(path, orbit_of(loop), 0.01, 0.011), InvalidParameter);
 }
 
-TEST(OrbitContinuation, RefusesAPathThatTakesTheBacklashAway) {
-  const ForcedLoop<double> loop = followed_loop(0.01, 0.002);
+TEST(OrbitContinuation, RefusesAFamilyThatTakesTheBacklashAway) {
+  const IdealLoop<double> loop = followed_loop(0.01, 0.002);
   const auto path = [&](double width) {
-    ForcedLoop<double> other = loop;
+    IdealLoop<double> other = loop;
     other.backlash_width = width == 0.002 ? width : 0.0;
     return other;
   };
-  EXPECT_THROW(follow_orbit(path, orbit_of(loop), 0.002, 0.003), InvalidParameter);
+  EXPECT_THROW(continue_orbit(path, orbit_of(loop), 0.002, 0.003), InvalidParameter);
 }
 
 }  // namespace

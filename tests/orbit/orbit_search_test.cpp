@@ -14,14 +14,14 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> searched_loop(double period, double width) {
+IdealLoop<double> searched_loop(double period, double width) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
-OrbitResult search_from_rest(const ForcedLoop<double>& loop, const OrbitLimits& limits = {}) {
+OrbitResult search_from_rest(const IdealLoop<double>& loop, const OrbitLimits& limits = {}) {
   return find_periodic_orbit(loop, Vector<double, 4>::Zero(), limits);
 }
 
@@ -39,7 +39,7 @@ TEST(OrbitSearch, AWideGapIsNeverLeft) {
     ASSERT_EQ(found.outcome, OrbitOutcome::certified) << width;
     EXPECT_EQ(found.orbit->period_samples(), 100);
     EXPECT_EQ(found.orbit->engaged_fraction(), 0.0);
-    ForcedLoop<double> uncontrolled = searched_loop(0.001, 0.0);
+    IdealLoop<double> uncontrolled = searched_loop(0.001, 0.0);
     uncontrolled.gains = {0.0, 0.0};
     const OrbitResult free = search_from_rest(uncontrolled);
     EXPECT_NEAR(found.orbit->amplitude(), free.orbit.value().amplitude(), 1e-12);
@@ -47,7 +47,7 @@ TEST(OrbitSearch, AWideGapIsNeverLeft) {
 }
 
 TEST(OrbitSearch, FrequenciesWithoutACommonPeriodAreSaidToBe) {
-  ForcedLoop<double> loop = searched_loop(0.011, 0.002);
+  IdealLoop<double> loop = searched_loop(0.011, 0.002);
   loop.excitation.frequency = 10.0 * std::sqrt(0.5);
   const OrbitResult found = search_from_rest(loop);
   EXPECT_EQ(found.outcome, OrbitOutcome::incommensurate);
@@ -56,9 +56,9 @@ TEST(OrbitSearch, FrequenciesWithoutACommonPeriodAreSaidToBe) {
 }
 
 TEST(OrbitSearch, ANearReturnFarFromAnOrbitIsNoCertificate) {
-  // A free mode almost commensurate with the coincidences returns within 10⁻³ while the deviation
+  // A free mode almost commensurate with the common period returns within 10⁻³ while the deviation
   // is large; much later the motion leaves the gap and diverges.
-  ForcedLoop<double> loop = searched_loop(0.001, 0.01078);
+  IdealLoop<double> loop = searched_loop(0.001, 0.01078);
   loop.plant.conductor_stiffness = 50.3638;
   loop.plant.conductor_damping = 1e-4;
   loop.plant.absorber_damping = 1e-4;
@@ -68,7 +68,7 @@ TEST(OrbitSearch, ANearReturnFarFromAnOrbitIsNoCertificate) {
 }
 
 TEST(OrbitSearch, AMultiplierOfModulusOneNeitherAttractsNorRepels) {
-  ForcedLoop<double> loop = searched_loop(0.001, 0.0);
+  IdealLoop<double> loop = searched_loop(0.001, 0.0);
   loop.plant.conductor_stiffness = 50.3638;
   loop.plant.conductor_damping = 0.0;
   loop.plant.absorber_damping = 0.0;
@@ -77,14 +77,14 @@ TEST(OrbitSearch, AMultiplierOfModulusOneNeitherAttractsNorRepels) {
 }
 
 TEST(OrbitSearch, ACommonPeriodAboveTheLargestIsNotLookedFor) {
-  const ForcedLoop<double> loop = searched_loop(0.011, 0.0);
+  const IdealLoop<double> loop = searched_loop(0.011, 0.0);
   EXPECT_EQ(search_from_rest(loop, {99, 60000}).outcome, OrbitOutcome::none_found);
   EXPECT_EQ(search_from_rest(loop, {100, 60000}).outcome, OrbitOutcome::certified);
 }
 
 TEST(OrbitSearch, AGrowingMotionDiverges) {
   for (const double width : {0.0, 0.002}) {
-    ForcedLoop<double> loop = searched_loop(0.011, width);
+    IdealLoop<double> loop = searched_loop(0.011, width);
     loop.sampling.processing_delay = loop.sampling.period;
     const OrbitResult found = search_from_rest(loop, {10000, 0});
     EXPECT_EQ(found.outcome, OrbitOutcome::diverges) << width;
@@ -93,7 +93,7 @@ TEST(OrbitSearch, AGrowingMotionDiverges) {
 }
 
 TEST(OrbitSearch, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
-  ForcedLoop<double> loop = searched_loop(0.001, 0.002);
+  IdealLoop<double> loop = searched_loop(0.001, 0.002);
   loop.excitation.amplitude = 0.0;
   const OrbitResult found = search_from_rest(loop, {1000, 0});
   ASSERT_EQ(found.outcome, OrbitOutcome::on_surface);
@@ -102,7 +102,7 @@ TEST(OrbitSearch, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
 }
 
 TEST(OrbitSearch, AFreeVibrationEndsAtRestInItsGap) {
-  ForcedLoop<double> loop = searched_loop(0.001, 0.002);
+  IdealLoop<double> loop = searched_loop(0.001, 0.002);
   loop.excitation.amplitude = 0.0;
   const OrbitResult found =
       find_periodic_orbit(loop, Vector<double, 4>(0.0002, 0.0, 0.0, 0.01), {20000, 0});
@@ -114,7 +114,7 @@ TEST(OrbitSearch, AFreeVibrationEndsAtRestInItsGap) {
 
 TEST(OrbitSearch, ALimitBelowThePeriodFindsNone) {
   // 2100 samples are needed.
-  const ForcedLoop<double> loop = searched_loop(0.011, 0.002);
+  const IdealLoop<double> loop = searched_loop(0.011, 0.002);
   const OrbitResult found = search_from_rest(loop, {2000, 0});
   EXPECT_NE(found.outcome, OrbitOutcome::certified);
   EXPECT_LE(found.samples, 16000);
@@ -122,7 +122,7 @@ TEST(OrbitSearch, ALimitBelowThePeriodFindsNone) {
 }
 
 TEST(OrbitSearch, LooksAtNoMoreSamplesThanAllowed) {
-  const ForcedLoop<double> loop = searched_loop(0.011, 0.002);
+  const IdealLoop<double> loop = searched_loop(0.011, 0.002);
   for (const std::int64_t most : {1, 99, 100, 1234}) {
     const OrbitResult found = search_from_rest(loop, {1000, most});
     EXPECT_EQ(found.outcome, OrbitOutcome::none_found) << most;
@@ -144,7 +144,7 @@ TEST(OrbitSearch, ACertifiedOrbitHasItsShortestPeriod) {
 }
 
 TEST(OrbitSearch, EveryStateOfACertifiedOrbitLeadsToIt) {
-  const ForcedLoop<double> loop = searched_loop(0.01, 0.002);
+  const IdealLoop<double> loop = searched_loop(0.01, 0.002);
   test::Random random(841);
   for (int trial = 0; trial < 40; ++trial) {
     const Vector<double, 4> start = 0.05 * random.matrix<Vector<double, 4>>();
@@ -162,7 +162,7 @@ TEST(OrbitSearch, EveryStateOfACertifiedOrbitLeadsToIt) {
 }
 
 TEST(OrbitSearch, WhatIsOutOfRangeIsRefused) {
-  const ForcedLoop<double> loop = searched_loop(0.011, 0.002);
+  const IdealLoop<double> loop = searched_loop(0.011, 0.002);
   EXPECT_THROW(search_from_rest(loop, {0, 0}), InvalidParameter);
   EXPECT_THROW(search_from_rest(loop, {100'000'001, 0}), InvalidParameter);
   EXPECT_THROW(search_from_rest(loop, {100, -1}), InvalidParameter);
@@ -170,7 +170,7 @@ TEST(OrbitSearch, WhatIsOutOfRangeIsRefused) {
   Vector<double, 4> start = Vector<double, 4>::Zero();
   start[2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(find_periodic_orbit(loop, start), InvalidParameter);
-  ForcedLoop<double> wrong = loop;
+  IdealLoop<double> wrong = loop;
   wrong.backlash_width = -1.0;
   EXPECT_THROW(search_from_rest(wrong), InvalidParameter);
 }

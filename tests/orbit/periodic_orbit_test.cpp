@@ -18,28 +18,28 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> orbit_loop(double period, double width, double delay_fraction = 0.0) {
+IdealLoop<double> orbit_loop(double period, double width, double delay_fraction = 0.0) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
   which.processing_delay = delay_fraction * period;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
-std::vector<ForcedLoop<double>> orbit_loops() {
+std::vector<IdealLoop<double>> orbit_loops() {
   return {orbit_loop(0.001, 0.0005), orbit_loop(0.001, 0.002),     orbit_loop(0.01, 0.002),
           orbit_loop(0.011, 0.002),  orbit_loop(0.01, 0.001),      orbit_loop(0.01, 0.002, 0.5),
           orbit_loop(0.001, 0.003),  orbit_loop(0.005, 0.001, 0.3)};
 }
 
-PeriodicOrbit orbit_from_rest(const ForcedLoop<double>& loop) {
+PeriodicOrbit orbit_from_rest(const IdealLoop<double>& loop) {
   const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {5000, 0});
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return found.orbit.value();
 }
 
 /// The motion on an orbit, begun at its first sample.
-PeriodicallyForcedMotion<double> motion_on(const ForcedLoop<double>& loop,
+PeriodicallyForcedMotion<double> motion_on(const IdealLoop<double>& loop,
                                            const PeriodicOrbit& orbit) {
   auto motion = periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval());
   const Vector<double, 5>& first = orbit.states.front();
@@ -57,7 +57,7 @@ TEST(PeriodicOrbit, IsWhereALongPlainSimulationEnds) {
     // Enough for any transient here, a whole number of periods.
     const std::int64_t periods = turns + 60000 / orbit.period_samples();
     run_trajectory(motion, periods * orbit.period_samples(), std::nullopt);
-    // Which coincidence of the orbit the motion has come to is left open.
+    // Which stroboscopic instant of the orbit the motion has come to is left open.
     const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
     double nearest = 1.0;
     std::size_t start = 0;
@@ -69,7 +69,7 @@ TEST(PeriodicOrbit, IsWhereALongPlainSimulationEnds) {
     for (std::size_t j = 0; j < orbit.states.size(); ++j) {
       const std::size_t here = (start + j) % orbit.states.size();
       ASSERT_LT((orbit.states[here].head<4>() - motion.state()).norm(), 1e-10);
-      ASSERT_EQ(motion.sense().engaged, orbit.contacts[here] != 0);
+      ASSERT_EQ(motion.sense().engaged, orbit.itinerary[here] != 0);
       motion.advance();
     }
   }
@@ -80,7 +80,7 @@ TEST(PeriodicOrbit, ClosesUponItself) {
     const PeriodicOrbit orbit = orbit_from_rest(loop);
     EXPECT_LE(orbit.closure_error, 1e-12);
     auto motion = motion_on(loop, orbit);
-    for (const std::uint8_t contact : orbit.contacts) {
+    for (const std::uint8_t contact : orbit.itinerary) {
       ASSERT_EQ(motion.sense().engaged, contact != 0);
       motion.advance();
     }
@@ -147,11 +147,11 @@ TEST(PeriodicOrbit, TheLogarithmsOfMultipliersPerSampleAreTheLyapunovExponents) 
 TEST(PeriodicOrbit, OfSlowSamplingHasAllItsMultipliers) {
   // Without backlash they are the powers of the loop's eigenvalues, however small.
   for (const double period : {0.01, 0.05, 0.1, 0.2, 0.3}) {
-    ForcedLoop<double> loop = orbit_loop(period, 0.0);
+    IdealLoop<double> loop = orbit_loop(period, 0.0);
     loop.gains = {-20.0, -0.5};
     loop.excitation.frequency = 7.0;
     const PeriodicOrbit orbit = orbit_from_rest(loop);
-    const ForcedLoop<long double> precise = converted<long double>(loop);
+    const IdealLoop<long double> precise = converted<long double>(loop);
     Vector<double, 5> expected = sampled_loop(precise.plant, precise.sampling)
                                      .engaged_map(precise.gains)
                                      .eigenvalues()
@@ -171,7 +171,7 @@ TEST(PeriodicOrbit, OfSlowSamplingHasAllItsMultipliers) {
 TEST(PeriodicOrbit, OfTheLinearLoopIsItsSteadyResponse) {
   for (const double period : {0.001, 0.004, 0.01}) {
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-      ForcedLoop<double> loop = orbit_loop(period, 0.0, 0.3);
+      IdealLoop<double> loop = orbit_loop(period, 0.0, 0.3);
       loop.hold = hold;
       const PeriodicOrbit orbit = orbit_from_rest(loop);
       EXPECT_EQ(orbit.period_samples(), orbit.ratio.denominator);
@@ -197,7 +197,7 @@ TEST(PeriodicOrbit, ItsBordersAreWhereItsOwnDecisionsLie) {
     const PeriodicOrbit orbit = orbit_from_rest(loop);
     auto motion = motion_on(loop, orbit);
     double displacement = HUGE_VAL, velocity = HUGE_VAL;
-    for (std::size_t j = 0; j < orbit.contacts.size(); ++j) {
+    for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) {
       const auto state = motion.state();
       const Backlash<double> before = motion.law();
       const bool engaged = motion.sense().engaged;
@@ -215,28 +215,28 @@ TEST(PeriodicOrbit, ItsBordersAreWhereItsOwnDecisionsLie) {
   }
 }
 
-TEST(OrbitOfContacts, AForeignSequenceIsNotVerified) {
-  const ForcedLoop<double> loop = orbit_loop(0.01, 0.002);
+TEST(OrbitOfItinerary, AForeignSequenceIsNotVerified) {
+  const IdealLoop<double> loop = orbit_loop(0.01, 0.002);
   const PeriodicOrbit orbit = orbit_from_rest(loop);
-  const ContactMaps<double> maps(loop, orbit.ratio);
+  const ItineraryMaps<double> maps(loop, orbit.ratio);
   const Backlash<double> law(loop.backlash_width, orbit.memory);
-  const auto outcome = [&](const Contacts& contacts) {
-    return orbit_of_contacts(loop, orbit.ratio, maps, contacts, law).outcome;
+  const auto outcome = [&](const Itinerary& itinerary) {
+    return orbit_of_itinerary(loop, orbit.ratio, maps, itinerary, law).outcome;
   };
-  EXPECT_EQ(outcome(orbit.contacts), CandidateOutcome::verified);
-  Contacts twice = orbit.contacts;
-  twice.insert(twice.end(), orbit.contacts.begin(), orbit.contacts.end());
+  EXPECT_EQ(outcome(orbit.itinerary), CandidateOutcome::verified);
+  Itinerary twice = orbit.itinerary;
+  twice.insert(twice.end(), orbit.itinerary.begin(), orbit.itinerary.end());
   EXPECT_EQ(outcome(twice), CandidateOutcome::verified);
-  for (std::size_t j = 0; j < orbit.contacts.size(); ++j) {
-    Contacts other = orbit.contacts;
+  for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) {
+    Itinerary other = orbit.itinerary;
     other[j] ^= 1U;
-    EXPECT_EQ(outcome(other), CandidateOutcome::other_contacts) << j;
+    EXPECT_EQ(outcome(other), CandidateOutcome::other_itinerary) << j;
   }
 }
 
-TEST(OrbitOfContacts, AnUndampedConductorAtResonanceHasNone) {
+TEST(OrbitOfItinerary, AnUndampedConductorAtResonanceHasNone) {
   // Uncontrolled and undamped, with a natural period of exactly ten samples: e^{iωτN} = 1.
-  ForcedLoop<double> loop = orbit_loop(0.01, 0.0);
+  IdealLoop<double> loop = orbit_loop(0.01, 0.0);
   loop.gains = {0.0, 0.0};
   const double omega = 2.0 * pi<double> * 10.0;
   // A pair of masses of which one mode is at ω.
@@ -248,8 +248,8 @@ TEST(OrbitOfContacts, AnUndampedConductorAtResonanceHasNone) {
   loop.plant.conductor_stiffness *= scale;
   loop.plant.absorber_stiffness *= scale;
   const Rational ratio = forcing_ratio(loop).value();
-  const ContactMaps<double> maps(loop, ratio);
-  EXPECT_EQ(orbit_of_contacts(loop, ratio, maps, Contacts(10, 1), Backlash<double>(0.0)).outcome,
+  const ItineraryMaps<double> maps(loop, ratio);
+  EXPECT_EQ(orbit_of_itinerary(loop, ratio, maps, Itinerary(10, 1), Backlash<double>(0.0)).outcome,
             CandidateOutcome::singular);
 }
 

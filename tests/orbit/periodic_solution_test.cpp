@@ -33,7 +33,7 @@ Vector<double, 5> first_of_cycle(const AffineMaps& maps) {
 }
 
 Vector<double, 5> first_by_ends(const AffineMaps& maps) {
-  const EndRelation<double> ends = relation_of_ends(maps);
+  const CondensedBoundary<double> ends = condensed_boundary(maps);
   return (ends.first + ends.last).fullPivLu().solve(ends.addition);
 }
 
@@ -46,20 +46,20 @@ AffineMaps random_affine_maps(test::Random& random, std::size_t count, double sc
   return maps;
 }
 
-TEST(EndRelation, OfOneMapIsThatMap) {
+TEST(CondensedBoundary, OfOneMapIsThatMap) {
   test::Random random(811);
   const AffineMaps maps = random_affine_maps(random, 1, 1.0);
-  const EndRelation<double> ends = relation_of_ends(maps);
+  const CondensedBoundary<double> ends = condensed_boundary(maps);
   const Vector<double, 5> first = random.matrix<Vector<double, 5>>();
   const Vector<double, 5> last = maps[0].map * first + maps[0].addition;
   EXPECT_LE((ends.first * first + ends.last * last - ends.addition).norm(), 1e-14);
 }
 
-TEST(EndRelation, HoldsForTheEndsOfEverySequence) {
+TEST(CondensedBoundary, HoldsForTheEndsOfEverySequence) {
   test::Random random(812);
   for (int trial = 0; trial < 100; ++trial) {
     const AffineMaps maps = random_affine_maps(random, 1 + random.index(40), 0.4);
-    const EndRelation<double> ends = relation_of_ends(maps);
+    const CondensedBoundary<double> ends = condensed_boundary(maps);
     const Vector<double, 5> first = random.matrix<Vector<double, 5>>();
     Vector<double, 5> last = first;
     for (const auto& map : maps) last = map.map * last + map.addition;
@@ -67,7 +67,7 @@ TEST(EndRelation, HoldsForTheEndsOfEverySequence) {
   }
 }
 
-TEST(EndRelation, ClosesContractionsAndExpansionsAlike) {
+TEST(CondensedBoundary, ClosesContractionsAndExpansionsAlike) {
   // Scales from contraction by a hundred a map to expansion by ten: the product spans 1e±60.
   test::Random random(813);
   for (const double scale : {0.01, 0.3, 0.6, 1.0, 10.0}) {
@@ -79,7 +79,7 @@ TEST(EndRelation, ClosesContractionsAndExpansionsAlike) {
   }
 }
 
-TEST(EndRelation, ClosesSequencesThatGrowByAMillionOnTheirWay) {
+TEST(CondensedBoundary, ClosesSequencesThatGrowByAMillionOnTheirWay) {
   // Some maps expand by a hundred and others contract by more: no digit may be lost to the peak.
   test::Random random(814);
   for (int trial = 0; trial < 20; ++trial) {
@@ -91,7 +91,7 @@ TEST(EndRelation, ClosesSequencesThatGrowByAMillionOnTheirWay) {
   }
 }
 
-TEST(EndRelation, ClosesGrowingAndDecayingDirectionsTogether) {
+TEST(CondensedBoundary, ClosesGrowingAndDecayingDirectionsTogether) {
   // Products of 1e40 and 1e-40 at once: neither direction alone could be followed.
   test::Random random(815);
   Matrix<double, 5> saddle = Matrix<double, 5>::Zero();
@@ -109,41 +109,41 @@ TEST(EndRelation, ClosesGrowingAndDecayingDirectionsTogether) {
 // ---- the loop's own maps -----------------------------------------------------------------------
 
 struct ContactSequence {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   Rational ratio;
-  Contacts contacts;
+  Itinerary itinerary;
 };
 
 ContactSequence random_sequence(test::Random& random) {
   test::KollarCase which;
   which.sampling_period = 0.01;
   which.processing_delay = random.unit() * 0.01;
-  ContactSequence sequence{which.forced_loop(), {1, 10}, {}};
+  ContactSequence sequence{which.ideal_loop(), {1, 10}, {}};
   for (std::size_t j = 0; j < 10 * (1 + random.index(3)); ++j)
-    sequence.contacts.push_back(random.unit() < 0.6 ? 1 : 0);
+    sequence.itinerary.push_back(random.unit() < 0.6 ? 1 : 0);
   return sequence;
 }
 
 template <class Scalar>
 std::optional<PeriodicSolution<Scalar>> solve_sequence(const ContactSequence& sequence) {
-  const ContactMaps<Scalar> maps(converted<Scalar>(sequence.loop), sequence.ratio);
-  const auto ends = relation_of_ends(affine_blocks(maps, sequence.contacts));
-  return periodic_solution(maps, sequence.contacts, ends);
+  const ItineraryMaps<Scalar> maps(converted<Scalar>(sequence.loop), sequence.ratio);
+  const auto ends = condensed_boundary(affine_blocks(maps, sequence.itinerary));
+  return periodic_solution(maps, sequence.itinerary, ends);
 }
 
 TEST(PeriodicSolution, ClosesForAnySequenceOfContacts) {
   test::Random random(816);
   for (int trial = 0; trial < 50; ++trial) {
     const ContactSequence sequence = random_sequence(random);
-    const ContactMaps<double> maps(sequence.loop, sequence.ratio);
+    const ItineraryMaps<double> maps(sequence.loop, sequence.ratio);
     const auto solution = solve_sequence<double>(sequence);
     ASSERT_TRUE(solution);
-    const std::size_t samples = sequence.contacts.size();
+    const std::size_t samples = sequence.itinerary.size();
     ASSERT_EQ(solution->states.size(), samples);
     const double size = solution->states.front().head<4>().norm();
     for (std::size_t j = 0; j < samples; ++j) {
       const Vector<double, 5> next =
-          maps.step(solution->states[j], sequence.contacts[j] != 0, j % 10);
+          maps.step(solution->states[j], sequence.itinerary[j] != 0, j % 10);
       EXPECT_LE((next - solution->states[(j + 1) % samples]).head<4>().norm(), 1e-12 * size);
     }
     EXPECT_LE(solution->closure_error, 1e-12 * size);
@@ -154,10 +154,10 @@ TEST(PeriodicSolution, IsThatOfTheWholeSystemInLongDouble) {
   test::Random random(817);
   for (int trial = 0; trial < 20; ++trial) {
     const ContactSequence sequence = random_sequence(random);
-    const ContactMaps<double> maps(sequence.loop, sequence.ratio);
+    const ItineraryMaps<double> maps(sequence.loop, sequence.ratio);
     AffineMaps singles;
-    for (std::size_t j = 0; j < sequence.contacts.size(); ++j) {
-      const bool engaged = sequence.contacts[j] != 0;
+    for (std::size_t j = 0; j < sequence.itinerary.size(); ++j) {
+      const bool engaged = sequence.itinerary[j] != 0;
       singles.push_back({maps.map(engaged), maps.step(Vector<double, 5>::Zero(), engaged, j % 10)});
     }
     const Vector<double, 5> expected = first_of_cycle(singles);
@@ -172,7 +172,7 @@ TEST(PeriodicSolution, IsThatOfTheWholeSystemInLongDouble) {
 TEST(PeriodicSolution, ThereIsNoneWhereOneIsAMultiplier) {
   test::Random random(818);
   const ContactSequence sequence = random_sequence(random);
-  const ContactMaps<double> maps(sequence.loop, sequence.ratio);
+  const ItineraryMaps<double> maps(sequence.loop, sequence.ratio);
   for (int trial = 0; trial < 20; ++trial) {
     // A similarity X diag(1, …) X⁻¹ over two maps.
     const Matrix<double, 5> basis =
@@ -181,7 +181,7 @@ TEST(PeriodicSolution, ThereIsNoneWhereOneIsAMultiplier) {
     values.diagonal() << 1.0, 0.5, -0.7, 0.2, 0.0;
     const AffineMaps closed{{values * basis.inverse(), random.matrix<Vector<double, 5>>()},
                             {basis, random.matrix<Vector<double, 5>>()}};
-    EXPECT_FALSE(periodic_solution(maps, sequence.contacts, relation_of_ends(closed))) << trial;
+    EXPECT_FALSE(periodic_solution(maps, sequence.itinerary, condensed_boundary(closed))) << trial;
   }
 }
 

@@ -15,24 +15,26 @@
 namespace holdfast {
 namespace {
 
-using CaptureMemory = MotionMemory<double, BacklashMemory<double>>;
+using AttractionMemory = MotionMemory<double, BacklashMemory<double>>;
 
-ForcedLoop<double> capture_loop(double period, double width, double delay_fraction = 0.0) {
+IdealLoop<double> attraction_loop(double period, double width, double delay_fraction = 0.0) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
   which.processing_delay = delay_fraction * period;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
-std::vector<ForcedLoop<double>> capture_loops() {
-  return {capture_loop(0.001, 0.0005),     capture_loop(0.001, 0.002), capture_loop(0.01, 0.002),
-          capture_loop(0.011, 0.002),      capture_loop(0.003, 0.002), capture_loop(0.001, 0.003),
-          capture_loop(0.01, 0.002, 0.5),  capture_loop(0.01, 0.001),  capture_loop(0.012, 0.001),
-          capture_loop(0.005, 0.001, 0.3), capture_loop(0.02, 0.004),  capture_loop(0.015, 0.001)};
+std::vector<IdealLoop<double>> attraction_loops() {
+  return {attraction_loop(0.001, 0.0005),    attraction_loop(0.001, 0.002),
+          attraction_loop(0.01, 0.002),      attraction_loop(0.011, 0.002),
+          attraction_loop(0.003, 0.002),     attraction_loop(0.001, 0.003),
+          attraction_loop(0.01, 0.002, 0.5), attraction_loop(0.01, 0.001),
+          attraction_loop(0.012, 0.001),     attraction_loop(0.005, 0.001, 0.3),
+          attraction_loop(0.02, 0.004),      attraction_loop(0.015, 0.001)};
 }
 
-PeriodicOrbit certified_orbit(const ForcedLoop<double>& loop) {
+PeriodicOrbit certified_orbit(const IdealLoop<double>& loop) {
   const OrbitResult result = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {20000, 0});
   EXPECT_EQ(result.outcome, OrbitOutcome::certified) << loop.sampling.period;
   return result.orbit.value();
@@ -45,10 +47,10 @@ Vector<double, 6> random_direction(test::Random& random) {
 }
 
 /// A motion that deviates from a point by `share` of its radius.
-CaptureMemory deviating(const CapturePoint& point, const Vector<double, 6>& weights,
-                        const Vector<double, 6>& direction, double share) {
-  CaptureMemory motion{point.state.head<4>(), point.state[4], point.memory};
-  const double radius = share * capture_radius(point, motion.backlash);
+AttractionMemory deviating(const AttractionBall& point, const Vector<double, 6>& weights,
+                           const Vector<double, 6>& direction, double share) {
+  AttractionMemory motion{point.state.head<4>(), point.state[4], point.memory};
+  const double radius = share * attraction_radius(point, motion.backlash);
   const Vector<double, 6> deviation = radius * direction.cwiseQuotient(weights);
   motion.state += deviation.head<4>();
   motion.previous_force += deviation[4];
@@ -60,18 +62,19 @@ CaptureMemory deviating(const CapturePoint& point, const Vector<double, 6>& weig
 }
 
 struct Pursuit {
-  bool same_contacts;
+  bool same_itinerary;
   double distance;  ///< to the orbit in the end
 };
 
 /// Follows a motion for whole periods of the orbit.
-Pursuit pursue(const ForcedLoop<double>& loop, const PeriodicOrbit& orbit,
-               const CapturePoint& point, const CaptureMemory& start, std::size_t periods) {
+Pursuit pursue(const IdealLoop<double>& loop, const PeriodicOrbit& orbit,
+               const AttractionBall& point, const AttractionMemory& start, std::size_t periods) {
   auto motion = periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval());
   motion.restore(start);
-  const std::size_t samples = orbit.contacts.size(), first = static_cast<std::size_t>(point.sample);
+  const std::size_t samples = orbit.itinerary.size(),
+                    first = static_cast<std::size_t>(point.sample);
   for (std::size_t j = 0; j < periods * samples; ++j) {
-    const bool engaged = orbit.contacts[(first + j) % samples] != 0;
+    const bool engaged = orbit.itinerary[(first + j) % samples] != 0;
     if (motion.sense().engaged != engaged) return {false, 0.0};
     motion.advance();
   }
@@ -79,17 +82,17 @@ Pursuit pursue(const ForcedLoop<double>& loop, const PeriodicOrbit& orbit,
 }
 
 /// What decides the contact of a sample, as far as a small deviation moves it.
-struct CaptureDecision {
+struct AttractionDecision {
   bool inside;
   double velocity;  ///< Δż
   double height;    ///< Δz over the lower end of the gap
 };
 
-CaptureDecision take_decision(PeriodicallyForcedMotion<double>& motion, double& lower) {
+AttractionDecision take_decision(PeriodicallyForcedMotion<double>& motion, double& lower) {
   const Vector<double, 4> state = motion.state();
   lower = motion.law().lower();
-  const CaptureDecision decision{motion.law().inside(), state[3] - state[1],
-                                 state[2] - state[0] - lower};
+  const AttractionDecision decision{motion.law().inside(), state[3] - state[1],
+                                    state[2] - state[0] - lower};
   motion.sense();
   motion.advance();
   return decision;
@@ -97,10 +100,10 @@ CaptureDecision take_decision(PeriodicallyForcedMotion<double>& motion, double& 
 
 /// The radius of the largest ball in which no decision of some periods changes: motions that
 /// deviate along the six axes give the gradient of what decides, their contacts being the orbit's.
-double largest_radius(const ForcedLoop<double>& loop, const PeriodicOrbit& orbit,
-                      const CapturePoint& point, std::size_t periods) {
+double largest_radius(const IdealLoop<double>& loop, const PeriodicOrbit& orbit,
+                      const AttractionBall& point, std::size_t periods) {
   const auto weights = DeviationScale(loop).weights();
-  const double small = 1e-3 * capture_radius(point, point.memory), width = loop.backlash_width;
+  const double small = 1e-3 * attraction_radius(point, point.memory), width = loop.backlash_width;
   std::vector<PeriodicallyForcedMotion<double>> motions(
       7, periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval()));
   for (Eigen::Index axis = 0; axis < 7; ++axis) {
@@ -109,8 +112,8 @@ double largest_radius(const ForcedLoop<double>& loop, const PeriodicOrbit& orbit
     motions[static_cast<std::size_t>(axis)].restore(deviating(point, weights, direction, share));
   }
   double largest = std::numeric_limits<double>::infinity(), lower = 0.0;
-  for (std::size_t j = 0; j < periods * orbit.contacts.size(); ++j) {
-    const CaptureDecision here = take_decision(motions[6], lower);
+  for (std::size_t j = 0; j < periods * orbit.itinerary.size(); ++j) {
+    const AttractionDecision here = take_decision(motions[6], lower);
     Vector<double, 6> velocity, height;
     for (Eigen::Index axis = 0; axis < 6; ++axis) {
       const auto moved = take_decision(motions[static_cast<std::size_t>(axis)], lower);
@@ -132,75 +135,75 @@ std::size_t periods_to_settle(const PeriodicOrbit& orbit) {
   return static_cast<std::size_t>(2.0 - 16.0 / orbit.multipliers.front().log_modulus);
 }
 
-TEST(Capture, NoDecisionOfAnyMotionOfANeighbourhoodEverChanges) {
+TEST(RegionOfAttraction, NoDecisionOfAnyMotionOfANeighbourhoodEverChanges) {
   // And the neighbourhood is no less than a fiftieth of the largest one.
-  for (const ForcedLoop<double>& loop : capture_loops()) {
+  for (const IdealLoop<double>& loop : attraction_loops()) {
     const PeriodicOrbit orbit = certified_orbit(loop);
-    for (const CapturePoint& point : capture_points(loop, orbit)) {
+    for (const AttractionBall& point : attraction_balls(loop, orbit)) {
       const double truth = largest_radius(loop, orbit, point, periods_to_settle(orbit));
-      const double radius = capture_radius(point, point.memory);
+      const double radius = attraction_radius(point, point.memory);
       EXPECT_LE(radius, truth * (1.0 + 1e-5)) << loop.sampling.period << ' ' << point.sample;
       EXPECT_GE(radius, 0.02 * truth) << loop.sampling.period << ' ' << point.sample;
     }
   }
 }
 
-TEST(Capture, EveryMotionOfANeighbourhoodComesToTheOrbit) {
+TEST(RegionOfAttraction, EveryMotionOfANeighbourhoodComesToTheOrbit) {
   test::Random random(821);
-  for (const ForcedLoop<double>& loop : capture_loops()) {
+  for (const IdealLoop<double>& loop : attraction_loops()) {
     const PeriodicOrbit orbit = certified_orbit(loop);
     const auto weights = DeviationScale(loop).weights();
-    const auto points = capture_points(loop, orbit);
+    const auto points = attraction_balls(loop, orbit);
     ASSERT_FALSE(points.empty()) << loop.sampling.period;
     for (std::size_t trial = 0; trial < 60; ++trial) {
-      const CapturePoint& point = points[trial % points.size()];
+      const AttractionBall& point = points[trial % points.size()];
       const auto start = deviating(point, weights, random_direction(random), 0.999);
-      ASSERT_TRUE(captures(point, start, weights));
+      ASSERT_TRUE(attracts(point, start, weights));
       const Pursuit found = pursue(loop, orbit, point, start, periods_to_settle(orbit));
-      ASSERT_TRUE(found.same_contacts) << loop.sampling.period << ' ' << point.sample;
+      ASSERT_TRUE(found.same_itinerary) << loop.sampling.period << ' ' << point.sample;
       EXPECT_LT(found.distance, 1e-6 * point.state.head<4>().norm()) << loop.sampling.period;
     }
   }
 }
 
-TEST(Capture, AMotionOutsideTheLargestBallMayLeaveTheContacts) {
+TEST(RegionOfAttraction, AMotionOutsideTheLargestBallMayLeaveTheContacts) {
   test::Random random(822);
-  for (const ForcedLoop<double>& loop : capture_loops()) {
+  for (const IdealLoop<double>& loop : attraction_loops()) {
     const PeriodicOrbit orbit = certified_orbit(loop);
     const auto weights = DeviationScale(loop).weights();
-    const auto points = capture_points(loop, orbit);
+    const auto points = attraction_balls(loop, orbit);
     int left = 0;
     for (std::size_t trial = 0; trial < 60; ++trial) {
-      const CapturePoint& point = points[trial % points.size()];
+      const AttractionBall& point = points[trial % points.size()];
       const auto start = deviating(point, weights, random_direction(random), 20.0);
-      left += pursue(loop, orbit, point, start, 3).same_contacts ? 0 : 1;
+      left += pursue(loop, orbit, point, start, 3).same_itinerary ? 0 : 1;
     }
     EXPECT_GT(left, 0) << loop.sampling.period;
   }
 }
 
-TEST(Capture, AnotherSideOrDirectionOfTheDriveIsNotCaptured) {
-  const ForcedLoop<double> loop = capture_loop(0.01, 0.002);
+TEST(RegionOfAttraction, AnotherSideOrDirectionOfTheDriveIsNotAttracted) {
+  const IdealLoop<double> loop = attraction_loop(0.01, 0.002);
   const auto weights = DeviationScale(loop).weights();
-  for (const CapturePoint& point : capture_points(loop, certified_orbit(loop))) {
-    CaptureMemory motion = deviating(point, weights, Vector<double, 6>::Zero(), 0.0);
-    EXPECT_TRUE(captures(point, motion, weights));
+  for (const AttractionBall& point : attraction_balls(loop, certified_orbit(loop))) {
+    AttractionMemory motion = deviating(point, weights, Vector<double, 6>::Zero(), 0.0);
+    EXPECT_TRUE(attracts(point, motion, weights));
     motion.backlash.inside = !motion.backlash.inside;
-    EXPECT_FALSE(captures(point, motion, weights));
+    EXPECT_FALSE(attracts(point, motion, weights));
     motion.backlash = point.memory;
     motion.backlash.previous_velocity *= -1.0;
-    EXPECT_EQ(captures(point, motion, weights), point.memory.inside);
+    EXPECT_EQ(attracts(point, motion, weights), point.memory.inside);
     motion.backlash = point.memory;
     motion.state[0] += 1.001 * point.radius;
-    EXPECT_FALSE(captures(point, motion, weights));
+    EXPECT_FALSE(attracts(point, motion, weights));
   }
 }
 
-TEST(Capture, AnOrbitThatStaysInsideDoesSoInAnyGapThatHoldsIt) {
-  const ForcedLoop<double> loop = capture_loop(0.001, 0.003);
+TEST(RegionOfAttraction, AnOrbitThatStaysInsideDoesSoInAnyGapThatHoldsIt) {
+  const IdealLoop<double> loop = attraction_loop(0.001, 0.003);
   const auto weights = DeviationScale(loop).weights();
   const PeriodicOrbit orbit = certified_orbit(loop);
-  for (CapturePoint point : capture_points(loop, orbit)) {
+  for (AttractionBall point : attraction_balls(loop, orbit)) {
     ASSERT_TRUE(point.stays_inside);
     const double room = loop.backlash_width - (point.highest - point.lowest);
     ASSERT_GT(room, 0.0);
@@ -209,20 +212,20 @@ TEST(Capture, AnOrbitThatStaysInsideDoesSoInAnyGapThatHoldsIt) {
       point.memory.lower = point.lowest - random.unit() * room;
       point.memory.upper = point.memory.lower + loop.backlash_width;
       const auto start = deviating(point, weights, random_direction(random), 0.999);
-      ASSERT_TRUE(captures(point, start, weights));
-      EXPECT_TRUE(pursue(loop, orbit, point, start, 50).same_contacts);
+      ASSERT_TRUE(attracts(point, start, weights));
+      EXPECT_TRUE(pursue(loop, orbit, point, start, 50).same_itinerary);
     }
     point.memory.lower = point.lowest + 1e-6;
-    EXPECT_LE(capture_radius(point, point.memory), 0.0) << "the gap does not hold the orbit";
+    EXPECT_LE(attraction_radius(point, point.memory), 0.0) << "the gap does not hold the orbit";
   }
 }
 
-TEST(Capture, WithoutBacklashEveryMotionOfAStableLoopIsCaptured) {
-  const ForcedLoop<double> loop = capture_loop(0.01, 0.0);
+TEST(RegionOfAttraction, WithoutBacklashEveryMotionOfAStableLoopIsAttracted) {
+  const IdealLoop<double> loop = attraction_loop(0.01, 0.0);
   const PeriodicOrbit orbit = certified_orbit(loop);
-  const auto points = capture_points(loop, orbit);
+  const auto points = attraction_balls(loop, orbit);
   ASSERT_FALSE(points.empty());
-  for (const CapturePoint& point : points) EXPECT_EQ(point.radius, HUGE_VAL);
+  for (const AttractionBall& point : points) EXPECT_EQ(point.radius, HUGE_VAL);
 }
 
 }  // namespace

@@ -26,11 +26,11 @@ CourseStates course(const std::vector<std::pair<double, double>>& relative) {
   return states;
 }
 
-Contacts contacts_of(const SwitchingPattern& pattern) {
-  Contacts contacts;
+Itinerary itinerary_of(const SwitchingPattern& pattern) {
+  Itinerary itinerary;
   for (const ContactDecision& decision : pattern.decisions)
-    contacts.push_back(decision.engaged ? 1 : 0);
-  return contacts;
+    itinerary.push_back(decision.engaged ? 1 : 0);
+  return itinerary;
 }
 
 TEST(SwitchingPattern, NotesReversalsGapsAndExits) {
@@ -38,10 +38,10 @@ TEST(SwitchingPattern, NotesReversalsGapsAndExits) {
   const CourseStates states = course(
       {{0, 1}, {2, 1}, {3, -0.5}, {2.5, -1}, {0, -1}, {-2, -1}, {-3, 0.25}, {-2.5, 1}, {-0.5, 1}});
   const SwitchingPattern pattern = switching_pattern(states, Backlash<double>(2.0));
-  EXPECT_EQ(contacts_of(pattern), (Contacts{1, 1, 0, 0, 1, 1, 0, 0, 1}));
-  EXPECT_TRUE(has_contacts(pattern, contacts_of(pattern)));
-  EXPECT_FALSE(has_contacts(pattern, {1, 1, 0, 0, 1, 1, 0, 0, 0}));
-  EXPECT_FALSE(has_contacts(pattern, {1, 1, 0, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(itinerary_of(pattern), (Itinerary{1, 1, 0, 0, 1, 1, 0, 0, 1}));
+  EXPECT_TRUE(has_itinerary(pattern, itinerary_of(pattern)));
+  EXPECT_FALSE(has_itinerary(pattern, {1, 1, 0, 0, 1, 1, 0, 0, 0}));
+  EXPECT_FALSE(has_itinerary(pattern, {1, 1, 0, 0, 1, 1, 0, 0}));
   EXPECT_EQ(pattern.decisions[4].exit_side, -1);
   EXPECT_EQ(pattern.decisions[8].exit_side, 1);
   EXPECT_EQ(pattern.decisions[2].velocity_sign, -1);
@@ -59,7 +59,7 @@ TEST(SwitchingPattern, NotesReversalsGapsAndExits) {
 TEST(SwitchingPattern, WithoutBacklashNothingIsDecided) {
   const CourseStates states = course({{1, 1}, {1, -1}});
   const SwitchingPattern pattern = switching_pattern(states, Backlash<double>(0.0));
-  EXPECT_EQ(contacts_of(pattern), (Contacts{1, 1}));
+  EXPECT_EQ(itinerary_of(pattern), (Itinerary{1, 1}));
   const Borders borders = borders_of(pattern, states, 0.0);
   EXPECT_EQ(borders.velocity.distance, HUGE_VAL);
   EXPECT_EQ(borders.velocity.sample, -1);
@@ -70,7 +70,7 @@ TEST(SwitchingPattern, AMotionThatStaysInsideKeepsTheGapItCameWith) {
   const CourseStates states = course({{0.1, 1}, {-0.2, -1}});
   const Backlash<double> law(1.0, {true, -0.7, 0.3, 1.0});
   const SwitchingPattern pattern = switching_pattern(states, law);
-  EXPECT_EQ(contacts_of(pattern), (Contacts{0, 0}));
+  EXPECT_EQ(itinerary_of(pattern), (Itinerary{0, 0}));
   const Borders borders = borders_of(pattern, states, 1.0);
   EXPECT_NEAR(borders.displacement.distance, 0.2, 1e-15);
   EXPECT_EQ(borders.displacement.surface, SwitchingSurface::gap_upper);
@@ -81,7 +81,7 @@ TEST(SwitchingPattern, AReversalAtTheLastSampleIsSeenAtTheFirst) {
   // The gap is entered at the first sample, because of the last sample's Δż.
   const CourseStates states = course({{2, -1}, {1.5, -1}, {0, -1}, {-1, -1}, {0, 1}, {0.5, 1}});
   const SwitchingPattern pattern = switching_pattern(states, Backlash<double>(0.3));
-  EXPECT_EQ(contacts_of(pattern), (Contacts{0, 1, 1, 1, 0, 1}));
+  EXPECT_EQ(itinerary_of(pattern), (Itinerary{0, 1, 1, 1, 0, 1}));
 }
 
 // ---- borders of random courses -----------------------------------------------------------------
@@ -120,7 +120,7 @@ TEST(Borders, NoSmallerChangeOfAStateChangesADecisionAndALargerOneDoes) {
       for (const double sign : {-1.0, 1.0}) {
         CourseStates moved = states;
         moved[static_cast<std::size_t>(border.sample)][entry] += sign * share * border.distance;
-        changed = changed || !has_contacts(switching_pattern(moved, law), contacts_of(pattern));
+        changed = changed || !has_itinerary(switching_pattern(moved, law), itinerary_of(pattern));
       }
       return changed;
     };

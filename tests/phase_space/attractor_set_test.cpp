@@ -11,25 +11,25 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> catalogue_loop(double period, double width) {
+IdealLoop<double> attractor_set_loop(double period, double width) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
-PeriodicOrbit catalogue_orbit(const ForcedLoop<double>& loop, double displacement = 0.0) {
+PeriodicOrbit attractor_set_orbit(const IdealLoop<double>& loop, double displacement = 0.0) {
   const OrbitResult found = find_periodic_orbit(loop, {displacement, 0.0, 0.0, 0.0}, {20000, 0});
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return found.orbit.value();
 }
 
-/// The same motion, begun some coincidences later.
-PeriodicOrbit begun_later(const PeriodicOrbit& orbit, std::ptrdiff_t coincidences,
-                          const ForcedLoop<double>& loop) {
+/// The same motion, begun some common periods later.
+PeriodicOrbit begun_later(const PeriodicOrbit& orbit, std::ptrdiff_t common_periods,
+                          const IdealLoop<double>& loop) {
   PeriodicOrbit later = orbit;
-  const std::ptrdiff_t shift = coincidences * orbit.ratio.denominator;
-  std::rotate(later.contacts.begin(), later.contacts.begin() + shift, later.contacts.end());
+  const std::ptrdiff_t shift = common_periods * orbit.ratio.denominator;
+  std::rotate(later.itinerary.begin(), later.itinerary.begin() + shift, later.itinerary.end());
   std::rotate(later.states.begin(), later.states.begin() + shift, later.states.end());
   later.memory =
       switching_pattern(later.states, Backlash<double>(loop.backlash_width, orbit.memory)).memory;
@@ -37,7 +37,7 @@ PeriodicOrbit begun_later(const PeriodicOrbit& orbit, std::ptrdiff_t coincidence
 }
 
 /// Where the motion of the orbit's mirror image ends: both signs changed, half a forcing period on.
-PeriodicOrbit mirrored(const ForcedLoop<double>& loop, const PeriodicOrbit& orbit) {
+PeriodicOrbit mirrored(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   auto motion = periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval());
   const auto half = static_cast<std::size_t>(orbit.ratio.denominator / 2);
   auto from = motion.memory();
@@ -58,46 +58,46 @@ PeriodicOrbit mirrored(const ForcedLoop<double>& loop, const PeriodicOrbit& orbi
   return found.orbit.value();
 }
 
-TEST(OrbitCatalogue, ACopyBegunLaterIsTheSameOrbit) {
-  for (const auto& loop : {catalogue_loop(0.011, 0.002), catalogue_loop(0.003, 0.002)}) {
-    const PeriodicOrbit orbit = catalogue_orbit(loop);
-    const auto coincidences = orbit.period_samples() / orbit.ratio.denominator;
-    OrbitCatalogue catalogue(loop);
-    EXPECT_EQ(catalogue.add(orbit), 0);
-    for (std::ptrdiff_t shift = 0; shift < coincidences; ++shift) {
+TEST(AttractorSet, ACopyBegunLaterIsTheSameOrbit) {
+  for (const auto& loop : {attractor_set_loop(0.011, 0.002), attractor_set_loop(0.003, 0.002)}) {
+    const PeriodicOrbit orbit = attractor_set_orbit(loop);
+    const auto common_periods = orbit.period_samples() / orbit.ratio.denominator;
+    AttractorSet attractor_set(loop);
+    EXPECT_EQ(attractor_set.add(orbit), 0);
+    for (std::ptrdiff_t shift = 0; shift < common_periods; ++shift) {
       const PeriodicOrbit later = begun_later(orbit, shift, loop);
       EXPECT_TRUE(is_phase_shifted_copy(orbit, later)) << shift;
       EXPECT_TRUE(is_phase_shifted_copy(later, orbit)) << shift;
-      EXPECT_EQ(catalogue.add(later), 0);
+      EXPECT_EQ(attractor_set.add(later), 0);
     }
-    EXPECT_EQ(catalogue.orbits().size(), 1U);
+    EXPECT_EQ(attractor_set.orbits().size(), 1U);
   }
 }
 
-TEST(OrbitCatalogue, ACopyThatIsNotOneIsSeen) {
-  const auto loop = catalogue_loop(0.011, 0.002);
-  const PeriodicOrbit orbit = catalogue_orbit(loop);
+TEST(AttractorSet, ACopyThatIsNotOneIsSeen) {
+  const auto loop = attractor_set_loop(0.011, 0.002);
+  const PeriodicOrbit orbit = attractor_set_orbit(loop);
   PeriodicOrbit other = begun_later(orbit, 3, loop);
   other.states[500][0] += 1e-6;
   EXPECT_FALSE(is_phase_shifted_copy(orbit, other));
 }
 
-TEST(OrbitCatalogue, DifferentOrbitsStayApart) {
-  const auto loop = catalogue_loop(0.003, 0.002);
-  const PeriodicOrbit first = catalogue_orbit(loop), second = catalogue_orbit(loop, 1e-5);
+TEST(AttractorSet, DifferentOrbitsStayApart) {
+  const auto loop = attractor_set_loop(0.003, 0.002);
+  const PeriodicOrbit first = attractor_set_orbit(loop), second = attractor_set_orbit(loop, 1e-5);
   EXPECT_FALSE(is_phase_shifted_copy(first, second));
   EXPECT_FALSE(is_mirror_image(first, second));
-  OrbitCatalogue catalogue(loop);
-  EXPECT_EQ(catalogue.add(first), 0);
-  EXPECT_EQ(catalogue.add(second), 1);
-  EXPECT_EQ(catalogue.add(first), 0);
+  AttractorSet attractor_set(loop);
+  EXPECT_EQ(attractor_set.add(first), 0);
+  EXPECT_EQ(attractor_set.add(second), 1);
+  EXPECT_EQ(attractor_set.add(first), 0);
 }
 
-TEST(OrbitCatalogue, TheMirrorImageIsAMotionOfTheLoopAndKnownAsOne) {
+TEST(AttractorSet, TheMirrorImageIsAMotionOfTheLoopAndKnownAsOne) {
   // Of the first loop's orbit the mirror image is another orbit, of the others' the same.
-  for (const auto& loop : {catalogue_loop(0.003, 0.002), catalogue_loop(0.001, 0.002),
-                           catalogue_loop(0.01, 0.002), catalogue_loop(0.01, 0.001)}) {
-    const PeriodicOrbit orbit = catalogue_orbit(loop), image = mirrored(loop, orbit);
+  for (const auto& loop : {attractor_set_loop(0.003, 0.002), attractor_set_loop(0.001, 0.002),
+                           attractor_set_loop(0.01, 0.002), attractor_set_loop(0.01, 0.001)}) {
+    const PeriodicOrbit orbit = attractor_set_orbit(loop), image = mirrored(loop, orbit);
     EXPECT_EQ(image.period_samples(), orbit.period_samples());
     EXPECT_TRUE(is_mirror_image(orbit, image)) << loop.sampling.period;
     EXPECT_TRUE(is_mirror_image(image, orbit));
@@ -107,22 +107,22 @@ TEST(OrbitCatalogue, TheMirrorImageIsAMotionOfTheLoopAndKnownAsOne) {
   }
 }
 
-TEST(OrbitCatalogue, CapturesWhatOneOfItsPointsCaptures) {
-  const auto loop = catalogue_loop(0.003, 0.002);
-  OrbitCatalogue catalogue(loop);
-  const PeriodicOrbit orbits[] = {catalogue_orbit(loop), catalogue_orbit(loop, 1e-5)};
-  for (const auto& orbit : orbits) catalogue.add(orbit);
+TEST(AttractorSet, AttractsWhatLiesInOneOfItsBalls) {
+  const auto loop = attractor_set_loop(0.003, 0.002);
+  AttractorSet attractor_set(loop);
+  const PeriodicOrbit orbits[] = {attractor_set_orbit(loop), attractor_set_orbit(loop, 1e-5)};
+  for (const auto& orbit : orbits) attractor_set.add(orbit);
   for (int number = 0; number < 2; ++number) {
-    for (const CapturePoint& point : capture_points(loop, orbits[number])) {
+    for (const AttractionBall& point : attraction_balls(loop, orbits[number])) {
       MotionMemory<double, BacklashMemory<double>> motion{point.state.head<4>(), point.state[4],
                                                           point.memory};
-      EXPECT_EQ(catalogue.captured_by(motion), number);
+      EXPECT_EQ(attractor_set.attracted_by(motion), number);
       motion.state[0] += 0.99 * point.radius;
-      EXPECT_EQ(catalogue.captured_by(motion), number);
+      EXPECT_EQ(attractor_set.attracted_by(motion), number);
       motion.state[0] += 0.02 * point.radius;
-      EXPECT_EQ(catalogue.captured_by(motion), -1);
+      EXPECT_EQ(attractor_set.attracted_by(motion), -1);
       motion.state[0] = 1.0;
-      EXPECT_EQ(catalogue.captured_by(motion), -1);
+      EXPECT_EQ(attractor_set.attracted_by(motion), -1);
     }
   }
 }

@@ -19,12 +19,12 @@ constexpr auto one_after_the_other = [](std::size_t count, std::size_t tile, con
     job(first, std::min(tile, count - first));
 };
 
-ForcedLoop<double> basin_loop(double period, double width, double delay_fraction = 0.0) {
+IdealLoop<double> basin_loop(double period, double width, double delay_fraction = 0.0) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
   which.processing_delay = delay_fraction * period;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
 std::vector<Vector<double, 4>> basin_states(std::size_t count) {
@@ -37,22 +37,22 @@ std::vector<Vector<double, 4>> basin_states(std::size_t count) {
   return states;
 }
 
-BasinMap scalar_basins(const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& states,
+BasinMap scalar_basins(const IdealLoop<double>& loop, const std::vector<Vector<double, 4>>& states,
                        const OrbitLimits& limits = {20000, 0}) {
   return find_basins<double>(loop, states, limits, one_after_the_other);
 }
 
-TEST(Basins, EveryStateHasTheFateThatItHasAlone) {
+TEST(Basins, EveryStateHasTheLabelThatItHasAlone) {
   for (const auto& loop : {basin_loop(0.003, 0.002), basin_loop(0.01, 0.002),
                            basin_loop(0.01, 0.002, 0.5), basin_loop(0.011, 0.002)}) {
     const auto states = basin_states(40);
     const BasinMap map = scalar_basins(loop, states);
-    ASSERT_EQ(map.fates.size(), states.size());
+    ASSERT_EQ(map.labels.size(), states.size());
     for (std::size_t k = 0; k < states.size(); ++k) {
       const OrbitResult alone = find_periodic_orbit(loop, states[k], {20000, 0});
-      ASSERT_EQ(map.fates[k].outcome, alone.outcome) << loop.sampling.period << ' ' << k;
+      ASSERT_EQ(map.labels[k].outcome, alone.outcome) << loop.sampling.period << ' ' << k;
       if (alone.outcome != OrbitOutcome::certified) continue;
-      const auto number = static_cast<std::size_t>(map.fates[k].attractor);
+      const auto number = static_cast<std::size_t>(map.labels[k].attractor);
       EXPECT_TRUE(is_phase_shifted_copy(map.attractors.at(number).orbit, *alone.orbit))
           << loop.sampling.period << ' ' << k;
     }
@@ -65,18 +65,18 @@ TEST(Basins, FractionsAndErrorsAreThoseOfTheCounts) {
   EXPECT_GE(map.attractors.size(), 2U);
   std::size_t counted = 0;
   int highest = -1;
-  for (const MotionFate& fate : map.fates) {
-    EXPECT_EQ(fate.outcome, OrbitOutcome::certified);
-    EXPECT_LE(fate.attractor, highest + 1) << "numbered as they are met";
-    highest = std::max(highest, fate.attractor);
+  for (const BasinLabel& label : map.labels) {
+    EXPECT_EQ(label.outcome, OrbitOutcome::certified);
+    EXPECT_LE(label.attractor, highest + 1) << "numbered as they are met";
+    highest = std::max(highest, label.attractor);
   }
   EXPECT_EQ(highest + 1, static_cast<int>(map.attractors.size()));
   double fractions = 0.0;
   for (std::size_t number = 0; number < map.attractors.size(); ++number) {
     const BasinAttractor& attractor = map.attractors[number];
     const auto members = std::count_if(
-        map.fates.begin(), map.fates.end(),
-        [&](const MotionFate& fate) { return fate.attractor == static_cast<int>(number); });
+        map.labels.begin(), map.labels.end(),
+        [&](const BasinLabel& label) { return label.attractor == static_cast<int>(number); });
     EXPECT_EQ(attractor.states, static_cast<std::size_t>(members));
     EXPECT_DOUBLE_EQ(attractor.fraction, static_cast<double>(members) / 200.0);
     const double variance = attractor.fraction * (1.0 - attractor.fraction) / 200.0;
@@ -106,24 +106,24 @@ TEST(Basins, DoNotDependOnTheOrderOfTheTiles) {
   const BasinMap other = find_basins<double>(loop, states, {20000, 0}, backwards);
   ASSERT_EQ(map.attractors.size(), other.attractors.size());
   for (std::size_t k = 0; k < states.size(); ++k)
-    EXPECT_EQ(map.fates[k].attractor, other.fates[k].attractor);
+    EXPECT_EQ(map.labels[k].attractor, other.labels[k].attractor);
 }
 
 TEST(Basins, OfAGrowingLoopAreEmpty) {
   for (const double width : {0.0, 0.002}) {
     const BasinMap map = scalar_basins(basin_loop(0.011, width, 1.0), basin_states(30));
     EXPECT_TRUE(map.attractors.empty());
-    for (const MotionFate& fate : map.fates) EXPECT_EQ(fate.outcome, OrbitOutcome::diverges);
+    for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::diverges);
   }
 }
 
 TEST(Basins, WithoutACommonPeriodThereAreNone) {
-  ForcedLoop<double> loop = basin_loop(0.01, 0.002);
+  IdealLoop<double> loop = basin_loop(0.01, 0.002);
   loop.excitation.frequency = 10.0 * std::sqrt(0.5);
   const BasinMap map = scalar_basins(loop, basin_states(5));
   EXPECT_TRUE(map.attractors.empty());
-  ASSERT_EQ(map.fates.size(), 5U);
-  for (const MotionFate& fate : map.fates) EXPECT_EQ(fate.outcome, OrbitOutcome::incommensurate);
+  ASSERT_EQ(map.labels.size(), 5U);
+  for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::incommensurate);
 }
 
 TEST(Basins, WithoutBacklashOneOrbitTakesAll) {
@@ -135,17 +135,17 @@ TEST(Basins, WithoutBacklashOneOrbitTakesAll) {
 }
 
 TEST(Basins, WhatIsNotFoundInTimeIsSaidToBe) {
-  // One coincidence is no time for motions of 2100 samples.
+  // One common period is no time for motions of 2100 samples.
   const BasinMap map = scalar_basins(basin_loop(0.011, 0.002), basin_states(40), {100, 100});
   int none_found = 0;
-  for (const MotionFate& fate : map.fates) {
-    if (fate.outcome == OrbitOutcome::none_found) {
-      EXPECT_EQ(fate.attractor, -1);
+  for (const BasinLabel& label : map.labels) {
+    if (label.outcome == OrbitOutcome::none_found) {
+      EXPECT_EQ(label.attractor, -1);
       ++none_found;
       continue;
     }
-    ASSERT_EQ(fate.outcome, OrbitOutcome::certified);
-    const auto number = static_cast<std::size_t>(fate.attractor);
+    ASSERT_EQ(label.outcome, OrbitOutcome::certified);
+    const auto number = static_cast<std::size_t>(label.attractor);
     EXPECT_EQ(map.attractors.at(number).orbit.period_samples(), 100);
   }
   EXPECT_GE(none_found, 8) << "those that are searched first";
@@ -153,7 +153,7 @@ TEST(Basins, WhatIsNotFoundInTimeIsSaidToBe) {
 
 TEST(Basins, OfNoStatesAreEmpty) {
   const BasinMap map = scalar_basins(basin_loop(0.01, 0.002), {});
-  EXPECT_TRUE(map.fates.empty());
+  EXPECT_TRUE(map.labels.empty());
   EXPECT_TRUE(map.attractors.empty());
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
 
@@ -67,10 +67,10 @@ TEST(Deviation, StopsWhereAMotionDiverges) {
 }
 
 TEST(Deviation, OfADriveWithStatesOfItsOwnIsThatOfTheConductor) {
-  const RealLoop ideal = real_loop(KollarCase{}.forced_loop());
+  const ImplementedLoop ideal = implemented_loop(KollarCase{}.ideal_loop());
   const auto plant = with_drive_lag(linear_plant(ideal.plant), 20.0);
-  const RealLoopOf<LinearPlant<double, 5>> loop{plant, ideal.digital, ideal.backlash,
-                                                Switching::exact};
+  const ImplementedLoopOf<LinearPlant<double, 5>> loop{plant, ideal.digital, ideal.backlash,
+                                                       Switching::exact};
   auto first = event_motion(loop, Vector<double, 5>::Zero().eval()), second = first;
   second.displace_conductor(1e-5);
   std::int64_t seen = 0;

@@ -12,17 +12,17 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> batch_loop(double delay_fraction = 0.0) {
+IdealLoop<double> batch_loop(double delay_fraction = 0.0) {
   test::KollarCase which;
   which.sampling_period = 0.01;
   which.width = 0.002;
   which.processing_delay = delay_fraction * which.sampling_period;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
-std::vector<TravellingMotion> random_motions(std::size_t count) {
+std::vector<ActiveTrajectory> random_motions(std::size_t count) {
   test::Random random(861);
-  std::vector<TravellingMotion> motions;
+  std::vector<ActiveTrajectory> motions;
   for (std::size_t k = 0; k < count; ++k)
     motions.push_back({k, memory_of_start(0.05 * random.matrix<Vector<double, 4>>())});
   return motions;
@@ -33,11 +33,11 @@ TEST(MotionBatch, WithoutOrbitsMovesEveryMotionAsIfAlone) {
   const Rational ratio = forcing_ratio(loop).value();
   auto motions = random_motions(7);
   const auto starts = motions;
-  MotionBatch<double>(loop, ratio).run(motions.data(), motions.size(), 1000, OrbitCatalogue(loop));
+  MotionBatch<double>(loop, ratio).run(motions.data(), motions.size(), 1000, AttractorSet(loop));
   for (std::size_t k = 0; k < motions.size(); ++k) {
     auto alone = periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval());
     alone.restore(starts[k].memory);
-    // A whole number of coincidences, at least as many samples as were asked for.
+    // A whole number of common periods, at least as many samples as were asked for.
     bool met = false;
     for (int j = 0; j <= 1100 && !met; ++j) {
       met = j >= 1000 && alone.state() == motions[k].memory.state;
@@ -55,17 +55,17 @@ TEST(MotionBatch, WithoutOrbitsMovesEveryMotionAsIfAlone) {
   }
 }
 
-TEST(MotionBatch, MarksCapturedMotions) {
+TEST(MotionBatch, MarksAttractedMotions) {
   const auto loop = batch_loop();
-  OrbitCatalogue catalogue(loop);
-  catalogue.add(find_periodic_orbit(loop, Vector<double, 4>::Zero(), {3000, 0}).orbit.value());
+  AttractorSet attractor_set(loop);
+  attractor_set.add(find_periodic_orbit(loop, Vector<double, 4>::Zero(), {3000, 0}).orbit.value());
   auto motions = random_motions(50);
   MotionBatch<double>(loop, forcing_ratio(loop).value())
-      .run(motions.data(), motions.size(), 20000, catalogue);
+      .run(motions.data(), motions.size(), 20000, attractor_set);
   int captured = 0;
   for (const auto& motion : motions) {
     if (motion.orbit < 0) continue;
-    EXPECT_EQ(catalogue.captured_by(motion.memory), motion.orbit);
+    EXPECT_EQ(attractor_set.attracted_by(motion.memory), motion.orbit);
     ++captured;
   }
   EXPECT_GT(captured, 0);
@@ -73,11 +73,11 @@ TEST(MotionBatch, MarksCapturedMotions) {
 
 TEST(MotionBatch, MarksDivergedMotions) {
   const auto loop = batch_loop(1.0);
-  ForcedLoop<double> growing = loop;
+  IdealLoop<double> growing = loop;
   growing.gains.differential *= 3.0;
   auto motions = random_motions(5);
   MotionBatch<double>(growing, forcing_ratio(growing).value())
-      .run(motions.data(), motions.size(), 5000, OrbitCatalogue(growing));
+      .run(motions.data(), motions.size(), 5000, AttractorSet(growing));
   for (const auto& motion : motions) EXPECT_TRUE(motion.diverged);
 }
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
 #include "support/message_of.hpp"
@@ -19,7 +19,7 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> diagram_loop(double period, double width) {
+IdealLoop<double> diagram_loop(double period, double width) {
   return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
 }
 
@@ -33,10 +33,10 @@ std::set<long> levels(const std::vector<StrobePoint>& points, std::size_t index,
 }
 
 std::vector<StrobePoint> diagram_of(double period, const std::vector<double>& widths,
-                                    const DiagramQuestion& question) {
+                                    const DiagramOptions& options) {
   std::vector<StrobePoint> points;
   run_orbit_diagram([&](double width) { return diagram_loop(period, width); }, widths,
-                    Vector<double, 4>::Zero(), question,
+                    Vector<double, 4>::Zero(), options,
                     [&](const StrobePoint& point) { points.push_back(point); });
   return points;
 }
@@ -65,8 +65,7 @@ TEST(OrbitDiagram, StrobesBetweenTheSamplesAreThoseOfTheLinearResponse) {
 TEST(OrbitDiagram, AMotionThatDivergesShowsNothingAndTheNextBeginsAnew) {
   std::vector<StrobePoint> points;
   const auto path = [](double delay) {
-    return ForcedLoop<double>{
-        kollar2022_plant(), {0.011, delay}, {-557.0, -13.0}, {0.5, 10.0}, 0.0};
+    return IdealLoop<double>{kollar2022_plant(), {0.011, delay}, {-557.0, -13.0}, {0.5, 10.0}, 0.0};
   };
   run_orbit_diagram(path, {0.011, 0.0}, Vector<double, 4>::Zero(), {60.0, 5},
                     [&](const StrobePoint& point) { points.push_back(point); });
@@ -77,34 +76,34 @@ TEST(OrbitDiagram, AMotionThatDivergesShowsNothingAndTheNextBeginsAnew) {
 /// The diagram of loops as they are built, one for each width.
 template <class Change>
 std::vector<StrobePoint> built_diagram_of(double period, const std::vector<double>& widths,
-                                          const DiagramQuestion& question, const Change& change) {
+                                          const DiagramOptions& options, const Change& change) {
   std::vector<StrobePoint> points;
   const auto path = [&](double width) {
-    RealLoop loop = real_loop(diagram_loop(period, width));
+    ImplementedLoop loop = implemented_loop(diagram_loop(period, width));
     change(loop);
     return loop;
   };
-  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), question,
+  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
                     [&](const StrobePoint& point) { points.push_back(point); });
   return points;
 }
 
 /// The strobes of one motion by the sampled map and matrix exponentials between its samples.
-std::vector<Vector<double, 4>> strobes_of(const ForcedLoop<double>& loop,
-                                          const DiagramQuestion& question,
+std::vector<Vector<double, 4>> strobes_of(const IdealLoop<double>& loop,
+                                          const DiagramOptions& options,
                                           const Vector<double, 4>& initial_state) {
   std::vector<Vector<double, 4>> strobes;
   auto motion = harmonically_forced_motion(loop, initial_state);
-  const auto first = static_cast<int>(std::ceil(question.transient * loop.excitation.frequency));
+  const auto first = static_cast<int>(std::ceil(options.transient * loop.excitation.frequency));
   const double period = loop.sampling.period;
-  while (static_cast<int>(strobes.size()) < question.strobes) {
+  while (static_cast<int>(strobes.size()) < options.strobes) {
     const double before = motion.memory().previous_force;
     const auto sample = motion.sense();
     const auto due = [&] {
       const auto next = static_cast<double>(first + static_cast<int>(strobes.size()));
       return std::max(next / loop.excitation.frequency - sample.time, 0.0);
     };
-    while (due() < period * (1.0 - 1e-9) && static_cast<int>(strobes.size()) < question.strobes)
+    while (due() < period * (1.0 - 1e-9) && static_cast<int>(strobes.size()) < options.strobes)
       strobes.push_back(test::state_between_samples(loop, sample, before, due()));
     motion.advance();
   }
@@ -114,13 +113,13 @@ std::vector<Vector<double, 4>> strobes_of(const ForcedLoop<double>& loop,
 TEST(OrbitDiagram, StrobesAreThoseOfMatrixExponentials) {
   for (const double period : {0.001, 0.009}) {
     const std::vector<double> widths{0.0, 0.0005, 0.001};
-    const DiagramQuestion question{20.0, 20};
-    const auto points = diagram_of(period, widths, question);
+    const DiagramOptions options{20.0, 20};
+    const auto points = diagram_of(period, widths, options);
     ASSERT_EQ(points.size(), 2U * 3U * 20U);
     Vector<double, 4> state = Vector<double, 4>::Zero();
     for (std::size_t k = 0; k < points.size();) {
       const auto expected =
-          strobes_of(diagram_loop(period, widths[points[k].index]), question, state);
+          strobes_of(diagram_loop(period, widths[points[k].index]), options, state);
       state = points[k + expected.size() - 1].state;
       for (const auto& strobe : expected) {
         EXPECT_LE((points[k].state - strobe).cwiseAbs().maxCoeff(), 1e-11) << k;
@@ -132,15 +131,15 @@ TEST(OrbitDiagram, StrobesAreThoseOfMatrixExponentials) {
 
 TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
   const std::vector<double> widths{0.0, 0.0005};
-  const DiagramQuestion question{5.0, 20};
-  const auto expected = diagram_of(0.001, widths, question);
+  const DiagramOptions options{5.0, 20};
+  const auto expected = diagram_of(0.001, widths, options);
   std::vector<StrobePoint> points;
   const auto path = [](double width) {
-    const RealLoop loop = real_loop(diagram_loop(0.001, width));
-    return RealLoopOf<LinearPlant<double, 4>>{linear_plant(loop.plant), loop.digital, loop.backlash,
-                                              loop.switching};
+    const ImplementedLoop loop = implemented_loop(diagram_loop(0.001, width));
+    return ImplementedLoopOf<LinearPlant<double, 4>>{linear_plant(loop.plant), loop.digital,
+                                                     loop.backlash, loop.switching};
   };
-  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), question,
+  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
                     [&](const StrobePoint& point) { points.push_back(point); });
   ASSERT_EQ(points.size(), expected.size());
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -148,7 +147,7 @@ TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
 }
 
 TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {
-  const auto exactly = [](RealLoop& loop) { loop.switching = Switching::exact; };
+  const auto exactly = [](ImplementedLoop& loop) { loop.switching = Switching::exact; };
   const auto points = built_diagram_of(0.001, {0.0, 0.0005}, {40.0, 30}, exactly);
   EXPECT_EQ(points.size(), 2U * 2U * 30U);
   for (const bool upward : {true, false})
@@ -159,7 +158,7 @@ TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {
 TEST(OrbitDiagram, StrobesBetweenJitteringSamplesAreThoseOfTheResponse) {
   // Without control the samples are of no effect, wherever they fall: the strobes of the steady
   // response to an exactly integrated force are all one.
-  const auto points = built_diagram_of(0.009, {0.0}, {60.0, 30}, [](RealLoop& loop) {
+  const auto points = built_diagram_of(0.009, {0.0}, {60.0, 30}, [](ImplementedLoop& loop) {
     loop.digital.gains = {0.0, 0.0};
     loop.digital.hold = ForceHold::exact;
     loop.digital.jitter = {0.004, 7};
@@ -175,7 +174,7 @@ TEST(OrbitDiagram, StrobesAreAtThePeriodsOfTheFirstHarmonic) {
   // 10 Hz and 5 Hz: once every period of the second the motion repeats, so that strobes at those
   // of the first come in two levels, and the other way round in one.
   for (const bool slower_first : {false, true}) {
-    const auto points = built_diagram_of(0.001, {0.0}, {60.0, 20}, [&](RealLoop& loop) {
+    const auto points = built_diagram_of(0.001, {0.0}, {60.0, 20}, [&](ImplementedLoop& loop) {
       const Harmonic slower{0.3, 5.0, 1.0};
       auto& harmonics = loop.digital.force.harmonics;
       harmonics.insert(slower_first ? harmonics.begin() : harmonics.end(), slower);
@@ -186,7 +185,7 @@ TEST(OrbitDiagram, StrobesAreAtThePeriodsOfTheFirstHarmonic) {
 
 TEST(OrbitDiagram, ABuiltLoopThatDivergesShowsNothing) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const auto points = built_diagram_of(0.011, {0.0}, {60.0, 5}, [&](RealLoop& loop) {
+    const auto points = built_diagram_of(0.011, {0.0}, {60.0, 5}, [&](ImplementedLoop& loop) {
       loop.digital.sampling.processing_delay = 0.011;
       loop.switching = switching;
     });
@@ -196,24 +195,24 @@ TEST(OrbitDiagram, ABuiltLoopThatDivergesShowsNothing) {
 
 TEST(OrbitDiagram, WatchesABuiltLoop) {
   int looks = 0;
-  DiagramQuestion question{40.0, 1};
-  question.watch = [&] { ++looks; };
-  built_diagram_of(0.001, {0.0}, question, [](RealLoop&) {});
+  DiagramOptions options{40.0, 1};
+  options.watch = [&] { ++looks; };
+  built_diagram_of(0.001, {0.0}, options, [](ImplementedLoop&) {});
   EXPECT_EQ(looks, 2 * 3) << "at samples 0, 16384 and 32768 of each way";
 }
 
 TEST(OrbitDiagram, RefusesALoopWithoutAHarmonic) {
   const auto built = [] {
     built_diagram_of(0.001, {0.0}, {1.0, 1},
-                     [](RealLoop& loop) { loop.digital.force.harmonics.clear(); });
+                     [](ImplementedLoop& loop) { loop.digital.force.harmonics.clear(); });
   };
   EXPECT_NE(tests::message_of<InvalidParameter>(built).find("number of harmonics"),
             std::string::npos);
 }
 
 TEST(OrbitDiagram, RefusesWhatIsNotAdmissible) {
-  EXPECT_THROW(validate(DiagramQuestion{-1.0, 5}), InvalidParameter);
-  EXPECT_THROW(validate(DiagramQuestion{1.0, 0}), InvalidParameter);
+  EXPECT_THROW(validate(DiagramOptions{-1.0, 5}), InvalidParameter);
+  EXPECT_THROW(validate(DiagramOptions{1.0, 0}), InvalidParameter);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/motion/dense_output.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -26,19 +26,19 @@
 namespace holdfast {
 namespace {
 
-RealLoop section_loop(double period, double width, Switching switching,
-                      ForceHold hold = ForceHold::exact) {
+ImplementedLoop section_loop(double period, double width, Switching switching,
+                             ForceHold hold = ForceHold::exact) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
-  RealLoop loop = real_loop(which.forced_loop());
+  ImplementedLoop loop = implemented_loop(which.ideal_loop());
   loop.digital.hold = hold;
   loop.switching = switching;
   return loop;
 }
 
 template <class Plant>
-auto section_of(const RealLoopOf<Plant>& loop, std::int64_t samples) {
+auto section_of(const ImplementedLoopOf<Plant>& loop, std::int64_t samples) {
   using Point = SectionPointOf<states_of<Plant>>;
   std::vector<Point> points;
   auto motion = event_motion(loop, StateOf<Plant>::Zero().eval());
@@ -56,7 +56,7 @@ template <class Contact>
 std::vector<ScannedTurn> scanned_turns(EventMotion<Contact> motion, std::int64_t samples,
                                        int looks) {
   std::vector<ScannedTurn> turns;
-  FlowTrace<Contact> trace(motion);
+  DenseOutput<Contact> trace(motion);
   double sign = 0.0, last = 0.0;
   for (std::int64_t j = 0; j < samples; ++j) {
     const double time = motion.time(), period = motion.period();
@@ -80,7 +80,7 @@ std::vector<ScannedTurn> scanned_turns(EventMotion<Contact> motion, std::int64_t
 /// Every scanned turn is a point, and every other point belongs to a pair within one look, which
 /// the scan cannot see. @return how many such points there are
 template <class Plant>
-std::size_t expect_scanned(const RealLoopOf<Plant>& loop, std::int64_t samples, int looks) {
+std::size_t expect_scanned(const ImplementedLoopOf<Plant>& loop, std::int64_t samples, int looks) {
   const auto points = section_of(loop, samples);
   const std::vector<ScannedTurn> turns =
       scanned_turns(event_motion(loop, StateOf<Plant>::Zero().eval()), samples, looks);
@@ -98,9 +98,9 @@ std::size_t expect_scanned(const RealLoopOf<Plant>& loop, std::int64_t samples, 
 TEST(Section, OfTheLoopOfThePaperIsThatOfItsMatrixExponentials) {
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
     for (const double delay : {0.0, 0.004, 0.011}) {
-      const ForcedLoop<double> loop{kollar2022_plant(), {0.011, delay}, {-100.0, -2.0},
-                                    {0.5, 10.0},        0.002,          hold};
-      const auto points = section_of(real_loop(loop), 3000);
+      const IdealLoop<double> loop{kollar2022_plant(), {0.011, delay}, {-100.0, -2.0},
+                                   {0.5, 10.0},        0.002,          hold};
+      const auto points = section_of(implemented_loop(loop), 3000);
       auto motion = harmonically_forced_motion(loop, Vector<double, 4>::Zero().eval());
       std::size_t seen = 0, changes = 0;
       for (int j = 0; j < 3000; ++j) {
@@ -142,11 +142,11 @@ TEST(Section, PointsLieOnItToRounding) {
 }
 
 TEST(Section, RepeatsWithThePeriodOfTheOrbit) {
-  const ForcedLoop<double> loop{
+  const IdealLoop<double> loop{
       kollar2022_plant(), {0.01, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, 0.002};
   const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-  const auto points = section_of(real_loop(loop), 6000);
+  const auto points = section_of(implemented_loop(loop), 6000);
   const double period = found.orbit->period();
   std::size_t in_one_period = 0;
   while (points[points.size() - 1 - in_one_period].time > points.back().time - period + 1e-7)
@@ -162,7 +162,7 @@ TEST(Section, NoTurnIsMissedAgainstADenseScan) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const double period : {0.001, 0.005, 0.011}) {
       for (const double width : {0.0, 0.0005, 0.002}) {
-        const RealLoop loop = section_loop(period, width, switching);
+        const ImplementedLoop loop = section_loop(period, width, switching);
         EXPECT_EQ(expect_scanned(loop, 2000, 50), 0U) << period << " " << width;
       }
     }
@@ -172,7 +172,7 @@ TEST(Section, NoTurnIsMissedAgainstADenseScan) {
 TEST(Section, NoTurnIsMissedOnAnyLoop) {
   test::Random random(4711);
   for (int k = 0; k < 60; ++k) {
-    RealLoop loop;
+    ImplementedLoop loop;
     loop.plant = test::random_plant(random);
     loop.digital.sampling = test::random_sampling(loop.plant, random);
     loop.digital.gains = test::random_gains(loop.plant, loop.digital.sampling.period, random);
@@ -193,9 +193,9 @@ TEST(Section, NoTurnIsMissedOnAnyLoop) {
 
 TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const RealLoop loop = section_loop(0.001, 0.0005, switching);
-    const RealLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
-                                                  loop.backlash, loop.switching};
+    const ImplementedLoop loop = section_loop(0.001, 0.0005, switching);
+    const ImplementedLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
+                                                         loop.backlash, loop.switching};
     const auto expected = section_of(loop, 2000);
     const auto points = section_of(same, 2000);
     ASSERT_EQ(points.size(), expected.size());
@@ -209,9 +209,9 @@ TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
 }
 
 TEST(Section, OfALinearPlantGoesOnWhereItEndedInAStick) {
-  const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
-  const RealLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
-                                                loop.backlash, loop.switching};
+  const ImplementedLoop loop = section_loop(0.001, 0.0005, Switching::exact);
+  const ImplementedLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
+                                                       loop.backlash, loop.switching};
   const auto whole = section_of(same, 2000);
   std::vector<SectionPoint> pieces;
   auto motion = event_motion(same, Vector<double, 4>::Zero().eval());
@@ -223,10 +223,10 @@ TEST(Section, OfALinearPlantGoesOnWhereItEndedInAStick) {
 
 TEST(Section, NoTurnIsMissedOfADriveWithStatesOfItsOwn) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const RealLoop loop = section_loop(0.005, 0.0005, switching);
+    const ImplementedLoop loop = section_loop(0.005, 0.0005, switching);
     const auto plant = with_drive_lag(linear_plant(loop.plant), 20.0);
-    const RealLoopOf<LinearPlant<double, 5>> lagging{plant, loop.digital, loop.backlash,
-                                                     loop.switching};
+    const ImplementedLoopOf<LinearPlant<double, 5>> lagging{plant, loop.digital, loop.backlash,
+                                                            loop.switching};
     EXPECT_EQ(expect_scanned(lagging, 2000, 50), 0U);
   }
 }
@@ -235,7 +235,7 @@ TEST(Section, FindsAllTurnsOfALongSamplingPeriod) {
   // Without control the motion is the plant's response to 10 Hz once the transient is over; three
   // or four of its turns, 50 ms apart, fall into a sampling period of 170 ms.
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    RealLoop loop = section_loop(0.17, 0.0, switching);
+    ImplementedLoop loop = section_loop(0.17, 0.0, switching);
     loop.digital.gains = {0.0, 0.0};
     const auto points = section_of(loop, 300);
     const double steady = 40.0, end = 51.0;
@@ -254,7 +254,7 @@ TEST(Section, FindsAllTurnsOfALongSamplingPeriod) {
 /// @return the points of `half_periods` half periods of it, `parts` samples each, from between two
 ///         samples on
 std::vector<SectionPoint> modal_section(std::size_t mode, int parts, int half_periods) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = plant.absorber_damping = 0.0;
   Eigen::Matrix2d stiffness;
   stiffness << plant.conductor_stiffness + plant.absorber_stiffness, -plant.absorber_stiffness,
@@ -264,7 +264,7 @@ std::vector<SectionPoint> modal_section(std::size_t mode, int parts, int half_pe
       stiffness, Eigen::Matrix2d(masses.asDiagonal()));
   const auto column = static_cast<Eigen::Index>(mode);
   const Eigen::Vector2d shape = modes.eigenvectors().col(column);
-  RealLoop loop{plant, {}, {}, Switching::sampled};
+  ImplementedLoop loop{plant, {}, {}, Switching::sampled};
   loop.digital.gains = {0.0, 0.0};
   loop.digital.sampling = {pi<double> / std::sqrt(modes.eigenvalues()[column]) / parts, 0.0};
   std::vector<SectionPoint> points;
@@ -294,7 +294,7 @@ TEST(Section, ATurnAtASampleIsOnePoint) {
 
 TEST(Section, AStickIsOnePointAtItsBeginning) {
   // Every reversal sticks in this motion; its sticks last longer than a sampling period.
-  const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
+  const ImplementedLoop loop = section_loop(0.001, 0.0005, Switching::exact);
   constexpr std::int64_t samples = 3000;
   std::vector<SectionPoint> points;
   std::int64_t sticks = 0, sticking_samples = 0;
@@ -322,7 +322,7 @@ TEST(Section, AStickIsOnePointAtItsBeginning) {
 }
 
 TEST(Section, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
-  const RealLoop loop = section_loop(0.001, 0.0005, Switching::exact);
+  const ImplementedLoop loop = section_loop(0.001, 0.0005, Switching::exact);
   const auto points = section_of(loop, 30000);
   ASSERT_GT(points.size(), 500U);
   for (std::size_t k = points.size() - 200; k < points.size(); ++k) {
@@ -333,7 +333,7 @@ TEST(Section, HasTwoPointsInEachForcingPeriodWhereTheMotionHasItsPeriod) {
 }
 
 TEST(Section, GoesOnWhereItEnded) {
-  const RealLoop loop = section_loop(0.001, 0.002, Switching::exact);
+  const ImplementedLoop loop = section_loop(0.001, 0.002, Switching::exact);
   const auto whole = section_of(loop, 2000);
   std::vector<SectionPoint> pieces;
   with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
@@ -347,7 +347,7 @@ TEST(Section, GoesOnWhereItEnded) {
 
 TEST(Section, AMotionAtRestHasNoPoint) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    RealLoop loop = section_loop(0.001, 0.0005, switching);
+    ImplementedLoop loop = section_loop(0.001, 0.0005, switching);
     loop.digital.force.harmonics.clear();
     EXPECT_TRUE(section_of(loop, 1000).empty());
   }
@@ -355,7 +355,7 @@ TEST(Section, AMotionAtRestHasNoPoint) {
 
 TEST(Section, ADivergingMotionEnds) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    RealLoop loop = section_loop(0.011, 0.0, switching);
+    ImplementedLoop loop = section_loop(0.011, 0.0, switching);
     loop.digital.sampling.processing_delay = 0.011;
     const auto outcome = with_motion(loop, Vector<double, 4>::Zero(), [](auto motion) {
       return run_section(motion, 100000, [](const SectionPoint&) {});

@@ -17,7 +17,7 @@ namespace holdfast {
 namespace {
 
 /// G with ‖z‖ = |G z|: the parts of the energy one below the other.
-Matrix<double, 4> energy_coordinates(const TwoDof<double>& plant) {
+Matrix<double, 4> energy_coordinates(const TwoMass<double>& plant) {
   Matrix<double, 4> g = Matrix<double, 4>::Zero();
   const double spring = std::sqrt(plant.absorber_stiffness);
   g(0, 0) = std::sqrt(plant.conductor_stiffness);
@@ -33,7 +33,7 @@ double spectral_norm(const Matrix<double, 4>& matrix) {
 }
 
 /// A state whose parts of the energy are of the same size.
-Vector<double, 4> energetic_state(const TwoDof<double>& plant, test::Random& random) {
+Vector<double, 4> energetic_state(const TwoMass<double>& plant, test::Random& random) {
   return energy_coordinates(plant).inverse() * random.matrix<Vector<double, 4>>();
 }
 

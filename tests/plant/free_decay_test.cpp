@@ -10,14 +10,14 @@ namespace {
 
 constexpr double start = 3.758e-3;
 
-TwoDof<double> table_plant(double absorber_damping) {
-  TwoDof<double> plant = kollar2022_plant();
+TwoMass<double> table_plant(double absorber_damping) {
+  TwoMass<double> plant = kollar2022_plant();
   plant.absorber_damping = absorber_damping;
   return plant;
 }
 
 /// The plant of two masses that never part: one mass on k₁, c₁, whose decay is known.
-TwoDof<double> locked_plant() { return {0.1, 40.0, 0.5, 0.15, 1e7, 1e3}; }
+TwoMass<double> locked_plant() { return {0.1, 40.0, 0.5, 0.15, 1e7, 1e3}; }
 
 TEST(FreeDecay, StartsWhereItIsReleasedAndAtRest) {
   const auto motion = free_decay(kollar2022_plant(), start, {0.0, 1e-7});
@@ -26,7 +26,7 @@ TEST(FreeDecay, StartsWhereItIsReleasedAndAtRest) {
 }
 
 TEST(FreeDecay, OfLockedMassesIsThatOfOneMass) {
-  const TwoDof<double> plant = locked_plant();
+  const TwoMass<double> plant = locked_plant();
   const double mass = plant.conductor_mass + plant.absorber_mass;
   const double decay = plant.conductor_damping / (2.0 * mass);
   const double omega = std::sqrt(plant.conductor_stiffness / mass - decay * decay);
@@ -38,7 +38,7 @@ TEST(FreeDecay, OfLockedMassesIsThatOfOneMass) {
 }
 
 TEST(FreeDecay, SatisfiesTheEquationOfMotion) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const double step = 1e-5;
   for (const double t : {0.05, 0.3, 1.2}) {
     const auto before = free_decay_at(plant, 1.0, t - step);
@@ -62,7 +62,7 @@ TEST(FreeDecay, OfNoInstantsIsEmpty) {
 
 TEST(RelativeDecay, AgreesWithTheMeasuresOfASampledRecord) {
   for (const double damping : {1.0, 2.0, 4.0, 8.0}) {
-    const TwoDof<double> plant = table_plant(damping);
+    const TwoMass<double> plant = table_plant(damping);
     DecayRecord record;
     for (int k = 0; k <= 30000; ++k) record.times.push_back(k * 1e-4);
     record.displacements = free_decay(plant, start, record.times);
@@ -77,7 +77,7 @@ TEST(RelativeDecay, AgreesWithTheMeasuresOfASampledRecord) {
 }
 
 TEST(RelativeDecay, OfAnOverdampedPlantIsNone) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = 100.0;
   EXPECT_FALSE(relative_decay(plant, free_decay_events(plant)).has_value());
 }

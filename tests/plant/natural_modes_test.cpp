@@ -10,7 +10,7 @@ namespace holdfast {
 namespace {
 
 /// m1 = m2 = 1 kg, k1 = k2 = 1 N/m.
-TwoDof<double> equal_masses(double conductor_damping, double absorber_damping) {
+TwoMass<double> equal_masses(double conductor_damping, double absorber_damping) {
   return {1.0, 1.0, conductor_damping, 1.0, 1.0, absorber_damping};
 }
 

@@ -11,12 +11,12 @@
 namespace holdfast {
 namespace {
 
-TwoDof<double> drawn_plant(test::Random& random) {
+TwoMass<double> drawn_plant(test::Random& random) {
   return {random.log_uniform(0.01, 10), random.log_uniform(1, 1000), random.log_uniform(0.01, 10),
           random.log_uniform(0.01, 10), random.log_uniform(1, 1000), random.log_uniform(0.01, 10)};
 }
 
-TEST(TwoDof, ObeysNewtonForEachMass) {
+TEST(TwoMass, ObeysNewtonForEachMass) {
   test::Random random(51);
   for (int draw = 0; draw < 1000; ++draw) {
     const auto p = drawn_plant(random);
@@ -37,14 +37,14 @@ TEST(TwoDof, ObeysNewtonForEachMass) {
   }
 }
 
-TEST(TwoDof, TheDriveExertsNoNetForce) {
+TEST(TwoMass, TheDriveExertsNoNetForce) {
   test::Random random(52);
   const auto p = drawn_plant(random);
   const Vector<double, 4> b = p.control_input();
   EXPECT_NEAR(p.conductor_mass * b[1] + p.absorber_mass * b[3], 0.0, 1e-15);
 }
 
-TEST(TwoDof, EnergyIsLostToTheDampersOnly) {
+TEST(TwoMass, EnergyIsLostToTheDampersOnly) {
   test::Random random(53);
   for (int draw = 0; draw < 1000; ++draw) {
     const auto p = drawn_plant(random);
@@ -62,26 +62,26 @@ TEST(TwoDof, EnergyIsLostToTheDampersOnly) {
   }
 }
 
-TEST(TwoDof, TheSamePlantServesOtherNumberTypes) {
-  const TwoDof<long double> precise{0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L};
+TEST(TwoMass, TheSamePlantServesOtherNumberTypes) {
+  const TwoMass<long double> precise{0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L};
   const Matrix<double, 4> rounded = precise.state_matrix().cast<double>();
   EXPECT_LE((rounded - kollar2022_plant().state_matrix()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(TwoDof, EveryMemberOutOfRangeIsRefusedByItsName) {
+TEST(TwoMass, EveryMemberOutOfRangeIsRefusedByItsName) {
   struct Member {
-    double TwoDof<double>::*member;
+    double TwoMass<double>::*member;
     const char* name;
     const char* unit;
     bool zero_is_admissible;
   };
   const Member members[] = {
-      {&TwoDof<double>::conductor_mass, "conductor mass m1", "kg", false},
-      {&TwoDof<double>::conductor_stiffness, "conductor stiffness k1", "N/m", false},
-      {&TwoDof<double>::conductor_damping, "conductor damping c1", "N s/m", true},
-      {&TwoDof<double>::absorber_mass, "absorber mass m2", "kg", false},
-      {&TwoDof<double>::absorber_stiffness, "absorber stiffness k2", "N/m", false},
-      {&TwoDof<double>::absorber_damping, "absorber damping c2", "N s/m", true}};
+      {&TwoMass<double>::conductor_mass, "conductor mass m1", "kg", false},
+      {&TwoMass<double>::conductor_stiffness, "conductor stiffness k1", "N/m", false},
+      {&TwoMass<double>::conductor_damping, "conductor damping c1", "N s/m", true},
+      {&TwoMass<double>::absorber_mass, "absorber mass m2", "kg", false},
+      {&TwoMass<double>::absorber_stiffness, "absorber stiffness k2", "N/m", false},
+      {&TwoMass<double>::absorber_damping, "absorber damping c2", "N s/m", true}};
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Member& m : members) {
     for (const double value :

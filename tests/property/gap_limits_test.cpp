@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "property/loop_case.hpp"
 
 namespace holdfast {

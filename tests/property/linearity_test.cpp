@@ -9,7 +9,7 @@
 
 #include "holdfast/contact/contact_law.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "property/loop_case.hpp"
 
 namespace holdfast {
@@ -163,13 +163,13 @@ TEST(Linearity, MotionsAddUp) {
 struct ShiftCase {
   LoopCase loop;
   int numerator = 1, denominator = 1;  // p and q, f τ = p/q up to common factors
-  int coincidences = 0;                // by how many of them the motion is shifted
+  int common_periods = 0;              // by how many of them the motion is shifted
 
   std::vector<test::Parameter> parameters() {
     std::vector<test::Parameter> all = loop.parameters();
     all.insert(
         all.end(),
-        {{"p", &numerator, 1.0}, {"q", &denominator, 1.0}, {"coincidences", &coincidences, 1.0}});
+        {{"p", &numerator, 1.0}, {"q", &denominator, 1.0}, {"coincidences", &common_periods, 1.0}});
     return all;
   }
 
@@ -186,16 +186,16 @@ ShiftCase random_shift_case(Random& random) {
   drawn.loop.samples = 20 + static_cast<int>(random.index(60));
   drawn.denominator = 1 + static_cast<int>(random.index(60));
   drawn.numerator = 1 + static_cast<int>(random.index(80));
-  drawn.coincidences = 1 + static_cast<int>(random.index(5));
+  drawn.common_periods = 1 + static_cast<int>(random.index(5));
   return drawn;
 }
 
-/// The motion from what it has come to after whole coincidences is that from the same state at the
-/// beginning, but for the rounding of f τ and of the phases.
+/// The motion from what it has come to after whole common periods is that from the same state at
+/// the beginning, but for the rounding of f τ and of the phases.
 test::PropertyOutcome repeats_with_the_force(const ShiftCase& shift) {
   if (shift.denominator < 1 || shift.numerator < 1) return test::does_not_apply();
   const LoopCase drawn = shift.commensurate();
-  const auto late_by = static_cast<std::int64_t>(shift.denominator) * shift.coincidences;
+  const auto late_by = static_cast<std::int64_t>(shift.denominator) * shift.common_periods;
   auto late = harmonically_forced_motion(drawn.loop(), drawn.state);
   for (std::int64_t j = 0; j < late_by; ++j) {
     late.sense();
@@ -229,7 +229,7 @@ test::PropertyOutcome repeats_with_the_force(const ShiftCase& shift) {
   return test::holds();
 }
 
-TEST(TimeShift, ByCoincidencesOfSamplesAndForceLeavesTheMotion) {
+TEST(TimeShift, ByCommonPeriodsOfSamplesAndForceLeavesTheMotion) {
   const auto draws = test::property_draws(2000);
   const auto tally = test::for_all(
       301, draws,
@@ -252,12 +252,12 @@ test::PropertyOutcome repeats_to_the_last_bit(const ShiftCase& shift) {
   const LoopCase drawn = binary.commensurate();
   auto early = harmonically_forced_motion(drawn.loop(), drawn.state);
   auto late = early;
-  for (int j = 0; j < binary.denominator * binary.coincidences; ++j) {
+  for (int j = 0; j < binary.denominator * binary.common_periods; ++j) {
     late.sense();
     late.advance();
   }
   // Fresh phases every 16 samples: only a shift by whole blocks of them turns by the same table.
-  const bool same_table = binary.denominator * binary.coincidences % 16 == 0;
+  const bool same_table = binary.denominator * binary.common_periods % 16 == 0;
   if (!same_table) return test::does_not_apply();
   late.restore(early.memory());
   for (int j = 0; j < drawn.samples && test::is_moderate(early.state()); ++j) {
@@ -271,7 +271,7 @@ test::PropertyOutcome repeats_to_the_last_bit(const ShiftCase& shift) {
   return test::holds();
 }
 
-TEST(TimeShift, ByCoincidencesLeavesTheMotionInTheBacklashToTheLastBit) {
+TEST(TimeShift, ByCommonPeriodsLeavesTheMotionInTheBacklashToTheLastBit) {
   const auto draws = test::property_draws(2000);
   const auto tally = test::for_all(302, draws, random_shift_case, repeats_to_the_last_bit);
   EXPECT_GT(tally.held, draws / 3);

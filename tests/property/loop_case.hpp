@@ -7,7 +7,7 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/property.hpp"
 #include "support/random.hpp"
@@ -17,7 +17,7 @@ namespace holdfast::test {
 
 /// A loop with its excitation, its backlash and a state to begin with.
 struct LoopCase {
-  TwoDof<double> plant{};
+  TwoMass<double> plant{};
   double period = 0.0;
   double delay_share = 0.0;  // δ/τ
   PdGains<double> gains{};
@@ -29,7 +29,7 @@ struct LoopCase {
 
   Sampling<double> sampling() const { return {period, delay_share * period}; }
   ForceHold hold() const { return exact_hold != 0 ? ForceHold::exact : ForceHold::sampled; }
-  ForcedLoop<double> loop() const { return {plant, sampling(), gains, excitation, width, hold()}; }
+  IdealLoop<double> loop() const { return {plant, sampling(), gains, excitation, width, hold()}; }
 
   std::vector<Parameter> parameters() {
     return {{"m1 (kg)", &plant.conductor_mass, 1.0},
@@ -56,8 +56,8 @@ struct LoopCase {
 
 /// Masses 0.01 … 100 kg, frequencies of the two parts alone 0.5 … 50 Hz, damping ratios 0 … 50 %,
 /// one in ten undamped.
-inline TwoDof<double> wide_plant(Random& random) {
-  TwoDof<double> plant{};
+inline TwoMass<double> wide_plant(Random& random) {
+  TwoMass<double> plant{};
   const auto draw_part = [&random](double& mass, double& stiffness, double& damping) {
     const double omega = 2.0 * pi<double> * random.log_uniform(0.5, 50.0);
     const double ratio = random.unit() < 0.1 ? 0.0 : random.log_uniform(1e-3, 0.5);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "holdfast/excitation/recorded_force.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "property/loop_case.hpp"
 
 namespace holdfast {
@@ -40,7 +40,7 @@ struct MirrorCase {
     return all;
   }
 
-  ComposedForce force(double sign) const {
+  MultiHarmonicForce force(double sign) const {
     std::vector<double> times, forces;
     const double row_time = 1.0 / (loop.excitation.frequency * rows_per_cycle);
     const double end = loop.samples * loop.period;
@@ -56,8 +56,8 @@ struct MirrorCase {
     return {{}, std::make_shared<const RecordedForce>(times, forces, between)};
   }
 
-  RealLoop real_loop(double sign) const {
-    RealLoop result{loop.plant, {loop.sampling(), loop.gains, force(sign), loop.hold()}};
+  ImplementedLoop implemented_loop(double sign) const {
+    ImplementedLoop result{loop.plant, {loop.sampling(), loop.gains, force(sign), loop.hold()}};
     result.digital.limits.displacement_quantum = quantum;
     result.backlash = {all_laws[law], loop.width, stop_stiffness, stop_damping};
     result.switching = exact_switching != 0 ? Switching::exact : Switching::sampled;
@@ -89,9 +89,9 @@ struct MirroredSample {
 std::vector<MirroredSample> motion_of(const MirrorCase& drawn, double sign) {
   std::vector<MirroredSample> result;
   result.reserve(static_cast<std::size_t>(drawn.loop.samples));
-  with_motion(drawn.real_loop(sign), sign * drawn.loop.state, [&](auto motion) {
+  with_motion(drawn.implemented_loop(sign), sign * drawn.loop.state, [&](auto motion) {
     for (int j = 0; j < drawn.loop.samples && test::is_moderate(motion.state()); ++j) {
-      const HybridSample sample = motion.sense();
+      const EventSample sample = motion.sense();
       result.push_back({sample.state, sample.control_force, sample.mode});
       motion.advance();
       // Changes of contact without end are not followed: from there on no motion is to be trusted.

@@ -63,7 +63,7 @@ class NewtonsLaws {
   }
 
   State rate_of(const State& z, Real transmitted, Real force) const {
-    const TwoDof<double>& part = plant_;
+    const TwoMass<double>& part = plant_;
     const Real between = Real(part.absorber_stiffness) * (z[2] - z[0]) +
                          Real(part.absorber_damping) * (z[3] - z[1]) + transmitted;
     const Real support =
@@ -98,7 +98,7 @@ class NewtonsLaws {
     elapsed_ += h;
   }
 
-  TwoDof<double> plant_;
+  TwoMass<double> plant_;
   LoopCase drawn_;
   State unit_{};
   double fastest_;

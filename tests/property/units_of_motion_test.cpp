@@ -7,7 +7,7 @@
 
 #include "holdfast/chaos/lyapunov.hpp"
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "property/units_case.hpp"
 
 namespace holdfast {

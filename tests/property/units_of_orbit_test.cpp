@@ -24,7 +24,7 @@ OrbitLimits limits() {
 /// since following it over a sample rounds otherwise in other units of time.
 UnitsCase random_orbit_case(Random& random) {
   UnitsCase drawn = test::random_units_case(random, true);
-  TwoDof<double>& plant = drawn.loop.plant;
+  TwoMass<double>& plant = drawn.loop.plant;
   const auto critical = [](double mass, double stiffness) {
     return 2.0 * std::sqrt(mass * stiffness);
   };
@@ -55,7 +55,7 @@ UnitsCase random_paper_case(Random& random) {
 }
 
 bool same_orbit(const PeriodicOrbit& one, const PeriodicOrbit& other, const UnitsCase& units) {
-  if (one.contacts != other.contacts) return false;
+  if (one.itinerary != other.itinerary) return false;
   for (std::size_t j = 0; j < one.states.size(); ++j) {
     const Vector<double, 4> state = one.states[j].head<4>().cwiseProduct(units.of_state());
     if (state != other.states[j].head<4>()) return false;

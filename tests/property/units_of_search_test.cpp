@@ -14,22 +14,22 @@ namespace {
 using test::Random;
 using test::UnitsCase;
 
-MaxDelayQuestion question_of(const test::LoopCase& drawn, double unit_of_time) {
-  MaxDelayQuestion question{drawn.excitation.frequency, drawn.gains.proportional};
-  question.criterion = drawn.exact_hold != 0 ? DelayCriterion::stable : DelayCriterion::attenuates;
-  question.delay_fraction = drawn.delay_share;
-  question.shortest_period = 1e-4 * unit_of_time;
-  question.longest_period = 0.5 * unit_of_time;
-  question.search_ratio = 1.01;
-  return question;
+MaxDelayOptions options_of(const test::LoopCase& drawn, double unit_of_time) {
+  MaxDelayOptions options{drawn.excitation.frequency, drawn.gains.proportional};
+  options.criterion = drawn.exact_hold != 0 ? DelayCriterion::stable : DelayCriterion::attenuates;
+  options.delay_fraction = drawn.delay_share;
+  options.shortest_period = 1e-4 * unit_of_time;
+  options.longest_period = 0.5 * unit_of_time;
+  options.search_ratio = 1.01;
+  return options;
 }
 
 /// The share of the amplitude that the best stabilising D takes off at a period.
 double attenuation(const test::LoopCase& drawn, double period) {
-  const MaxDelayQuestion question = question_of(drawn, 1.0);
-  const auto offer = detail::delay_offer(drawn.plant, question, period);
+  const MaxDelayOptions options = options_of(drawn, 1.0);
+  const auto offer = detail::delay_offer(drawn.plant, options, period);
   if (!offer.response) return std::numeric_limits<double>::infinity();
-  const double p = question.proportional_gain;
+  const double p = options.proportional_gain;
   return 1.0 - offer.response->best_differential_gain(p, offer.stable).ratio_to_uncontrolled;
 }
 
@@ -37,9 +37,9 @@ double attenuation(const test::LoopCase& drawn, double period) {
 /// where attenuation ends so slowly that rounding decides, control takes off as little at both.
 test::PropertyOutcome largest_period_scales(const UnitsCase& units) {
   const test::LoopCase rewritten = units.rewritten();
-  const MaxDelay first = max_sampling_period(units.loop.plant, question_of(units.loop, 1.0));
+  const MaxDelay first = max_sampling_period(units.loop.plant, options_of(units.loop, 1.0));
   const MaxDelay other =
-      max_sampling_period(rewritten.plant, question_of(rewritten, units.of_time()));
+      max_sampling_period(rewritten.plant, options_of(rewritten, units.of_time()));
   const double found = other.sampling_period / units.of_time();
   if (other.outcome != first.outcome)
     return test::fails(test::differs("another outcome, period", found, first.sampling_period));

@@ -15,11 +15,11 @@ namespace {
 
 using MotionPack = simd::Pack<double>;
 
-ForcedLoop<double> packed_loop(double period, double width) {
+IdealLoop<double> packed_loop(double period, double width) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
 std::vector<Vector<double, 4>> packed_states(std::size_t count) {
@@ -33,11 +33,11 @@ std::vector<Vector<double, 4>> packed_states(std::size_t count) {
 }
 
 void expect_same_map(const BasinMap& one, const BasinMap& other) {
-  ASSERT_EQ(one.fates.size(), other.fates.size());
+  ASSERT_EQ(one.labels.size(), other.labels.size());
   ASSERT_EQ(one.attractors.size(), other.attractors.size());
-  for (std::size_t k = 0; k < one.fates.size(); ++k) {
-    EXPECT_EQ(one.fates[k].outcome, other.fates[k].outcome) << k;
-    EXPECT_EQ(one.fates[k].attractor, other.fates[k].attractor) << k;
+  for (std::size_t k = 0; k < one.labels.size(); ++k) {
+    EXPECT_EQ(one.labels[k].outcome, other.labels[k].outcome) << k;
+    EXPECT_EQ(one.labels[k].attractor, other.labels[k].attractor) << k;
   }
   for (std::size_t k = 0; k < one.attractors.size(); ++k) {
     EXPECT_EQ(one.attractors[k].states, other.attractors[k].states);
@@ -64,15 +64,15 @@ TEST(PackedBasins, AreThoseOfOneLaneOnAnyNumberOfThreads) {
 }
 
 TEST(PackedBasins, OfAGrowingLoopAreEmpty) {
-  ForcedLoop<double> loop = packed_loop(0.011, 0.002);
+  IdealLoop<double> loop = packed_loop(0.011, 0.002);
   loop.sampling.processing_delay = loop.sampling.period;
   const BasinMap map = simd::find_basins(loop, packed_states(50), {1000, 0}, 2);
   EXPECT_TRUE(map.attractors.empty());
-  for (const MotionFate& fate : map.fates) EXPECT_EQ(fate.outcome, OrbitOutcome::diverges);
+  for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::diverges);
 }
 
 TEST(PackedForcing, IsTheSameInEveryLane) {
-  const ForcedLoop<double> loop = packed_loop(0.011, 0.0);
+  const IdealLoop<double> loop = packed_loop(0.011, 0.0);
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
   PeriodicForcing<double> forcing(held_harmonic(sampled), 0.5, {11, 100});
   SharedForcing<MotionPack, PeriodicForcing<double>> packed(forcing);

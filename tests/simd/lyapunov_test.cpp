@@ -15,7 +15,7 @@ namespace {
 
 using LanePack = simd::Pack<double>;
 
-ForcedLoop<double> flickering_loop(double period, double delay_fraction, double frequency = 10.0) {
+IdealLoop<double> flickering_loop(double period, double delay_fraction, double frequency = 10.0) {
   return {kollar2022_plant(),
           {period, delay_fraction * period},
           {-557.0, -13.0},
@@ -34,20 +34,20 @@ std::vector<Vector<double, 4>> random_states(std::size_t count, std::uint64_t se
 }
 
 /// The scalar engine, one trajectory at a time.
-LyapunovResult scalar_result(const ForcedLoop<double>& loop, const Vector<double, 4>& state,
+LyapunovResult scalar_result(const IdealLoop<double>& loop, const Vector<double, 4>& state,
                              const LyapunovRun& run) {
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
-  const auto words = std::make_shared<const ContactWords>(sampled, loop.gains);
+  const auto blocks = std::make_shared<const ItineraryBlocks>(sampled, loop.gains);
   if (const auto ratio = forcing_ratio(loop)) {
     auto motion = periodically_forced_motion(loop, *ratio, state);
-    return run_lyapunov(motion, words, run);
+    return run_lyapunov(motion, blocks, run);
   }
   SampledMotion<double> motion(sampled, loop.gains, held_harmonic(sampled), loop.excitation,
                                Backlash<double>(loop.backlash_width), state);
-  return run_lyapunov(motion, words, run);
+  return run_lyapunov(motion, blocks, run);
 }
 
-void expect_scalar_results(const ForcedLoop<double>& loop,
+void expect_scalar_results(const IdealLoop<double>& loop,
                            const std::vector<Vector<double, 4>>& states, const LyapunovRun& run) {
   const auto results = simd::lyapunov_spectra(loop, states, run, 1);
   ASSERT_EQ(results.size(), states.size());
@@ -69,17 +69,17 @@ void expect_scalar_results(const ForcedLoop<double>& loop,
 
 TEST(LaneMaps, HoldTheMapOfEachLanesWord) {
   const auto loop = flickering_loop(0.01, 0.5);
-  const ContactWords words(sampled_loop(loop.plant, loop.sampling), loop.gains);
-  LaneWords<LanePack> lanes;
+  const ItineraryBlocks blocks(sampled_loop(loop.plant, loop.sampling), loop.gains);
+  LaneBlocks<LanePack> lanes;
   for (std::size_t lane = 0; lane < lanes.size(); ++lane)
-    lanes[lane] = static_cast<ContactWord>(64 + 7 * lane);
-  const LaneMaps<LanePack> maps(words, lanes);
+    lanes[lane] = static_cast<ItineraryBlock>(64 + 7 * lane);
+  const LaneMaps<LanePack> maps(blocks, lanes);
   for (int row = 0; row < 5; ++row) {
     for (int column = 0; column < 5; ++column) {
       double values[Lanes<LanePack>::count];
       Lanes<LanePack>::store(maps(row, column), values);
       for (std::size_t lane = 0; lane < lanes.size(); ++lane)
-        EXPECT_EQ(values[lane], words.map(lanes[lane])(row, column));
+        EXPECT_EQ(values[lane], blocks.map(lanes[lane])(row, column));
     }
   }
 }
@@ -150,12 +150,12 @@ TEST(SimdLyapunov, TakesTheTangentsOfAnotherSampling) {
   const auto loop = flickering_loop(0.011, 0.0);
   const auto states = random_states(2, 607);
   const Sampling<double> printed{0.011, 0.011};
-  const auto words =
-      std::make_shared<const ContactWords>(sampled_loop(loop.plant, printed), loop.gains);
+  const auto blocks =
+      std::make_shared<const ItineraryBlocks>(sampled_loop(loop.plant, printed), loop.gains);
   const auto results = simd::lyapunov_spectra(loop, states, {2000, 0}, printed, 1);
   for (std::size_t k = 0; k < states.size(); ++k) {
     auto motion = periodically_forced_motion(loop, *forcing_ratio(loop), states[k]);
-    const auto expected = run_lyapunov(motion, words, {2000, 0});
+    const auto expected = run_lyapunov(motion, blocks, {2000, 0});
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(results[k].exponents[i], expected.exponents[i], 1e-10);
   }
 }

@@ -76,7 +76,7 @@ TEST(AnyOrderMargins, OfTwoMassesAreTheClosedForms) {
   Random random(20263);
   int stable = 0, boundaries = 0;
   for (int draw = 0; draw < 400 && stable < 40; ++draw) {
-    const TwoDof<double> plant = random_plant(random);
+    const TwoMass<double> plant = random_plant(random);
     const Sampling<double> sampling = random_sampling(plant, random);
     const PdGains<double> gains = random_gains(plant, sampling.period, random);
     const StabilityMargins closed = stability_margins(plant, sampling, gains);
@@ -185,7 +185,7 @@ TEST(AnyOrderMargins, AnUnstableLoopHasNone) {
 TEST(AnyOrderMargins, TheBoundOnSlowSamplingIsThatOfTheResolventPolynomials) {
   Random random(20264);
   for (int draw = 0; draw < 50; ++draw) {
-    const TwoDof<double> plant = random_plant(random);
+    const TwoMass<double> plant = random_plant(random);
     const PdGains<double> gains = random_gains(plant, 0.01, random);
     const SlowSamplingBound closed(plant, gains, 0.3), general(linear_plant(plant), gains, 0.3);
     for (const double period : {0.01, 0.3, 2.0}) {
@@ -231,7 +231,7 @@ TEST(AnyOrderResponse, AmplitudeIsThatOfTheClosedMap) {
 TEST(AnyOrderResponse, OfTwoMassesIsTheClosedForm) {
   Random random(20265);
   for (int draw = 0; draw < 100; ++draw) {
-    const TwoDof<double> plant = random_plant(random);
+    const TwoMass<double> plant = random_plant(random);
     const Sampling<double> sampling = random_sampling(plant, random);
     const PdGains<double> gains = random_gains(plant, sampling.period, random);
     const double omega = random.uniform(0.05, 3.0) / sampling.period;
@@ -244,7 +244,7 @@ TEST(AnyOrderResponse, OfTwoMassesIsTheClosedForm) {
 }
 
 TEST(AnyOrderResponse, ADelayOfTwoMassesBeyondASampleIsThatOfTheirMap) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const Sampling<double> late{0.002, 0.0051};
   const PdGains<double> gains{-50.0, -3.0};
   const double omega = 2.0 * pi<double> * 10.0;
@@ -267,8 +267,8 @@ TEST(AnyOrderResponse, RatesAreDifferenceQuotients) {
       const auto map = family.loop_at(period);
       const auto response = at(period);
       const auto input = harmonic_input(plant, map, hold, omega);
-      const auto rates = response.along(family.rate(map),
-                                        input_rate_by_period(plant, map, hold, input, omega), 1.0);
+      const auto rates = response.along(
+          family.rate(map), input_derivative_by_period(plant, map, hold, input, omega), 1.0);
       const auto ratio = amplitude_ratio(response.phasors(), rates, gains);
       const auto value = [&](double t) {
         const auto phasors = at(t).phasors();
@@ -306,12 +306,12 @@ TEST(MapFamily, RatesOfTheMapAndOfItsRootsAreDifferenceQuotients) {
       const Eigen::MatrixXd rate = family.rate(map).closed_map(map, gains);
       EXPECT_LT((rate - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
 
-      const auto here = family.watched_at(map, gains);
-      const auto there = family.watched_at(family.loop_at(position + step), gains);
+      const auto here = family.tracked_at(map, gains);
+      const auto there = family.tracked_at(family.loop_at(position + step), gains);
       for (std::size_t set = 0; set < 2; ++set) {
-        for (const MovingPoint& point : here[set]) {
+        for (const TrackedPoint& point : here[set]) {
           double nearest = 1e300;
-          for (const MovingPoint& other : there[set])
+          for (const TrackedPoint& other : there[set])
             nearest = std::min(nearest, std::abs(other.value - point.expected(step)));
           EXPECT_LT(nearest, 1e-6) << by_period << ' ' << fraction;
         }

@@ -28,7 +28,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Seven states: two masses, a filter of the readings, a drive that lags.
-LinearPlant<double, 7> filtered_and_lagging(const TwoDof<double>& masses, double scale) {
+LinearPlant<double, 7> filtered_and_lagging(const TwoMass<double>& masses, double scale) {
   return with_drive_lag(with_measurement_filter(linear_plant(masses), 5.0 * scale), 8.0 * scale,
                         0.7);
 }
@@ -41,7 +41,7 @@ TEST(AnyOrder, IntervalsOfTwoMassesAreTheClosedForms) {
   Random random(20261);
   int compared = 0;
   for (int draw = 0; draw < 300; ++draw) {
-    const TwoDof<double> plant = random_plant(random);
+    const TwoMass<double> plant = random_plant(random);
     const Sampling<double> sampling = random_sampling(plant, random);
     const PdGains<double> gains = random_gains(plant, sampling.period, random);
     const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
@@ -67,7 +67,7 @@ TEST(AnyOrder, IntervalsOfTwoMassesAreTheClosedForms) {
 }
 
 TEST(AnyOrder, ProportionalIntervalsOfTwoMassesAreTheClosedForms) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   for (const double period : {0.001, 0.003, 0.01}) {
     const Sampling<double> sampling{period, 0.3 * period};
     const auto closed =
@@ -86,7 +86,7 @@ TEST(AnyOrder, EndsOfIntervalsLieOnTheCircleAndTheirInsideWithin) {
   Random random(20262);
   int ends = 0;
   for (int draw = 0; draw < 60; ++draw) {
-    const TwoDof<double> masses = random_plant(random);
+    const TwoMass<double> masses = random_plant(random);
     Sampling<double> sampling = random_sampling(masses, random);
     if (draw % 3 == 2) sampling.processing_delay = sampling.period * random.uniform(1.0, 4.0);
     const auto plant = filtered_and_lagging(masses, 0.2 / sampling.period);
@@ -131,7 +131,7 @@ TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
 }
 
 TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const Sampling<double> sampling{0.01, 0.004};
   const GainGrid grid{{-600.0, 100.0, 71}, {-30.0, 10.0, 81}};
   const auto polynomial =
@@ -182,7 +182,7 @@ TEST(AnyOrder, BoundaryPointsHaveARootOnTheCircle) {
 }
 
 TEST(AnyOrder, BoundaryOfTwoMassesPassesWhereTheClosedFormsDo) {
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const Sampling<double> sampling{0.01, 0.002};
   const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
   int compared = 0;
@@ -201,7 +201,7 @@ TEST(AnyOrder, BoundaryOfTwoMassesPassesWhereTheClosedFormsDo) {
 
 TEST(AnyOrder, DelaysOfManySamplesAreCommandsOnTheirWay) {
   // A delay of two whole samples is the map of no delay with two commands in between.
-  const TwoDof<double> plant = kollar2022_plant();
+  const TwoMass<double> plant = kollar2022_plant();
   const LoopMap<double> none = loop_map(plant, {0.004, 0.0});
   const LoopMap<double> two = loop_map(plant, {0.004, 0.008});
   EXPECT_EQ(none.held_commands, 1);
@@ -215,7 +215,7 @@ TEST(AnyOrder, DelaysOfManySamplesAreCommandsOnTheirWay) {
 }
 
 TEST(LinearPlant, FilterAndDriveMultiplyTheTransferFunction) {
-  const TwoDof<double> masses = kollar2022_plant();
+  const TwoMass<double> masses = kollar2022_plant();
   const double filter = 20.0, drive = 30.0, damping = 0.6;
   const auto plant =
       with_drive_lag(with_measurement_filter(linear_plant(masses), filter), drive, damping);

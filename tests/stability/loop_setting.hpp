@@ -15,7 +15,7 @@ namespace holdfast {
 
 /// Everything a sampled loop is made of, to be moved one parameter at a time.
 struct LoopSetting {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   Sampling<double> sampling;
   PdGains<double> gains;
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/sundials/switching_reference.hpp"
 #include "support/extended_switching.hpp"
@@ -24,7 +24,7 @@ constexpr double state_tolerance = 1e-8;    // of the largest |z_i| of the motio
 constexpr double instant_tolerance = 1e-9;  // s
 
 struct ComparedMotion {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   Vector<double, 4> initial_state;
   std::int64_t samples;
 };
@@ -53,7 +53,7 @@ class SwitchNotes {
  public:
   explicit SwitchNotes(LibraryHistory& history) : history_(history) {}
 
-  void begin(const HybridSample& sample, ContactMode before) {
+  void begin(const EventSample& sample, ContactMode before) {
     sample_ = sample;
     after_ = 0.0;
     if (sample.mode != before) note(before, sample.mode, -1);
@@ -71,16 +71,16 @@ class SwitchNotes {
   }
 
   LibraryHistory& history_;
-  HybridSample sample_{};
+  EventSample sample_{};
   double after_ = 0.0;
 };
 
 LibraryHistory history_of_library(const ComparedMotion& which) {
   LibraryHistory history;
   SwitchNotes notes(history);
-  HybridMotion<ExactBacklash> motion(real_loop(which.loop).digital,
-                                     ExactBacklash(which.loop.plant, which.loop.backlash_width),
-                                     which.initial_state);
+  EventMotion<ExactBacklash> motion(implemented_loop(which.loop).digital,
+                                    ExactBacklash(which.loop.plant, which.loop.backlash_width),
+                                    which.initial_state);
   history.states.push_back(motion.state());
   while (motion.index() + 1 < which.samples) {
     const ContactMode before = motion.contact().word();
@@ -113,7 +113,7 @@ SwitchingHistory history_of_cvode(const ComparedMotion& which) {
 
 /// Masses, stiffnesses and dampings within half of those of Table 1; all but the gains.
 ComparedMotion random_uncontrolled_motion(test::Random& random) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   for (double* part : {&plant.conductor_mass, &plant.conductor_stiffness, &plant.conductor_damping,
                        &plant.absorber_mass, &plant.absorber_stiffness, &plant.absorber_damping})
     *part *= random.uniform(0.5, 1.5);

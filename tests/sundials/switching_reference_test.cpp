@@ -27,17 +27,17 @@ const Tolerances reference_tolerances{1e-12, 1e-15};
 const SwitchedState switched_rest = SwitchedState::Zero();
 
 /// 0.5 N at 10 Hz, P = −557 N/m, D = −13 N s/m, the force not held.
-ForcedLoop<double> switched_loop(double period, double width, double delay_fraction = 0.0) {
+IdealLoop<double> switched_loop(double period, double width, double delay_fraction = 0.0) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
   which.processing_delay = delay_fraction * period;
-  ForcedLoop<double> loop = which.forced_loop();
+  IdealLoop<double> loop = which.ideal_loop();
   loop.hold = ForceHold::exact;
   return loop;
 }
 
-SwitchingReference followed(const ForcedLoop<double>& loop, double duration,
+SwitchingReference followed(const IdealLoop<double>& loop, double duration,
                             const SwitchedState& initial_state = switched_rest,
                             const Tolerances& tolerances = reference_tolerances) {
   const std::int64_t samples = samples_within(duration, loop.sampling.period);
@@ -80,7 +80,7 @@ TEST(SwitchingReference, WithoutBacklashItIsTheSampledMotion) {
     for (const double delay_fraction : {0.0, 0.25, 1.0})
       for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled})
         for (const SwitchedState& start : {switched_rest, thrown}) {
-          ForcedLoop<double> loop = switched_loop(period, 0.0, delay_fraction);
+          IdealLoop<double> loop = switched_loop(period, 0.0, delay_fraction);
           loop.gains = {-100.0, -3.0};  // stable with every one of these delays
           loop.hold = hold;
           const SwitchingReference found = followed(loop, 2.0, start);
@@ -155,13 +155,13 @@ TEST(SwitchingReference, WhileItSticksTheMassesMoveAsOneAndTheForceLiesBetweenZe
 
 /// A loop that is stable without backlash, with a gap and a start of the size of its motion.
 struct SwitchedCase {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   SwitchedState initial_state;
   double duration;
 };
 
 SwitchedCase random_switched_case(test::Random& random) {
-  const TwoDof<double> plant = test::random_plant(random);
+  const TwoMass<double> plant = test::random_plant(random);
   Sampling<double> sampling{};
   PdGains<double> gains{};
   do {
@@ -202,7 +202,7 @@ TEST(SwitchingReference, TheModesFollowEachOtherAdmissibly) {
 
 /// The paper's rule at n instants per sampling period, the command held as ever: its states at the
 /// samples.
-std::vector<SwitchedState> finely_sampled(const ForcedLoop<double>& loop, double duration, int n) {
+std::vector<SwitchedState> finely_sampled(const IdealLoop<double>& loop, double duration, int n) {
   const double step = loop.sampling.period / n;
   const SampledLoop<double> fine = sampled_loop(loop.plant, Sampling<double>{step});
   const HarmonicInput<double> input =

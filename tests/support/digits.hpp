@@ -9,7 +9,7 @@
 #include <string>
 
 #include "holdfast/math/stats/trusted_digits.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::test {
@@ -68,7 +68,7 @@ class Digits : public ::testing::Test {
 
 /// [m₁, k₁, c₁, m₂, k₂, c₂].
 template <class Scalar>
-TwoDof<Scalar> plant_of(const Vector<Scalar, 6>& x) {
+TwoMass<Scalar> plant_of(const Vector<Scalar, 6>& x) {
   return {x[0], x[1], x[2], x[3], x[4], x[5]};
 }
 inline Vector<double, 6> plant_inputs() {
@@ -82,7 +82,7 @@ inline Vector<double, 6> plant_inputs() {
 /// [plant, τ, δ, P, D, F_m, f, r₀].
 using LoopInputs = Vector<double, 13>;
 template <class Scalar>
-ForcedLoop<Scalar> loop_of(const Vector<Scalar, 13>& x) {
+IdealLoop<Scalar> loop_of(const Vector<Scalar, 13>& x) {
   return {plant_of<Scalar>(x.template head<6>()),
           {x[6], x[7]},
           {x[8], x[9]},

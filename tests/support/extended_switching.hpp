@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "holdfast/contact/contact_mode.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::test {
@@ -30,7 +30,7 @@ class ExtendedSwitching {
   using State = std::array<Real, 4>;
 
   /// @param initial_state  with ż₂ ≠ ż₁, the sign of which is σ
-  ExtendedSwitching(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state)
+  ExtendedSwitching(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state)
       : loop_(loop), m1_(loop.plant.conductor_mass), m2_(loop.plant.absorber_mass) {
     for (std::size_t i = 0; i < 4; ++i) state_[i] = initial_state[static_cast<Eigen::Index>(i)];
     sign_ = velocity() > 0 ? 1 : -1;
@@ -93,7 +93,7 @@ class ExtendedSwitching {
 
   /// Newton's laws under a transmitted force, or of both masses as one.
   State rate_of(const State& z, Real transmitted, Real excitation, bool sticks) const {
-    const TwoDof<double>& part = loop_.plant;
+    const TwoMass<double>& part = loop_.plant;
     const Real support =
         -Real(part.conductor_stiffness) * z[0] - Real(part.conductor_damping) * z[1] + excitation;
     if (sticks) return {z[1], support / (m1_ + m2_), z[3], support / (m1_ + m2_)};
@@ -166,7 +166,7 @@ class ExtendedSwitching {
     mode_ = change.to;
   }
 
-  ForcedLoop<double> loop_;
+  IdealLoop<double> loop_;
   Real m1_, m2_;
   State state_{};
   ContactMode mode_ = ContactMode::engaged;

@@ -8,7 +8,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
@@ -35,7 +35,7 @@ struct KollarCase {
     return sampled_loop(kollar2022_plant(), Sampling<double>{sampling_period, processing_delay});
   }
 
-  ForcedLoop<double> forced_loop() const {
+  IdealLoop<double> ideal_loop() const {
     return {kollar2022_plant(), {sampling_period, processing_delay}, gains, excitation, width};
   }
 

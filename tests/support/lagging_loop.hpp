@@ -2,7 +2,7 @@
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
@@ -32,11 +32,12 @@ LinearPlant<double> of_dynamic_order(const LinearPlant<double, States>& plant) {
 /// A loop with backlash on any plant, far from the edge of stability, with many changes of contact:
 /// 5 ms with 1 ms of delay, 0.5 N at 10 Hz, 0.5 mm.
 template <class Plant>
-RealLoopOf<Plant> lagging_loop(const Plant& plant, Switching switching, double delay = 0.001) {
+ImplementedLoopOf<Plant> lagging_loop(const Plant& plant, Switching switching,
+                                      double delay = 0.001) {
   return {plant,
           {{0.005, delay},
            {-200.0, -5.0},
-           composed_force(HarmonicExcitation<double>{0.5, 10.0}),
+           multi_harmonic_force(HarmonicExcitation<double>{0.5, 10.0}),
            ForceHold::exact},
           {ContactLaw::kollar, 0.0005},
           switching};

@@ -16,7 +16,7 @@ namespace holdfast::test {
 
 /// A plant over decades: masses 0.01 … 10 kg, frequencies of the two parts alone 0.5 … 50 Hz,
 /// damping ratios 0 … 50 %.
-inline TwoDof<double> random_plant(Random& random) {
+inline TwoMass<double> random_plant(Random& random) {
   const auto part = [&random](double mass) {
     const double omega = 6.283185307179586 * random.log_uniform(0.5, 50.0);
     return std::pair{mass * omega * omega, 2.0 * random.uniform(0.0, 0.5) * mass * omega};
@@ -29,7 +29,7 @@ inline TwoDof<double> random_plant(Random& random) {
 
 /// Sampling between 1/500 of the period of one of the plant's parts and all of it, within 0.2 … 200
 /// ms; δ is 0, τ or between them, a third each.
-inline Sampling<double> random_sampling(const TwoDof<double>& plant, Random& random) {
+inline Sampling<double> random_sampling(const TwoMass<double>& plant, Random& random) {
   const double first =
       6.283185307179586 * std::sqrt(plant.conductor_mass / plant.conductor_stiffness);
   const double second =
@@ -43,7 +43,7 @@ inline Sampling<double> random_sampling(const TwoDof<double>& plant, Random& ran
 
 /// Gains of the size at which sampling begins to matter, D ~ m/τ and P ~ m/τ² of the reduced mass,
 /// and down to a thousandth of them.
-inline PdGains<double> random_gains(const TwoDof<double>& plant, double period, Random& random) {
+inline PdGains<double> random_gains(const TwoMass<double>& plant, double period, Random& random) {
   const double mass =
       plant.conductor_mass * plant.absorber_mass / (plant.conductor_mass + plant.absorber_mass);
   return {random.sign() * random.log_uniform(1e-4, 1.0) * mass / (period * period),
@@ -56,7 +56,7 @@ struct Growth {
   double crowding;  ///< min |λ − 1|: small where sampling is fast beside the slowest root
 };
 
-inline Growth growth(const TwoDof<double>& plant, const Sampling<double>& sampling,
+inline Growth growth(const TwoMass<double>& plant, const Sampling<double>& sampling,
                      const PdGains<double>& gains) {
   using Precise = long double;
   const auto loop = sampled_loop(converted<Precise>(plant),

@@ -6,7 +6,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast::test {
@@ -21,7 +21,7 @@ namespace holdfast::test {
 /// @param sample          z_j, u_j and j
 /// @param previous_force  u_{j−1} (N)
 /// @param after           s (s), 0 ≤ s ≤ τ
-inline Vector<double, 4> state_between_samples(const ForcedLoop<double>& loop,
+inline Vector<double, 4> state_between_samples(const IdealLoop<double>& loop,
                                                const MotionSample<double>& sample,
                                                double previous_force, double after) {
   const Sampling<double> part{after, std::min(loop.sampling.processing_delay, after)};

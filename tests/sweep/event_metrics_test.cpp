@@ -12,8 +12,8 @@
 
 #include "holdfast/control/sampling_clock.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/taylor_step.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
@@ -31,8 +31,8 @@ std::vector<MotionMetrics> batch_metrics_of(const std::vector<SweepMotion>& moti
   return results;
 }
 
-MotionMetrics hybrid_metrics_of(const SweepMotion& motion, double duration) {
-  return hybrid_metrics(real_loop(motion.loop), motion.initial_state, duration);
+MotionMetrics event_metrics_of(const SweepMotion& motion, double duration) {
+  return event_metrics(implemented_loop(motion.loop), motion.initial_state, duration);
 }
 
 SweepMotion metric_motion(double sampling_period, double width,
@@ -40,7 +40,7 @@ SweepMotion metric_motion(double sampling_period, double width,
   test::KollarCase which;
   which.sampling_period = sampling_period;
   which.width = width;
-  SweepMotion motion{which.forced_loop(), Vector<double, 4>::Zero()};
+  SweepMotion motion{which.ideal_loop(), Vector<double, 4>::Zero()};
   motion.loop.hold = hold;
   return motion;
 }
@@ -78,13 +78,13 @@ int expect_those_of_the_batch(const std::vector<SweepMotion>& motions, double du
   int switching = 0;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     SCOPED_TRACE(k);
-    expect_same_motion(hybrid_metrics_of(motions[k], duration), expected[k], motions[k], duration);
+    expect_same_motion(event_metrics_of(motions[k], duration), expected[k], motions[k], duration);
     switching += expected[k].engaged_fraction < 1.0 ? 1 : 0;
   }
   return switching;
 }
 
-TEST(HybridMetrics, OfTheLoopOfThePaperAreThoseOfTheBatch) {
+TEST(EventMetrics, OfTheLoopOfThePaperAreThoseOfTheBatch) {
   std::vector<SweepMotion> motions;
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact})
     for (const double width : {0.0, 0.0005, 0.002})
@@ -94,15 +94,15 @@ TEST(HybridMetrics, OfTheLoopOfThePaperAreThoseOfTheBatch) {
   for (const SweepMotion& motion : motions) {
     const double reach = test::reach_of(test::record(motion, 20.0));
     const auto expected = batch_metrics_of({motion}, 20.0).front();
-    EXPECT_TRUE(test::agree(hybrid_metrics_of(motion, 20.0), expected, 1e-12, reach));
+    EXPECT_TRUE(test::agree(event_metrics_of(motion, 20.0), expected, 1e-12, reach));
   }
 }
 
-TEST(HybridMetrics, OfAnyLoopOfTheModelAreThoseOfTheBatch) {
+TEST(EventMetrics, OfAnyLoopOfTheModelAreThoseOfTheBatch) {
   EXPECT_GT(expect_those_of_the_batch(test::random_sweep_motions(300, 911, 0.006), 0.2), 75);
 }
 
-TEST(HybridMetrics, OfAMotionThatDivergesAreThoseOfTheBatch) {
+TEST(EventMetrics, OfAMotionThatDivergesAreThoseOfTheBatch) {
   auto motions = test::random_sweep_motions(200, 912, 20.0);
   for (auto& motion : motions) motion.loop.backlash_width = 0.0;
   const auto expected = batch_metrics_of(motions, 4.0);
@@ -110,7 +110,7 @@ TEST(HybridMetrics, OfAMotionThatDivergesAreThoseOfTheBatch) {
   for (std::size_t k = 0; k < motions.size(); ++k) {
     if (expected[k].end != MotionEnd::diverged) continue;
     ++diverged;
-    const auto metrics = hybrid_metrics_of(motions[k], 4.0);
+    const auto metrics = event_metrics_of(motions[k], 4.0);
     EXPECT_EQ(metrics.end, MotionEnd::diverged) << k;
     // The sample at which a sum leaves the range depends on the order of its terms.
     EXPECT_NEAR(static_cast<double>(metrics.samples), static_cast<double>(expected[k].samples), 1.0)
@@ -123,22 +123,22 @@ TEST(HybridMetrics, OfAMotionThatDivergesAreThoseOfTheBatch) {
 }
 
 // A plant that pushes out over the edge of the dead zone, and a command that pushes in.
-TEST(HybridMetrics, OfAMotionWhoseContactsAccumulateAreNotNumbers) {
-  RealLoop loop{{1.0, 1.0, 0.0, 1.0, 1.0, 300.0}, {{0.5, 0.0}, {-10.0, 0.0}, {}}};
+TEST(EventMetrics, OfAMotionWhoseContactsAccumulateAreNotNumbers) {
+  ImplementedLoop loop{{1.0, 1.0, 0.0, 1.0, 1.0, 300.0}, {{0.5, 0.0}, {-10.0, 0.0}, {}}};
   loop.digital.force.record = std::make_shared<const RecordedForce>(
       std::vector<double>{-1.0, 10.0}, std::vector<double>{-10.0, -10.0},
       RecordInterpolation::held);
   loop.digital.hold = ForceHold::exact;
   loop.backlash = {ContactLaw::dead_zone, 0.02};
   loop.switching = Switching::exact;
-  const auto metrics = hybrid_metrics(loop, Vector<double, 4>(-1.0, 0.0, -0.99, 0.001), 5.0);
+  const auto metrics = event_metrics(loop, Vector<double, 4>(-1.0, 0.0, -0.99, 0.001), 5.0);
   EXPECT_EQ(metrics.end, MotionEnd::accumulates);
   EXPECT_EQ(metrics.samples, 1);
   for (const double value : {metrics.first_peak, metrics.steady_peak, metrics.force_rms})
     EXPECT_TRUE(std::isnan(value));
 }
 
-TEST(HybridMetrics, OfShortMotionsAreThoseOfTheBatch) {
+TEST(EventMetrics, OfShortMotionsAreThoseOfTheBatch) {
   auto motion = metric_motion(0.01, 0.0005);
   motion.initial_state << 0.001, 0.0, 0.003, 0.0;
   for (const double duration : {0.0, 0.009, 0.01, 0.02, 0.05})
@@ -146,7 +146,7 @@ TEST(HybridMetrics, OfShortMotionsAreThoseOfTheBatch) {
 }
 
 /// The metrics by their definitions, from all samples of a motion of a built loop.
-MotionMetrics defined_metrics_of(const RealLoop& loop, double duration) {
+MotionMetrics defined_metrics_of(const ImplementedLoop& loop, double duration) {
   test::RecordedMotion recorded{TrajectoryOutcome::completed, {}};
   with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
     for (; not_before(duration, motion.time()); motion.advance())
@@ -156,18 +156,18 @@ MotionMetrics defined_metrics_of(const RealLoop& loop, double duration) {
   return test::metrics_by_definition(recorded, duration);
 }
 
-void expect_defined(const RealLoop& loop, double duration) {
-  const auto metrics = hybrid_metrics(loop, Vector<double, 4>::Zero(), duration);
+void expect_defined(const ImplementedLoop& loop, double duration) {
+  const auto metrics = event_metrics(loop, Vector<double, 4>::Zero(), duration);
   const auto expected = defined_metrics_of(loop, duration);
   EXPECT_GT(expected.steady_peak, 0.0);
   EXPECT_TRUE(test::agree(metrics, expected, 1e-12, 0.0));
 }
 
-TEST(HybridMetrics, AreTheirDefinitionsOfLoopsAsTheyAreBuilt) {
+TEST(EventMetrics, AreTheirDefinitionsOfLoopsAsTheyAreBuilt) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const ContactLaw law : {ContactLaw::kollar, ContactLaw::immediate, ContactLaw::play,
                                  ContactLaw::dead_zone, ContactLaw::none}) {
-      RealLoop loop = real_loop(metric_motion(0.001, 0.001).loop);
+      ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.001).loop);
       loop.backlash = {law, 0.001, 500.0, 1.0};
       loop.switching = switching;
       expect_defined(loop, 3.0);
@@ -184,8 +184,8 @@ TEST(HybridMetrics, AreTheirDefinitionsOfLoopsAsTheyAreBuilt) {
   }
 }
 
-TEST(HybridMetrics, OfAJitteringClockHaveItsTimes) {
-  RealLoop loop = real_loop(metric_motion(0.003, 0.0005).loop);
+TEST(EventMetrics, OfAJitteringClockHaveItsTimes) {
+  ImplementedLoop loop = implemented_loop(metric_motion(0.003, 0.0005).loop);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     loop.digital.jitter = {0.0014, seed};
     // About a sample of the grid, before and after which the clock's may fall.
@@ -193,7 +193,7 @@ TEST(HybridMetrics, OfAJitteringClockHaveItsTimes) {
   }
 }
 
-TEST(HybridMetrics, TheSamplesOfAJitteringClockAreThoseWithinTheDuration) {
+TEST(EventMetrics, TheSamplesOfAJitteringClockAreThoseWithinTheDuration) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const SamplingClock clock(0.01, {0.0049, seed});
     for (const double duration : {0.0, 0.002, 0.006, 0.012, 0.1, 0.104, 0.096, 7.0}) {
@@ -207,52 +207,52 @@ TEST(HybridMetrics, TheSamplesOfAJitteringClockAreThoseWithinTheDuration) {
   }
 }
 
-TEST(HybridMetrics, ASaturatedDriveDeliversNoMore) {
-  RealLoop loop = real_loop(metric_motion(0.001, 0.0).loop);
-  const double free = hybrid_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak;
+TEST(EventMetrics, ASaturatedDriveDeliversNoMore) {
+  ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0).loop);
+  const double free = event_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak;
   loop.digital.limits.largest_force = 0.5 * free;
-  EXPECT_EQ(hybrid_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak, 0.5 * free);
+  EXPECT_EQ(event_metrics(loop, Vector<double, 4>::Zero(), 2.0).force_peak, 0.5 * free);
 }
 
-TEST(HybridMetrics, WithExactSwitchingTheDriveReversesTwiceInEachForcingPeriod) {
-  RealLoop loop = real_loop(metric_motion(0.001, 0.0005, ForceHold::exact).loop);
+TEST(EventMetrics, WithExactSwitchingTheDriveReversesTwiceInEachForcingPeriod) {
+  ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0005, ForceHold::exact).loop);
   loop.switching = Switching::exact;
-  const auto metrics = hybrid_metrics(loop, Vector<double, 4>::Zero(), 20.0);
+  const auto metrics = event_metrics(loop, Vector<double, 4>::Zero(), 20.0);
   EXPECT_NEAR(metrics.reversals_per_s, 20.0, 0.2);
   EXPECT_GT(metrics.engaged_fraction, 0.0);
   EXPECT_LT(metrics.engaged_fraction, 1.0);
 }
 
-TEST(HybridMetrics, PauseIsCalledNowAndThenAndMayEndAll) {
-  const RealLoop loop = real_loop(metric_motion(0.001, 0.0).loop);
+TEST(EventMetrics, PauseIsCalledNowAndThenAndMayEndAll) {
+  const ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0).loop);
   int pauses = 0;
-  hybrid_metrics(loop, Vector<double, 4>::Zero(), 40.0, [&] { ++pauses; });
+  event_metrics(loop, Vector<double, 4>::Zero(), 40.0, [&] { ++pauses; });
   EXPECT_EQ(pauses, 3) << "at samples 0, 16384 and 32768";
   struct Ended {};
-  EXPECT_THROW(hybrid_metrics(loop, Vector<double, 4>::Zero(), 40.0, [] { throw Ended(); }), Ended);
+  EXPECT_THROW(event_metrics(loop, Vector<double, 4>::Zero(), 40.0, [] { throw Ended(); }), Ended);
 }
 
-TEST(HybridMetrics, RefuseWhatIsNotAdmissible) {
-  RealLoop loop = real_loop(metric_motion(0.001, 0.0).loop);
+TEST(EventMetrics, RefuseWhatIsNotAdmissible) {
+  ImplementedLoop loop = implemented_loop(metric_motion(0.001, 0.0).loop);
   Vector<double, 4> state = Vector<double, 4>::Zero();
-  EXPECT_THROW(hybrid_metrics(loop, state, -1.0), InvalidParameter);
+  EXPECT_THROW(event_metrics(loop, state, -1.0), InvalidParameter);
   state[1] = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(hybrid_metrics(loop, state, 1.0), InvalidParameter);
+  EXPECT_THROW(event_metrics(loop, state, 1.0), InvalidParameter);
   state[1] = 0.0;
   loop.backlash.width = -1.0;
-  EXPECT_THROW(hybrid_metrics(loop, state, 1.0), InvalidParameter);
+  EXPECT_THROW(event_metrics(loop, state, 1.0), InvalidParameter);
 }
 
-TEST(HybridMetrics, OfTheTwoMassesAsALinearPlantAreTheSame) {
+TEST(EventMetrics, OfTheTwoMassesAsALinearPlantAreTheSame) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const SweepMotion motion = metric_motion(0.001, 0.0005);
-    RealLoop loop = real_loop(motion.loop);
+    ImplementedLoop loop = implemented_loop(motion.loop);
     loop.switching = switching;
-    const RealLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
-                                                  loop.backlash, loop.switching};
+    const ImplementedLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
+                                                         loop.backlash, loop.switching};
     SCOPED_TRACE(static_cast<int>(switching));
-    expect_same_motion(hybrid_metrics(same, motion.initial_state, 3.0),
-                       hybrid_metrics(loop, motion.initial_state, 3.0), motion, 3.0);
+    expect_same_motion(event_metrics(same, motion.initial_state, 3.0),
+                       event_metrics(loop, motion.initial_state, 3.0), motion, 3.0);
   }
 }
 

@@ -20,7 +20,7 @@ SweepMotion kollar_motion(double sampling_period = 0.001, double width = 0.0005)
   test::KollarCase which;
   which.sampling_period = sampling_period;
   which.width = width;
-  return {which.forced_loop(), Vector<double, 4>::Zero()};
+  return {which.ideal_loop(), Vector<double, 4>::Zero()};
 }
 
 std::vector<MotionMetrics> metrics_of(const std::vector<SweepMotion>& motions, double duration) {

@@ -8,7 +8,7 @@ namespace holdfast {
 namespace {
 
 void expect_matrices_of(const detail::SweepMatrices::Matrices& found,
-                        const ForcedLoop<double>& loop) {
+                        const IdealLoop<double>& loop) {
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
   const auto input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
@@ -22,7 +22,7 @@ void expect_matrices_of(const detail::SweepMatrices::Matrices& found,
 
 // Every number that the matrices depend on is changed alone, and back.
 TEST(SweepMatrices, AreThoseOfTheLoopWhateverWasAskedForBefore) {
-  ForcedLoop<double> loop = test::random_sweep_motions(1, 931, 1.0).front().loop;
+  IdealLoop<double> loop = test::random_sweep_motions(1, 931, 1.0).front().loop;
   detail::SweepMatrices matrices;
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
     loop.hold = hold;

@@ -24,8 +24,8 @@ TEST(SweepMotion, IsAdmissibleWhereItsLoopIsAndItBeginsSomewhere) {
 }
 
 TEST(SweepMotion, NumbersOfItsPlantTellEveryChange) {
-  const TwoDof<double> plant = kollar2022_plant();
-  TwoDof<double> other = plant;
+  const TwoMass<double> plant = kollar2022_plant();
+  TwoMass<double> other = plant;
   for (double* number :
        {&other.conductor_mass, &other.conductor_stiffness, &other.conductor_damping,
         &other.absorber_mass, &other.absorber_stiffness, &other.absorber_damping}) {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
@@ -24,7 +24,7 @@ namespace holdfast::test {
 /// @param gain_share  of the gains at which sampling begins to matter: with 0.006 most motions are
 ///                    stable, and rounding does not grow; with 1 many are not
 inline SweepMotion random_sweep_motion(Random& random, double gain_share) {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   loop.plant = random_plant(random);
   loop.sampling = random_sampling(loop.plant, random);
   loop.gains = random_gains(loop.plant, loop.sampling.period, random);

@@ -182,15 +182,15 @@ TEST_F(LoopDigits, OfTheMarginsOfPeriodAndDelay) {
 
 TEST_F(LoopDigits, OfTheLargestPeriodThatAttenuates) {
   for (const double frequency : {10.0, 30.0}) {
-    MaxDelayQuestion question;
-    question.frequency = frequency;
-    question.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
-    const MaxDelay answer = max_sampling_period(kollar2022_plant(), question);
+    MaxDelayOptions options;
+    options.frequency = frequency;
+    options.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
+    const MaxDelay answer = max_sampling_period(kollar2022_plant(), options);
     ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
     const auto attenuates = [&](long double period) {
       Vector<long double, 13> v =
           sampled_every(loop_inputs(0.01, 0.0, 0.0, frequency), period, 0.0L);
-      v[8] = question.proportional_gain;
+      v[8] = options.proportional_gain;
       const auto stable = stable_differential_gains(characteristic_polynomial(sampled_of(v)), v[8]);
       return response_of(v).best_differential_gain(v[8], stable).ratio_to_uncontrolled < 1.0L;
     };
@@ -206,7 +206,7 @@ TEST_F(LoopDigits, OfTheLargestPeriodThatAttenuates) {
 TEST_F(LoopDigits, OfTheLeastSpectralRadius) {
   for (const SamplingCase& which : samplings) {
     const LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
-    const LeastRadius least = least_radius(sampled_of(x), -557.0, -5.0);
+    const MinimumRadius least = minimum_radius(sampled_of(x), -557.0, -5.0);
     const auto polynomial = loop_polynomial(sampled_of(x.cast<long double>().eval()));
     const auto reached = [&](long double radius) {
       return !polynomial.differential_gains_within(-557.0L, radius - polynomial.centre).empty();
@@ -219,11 +219,11 @@ TEST_F(LoopDigits, OfTheLeastSpectralRadius) {
 }
 
 TEST_F(LoopDigits, WhereTwoRootsMeetAreAtLeastHalfAsMany) {
-  // At the P and D of least radius roots meet, and where two do, each answers to the square root of
-  // an error: √(1000 ε/2) is what theory promises of the radius at the very same gains.
+  // At the P and D of minimum radius roots meet, and where two do, each answers to the square root
+  // of an error: √(1000 ε/2) is what theory promises of the radius at the very same gains.
   for (const SamplingCase& which : samplings) {
     LoopInputs x = loop_inputs(which.period, which.delay, 0.0);
-    const PdGains<double> gains = least_radius_gains(sampled_of(x)).gains;
+    const PdGains<double> gains = minimum_radius_gains(sampled_of(x)).gains;
     x[8] = gains.proportional;
     x[9] = gains.differential;
     const auto radius = [](const auto& v) {
@@ -236,7 +236,7 @@ TEST_F(LoopDigits, WhereTwoRootsMeetAreAtLeastHalfAsMany) {
 }
 
 TEST_F(LoopDigits, OfTheFeaturesOfTheBoundary) {
-  // Tangents, cusps, crossings and ends, found anew in long double: as many, at the same gains. A
+  // Tangents, cusps, crossings and ends, found again in long double: as many, at the same gains. A
   // crossing of a curve with itself and a cusp are double roots: half the digits.
   const GainWindow window{{-900.0, 300.0}, {-60.0, 20.0}};
   for (const SamplingCase& which : samplings) {

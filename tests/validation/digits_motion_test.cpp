@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "support/digits.hpp"
@@ -36,7 +36,7 @@ constexpr double rounding = std::numeric_limits<double>::epsilon() / 2.0;
 /// One motion in both number types, one sample at a time.
 class Pair {
  public:
-  explicit Pair(const ForcedLoop<double>& loop)
+  explicit Pair(const IdealLoop<double>& loop)
       : narrow_(harmonically_forced_motion(loop, Vector<double, 4>(Vector<double, 4>::Zero()))),
         wide_(harmonically_forced_motion(converted<Wide>(loop),
                                          Vector<Wide, 4>(Vector<Wide, 4>::Zero()))) {}
@@ -76,7 +76,7 @@ class Pair {
 /// in the last place of each component: V ← M V Mᵀ + W.
 class RoundingSpread {
  public:
-  explicit RoundingSpread(const ForcedLoop<double>& loop)
+  explicit RoundingSpread(const IdealLoop<double>& loop)
       : sampled_(sampled_loop(loop.plant, loop.sampling)), gains_(loop.gains) {}
 
   /// Goes on to the sample that the motion has just taken.
@@ -133,7 +133,7 @@ TEST_F(MotionDigits, OfTheMotionsOfThePaperAreThoseOfThePhaseOfTheForce) {
   // f τ is rounded once: after N cycles the force is late by up to 2π N of such a rounding.
   constexpr double duration = 100.0;
   for (const KollarCase& which : motions()) {
-    Pair motion(which.forced_loop());
+    Pair motion(which.ideal_loop());
     double least = most_trusted_digits;
     const std::int64_t samples = samples_within(duration, which.sampling_period);
     for (std::int64_t j = 0; j < samples; ++j) {
@@ -156,7 +156,7 @@ KollarCase irregular() {
 }
 
 TEST_F(MotionDigits, OfAnIrregularMotionAreLostAtTheRateOfItsTangentMaps) {
-  const ForcedLoop<double> loop = irregular().forced_loop();
+  const IdealLoop<double> loop = irregular().ideal_loop();
   Pair motion(loop);
   RoundingSpread spread(loop);
   std::int64_t parted = -1, predicted = -1;
@@ -185,7 +185,7 @@ TEST_F(MotionDigits, OfAnIrregularMotionAreLostAtTheRateOfItsTangentMaps) {
 }
 
 TEST_F(MotionDigits, OfAnIrregularMotionFallToNoneAndAreReportedSo) {
-  const ForcedLoop<double> loop = irregular().forced_loop();
+  const IdealLoop<double> loop = irregular().ideal_loop();
   Pair motion(loop);
   double least = most_trusted_digits;
   for (std::int64_t j = 0; j < 4000; ++j) {
@@ -204,7 +204,7 @@ struct Metrics {
 };
 template <class Scalar>
 Metrics<Scalar> metrics_of(const KollarCase& which, double duration) {
-  auto motion = harmonically_forced_motion(converted<Scalar>(which.forced_loop()),
+  auto motion = harmonically_forced_motion(converted<Scalar>(which.ideal_loop()),
                                            Vector<Scalar, 4>(Vector<Scalar, 4>::Zero()));
   Metrics<Scalar> metrics;
   const std::int64_t samples = samples_within(duration, which.sampling_period);
@@ -248,7 +248,7 @@ TEST_F(MotionDigits, OfTheMetricsOfAMotion) {
 
 template <class Scalar>
 Vector<Scalar, 5> exponents_of(const KollarCase& which, std::int64_t samples) {
-  const auto loop = converted<Scalar>(which.forced_loop());
+  const auto loop = converted<Scalar>(which.ideal_loop());
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
   const Matrix<Scalar, 5> engaged = sampled.engaged_map(loop.gains);
   const Matrix<Scalar, 5> backlash = sampled.backlash_map();

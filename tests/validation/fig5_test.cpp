@@ -10,12 +10,12 @@ namespace {
 
 MaxDelay tuned(double frequency, double delay_fraction = 0.0) {
   const auto plant = kollar2022_plant();
-  MaxDelayQuestion question;
-  question.frequency = frequency;
-  question.proportional_gain =
+  MaxDelayOptions options;
+  options.frequency = frequency;
+  options.proportional_gain =
       tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
-  question.delay_fraction = delay_fraction;
-  return max_sampling_period(plant, question);
+  options.delay_fraction = delay_fraction;
+  return max_sampling_period(plant, options);
 }
 
 TEST(Figure5, AtTenHertzAboutThirtyMillisecondsStillAttenuate) {

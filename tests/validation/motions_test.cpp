@@ -17,15 +17,15 @@ PeriodicOrbit certified_motion(double period, double width, double displacement 
   KollarCase which;
   which.sampling_period = period;
   which.width = width;
-  const ForcedLoop<double> loop = which.forced_loop();
+  const IdealLoop<double> loop = which.ideal_loop();
   const OrbitResult found = find_periodic_orbit(loop, {displacement, 0.0, 0.0, 0.0});
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   PeriodicOrbit orbit = found.orbit.value();
   EXPECT_TRUE(orbit.is_attracting());
   EXPECT_LE(orbit.closure_error, 1e-12);
-  const OrbitRecheck recheck = recheck_orbit<long double>(loop, orbit);
-  EXPECT_TRUE(recheck.same_contacts);
-  EXPECT_LE(recheck.displacement_difference, 1e-12);
+  const OrbitVerification verification = verify_orbit<long double>(loop, orbit);
+  EXPECT_TRUE(verification.same_itinerary);
+  EXPECT_LE(verification.displacement_difference, 1e-12);
   return orbit;
 }
 

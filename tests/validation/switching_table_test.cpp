@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/real_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/kollar_case.hpp"
@@ -31,11 +31,11 @@ constexpr std::array<SwitchingTableRow, 4> switching_table{{
     {0.011, 0.002, 3.003, 1.172, 1.299, 1.0089},
 }};
 
-RealLoop table_loop(const SwitchingTableRow& row, ForceHold hold, Switching switching) {
+ImplementedLoop table_loop(const SwitchingTableRow& row, ForceHold hold, Switching switching) {
   test::KollarCase which;
   which.sampling_period = row.sampling_period;
   which.width = row.width;
-  RealLoop loop = real_loop(which.forced_loop());
+  ImplementedLoop loop = implemented_loop(which.ideal_loop());
   loop.digital.hold = hold;
   loop.switching = switching;
   return loop;
@@ -60,9 +60,9 @@ using ModeCounts = std::array<std::int64_t, 3>;  // engaged, gap, stick
 /// How often each mode has begun by the samples that whole half cycles of the force end with.
 std::vector<ModeCounts> modes_begun(const SwitchingTableRow& row) {
   const auto half_cycle = static_cast<std::int64_t>(std::lround(0.05 / row.sampling_period));
-  HybridMotion<ExactBacklash> motion(table_loop(row, ForceHold::exact, Switching::exact).digital,
-                                     ExactBacklash(kollar2022_plant(), row.width),
-                                     Vector<double, 4>::Zero());
+  EventMotion<ExactBacklash> motion(table_loop(row, ForceHold::exact, Switching::exact).digital,
+                                    ExactBacklash(kollar2022_plant(), row.width),
+                                    Vector<double, 4>::Zero());
   std::vector<ModeCounts> begun{motion.counts().entered};
   while (!not_before(motion.time(), row.duration)) {
     motion.sense();

@@ -14,7 +14,7 @@ namespace holdfast {
 namespace {
 
 /// Poles in the upper half-plane, fastest decay first.
-std::vector<std::complex<double>> upper_poles(const TwoDof<double>& plant) {
+std::vector<std::complex<double>> upper_poles(const TwoMass<double>& plant) {
   std::vector<std::complex<double>> poles;
   const Vector<std::complex<double>, 4> all = plant.state_matrix().eigenvalues();
   for (const auto& pole : all) {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/ceres/decay_question.hpp"
+#include "holdfast/ceres/decay_fit_options.hpp"
 #include "holdfast/ceres/decay_residuals.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
@@ -30,14 +30,14 @@ namespace holdfast::fit {
 /// The parameters are fitted by their logarithms, within a factor 10⁶ of the given plant's
 /// either way (c₂: of the critical damping 2 √(k₂m₂), z₀: of the record's); derivatives come from
 /// dual numbers through the motion's closed form.
-/// @param record    at least 8 instants, ascending, the first one displaced
-/// @param plant     the values of the parameters that are not free, and where the others start
-/// @param question  which parameters are free and what of the record is to be met
+/// @param record       at least 8 instants, ascending, the first one displaced
+/// @param plant        the values of the parameters that are not free, and where the others start
+/// @param fit_options  which parameters are free and what of the record is to be met
 /// @throws InvalidParameter for an inadmissible plant, a record with fewer instants, not
 ///         ascending, not finite or not starting displaced; for no free parameter, one named
 ///         twice, or more of them than the measures asked for can determine
-inline DecayFit fit_decay(const DecayRecord& record, const TwoDof<double>& plant,
-                          const DecayQuestion& question = {});
+inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
+                          const DecayFitOptions& fit_options = {});
 
 // ---------------------------------------------------------------------------------------------
 
@@ -52,11 +52,12 @@ struct DecayRun {
   double cost;
 };
 
-inline std::array<bool, unknowns> free_unknowns(const DecayQuestion& question) {
+inline std::array<bool, unknowns> free_unknowns(const DecayFitOptions& fit_options) {
   std::array<bool, unknowns> free{};
-  for (const PlantParameter parameter : question.free)
+  for (const PlantParameter parameter : fit_options.free)
     free[static_cast<std::size_t>(parameter)] = true;
-  free.back() = question.target == DecayTarget::time_history && question.fit_initial_displacement;
+  free.back() =
+      fit_options.target == DecayTarget::time_history && fit_options.fit_initial_displacement;
   return free;
 }
 
@@ -74,7 +75,7 @@ struct Linearisation {
   bool finite() const { return residuals.allFinite() && jacobian.allFinite(); }
 };
 
-inline Linearisation linearise(const DecayResiduals& residuals, const DecayQuestion& question,
+inline Linearisation linearise(const DecayResiduals& residuals, const DecayFitOptions& fit_options,
                                const Theta& theta) {
   const int count = residuals.count();
   Linearisation result{Eigen::VectorXd(count), Eigen::MatrixXd(count, unknowns)};
@@ -89,7 +90,7 @@ inline Linearisation linearise(const DecayResiduals& residuals, const DecayQuest
   if (!decay_cost(plain)->Evaluate(at.data(), result.residuals.data(), columns.data()))
     result.residuals.setConstant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Index kept = 0;
-  const auto free = free_unknowns(question);
+  const auto free = free_unknowns(fit_options);
   for (std::size_t k = 0; k < unknowns; ++k) {
     if (!free[k]) continue;
     result.jacobian.col(kept++) = result.jacobian.col(static_cast<Eigen::Index>(k)).eval();
@@ -98,11 +99,11 @@ inline Linearisation linearise(const DecayResiduals& residuals, const DecayQuest
   return result;
 }
 
-inline DecayRun run_from(const DecayResiduals& residuals, const DecayQuestion& question,
+inline DecayRun run_from(const DecayResiduals& residuals, const DecayFitOptions& fit_options,
                          const Theta& start) {
   constexpr double reach = 13.8155;  // ln 10⁶
   DecayRun run{false, start, 0.0};
-  const auto free = free_unknowns(question);
+  const auto free = free_unknowns(fit_options);
   ::ceres::Problem problem;
   std::vector<double*> blocks;
   for (double& theta : run.theta) blocks.push_back(&theta);
@@ -114,7 +115,7 @@ inline DecayRun run_from(const DecayResiduals& residuals, const DecayQuestion& q
     problem.SetParameterUpperBound(blocks[k], 0, reach);
   }
   // Ceres prints what it cannot evaluate; a library does not.
-  if (!linearise(residuals, question, start).finite()) return run;
+  if (!linearise(residuals, fit_options, start).finite()) return run;
   ::ceres::Solver::Options options;
   options.logging_type = ::ceres::SILENT;
   options.linear_solver_type = ::ceres::DENSE_QR;
@@ -161,36 +162,36 @@ inline double variance_factor(const DecayResiduals& residuals, const Linearisati
 
 /// σ_p = p σ_θ, with the covariance of θ.
 inline std::vector<double> standard_errors(const DecayResiduals& residuals, const Linearisation& at,
-                                           const TwoDof<double>& plant,
-                                           const DecayQuestion& question) {
+                                           const TwoMass<double>& plant,
+                                           const DecayFitOptions& fit_options) {
   const Eigen::Index free = at.jacobian.cols();
   if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(at.jacobian).rank() < free)
-    return std::vector<double>(question.free.size(), std::numeric_limits<double>::quiet_NaN());
+    return std::vector<double>(fit_options.free.size(), std::numeric_limits<double>::quiet_NaN());
   const Eigen::MatrixXd covariance =
       variance_factor(residuals, at) *
       (at.jacobian.transpose() * at.jacobian).ldlt().solve(Eigen::MatrixXd::Identity(free, free));
   // The columns stand in the order of the unknowns, the answer in that of the question.
-  std::vector<PlantParameter> ordered = question.free;
+  std::vector<PlantParameter> ordered = fit_options.free;
   std::sort(ordered.begin(), ordered.end());
   std::vector<double> errors;
-  for (const PlantParameter parameter : question.free) {
+  for (const PlantParameter parameter : fit_options.free) {
     const auto place = std::find(ordered.begin(), ordered.end(), parameter) - ordered.begin();
     errors.push_back(parameter_of(plant, parameter) * std::sqrt(covariance(place, place)));
   }
   return errors;
 }
 
-inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayQuestion& question,
+inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayFitOptions& fit_options,
                                const DecayRun& run) {
-  const Linearisation at = linearise(residuals, question, run.theta);
+  const Linearisation at = linearise(residuals, fit_options, run.theta);
   const auto& theta = run.theta;
   DecayMinimum minimum{};
   minimum.plant =
       scaled_plant<double>(residuals.reference, {theta[0], theta[1], theta[2], theta[3], theta[4]});
   minimum.initial_displacement = residuals.record.displacements.front() * std::exp(theta.back());
-  minimum.standard_errors = standard_errors(residuals, at, minimum.plant, question);
+  minimum.standard_errors = standard_errors(residuals, at, minimum.plant, fit_options);
   minimum.residual = std::sqrt(at.residuals.squaredNorm() / residuals.count());
-  if (!is_measured(question.target)) minimum.residual *= residuals.amplitude();
+  if (!is_measured(fit_options.target)) minimum.residual *= residuals.amplitude();
   minimum.cost = run.cost;
   minimum.found_from = 1;
   return minimum;
@@ -198,20 +199,21 @@ inline DecayMinimum minimum_of(const DecayResiduals& residuals, const DecayQuest
 
 /// Whether the record says anything: the standard error of at least one parameter is below its
 /// value. On a flat end of the range a solver converges wherever it stands.
-inline bool is_determined(const DecayMinimum& minimum, const DecayQuestion& question) {
-  for (std::size_t k = 0; k < question.free.size(); ++k)
-    if (minimum.standard_errors[k] <= parameter_of(minimum.plant, question.free[k])) return true;
+inline bool is_determined(const DecayMinimum& minimum, const DecayFitOptions& fit_options) {
+  for (std::size_t k = 0; k < fit_options.free.size(); ++k)
+    if (minimum.standard_errors[k] <= parameter_of(minimum.plant, fit_options.free[k])) return true;
   return false;
 }
 
 /// Adds a minimum, or one more start to the minimum that it repeats.
 inline void collect(std::vector<DecayMinimum>& minima, const DecayMinimum& found,
-                    const DecayQuestion& question) {
+                    const DecayFitOptions& fit_options) {
   const auto same = [&](const DecayMinimum& known) {
-    return std::all_of(question.free.begin(), question.free.end(), [&](PlantParameter parameter) {
-      return std::abs(std::log(parameter_of(known.plant, parameter) /
-                               parameter_of(found.plant, parameter))) < 1e-3;
-    });
+    return std::all_of(fit_options.free.begin(), fit_options.free.end(),
+                       [&](PlantParameter parameter) {
+                         return std::abs(std::log(parameter_of(known.plant, parameter) /
+                                                  parameter_of(found.plant, parameter))) < 1e-3;
+                       });
   };
   const auto known = std::find_if(minima.begin(), minima.end(), same);
   if (known == minima.end()) {
@@ -223,21 +225,21 @@ inline void collect(std::vector<DecayMinimum>& minima, const DecayMinimum& found
   known->found_from = starts;
 }
 
-inline bool damping_is_free(const DecayQuestion& question) {
-  return std::find(question.free.begin(), question.free.end(), PlantParameter::absorber_damping) !=
-         question.free.end();
+inline bool damping_is_free(const DecayFitOptions& fit_options) {
+  return std::find(fit_options.free.begin(), fit_options.free.end(),
+                   PlantParameter::absorber_damping) != fit_options.free.end();
 }
 
 /// The plant that θ = 0 stands for; c₂, if free, is the critical damping 2 √(k₂m₂).
-inline TwoDof<double> reference_of(TwoDof<double> plant, const DecayQuestion& question) {
-  if (damping_is_free(question))
+inline TwoMass<double> reference_of(TwoMass<double> plant, const DecayFitOptions& fit_options) {
+  if (damping_is_free(fit_options))
     plant.absorber_damping = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
   return plant;
 }
 
 /// c₂, if free, from 1/32 to 4 times the critical damping by twos.
-inline std::vector<Theta> starts_of(const DecayQuestion& question) {
-  if (!damping_is_free(question)) return {Theta{}};
+inline std::vector<Theta> starts_of(const DecayFitOptions& fit_options) {
+  if (!damping_is_free(fit_options)) return {Theta{}};
   std::vector<Theta> starts;
   for (int power = -5; power <= 2; ++power) {
     starts.push_back({});
@@ -247,8 +249,8 @@ inline std::vector<Theta> starts_of(const DecayQuestion& question) {
   return starts;
 }
 
-inline void validate(const DecayRecord& record, const TwoDof<double>& plant,
-                     const DecayQuestion& question) {
+inline void validate(const DecayRecord& record, const TwoMass<double>& plant,
+                     const DecayFitOptions& fit_options) {
   holdfast::validate(plant);
   const auto& t = record.times;
   const auto& z = record.displacements;
@@ -265,56 +267,59 @@ inline void validate(const DecayRecord& record, const TwoDof<double>& plant,
   }
   if (z.front() == 0.0)
     throw InvalidParameter("first displacement", 0.0, "m", "not 0: the decay starts displaced");
-  if (question.free.empty()) throw InvalidParameter("number of free parameters", 0.0, "", ">= 1");
-  for (const PlantParameter parameter : question.free) {
+  if (fit_options.free.empty())
+    throw InvalidParameter("number of free parameters", 0.0, "", ">= 1");
+  for (const PlantParameter parameter : fit_options.free) {
     if (parameter != PlantParameter::absorber_damping)
       require_positive("start of a free parameter", parameter_of(plant, parameter), "");
-    if (std::count(question.free.begin(), question.free.end(), parameter) > 1)
+    if (std::count(fit_options.free.begin(), fit_options.free.end(), parameter) > 1)
       throw InvalidParameter("number of times that a parameter is free", 2.0, "", "1");
   }
-  const std::size_t most = question.target == DecayTarget::first_peak_and_period ? 1 : 2;
-  if (is_measured(question.target) && question.free.size() > most)
-    throw InvalidParameter("number of free parameters", static_cast<double>(question.free.size()),
-                           "", "fewer than the measures that are to be met");
+  const std::size_t most = fit_options.target == DecayTarget::first_peak_and_period ? 1 : 2;
+  if (is_measured(fit_options.target) && fit_options.free.size() > most)
+    throw InvalidParameter("number of free parameters",
+                           static_cast<double>(fit_options.free.size()), "",
+                           "fewer than the measures that are to be met");
 }
 
 /// Runs on from where others ended, now with Huber's loss, whose scale is that of the deepest;
 /// twice, as the first scale is of minima that outliers have moved.
-inline void make_robust(DecayResiduals& residuals, const DecayQuestion& question,
+inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_options,
                         std::vector<DecayRun>& runs) {
   const auto deeper = [](const DecayRun& a, const DecayRun& b) { return a.cost < b.cost; };
   for (int pass = 0; pass < 2 && !runs.empty(); ++pass) {
     const auto deepest = std::min_element(runs.begin(), runs.end(), deeper);
     const double deviation =
-        median_deviation(linearise(residuals, question, deepest->theta).residuals);
+        median_deviation(linearise(residuals, fit_options, deepest->theta).residuals);
     if (!(deviation > 1e-12)) return;  // an exact record: nothing lies far out
     residuals.huber_scale = 1.345 * deviation;
-    for (DecayRun& run : runs) run = run_from(residuals, question, run.theta);
+    for (DecayRun& run : runs) run = run_from(residuals, fit_options, run.theta);
   }
 }
 
 }  // namespace detail
 
-inline DecayFit fit_decay(const DecayRecord& record, const TwoDof<double>& plant,
-                          const DecayQuestion& question) {
-  detail::validate(record, plant, question);
+inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
+                          const DecayFitOptions& fit_options) {
+  detail::validate(record, plant, fit_options);
   DecayFit fit{FitOutcome::no_minimum, {}, 0};
   const DecayMeasures measures = decay_measures(record);
-  if (is_measured(question.target) && !std::isfinite(measures.logarithmic_decrement)) return fit;
-  detail::DecayResiduals residuals{record, measures, question.target,
-                                   detail::reference_of(plant, question)};
+  if (is_measured(fit_options.target) && !std::isfinite(measures.logarithmic_decrement)) return fit;
+  detail::DecayResiduals residuals{record, measures, fit_options.target,
+                                   detail::reference_of(plant, fit_options)};
   std::vector<detail::DecayRun> runs;
-  for (const detail::Theta& start : detail::starts_of(question)) {
+  for (const detail::Theta& start : detail::starts_of(fit_options)) {
     ++fit.starts;
-    const detail::DecayRun run = detail::run_from(residuals, question, start);
+    const detail::DecayRun run = detail::run_from(residuals, fit_options, start);
     if (run.at_minimum) runs.push_back(run);
   }
-  if (question.robust && !is_measured(question.target))
-    detail::make_robust(residuals, question, runs);
+  if (fit_options.robust && !is_measured(fit_options.target))
+    detail::make_robust(residuals, fit_options, runs);
   for (const detail::DecayRun& run : runs) {
     if (!run.at_minimum) continue;
-    const DecayMinimum minimum = detail::minimum_of(residuals, question, run);
-    if (detail::is_determined(minimum, question)) detail::collect(fit.minima, minimum, question);
+    const DecayMinimum minimum = detail::minimum_of(residuals, fit_options, run);
+    if (detail::is_determined(minimum, fit_options))
+      detail::collect(fit.minima, minimum, fit_options);
   }
   std::sort(fit.minima.begin(), fit.minima.end(),
             [](const DecayMinimum& a, const DecayMinimum& b) { return a.cost < b.cost; });

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "holdfast/ceres/decay_question.hpp"
+#include "holdfast/ceres/decay_fit_options.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -27,8 +27,8 @@ constexpr std::size_t unknowns = plant_parameters + 1;  // and z₀
 
 /// The plant whose parameters are those of `reference` times e^θ.
 template <class Scalar>
-TwoDof<Scalar> scaled_plant(const TwoDof<double>& reference,
-                            const std::array<Scalar, plant_parameters>& theta) {
+TwoMass<Scalar> scaled_plant(const TwoMass<double>& reference,
+                             const std::array<Scalar, plant_parameters>& theta) {
   using std::exp;
   return {
       reference.conductor_mass * exp(theta[0]),     reference.conductor_stiffness * exp(theta[1]),
@@ -37,7 +37,7 @@ TwoDof<Scalar> scaled_plant(const TwoDof<double>& reference,
 }
 
 template <class Scalar>
-TwoDof<double> values_of(const TwoDof<Scalar>& plant) {
+TwoMass<double> values_of(const TwoMass<Scalar>& plant) {
   return {value_of(plant.conductor_mass),     value_of(plant.conductor_stiffness),
           value_of(plant.conductor_damping),  value_of(plant.absorber_mass),
           value_of(plant.absorber_stiffness), value_of(plant.absorber_damping)};
@@ -58,7 +58,7 @@ struct DecayResiduals {
   const DecayRecord& record;
   DecayMeasures measures;
   DecayTarget target;
-  TwoDof<double> reference;
+  TwoMass<double> reference;
   // Of the history's residuals, in |z(0)|; ∞ for plain least squares.
   double huber_scale = std::numeric_limits<double>::infinity();
 
@@ -89,7 +89,7 @@ struct DecayResiduals {
 
  private:
   template <class Scalar>
-  bool compare_measures(const TwoDof<Scalar>& plant, Scalar* residuals) const {
+  bool compare_measures(const TwoMass<Scalar>& plant, Scalar* residuals) const {
     const auto decay = relative_decay(plant, free_decay_events(values_of(plant)));
     if (!decay) return false;
     const double first_peak = measures.first_peak / record.displacements.front();

@@ -24,58 +24,58 @@ enum class LyapunovScope {
   largest,  ///< the first one alone, from one tangent vector
 };
 
-/// Lyapunov spectrum of the sampled loop with backlash from its contacts, a word at a time.
+/// Lyapunov spectrum of the sampled loop with backlash from its contacts, a block at a time.
 ///
 /// The exponents are those of `LyapunovSpectrum` with S and S* pushed sample by sample, but the
-/// tangent vectors are multiplied by the maps of whole words and orthogonalised as rarely as
+/// tangent vectors are multiplied by the maps of whole blocks and orthogonalised as rarely as
 /// conditioning allows: since (Q₂R₂)(R₁) has the same diagonal products whether or not it is
-/// factored on the way, only rounding tells the two apart. Over the words k of a block B = W_k … W₁
-/// Q = Q' R,
+/// factored on the way, only rounding tells the two apart. Over the blocks k of a stretch B = W_k …
+/// W₁ Q = Q' R,
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖
 ///
-/// measures how far R's diagonal, relative to itself, magnifies round-off. The length of a block is
-/// chosen from the growth seen in the one before; a block with a > `largest_amplification` is done
-/// again in halves, from the basis that it began with, down to single samples. The inner product is
-/// that of the balanced coordinates of `ContactWords`, which the exponents are freed from when they
-/// are read. Columns that a map has annihilated are not carried on. The logarithm is taken of
-/// products of stretches, once a batch.
+/// measures how far R's diagonal, relative to itself, magnifies round-off. The length of a stretch
+/// is chosen from the growth seen in the one before; a stretch with a > `largest_amplification` is
+/// done again in halves, from the basis that it began with, down to single samples. The inner
+/// product is that of the balanced coordinates of `ItineraryBlocks`, which the exponents are freed
+/// from when they are read. Columns that a map has taken to zero are not carried on. The logarithm
+/// is taken of products of stretches, once a batch.
 ///
-/// Work per word of six samples and vector: 25 multiply-adds (20 without processing delay); per
-/// block a Gram–Schmidt process on 5 × 4 (5 × 5 before the first contact that annihilates).
-/// @tparam Number  double, or a pack: so many sequences of contacts side by side
+/// Work per block of six samples and vector: 25 multiply-adds (20 without processing delay); per
+/// stretch a Gram–Schmidt process on 5 × 4 (5 × 5 before the first map with a null direction).
+/// @tparam Number  double, or a pack: so many itineraries side by side
 template <class Number>
-class ContactSpectrum {
+class BlockSpectrum {
  public:
   /// The contacts of the same samples in every lane.
-  using Words = LaneWords<Number>;
-  /// Largest a of a block that is longer than a sample.
+  using Blocks = LaneBlocks<Number>;
+  /// Largest a of a stretch that is longer than a sample.
   static constexpr double largest_amplification = 5e6;
-  /// Longest block, in words.
-  static constexpr int most_words = 64;
+  /// Longest stretch, in blocks.
+  static constexpr int most_blocks = 64;
 
-  /// @param words  of the loop whose S and S* are the tangents
-  /// @param scope  of `largest` the spectrum shows −∞ for all exponents but the first
-  explicit ContactSpectrum(std::shared_ptr<const ContactWords> words,
-                           LyapunovScope scope = LyapunovScope::all);
+  /// @param blocks  of the loop whose S and S* are the tangents
+  /// @param scope   of `largest` the spectrum shows −∞ for all exponents but the first
+  explicit BlockSpectrum(std::shared_ptr<const ItineraryBlocks> blocks,
+                         LyapunovScope scope = LyapunovScope::all);
 
-  /// Takes the contacts of the next `ContactWords::length` samples.
-  void push(const Words& words) {
-    pending_[static_cast<std::size_t>(count_)] = words;
-    pending_samples_ += ContactWords::length;
+  /// Takes the contacts of the next `ItineraryBlocks::length` samples.
+  void push(const Blocks& blocks) {
+    pending_[static_cast<std::size_t>(count_)] = blocks;
+    pending_samples_ += ItineraryBlocks::length;
     if (++count_ == planned_) close_block();
   }
 
-  /// Forgets all but the directions of the tangent vectors after the words pushed and the word
+  /// Forgets all but the directions of the tangent vectors after the blocks pushed and the block
   /// `open`, of any length: the exponents are those of what comes from here on.
-  void restart(const Words& open);
+  void restart(const Blocks& open);
 
-  /// The spectra of all lanes over the words pushed and the word `open`, of any length.
+  /// The spectra of all lanes over the blocks pushed and the block `open`, of any length.
   std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> spectra(
-      const Words& open = no_contacts<Number>()) const;
+      const Blocks& open = empty_blocks<Number>()) const;
 
   /// That of the first lane.
-  LyapunovSpectrum<double, 5> spectrum(const Words& open = no_contacts<Number>()) const {
+  LyapunovSpectrum<double, 5> spectrum(const Blocks& open = empty_blocks<Number>()) const {
     return spectra(open)[0];
   }
 
@@ -85,8 +85,8 @@ class ContactSpectrum {
  private:
   /// The basis and the logarithms of its stretches in the coordinates of the loop.
   struct Orthogonal {
-    explicit Orthogonal(const ContactSpectrum& from) : alive(from.alive_) {
-      basis = from.words_->scale().template cast<Number>().asDiagonal() * from.basis_;
+    explicit Orthogonal(const BlockSpectrum& from) : alive(from.alive_) {
+      basis = from.blocks_->scale().template cast<Number>().asDiagonal() * from.basis_;
       const auto stretches = orthonormalise<Number, 5>(basis, alive);
       logarithms = half_logarithms<5>(stretches.squares);
     }
@@ -115,7 +115,7 @@ class ContactSpectrum {
     return static_cast<double>(*std::max_element(values, values + Lanes<Number>::count));
   }
 
-  void close_with(const Words& open) {
+  void close_with(const Blocks& open) {
     const int samples = samples_of(open[0]);
     if (samples > 0) pending_[static_cast<std::size_t>(count_++)] = open;
     pending_samples_ += samples;
@@ -154,27 +154,27 @@ class ContactSpectrum {
     }
   }
 
-  /// Takes a block of words, in halves where round-off would grow too much.
+  /// Takes a stretch of blocks, in halves where round-off would grow too much.
   template <int Reach, int Columns>
-  void advance(const Words* words, int count) {
+  void advance(const Blocks* blocks, int count) {
     using Basis = TangentBasis<Number, Columns>;
     Basis basis = basis_.template leftCols<Columns>();
     Eigen::Array<Number, 1, Columns> sizes = Eigen::Array<Number, 1, Columns>::Constant(Number(0));
     Alive<Number> alive = alive_;
     for (int k = 0; k < count; ++k) {
-      multiply<Reach, Columns>(LaneMaps<Number>(*words_, words[k]), basis);
+      multiply<Reach, Columns>(LaneMaps<Number>(*blocks_, blocks[k]), basis);
       for (int row = 0; row < 5; ++row) sizes += basis.row(row).array() * basis.row(row).array();
-      if (columns_ > words_->smallest_rank()) annihilate(words[k], alive);
+      if (columns_ > blocks_->smallest_rank()) mark_null_columns(blocks[k], alive);
     }
     const Stretches<Number, Columns> stretches = orthonormalise<Number, Columns>(basis, alive);
     const Number squared = sizes.sum() * stretches.inverse;
     const bool accurate = all(squared <= Number(largest_amplification * largest_amplification)) &&
                           within_range<Columns>(stretches.squares);
-    if (accurate || (count == 1 && samples_of(words[0][0]) == 1)) {
+    if (accurate || (count == 1 && samples_of(blocks[0][0]) == 1)) {
       commit<Columns>(basis, alive, stretches.squares);
       learn(accurate ? largest_lane(squared) : 0.0, count);
     } else {
-      halve<Reach, Columns>(words, count);
+      halve<Reach, Columns>(blocks, count);
       allowed_ = std::max(1.0, 0.5 * count);
     }
   }
@@ -191,28 +191,29 @@ class ContactSpectrum {
   }
 
   template <int Reach, int Columns>
-  void halve(const Words* words, int count) {
+  void halve(const Blocks* blocks, int count) {
     if (count > 1) {
-      advance<Reach, Columns>(words, count / 2);
-      advance<Reach, Columns>(words + count / 2, count - count / 2);
+      advance<Reach, Columns>(blocks, count / 2);
+      advance<Reach, Columns>(blocks + count / 2, count - count / 2);
       return;
     }
-    const int samples = samples_of(words[0][0]);
-    Words first, last;
+    const int samples = samples_of(blocks[0][0]);
+    Blocks first, last;
     for (std::size_t lane = 0; lane < first.size(); ++lane) {
-      first[lane] = first_of(words[0][lane], samples / 2);
-      last[lane] = last_of(words[0][lane], samples - samples / 2);
+      first[lane] = first_of(blocks[0][lane], samples / 2);
+      last[lane] = last_of(blocks[0][lane], samples - samples / 2);
     }
     advance<Reach, Columns>(&first, 1);
     advance<Reach, Columns>(&last, 1);
   }
 
-  /// Marks the columns beyond the rank of a word's maps.
-  void annihilate(const Words& words, Alive<Number>& alive) const {
+  /// Marks the columns beyond the rank of a block's maps.
+  void mark_null_columns(const Blocks& blocks, Alive<Number>& alive) const {
     typename Lanes<Number>::Value ranks[Lanes<Number>::count];
-    for (std::size_t lane = 0; lane < words.size(); ++lane) ranks[lane] = words_->rank(words[lane]);
+    for (std::size_t lane = 0; lane < blocks.size(); ++lane)
+      ranks[lane] = blocks_->rank(blocks[lane]);
     const Number rank = Lanes<Number>::load(ranks);
-    for (int i = words_->smallest_rank(); i < columns_; ++i) {
+    for (int i = blocks_->smallest_rank(); i < columns_; ++i) {
       auto& column = alive[static_cast<std::size_t>(i)];
       column = column & (rank > Number(static_cast<double>(i)));
     }
@@ -249,33 +250,33 @@ class ContactSpectrum {
     products_ = Vector<Number, 5>::Constant(Number(1));
   }
 
-  /// Sets how many words may come between two orthogonalisations, from those just done.
+  /// Sets how many blocks may come between two orthogonalisations, from those just done.
   void learn(double squared_amplification, int count) {
     constexpr double at_start = 16.0;  // ‖I₄‖² ‖I₄‖²
-    const double words = count;
-    const double growth = std::log2(std::max(squared_amplification / at_start, 1.1)) / words;
+    const double blocks = count;
+    const double growth = std::log2(std::max(squared_amplification / at_start, 1.1)) / blocks;
     const double room = std::log2(0.8 * largest_amplification * largest_amplification / at_start);
-    allowed_ = std::min(std::max(1.0, std::floor(room / growth)), 2.0 * words);
+    allowed_ = std::min(std::max(1.0, std::floor(room / growth)), 2.0 * blocks);
   }
 
-  /// Divides what is left of a batch into equal blocks.
+  /// Divides what is left of a batch into equal stretches.
   void plan() {
-    const auto words_left = (sums_.steps_left() - samples_) / ContactWords::length;
-    const double left = std::max(1.0, static_cast<double>(words_left));
-    const double most = std::min(allowed_, static_cast<double>(most_words));
+    const auto blocks_left = (sums_.steps_left() - samples_) / ItineraryBlocks::length;
+    const double left = std::max(1.0, static_cast<double>(blocks_left));
+    const double most = std::min(allowed_, static_cast<double>(most_blocks));
     planned_ = static_cast<int>(std::ceil(left / std::ceil(left / most)));
   }
 
-  std::shared_ptr<const ContactWords> words_;
+  std::shared_ptr<const ItineraryBlocks> blocks_;
   Eigen::Matrix<Number, 5, 5, Eigen::RowMajor> basis_ =
       Eigen::Matrix<double, 5, 5, Eigen::RowMajor>::Identity().cast<Number>();
   Alive<Number> alive_;
   int columns_;  // that are carried
-  std::array<Words, most_words> pending_{};
-  int count_ = 0;  // words pending
+  std::array<Blocks, most_blocks> pending_{};
+  int count_ = 0;  // blocks pending
   int pending_samples_ = 0;
-  int planned_ = 1;       // words of the present block
-  double allowed_ = 1.0;  // words that conditioning seems to allow
+  int planned_ = 1;       // blocks of the present stretch
+  double allowed_ = 1.0;  // blocks that conditioning seems to allow
   Vector<Number, 5> products_ = Vector<Number, 5>::Constant(Number(1));  // of R_ii²
   Vector<Number, 5> logarithms_ = Vector<Number, 5>::Constant(Number(0));
   std::int64_t samples_ = 0;  // since the last complete batch
@@ -284,33 +285,33 @@ class ContactSpectrum {
 };
 
 template <class Number>
-ContactSpectrum<Number>::ContactSpectrum(std::shared_ptr<const ContactWords> words,
-                                         LyapunovScope scope)
-    : words_(std::move(words)), sums_(ContactWords::length) {
+BlockSpectrum<Number>::BlockSpectrum(std::shared_ptr<const ItineraryBlocks> blocks,
+                                     LyapunovScope scope)
+    : blocks_(std::move(blocks)), sums_(ItineraryBlocks::length) {
   const int wanted = scope == LyapunovScope::largest ? 1 : 5;
-  columns_ = std::min(wanted, words_->largest_rank());
+  columns_ = std::min(wanted, blocks_->largest_rank());
   const Number one(1), zero(0);
   for (int i = 0; i < 5; ++i)
     alive_[static_cast<std::size_t>(i)] = i < columns_ ? one > zero : one < zero;
   const Vector<Number, 5> logarithms =
-      words_->scale().array().log().matrix().template cast<Number>();
+      blocks_->scale().array().log().matrix().template cast<Number>();
   remainder_ = -logarithms;
 }
 
 template <class Number>
-void ContactSpectrum<Number>::restart(const Words& open) {
+void BlockSpectrum<Number>::restart(const Blocks& open) {
   close_with(open);
   remainder_ = -Orthogonal(*this).logarithms;
-  sums_ = BatchSums<Number, 5>(ContactWords::length);
+  sums_ = BatchSums<Number, 5>(ItineraryBlocks::length);
   logarithms_ = Vector<Number, 5>::Constant(Number(0));
   samples_ = 0;
   plan();
 }
 
 template <class Number>
-std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> ContactSpectrum<Number>::spectra(
-    const Words& open) const {
-  ContactSpectrum closed = *this;
+std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> BlockSpectrum<Number>::spectra(
+    const Blocks& open) const {
+  BlockSpectrum closed = *this;
   closed.close_with(open);
   const Orthogonal orthogonal(closed);
   std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> result;
@@ -320,8 +321,8 @@ std::array<LyapunovSpectrum<double, 5>, Lanes<Number>::count> ContactSpectrum<Nu
 }
 
 template <class Number>
-void ContactSpectrum<Number>::close_block() {
-  if (words_->reach() == 4) {
+void BlockSpectrum<Number>::close_block() {
+  if (blocks_->reach() == 4) {
     advance_columns<4>();
   } else {
     advance_columns<5>();
@@ -340,12 +341,12 @@ void ContactSpectrum<Number>::close_block() {
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template ContactSpectrum<double>::ContactSpectrum(std::shared_ptr<const ContactWords>,
-                                                         LyapunovScope);
-extern template void ContactSpectrum<double>::restart(const Words&);
-extern template std::array<LyapunovSpectrum<double, 5>, 1> ContactSpectrum<double>::spectra(
-    const Words&) const;
-extern template void ContactSpectrum<double>::close_block();
+extern template BlockSpectrum<double>::BlockSpectrum(std::shared_ptr<const ItineraryBlocks>,
+                                                     LyapunovScope);
+extern template void BlockSpectrum<double>::restart(const Blocks&);
+extern template std::array<LyapunovSpectrum<double, 5>, 1> BlockSpectrum<double>::spectra(
+    const Blocks&) const;
+extern template void BlockSpectrum<double>::close_block();
 #endif
 
 }  // namespace holdfast

@@ -22,7 +22,7 @@ namespace holdfast {
 
 /// How much of a motion to look at, and how closely. The defaults fit motions of up to a few
 /// thousand samples a period.
-struct EvidencePlan {
+struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out first, 0 … 10⁷
   std::int64_t samples = 20160;  ///< samples looked at, 2000 … 100 000; divisible by 2, 3, 5, 7 so
                                  ///< that many periods fit whole
@@ -36,18 +36,19 @@ struct EvidencePlan {
   std::int64_t zero_one_stride = 1;  ///< every so many samples for the 0–1 test, 1 … samples/500
   double divergence_growth = 1e30;   ///< growth of the state over its size in the first 100 samples
                                      ///< that counts as divergence
-  bool forcing_incommensurate = false;  ///< see MotionEvidence
+  bool forcing_incommensurate = false;  ///< see ChaosIndicators
 };
 
 /// @throws InvalidParameter for a member outside its range
-inline void validate(const EvidencePlan& plan) {
-  require_within("transient", static_cast<double>(plan.transient), "samples", 0.0, 1e7);
-  require_within("number of samples", static_cast<double>(plan.samples), "", 2000.0, 1e5);
-  require_within("recurrence states", static_cast<double>(plan.recurrence_states), "", 2.0, 5000.0);
-  const double most_stride = static_cast<double>(plan.samples) / 500.0;
-  require_within("stride of the 0-1 test", static_cast<double>(plan.zero_one_stride), "samples",
+inline void validate(const IndicatorOptions& options) {
+  require_within("transient", static_cast<double>(options.transient), "samples", 0.0, 1e7);
+  require_within("number of samples", static_cast<double>(options.samples), "", 2000.0, 1e5);
+  require_within("recurrence states", static_cast<double>(options.recurrence_states), "", 2.0,
+                 5000.0);
+  const double most_stride = static_cast<double>(options.samples) / 500.0;
+  require_within("stride of the 0-1 test", static_cast<double>(options.zero_one_stride), "samples",
                  1.0, most_stride);
-  require_within("growth that counts as divergence", plan.divergence_growth, "", 1e3, 1e200);
+  require_within("growth that counts as divergence", options.divergence_growth, "", 1e3, 1e200);
 }
 
 /// Stands for a tangent map that is not known: no exponents are found.
@@ -90,9 +91,9 @@ struct CollectedMotion {
   std::optional<std::int64_t> diverged_at;
   std::vector<Vector<double, Size>> states;
   std::vector<double> observed;
-  std::vector<bool> contacts;
+  std::vector<bool> itinerary;
   Vector<double, Size> largest;  // |x_i| since the start
-  std::optional<ExponentEvidence> largest_exponent;
+  std::optional<ExponentEstimate> largest_exponent;
 };
 
 /// Runs transient and samples.
@@ -103,15 +104,15 @@ class MotionCollector {
 
  public:
   MotionCollector(const Vector<double, Size>& initial, Advance& advance, Observable& observable,
-                  Tangent& tangent, Contact& contact, const EvidencePlan& plan)
+                  Tangent& tangent, Contact& contact, const IndicatorOptions& options)
       : state_(initial),
         advance_(advance),
         observable_(observable),
         tangent_(tangent),
         contact_(contact),
-        plan_(plan),
-        guard_(plan.divergence_growth, initial),
-        exponent_(plan.samples, initial.size()) {}
+        options_(options),
+        guard_(options.divergence_growth, initial),
+        exponent_(options.samples, initial.size()) {}
 
   CollectedMotion<Size> run() {
     settle();
@@ -131,25 +132,25 @@ class MotionCollector {
   }
 
   void settle() {
-    while (index_ < plan_.transient && step()) {
+    while (index_ < options_.transient && step()) {
       if constexpr (has_tangent) exponent_.settle(tangent_(previous_));
     }
   }
 
   void observe() {
-    const auto count = static_cast<std::size_t>(plan_.samples);
+    const auto count = static_cast<std::size_t>(options_.samples);
     motion_.states.reserve(count);
     motion_.observed.reserve(count);
-    if constexpr (has_contact) motion_.contacts.reserve(count);
+    if constexpr (has_contact) motion_.itinerary.reserve(count);
     for (std::size_t taken = 0; taken < count; ++taken) {
       motion_.states.push_back(state_);
       motion_.observed.push_back(observable_(state_));
       if (!step()) return;
       if constexpr (has_tangent) exponent_.push(tangent_(previous_));
-      if constexpr (has_contact) motion_.contacts.push_back(contact_());
+      if constexpr (has_contact) motion_.itinerary.push_back(contact_());
     }
     motion_.largest = guard_.largest();
-    if constexpr (has_tangent) motion_.largest_exponent = exponent_.evidence();
+    if constexpr (has_tangent) motion_.largest_exponent = exponent_.indicators();
   }
 
   Vector<double, Size> state_;
@@ -158,9 +159,9 @@ class MotionCollector {
   Observable& observable_;
   Tangent& tangent_;
   Contact& contact_;
-  const EvidencePlan& plan_;
+  const IndicatorOptions& options_;
   DivergenceGuard<Size> guard_;
-  SettledExponent<Size> exponent_;
+  LeadingExponent<Size> exponent_;
   std::int64_t index_ = 0;
   CollectedMotion<Size> motion_;
 };
@@ -181,12 +182,12 @@ inline std::optional<double> extent_growth(const std::vector<double>& series) {
 }
 
 template <class Series>
-SpectralEvidence spectral_evidence(const Series& series, const EvidencePlan& plan) {
+SpectralIndicators spectral_indicators(const Series& series, const IndicatorOptions& options) {
   const std::size_t size = series.size();
   const auto whole = amplitude_spectrum(series, 1.0, SpectralWindow::rectangular);
   const auto narrow = amplitude_spectrum(series, 1.0, SpectralWindow::hann);
-  const SubharmonicQuestion question{plan.base_frequency, plan.largest_division};
-  return {subharmonic_shares(whole, size, question).division, question.share,
+  const SubharmonicOptions subharmonic{options.base_frequency, options.largest_division};
+  return {subharmonic_shares(whole, size, subharmonic).division, subharmonic.share,
           lines_holding(whole, size, 0.99), continuous_share(narrow, size)};
 }
 
@@ -199,34 +200,35 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
 
 /// What the collected series show.
 template <int Size>
-MotionEvidence weighed(const CollectedMotion<Size>& motion, const EvidencePlan& plan) {
-  MotionEvidence evidence;
-  evidence.forcing_incommensurate = plan.forcing_incommensurate;
-  evidence.largest_exponent = motion.largest_exponent;
-  const RepeatSearch repeat = repeats_after<Size>(
-      motion.states, plan.repeat_tolerance, static_cast<std::size_t>(plan.repeats), motion.largest);
-  evidence.repeat =
-      RepeatEvidence{static_cast<std::int64_t>(repeat.lag),
-                     static_cast<std::int64_t>(repeat.largest_lag), plan.repeat_tolerance};
-  const auto kept = std::min(plan.recurrence_states, static_cast<std::int64_t>(plan.samples));
+ChaosIndicators weighed(const CollectedMotion<Size>& motion, const IndicatorOptions& options) {
+  ChaosIndicators indicators;
+  indicators.forcing_incommensurate = options.forcing_incommensurate;
+  indicators.largest_exponent = motion.largest_exponent;
+  const RepeatSearch repeat =
+      repeats_after<Size>(motion.states, options.repeat_tolerance,
+                          static_cast<std::size_t>(options.repeats), motion.largest);
+  indicators.repeat =
+      RepetitionIndicators{static_cast<std::int64_t>(repeat.lag),
+                           static_cast<std::int64_t>(repeat.largest_lag), options.repeat_tolerance};
+  const auto kept = std::min(options.recurrence_states, static_cast<std::int64_t>(options.samples));
   const std::vector<Vector<double, Size>> last(motion.states.end() - kept, motion.states.end());
-  evidence.closest_return = closest_return<Size>(last);
-  evidence.recurrence = recurrence_shares<Size>(last, plan.recurrence_radius);
-  evidence.zero_one = zero_one_test(every(motion.observed, plan.zero_one_stride)).median;
-  evidence.lines = spectral_evidence(motion.observed, plan);
-  evidence.extent_growth = extent_growth(motion.observed);
-  if (!motion.contacts.empty()) evidence.switching = switching_complexity(motion.contacts);
-  return evidence;
+  indicators.closest_return = closest_return<Size>(last);
+  indicators.recurrence = recurrence_shares<Size>(last, options.recurrence_radius);
+  indicators.zero_one = zero_one_test(every(motion.observed, options.zero_one_stride)).median;
+  indicators.lines = spectral_indicators(motion.observed, options);
+  indicators.extent_growth = extent_growth(motion.observed);
+  if (!motion.itinerary.empty()) indicators.switching = switching_complexity(motion.itinerary);
+  return indicators;
 }
 
 }  // namespace detail
 
-/// Runs a discrete system and gathers the evidence that `judge` weighs.
+/// Runs a discrete system and computes the indicators that `classify` weighs.
 ///
 ///     auto logistic = [](Vector<double, 1>& x) { x[0] = 4 * x[0] * (1 - x[0]); };
 ///     auto value = [](const Vector<double, 1>& x) { return x[0]; };
 ///     auto slope = [](const Vector<double, 1>& x) { return Matrix<double, 1>(4 - 8 * x[0]); };
-///     judge(gather_evidence<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
+///     classify(chaos_indicators<1>({0.3}, logistic, value, {}, slope)).kind;  // chaotic
 ///
 /// Each callable may keep a state of its own, as a forcing does its index. A step first calls
 /// `advance(state)`, which replaces the state by the next one, then `tangent(before)` and
@@ -241,25 +243,25 @@ MotionEvidence weighed(const CollectedMotion<Size>& motion, const EvidencePlan& 
 /// @param advance     void(Vector<double, Size>&)
 /// @param observable  double(const Vector<double, Size>&), the number that spectrum and 0–1 test
 ///                    see
-/// @param plan        how much of the motion to look at, and how closely
+/// @param options     how much of the motion to look at, and how closely
 /// @param tangent     Matrix<double, Size>(const Vector<double, Size>&), or NoTangent
 /// @param contact     bool(), true where the drive transmits, or NoContact
 /// @throws InvalidParameter for a plan out of its ranges or an initial state that is not finite
 template <int Size, class Advance, class Observable, class Tangent = NoTangent,
           class Contact = NoContact>
-MotionEvidence gather_evidence(const Vector<double, Size>& initial, Advance advance,
-                               Observable observable, const EvidencePlan& plan = {},
-                               Tangent tangent = {}, Contact contact = {}) {
-  validate(plan);
+ChaosIndicators chaos_indicators(const Vector<double, Size>& initial, Advance advance,
+                                 Observable observable, const IndicatorOptions& options = {},
+                                 Tangent tangent = {}, Contact contact = {}) {
+  validate(options);
   for (Eigen::Index i = 0; i < initial.size(); ++i) require_finite("initial state", initial[i], "");
   detail::MotionCollector<Size, Advance, Observable, Tangent, Contact> collector(
-      initial, advance, observable, tangent, contact, plan);
+      initial, advance, observable, tangent, contact, options);
   const detail::CollectedMotion<Size> motion = collector.run();
-  if (!motion.diverged_at) return detail::weighed<Size>(motion, plan);
-  MotionEvidence evidence;
-  evidence.forcing_incommensurate = plan.forcing_incommensurate;
-  evidence.diverged_at = motion.diverged_at;
-  return evidence;
+  if (!motion.diverged_at) return detail::weighed<Size>(motion, options);
+  ChaosIndicators indicators;
+  indicators.forcing_incommensurate = options.forcing_incommensurate;
+  indicators.diverged_at = motion.diverged_at;
+  return indicators;
 }
 
 }  // namespace holdfast

@@ -15,18 +15,18 @@
 namespace holdfast {
 
 /// What a motion of a discrete system is.
-enum class MotionKind {
+enum class AttractorType {
   periodic,               ///< the same after N samples
   quasi_periodic,         ///< two or more frequencies without a common period, neighbours stay near
   irregular_contracting,  ///< neighbours come together, yet no repetition was found
   chaotic,                ///< bounded, and neighbours separate exponentially
   diverges,               ///< leaves every bound
-  undecided,              ///< the evidence is missing or contradicts itself
+  undecided,              ///< the indicators are missing or contradict each other
 };
 
 /// The largest Lyapunov exponent and its 95 % interval, value ± half_width.
-struct ExponentEvidence {
-  double value;                ///< −∞ where every direction is annihilated
+struct ExponentEstimate {
+  double value;                ///< −∞ where every direction is a null direction
   double half_width;           ///< ≥ 0
   std::string per = "sample";  ///< the step that the exponent is of
 
@@ -36,16 +36,16 @@ struct ExponentEvidence {
   bool negative() const { return value + half_width < 0.0; }
 };
 
-/// Evidence from an exponent and its standard error by batch means.
+/// An estimate from an exponent and its standard error by batch means.
 ///
 /// The half width is Student's 95 % quantile for the fewest batches that a series of more than 64
 /// steps has (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for
 /// the rounding of logarithms, below which no exponent is told from zero.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
-/// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see SettledExponent
+/// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see LeadingExponent
 /// @throws InvalidParameter for another standard error or end effect
-inline ExponentEvidence exponent_evidence(double value, double standard_error,
+inline ExponentEstimate exponent_estimate(double value, double standard_error,
                                           double end_effect = 0.0) {
   require_non_negative("standard error of the exponent", standard_error, "");
   require_non_negative("end effect of the exponent", end_effect, "");
@@ -54,14 +54,14 @@ inline ExponentEvidence exponent_evidence(double value, double standard_error,
 }
 
 /// A search for a repetition of the states, of three periods and more.
-struct RepeatEvidence {
+struct RepetitionIndicators {
   std::int64_t lag;          ///< smallest lag that repeats (samples), 0 for none
   std::int64_t largest_lag;  ///< how far was looked (samples)
   double tolerance;          ///< of a repeat, relative to the extent
 };
 
 /// The lines of the spectrum of an observable.
-struct SpectralEvidence {
+struct SpectralIndicators {
   int division;  ///< the smallest m for which the multiples of f/m hold the power, or 0
   double share;  ///< the share of the power that was asked for
   std::size_t lines_holding;  ///< how many lines hold 99 % of the power
@@ -69,13 +69,13 @@ struct SpectralEvidence {
 };
 
 /// What is known of a motion; what was not looked at stays empty.
-struct MotionEvidence {
+struct ChaosIndicators {
   std::optional<std::int64_t> diverged_at;       ///< sample at which the motion had left all bounds
   std::optional<std::int64_t> certified_period;  ///< of an orbit that was proved (samples)
-  std::optional<RepeatEvidence> repeat;          ///< of the states
-  std::optional<ExponentEvidence> largest_exponent;  ///< natural logarithm per step
+  std::optional<RepetitionIndicators> repeat;    ///< of the states
+  std::optional<ExponentEstimate> largest_exponent;  ///< natural logarithm per step
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
-  std::optional<SpectralEvidence> lines;             ///< of the observable
+  std::optional<SpectralIndicators> lines;           ///< of the observable
   std::optional<double> extent_growth;  ///< extent of the last quarter over that of the first
   std::optional<ClosestReturn> closest_return;   ///< among the last states
   std::optional<RecurrenceShares> recurrence;    ///< of the same states, at a given radius
@@ -86,34 +86,34 @@ struct MotionEvidence {
 };
 
 /// A kind, and the numbers that it rests on.
-struct Verdict {
-  MotionKind kind = MotionKind::undecided;  ///< what the motion is
-  std::int64_t period = 0;                  ///< samples; 0 unless periodic
-  std::string rests_on;                     ///< one or two English sentences
+struct Classification {
+  AttractorType kind = AttractorType::undecided;  ///< what the motion is
+  std::int64_t period = 0;                        ///< samples; 0 unless periodic
+  std::string rests_on;                           ///< one or two English sentences
 };
 
 /// `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, `diverges`, `undecided`.
-inline std::string motion_kind_text(MotionKind kind, std::int64_t period = 0) {
+inline std::string attractor_type_text(AttractorType kind, std::int64_t period = 0) {
   switch (kind) {
-    case MotionKind::periodic:
+    case AttractorType::periodic:
       return "periodic(" + std::to_string(period) + ")";
-    case MotionKind::quasi_periodic:
+    case AttractorType::quasi_periodic:
       return "quasi-periodic";
-    case MotionKind::irregular_contracting:
+    case AttractorType::irregular_contracting:
       return "irregular, exponent <= 0";
-    case MotionKind::chaotic:
+    case AttractorType::chaotic:
       return "chaotic";
-    case MotionKind::diverges:
+    case AttractorType::diverges:
       return "diverges";
-    case MotionKind::undecided:
+    case AttractorType::undecided:
       break;
   }
   return "undecided";
 }
 
-/// The text of a verdict's kind, with its period where it is periodic.
-inline std::string motion_kind_text(const Verdict& verdict) {
-  return motion_kind_text(verdict.kind, verdict.period);
+/// The text of a classification's kind, with its period where it is periodic.
+inline std::string attractor_type_text(const Classification& classification) {
+  return attractor_type_text(classification.kind, classification.period);
 }
 
 /// From this K of the 0–1 test on a series counts as chaotic …
@@ -130,33 +130,33 @@ inline constexpr double steady_growth = 2.0;
 
 namespace detail {
 
-/// The evidence in words, number by number.
-class EvidenceWords {
+/// The indicators in words, number by number.
+class IndicatorText {
  public:
-  explicit EvidenceWords(const MotionEvidence& evidence) : evidence_(evidence) {}
+  explicit IndicatorText(const ChaosIndicators& indicators) : indicators_(indicators) {}
 
   std::string exponent() const {
-    if (!evidence_.largest_exponent) return "no exponent is known";
-    const ExponentEvidence& found = *evidence_.largest_exponent;
+    if (!indicators_.largest_exponent) return "no exponent is known";
+    const ExponentEstimate& found = *indicators_.largest_exponent;
     std::ostringstream text;
     text << "largest exponent " << found.value << " +- " << found.half_width << " per " << found.per
          << " (95 %)";
     return text.str();
   }
   std::string zero_one() const {
-    if (!evidence_.zero_one) return "no 0-1 test was made";
-    return "0-1 test K = " + number(*evidence_.zero_one);
+    if (!indicators_.zero_one) return "no 0-1 test was made";
+    return "0-1 test K = " + number(*indicators_.zero_one);
   }
   std::string repeat() const {
-    if (!evidence_.repeat) return "no repetition was looked for";
-    const RepeatEvidence& found = *evidence_.repeat;
+    if (!indicators_.repeat) return "no repetition was looked for";
+    const RepetitionIndicators& found = *indicators_.repeat;
     if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
     return "no repetition to " + number(found.tolerance) + " of the extent within " +
            std::to_string(found.largest_lag) + " samples";
   }
   std::string lines() const {
-    if (!evidence_.lines) return "no spectrum was looked at";
-    const SpectralEvidence& found = *evidence_.lines;
+    if (!indicators_.lines) return "no spectrum was looked at";
+    const SpectralIndicators& found = *indicators_.lines;
     std::string text = number(100.0 * found.continuous) + " % of the power between the lines, " +
                        std::to_string(found.lines_holding) + " lines hold 99 %";
     if (found.division > 0) {
@@ -166,12 +166,12 @@ class EvidenceWords {
     return text;
   }
   std::string growth() const {
-    return "the extent of the last quarter is " + number(*evidence_.extent_growth) +
+    return "the extent of the last quarter is " + number(*indicators_.extent_growth) +
            " times that of the first";
   }
   std::string switching() const {
-    if (!evidence_.switching) return "";
-    return "; contacts carry " + number(evidence_.switching->entropy) + " bit per sample";
+    if (!indicators_.switching) return "";
+    return "; contacts carry " + number(indicators_.switching->entropy) + " bit per sample";
   }
   std::string all() const {
     return exponent() + "; " + zero_one() + "; " + repeat() + "; " + lines();
@@ -184,7 +184,7 @@ class EvidenceWords {
   }
 
  private:
-  const MotionEvidence& evidence_;
+  const ChaosIndicators& indicators_;
 };
 
 inline bool is_low(const std::optional<double>& zero_one) {
@@ -193,70 +193,74 @@ inline bool is_low(const std::optional<double>& zero_one) {
 inline bool is_high(const std::optional<double>& zero_one) {
   return zero_one && *zero_one >= zero_one_high;
 }
-inline bool is_steady(const MotionEvidence& evidence) {
-  return !evidence.extent_growth || (*evidence.extent_growth <= steady_growth &&
-                                     *evidence.extent_growth * steady_growth >= 1.0);
+inline bool is_steady(const ChaosIndicators& indicators) {
+  return !indicators.extent_growth || (*indicators.extent_growth <= steady_growth &&
+                                       *indicators.extent_growth * steady_growth >= 1.0);
 }
-inline bool searched_in_vain(const MotionEvidence& evidence) {
-  return evidence.repeat && evidence.repeat->lag == 0;
+inline bool searched_in_vain(const ChaosIndicators& indicators) {
+  return indicators.repeat && indicators.repeat->lag == 0;
 }
 /// Nothing but separate lines; false where no spectrum is known.
-inline bool lines_alone(const MotionEvidence& evidence) {
-  return evidence.lines && evidence.lines->continuous <= lines_only_share;
+inline bool lines_alone(const ChaosIndicators& indicators) {
+  return indicators.lines && indicators.lines->continuous <= lines_only_share;
 }
 /// The power lies on the multiples of one frequency; false where no spectrum is known.
-inline bool one_base(const MotionEvidence& evidence) {
-  return evidence.lines && evidence.lines->division > 0;
+inline bool one_base(const ChaosIndicators& indicators) {
+  return indicators.lines && indicators.lines->division > 0;
 }
 
-inline Verdict undecided(const std::string& why, const EvidenceWords& words) {
-  return {MotionKind::undecided, 0, why + ": " + words.all() + "."};
+inline Classification undecided(const std::string& why, const IndicatorText& words) {
+  return {AttractorType::undecided, 0, why + ": " + words.all() + "."};
 }
 
-inline Verdict judge_repeating(const MotionEvidence& evidence, const EvidenceWords& words) {
-  if (evidence.largest_exponent && evidence.largest_exponent->positive())
+inline Classification classify_repeating(const ChaosIndicators& indicators,
+                                         const IndicatorText& words) {
+  if (indicators.largest_exponent && indicators.largest_exponent->positive())
     return undecided("The motion repeats although its neighbours leave it", words);
-  return {MotionKind::periodic, evidence.repeat->lag,
+  return {AttractorType::periodic, indicators.repeat->lag,
           "Recurrence, no certificate: the second half of the series " + words.repeat() +
-              ", three times and more, to " + EvidenceWords::number(evidence.repeat->tolerance) +
+              ", three times and more, to " + IndicatorText::number(indicators.repeat->tolerance) +
               " of its extent."};
 }
 
-inline Verdict judge_separating(const MotionEvidence& evidence, const EvidenceWords& words) {
-  if (!is_high(evidence.zero_one))
+inline Classification classify_separating(const ChaosIndicators& indicators,
+                                          const IndicatorText& words) {
+  if (!is_high(indicators.zero_one))
     return undecided("Neighbours separate, but the 0-1 test does not show chaos", words);
-  if (lines_alone(evidence) || one_base(evidence))
+  if (lines_alone(indicators) || one_base(indicators))
     return undecided("Neighbours separate, but the spectrum is one of lines", words);
-  return {MotionKind::chaotic, 0,
+  return {AttractorType::chaotic, 0,
           "Neighbours separate exponentially in a bounded motion: " + words.all() + "."};
 }
 
-inline Verdict judge_neutral(const MotionEvidence& evidence, const EvidenceWords& words) {
-  if (!is_low(evidence.zero_one) || !searched_in_vain(evidence))
+inline Classification classify_neutral(const ChaosIndicators& indicators,
+                                       const IndicatorText& words) {
+  if (!is_low(indicators.zero_one) || !searched_in_vain(indicators))
     return undecided("The exponent is not told from zero, and the rest does not decide", words);
-  if (!lines_alone(evidence) || one_base(evidence))
+  if (!lines_alone(indicators) || one_base(indicators))
     return undecided("The exponent is not told from zero, and the lines show no second frequency",
                      words);
   return {
-      MotionKind::quasi_periodic, 0,
+      AttractorType::quasi_periodic, 0,
       "The exponent is zero within its error and the spectrum has lines without a common base: " +
           words.all() + "."};
 }
 
-inline Verdict judge_contracting(const MotionEvidence& evidence, const EvidenceWords& words) {
-  const bool floor = evidence.lines && !lines_alone(evidence);
-  if (evidence.forcing_incommensurate && is_low(evidence.zero_one) && !floor) {
-    return {MotionKind::quasi_periodic, 0,
+inline Classification classify_contracting(const ChaosIndicators& indicators,
+                                           const IndicatorText& words) {
+  const bool floor = indicators.lines && !lines_alone(indicators);
+  if (indicators.forcing_incommensurate && is_low(indicators.zero_one) && !floor) {
+    return {AttractorType::quasi_periodic, 0,
             "The state follows its forcing, whose period and the sampling period have no common "
             "multiple: " +
                 words.all() + "."};
   }
-  if (!searched_in_vain(evidence))
+  if (!searched_in_vain(indicators))
     return undecided("Neighbours come together, but no repetition was looked for", words);
-  if (one_base(evidence) || (is_low(evidence.zero_one) && lines_alone(evidence)))
+  if (one_base(indicators) || (is_low(indicators.zero_one) && lines_alone(indicators)))
     return undecided("A regular series that does not repeat, slowly settling or of a long period",
                      words);
-  return {MotionKind::irregular_contracting, 0,
+  return {AttractorType::irregular_contracting, 0,
           "Neighbours come together, yet the motion does not repeat; its period may be longer, or "
           "the contacts never settle: " +
               words.all() + words.switching() + "."};
@@ -264,7 +268,7 @@ inline Verdict judge_contracting(const MotionEvidence& evidence, const EvidenceW
 
 }  // namespace detail
 
-/// Weighs the evidence. The first rule that applies decides:
+/// Classifies a motion by its indicators. The first rule that applies decides:
 ///
 ///  1. left all bounds → diverges;
 ///  2. a certified orbit → periodic; else a record of fewer than `fewest_forcing_periods` →
@@ -284,57 +288,63 @@ inline Verdict judge_contracting(const MotionEvidence& evidence, const EvidenceW
 ///     settling, or its period may be longer than the search.
 ///
 /// No statistic claims chaos alone: it takes a positive exponent and a high K that nothing
-/// contradicts. The verdict is on the series that the evidence is of.
-inline Verdict judge(const MotionEvidence& evidence) {
-  const detail::EvidenceWords words(evidence);
-  if (evidence.diverged_at) {
-    return {
-        MotionKind::diverges, 0,
-        "The motion has left all bounds by sample " + std::to_string(*evidence.diverged_at) + "."};
+/// contradicts. The classification is of the series that the indicators are of.
+inline Classification classify(const ChaosIndicators& indicators) {
+  const detail::IndicatorText words(indicators);
+  if (indicators.diverged_at) {
+    return {AttractorType::diverges, 0,
+            "The motion has left all bounds by sample " + std::to_string(*indicators.diverged_at) +
+                "."};
   }
-  if (evidence.certified_period) {
-    return {MotionKind::periodic, *evidence.certified_period,
-            "Certified orbit of " + std::to_string(*evidence.certified_period) + " samples."};
+  if (indicators.certified_period) {
+    return {AttractorType::periodic, *indicators.certified_period,
+            "Certified orbit of " + std::to_string(*indicators.certified_period) + " samples."};
   }
-  if (evidence.forcing_periods && *evidence.forcing_periods < fewest_forcing_periods) {
+  if (indicators.forcing_periods && *indicators.forcing_periods < fewest_forcing_periods) {
     return detail::undecided("The record covers only " +
-                                 detail::EvidenceWords::number(*evidence.forcing_periods) +
+                                 detail::IndicatorText::number(*indicators.forcing_periods) +
                                  " periods of the forcing",
                              words);
   }
-  if (evidence.repeat && evidence.repeat->lag > 0) return detail::judge_repeating(evidence, words);
-  if (!evidence.largest_exponent) return detail::undecided("No exponent is known", words);
-  if (!detail::is_steady(evidence))
+  if (indicators.repeat && indicators.repeat->lag > 0)
+    return detail::classify_repeating(indicators, words);
+  if (!indicators.largest_exponent) return detail::undecided("No exponent is known", words);
+  if (!detail::is_steady(indicators))
     return detail::undecided("The motion is not steady, " + words.growth(), words);
-  if (evidence.largest_exponent->positive()) return detail::judge_separating(evidence, words);
-  if (evidence.largest_exponent->negative()) return detail::judge_contracting(evidence, words);
-  return detail::judge_neutral(evidence, words);
+  if (indicators.largest_exponent->positive())
+    return detail::classify_separating(indicators, words);
+  if (indicators.largest_exponent->negative())
+    return detail::classify_contracting(indicators, words);
+  return detail::classify_neutral(indicators, words);
 }
 
 namespace detail {
 
-/// Weighs the evidence of a motion under a recorded force, or with samples that stray.
+/// Classifies a motion under a recorded force, or with samples that jitter.
 ///
 /// Its spectrum, its 0–1 test and its repetitions are those of the forcing as much as its own, and
 /// a forcing that does not repeat is no sum of incommensurate harmonics. So nothing is called
 /// quasi-periodic. Divergence stands, and so does chaos, by an exponent above zero. Where the
-/// samples stray nothing is called periodic but rest; a recurrence under a recorded force is one of
-/// the series. Else an exponent below zero decides, whatever the rest: neighbours come together
+/// samples jitter nothing is called periodic but rest; a recurrence under a recorded force is one
+/// of the series. Else an exponent below zero decides, whatever the rest: neighbours come together
 /// under one and the same forcing, so that the motion follows it.
-inline Verdict judge_irregularly_forced(const MotionEvidence& evidence, bool samples_stray) {
-  Verdict verdict = judge(evidence);
-  const bool repeats = verdict.kind == MotionKind::periodic;
-  if (verdict.kind == MotionKind::diverges || verdict.kind == MotionKind::chaotic) return verdict;
-  if (repeats && (!samples_stray || verdict.period == 1)) return verdict;
-  if (evidence.forcing_periods && *evidence.forcing_periods < fewest_forcing_periods)
-    return verdict;
-  const EvidenceWords words(evidence);
-  if (evidence.largest_exponent && evidence.largest_exponent->negative()) {
-    return {MotionKind::irregular_contracting, 0,
+inline Classification classify_irregularly_forced(const ChaosIndicators& indicators,
+                                                  bool samples_jitter) {
+  Classification classification = classify(indicators);
+  const bool repeats = classification.kind == AttractorType::periodic;
+  if (classification.kind == AttractorType::diverges ||
+      classification.kind == AttractorType::chaotic)
+    return classification;
+  if (repeats && (!samples_jitter || classification.period == 1)) return classification;
+  if (indicators.forcing_periods && *indicators.forcing_periods < fewest_forcing_periods)
+    return classification;
+  const IndicatorText words(indicators);
+  if (indicators.largest_exponent && indicators.largest_exponent->negative()) {
+    return {AttractorType::irregular_contracting, 0,
             "Neighbours come together and follow a forcing or samples that do not repeat: " +
                 words.all() + words.switching() + "."};
   }
-  if (verdict.kind == MotionKind::undecided) return verdict;
+  if (classification.kind == AttractorType::undecided) return classification;
   return undecided("The forcing or the samples do not repeat, and the exponent does not decide",
                    words);
 }

@@ -12,14 +12,14 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #endif
 
 namespace holdfast {
 
 namespace detail {
 
-/// An orthogonal basis in which no map of a loop has an invariant or an annihilated direction along
+/// An orthogonal basis in which no map of a loop has an invariant or a null direction along
 /// an axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
 /// @param size  of the maps
 template <class Scalar = double, int Size = 7>
@@ -36,12 +36,12 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 ///
 /// It stands in for the motion in run_trajectory, so that a history may be kept beside it:
 ///
-///     HybridLyapunov lyapunov(motion);
+///     EventLyapunov lyapunov(motion);
 ///     run_trajectory(lyapunov, samples, kick, [&](const auto& sample) {
 ///       … lyapunov.spectrum().exponents() …      // of the samples before this one
 ///     });
 ///
-/// The tangent is that of HybridTangent, orthogonalised at every sample. Of its N + 3 exponents,
+/// The tangent is that of VariationalFlow, orthogonalised at every sample. Of its N + 3 exponents,
 /// N being the order of the plant,
 ///  - one is −∞ once the drive has been engaged for an instant: where its gap lies is a function of
 ///    the state from then on;
@@ -62,13 +62,13 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 /// annihilated, a direction stays so.
 /// Work per sample of the two masses: that of the tangent, and some 1500 multiply-adds for the QR.
 template <class Contact>
-class HybridLyapunov {
+class EventLyapunov {
  public:
   /// N + 3.
-  static constexpr int size = HybridTangent<Contact>::size;
+  static constexpr int size = VariationalFlow<Contact>::size;
 
   /// @param motion  goes on from where it stands; must outlive this
-  explicit HybridLyapunov(HybridMotion<Contact>& motion)
+  explicit EventLyapunov(EventMotion<Contact>& motion)
       : motion_(&motion),
         tangent_(motion),
         spectrum_(detail::oblique_basis<double, size>(motion.state().size() + 3)) {}
@@ -97,15 +97,15 @@ class HybridLyapunov {
   void restart() { spectrum_.restart(); }
 
  private:
-  HybridMotion<Contact>* motion_;
-  HybridTangent<Contact> tangent_;
+  EventMotion<Contact>* motion_;
+  VariationalFlow<Contact> tangent_;
   LyapunovSpectrum<double, size> spectrum_;
 };
 
 namespace detail {
 
 /// The average of run_average() over the tangents of a motion.
-/// @tparam Lyapunov  HybridLyapunov of the motion
+/// @tparam Lyapunov  EventLyapunov of the motion
 template <class Lyapunov>
 class TangentAverage {
  public:
@@ -140,7 +140,7 @@ class TangentAverage {
 /// The five leading Lyapunov exponents of a motion that may switch between its samples, from where
 /// it stands, natural logarithm per sample.
 ///
-///     const LyapunovResult result = run_hybrid_lyapunov(motion, {1000000, 1000, 1e-5});
+///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000, 1e-5});
 ///
 /// The outcome is `diverged` where the state left the range of the numbers, as in run_lyapunov. A
 /// motion whose `counts()` say that its changes of contact accumulate has no exponents to be
@@ -150,18 +150,17 @@ class TangentAverage {
 /// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Contact>
-LyapunovResult run_hybrid_lyapunov(HybridMotion<Contact>& motion, const LyapunovRun& run,
-                                   const std::function<void()>& pause = {}) {
+LyapunovResult run_event_lyapunov(EventMotion<Contact>& motion, const LyapunovRun& run,
+                                  const std::function<void()>& pause = {}) {
   validate(run);
-  HybridLyapunov<Contact> lyapunov(motion);
-  detail::TangentAverage<HybridLyapunov<Contact>> average(lyapunov, pause);
+  EventLyapunov<Contact> lyapunov(motion);
+  detail::TangentAverage<EventLyapunov<Contact>> average(lyapunov, pause);
   return detail::run_average(average, run);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LyapunovResult run_hybrid_lyapunov(HybridMotion<DriveContact<>>&,
-                                                   const LyapunovRun&,
-                                                   const std::function<void()>&);
+extern template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<>>&, const LyapunovRun&,
+                                                  const std::function<void()>&);
 #endif
 
 }  // namespace holdfast

@@ -29,14 +29,14 @@ namespace holdfast {
 ///    the width of those bounds over n. The width is read off the last 1/32 of the steps, where a
 ///    wandering sum moves by much less than its standard error.
 ///
-/// The interval is the larger of the two, see `exponent_evidence`.
+/// The interval is the larger of the two, see `exponent_estimate`.
 template <int Size>
-class SettledExponent {
+class LeadingExponent {
  public:
   /// @param expected_steps  how many maps will be pushed after settling, ≥ 64
   /// @param size            of the maps, where that is known at run time alone
   /// @throws InvalidParameter for fewer
-  explicit SettledExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
+  explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
       : basis_(Matrix<double, Size>::Identity(size, size)),
         spectrum_(basis_),
         watched_from_(expected_steps - expected_steps / 32) {
@@ -62,11 +62,11 @@ class SettledExponent {
   const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
 
   /// The largest exponent; only after at least 64 maps.
-  ExponentEvidence evidence() const {
+  ExponentEstimate indicators() const {
     Eigen::Index which = 0;
     const double value = spectrum_.exponents().maxCoeff(&which);
     const double steps = static_cast<double>(spectrum_.steps());
-    return exponent_evidence(value, spectrum_.standard_errors()[which],
+    return exponent_estimate(value, spectrum_.standard_errors()[which],
                              bounds_width(which, value) / steps);
   }
 

@@ -24,14 +24,14 @@ class LyapunovObserver {
   /// @param tangent_loop  whose S and S* are the tangents
   /// @param gains         P (N/m) and D (N s/m) of the motion
   LyapunovObserver(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
-      : engine_(std::make_shared<const ContactWords>(tangent_loop, gains)) {}
+      : engine_(std::make_shared<const ItineraryBlocks>(tangent_loop, gains)) {}
 
   /// Takes the contact of the next sample, and nothing else of it.
   void operator()(const MotionSample<Scalar>& sample) {
     open_[0] = followed_by(open_[0], sample.engaged);
     if (!is_whole(open_[0])) return;
     engine_.push(open_);
-    open_ = no_contacts<Scalar>();
+    open_ = empty_blocks<Scalar>();
   }
 
   /// The spectrum over the samples seen so far, as of QR at every one of them. Reading it, however
@@ -39,8 +39,8 @@ class LyapunovObserver {
   LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
 
  private:
-  ContactSpectrum<Scalar> engine_;
-  LaneWords<Scalar> open_ = no_contacts<Scalar>();
+  BlockSpectrum<Scalar> engine_;
+  LaneBlocks<Scalar> open_ = empty_blocks<Scalar>();
 };
 
 }  // namespace holdfast

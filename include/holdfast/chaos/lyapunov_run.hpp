@@ -23,7 +23,7 @@ struct LyapunovRun {
   double standard_error = 0;  ///< ≥ 0, per sample: the mean that is accurate enough; 0 never is
   LyapunovScope scope = LyapunovScope::all;  ///< what is computed
   /// What has to be accurate enough: the largest exponent, or all that are finite.
-  LyapunovScope judged = LyapunovScope::largest;
+  LyapunovScope classified = LyapunovScope::largest;
 };
 
 /// @throws InvalidParameter where a field is not admissible
@@ -44,7 +44,7 @@ enum class LyapunovOutcome {
 /// The Lyapunov exponents of a motion, natural logarithm per sample.
 struct LyapunovResult {
   LyapunovOutcome outcome;  ///< why no more samples were taken
-  /// λ₁ … λ₅ in the order of the QR, −∞ where a direction is annihilated; NaN but for the first
+  /// λ₁ … λ₅ in the order of the QR, −∞ for a null direction; NaN but for the first
   /// where that alone was asked for.
   Vector<double, 5> exponents;
   /// By batch means, the larger of those from the batches and from pairs of them; 0 for −∞.
@@ -55,19 +55,19 @@ struct LyapunovResult {
   bool sign_is_known() const {
     if (exponents[0] == -std::numeric_limits<double>::infinity()) return true;
     if (!std::isfinite(exponents[0]) || !std::isfinite(standard_errors[0])) return false;
-    const ExponentEvidence evidence = exponent_evidence(exponents[0], standard_errors[0]);
-    return evidence.positive() || evidence.negative();
+    const ExponentEstimate indicators = exponent_estimate(exponents[0], standard_errors[0]);
+    return indicators.positive() || indicators.negative();
   }
 };
 
 /// Fewest complete batches on which a run may end early.
-inline constexpr std::size_t batches_to_judge = 32;
+inline constexpr std::size_t fewest_batches = 32;
 
 /// Whether a spectrum is known as well as a run asks for.
 /// @param standard_errors  of λ₁ … λ₅
 template <class Scalar>
 bool accurate_enough(const Vector<Scalar, 5>& standard_errors, const LyapunovRun& run) {
-  const bool all = run.judged == LyapunovScope::all && run.scope == LyapunovScope::all;
+  const bool all = run.classified == LyapunovScope::all && run.scope == LyapunovScope::all;
   const double error = all ? standard_errors.maxCoeff() : standard_errors[0];
   return error <= run.standard_error && !standard_errors.hasNaN();
 }
@@ -96,14 +96,14 @@ class JudgingTimes {
 
   /// Whether the exponents are to be judged now. @param batches  complete so far
   bool have_come(std::size_t batches) {
-    if (batches == judged_ || batches < batches_to_judge || !asked_) return false;
-    judged_ = batches;
+    if (batches == classified_ || batches < fewest_batches || !asked_) return false;
+    classified_ = batches;
     return true;
   }
 
  private:
   bool asked_;
-  std::size_t judged_ = 0;
+  std::size_t classified_ = 0;
 };
 
 /// Averages exponents over a run: leaves out the first samples, then goes on until the mean is
@@ -133,84 +133,84 @@ LyapunovResult run_average(Average& average, const LyapunovRun& run) {
 
 /// The contacts of the next `samples` samples of a motion; fewer if it diverges.
 template <class Motion>
-LaneWords<double> next_contacts(Motion& motion, std::int64_t samples) {
-  ContactWord word = 1;
+LaneBlocks<double> next_blocks(Motion& motion, std::int64_t samples) {
+  ItineraryBlock block = 1;
   for (std::int64_t taken = 0; taken < samples; ++taken) {
     const bool engaged = motion.sense().engaged;
     if (!std::isfinite(motion.state().sum())) break;
-    word = followed_by(word, engaged);
+    block = followed_by(block, engaged);
     motion.advance();
   }
-  return {word};
+  return {block};
 }
 
-/// How a series of words ended.
-struct OpenContacts {
-  LaneWords<double> word;  ///< the last one, incomplete
-  bool diverged;           ///< whether the motion did, after that word
+/// How a series of blocks ended.
+struct OpenBlock {
+  LaneBlocks<double> block;  ///< the last one, incomplete
+  bool diverged;             ///< whether the motion did, after that block
 };
 
-/// Goes through `samples` samples of a motion: whole words to `take`, which may end it by returning
-/// false.
+/// Goes through `samples` samples of a motion: whole blocks to `take`, which may end it by
+/// returning false.
 template <class Motion, class Take>
-OpenContacts run_contacts(Motion& motion, std::int64_t samples, const Take& take) {
+OpenBlock run_blocks(Motion& motion, std::int64_t samples, const Take& take) {
   while (samples > 0) {
-    const std::int64_t wanted = std::min<std::int64_t>(samples, ContactWords::length);
-    const LaneWords<double> word = next_contacts(motion, wanted);
-    if (!is_whole(word[0])) return {word, samples_of(word[0]) < wanted};
-    samples -= ContactWords::length;
-    if (!take(word)) break;
+    const std::int64_t wanted = std::min<std::int64_t>(samples, ItineraryBlocks::length);
+    const LaneBlocks<double> block = next_blocks(motion, wanted);
+    if (!is_whole(block[0])) return {block, samples_of(block[0]) < wanted};
+    samples -= ItineraryBlocks::length;
+    if (!take(block)) break;
   }
-  return {no_contacts<double>(), false};
+  return {empty_blocks<double>(), false};
 }
 
 /// The average of run_average() over the contacts of a motion.
 template <class Motion>
-class ContactAverage {
+class BlockAverage {
  public:
-  ContactAverage(Motion& motion, const std::shared_ptr<const ContactWords>& words,
-                 LyapunovScope scope)
-      : motion_(motion), spectrum_(words, scope) {}
+  BlockAverage(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
+               LyapunovScope scope)
+      : motion_(motion), spectrum_(blocks, scope) {}
 
   template <class Ends>
   bool take(std::int64_t samples, const Ends& ends) {
-    const OpenContacts open = run_contacts(motion_, samples, [&](const auto& word) {
-      spectrum_.push(word);
+    const OpenBlock open = run_blocks(motion_, samples, [&](const auto& block) {
+      spectrum_.push(block);
       return !ends();
     });
-    open_ = open.word;
+    open_ = open.block;
     return !open.diverged;
   }
 
   void restart() {
     spectrum_.restart(open_);
-    open_ = no_contacts<double>();
+    open_ = empty_blocks<double>();
   }
   auto spectrum() const { return spectrum_.spectrum(open_); }
   std::size_t complete_batches() const { return spectrum_.complete_batches(); }
 
  private:
   Motion& motion_;
-  ContactSpectrum<double> spectrum_;
-  LaneWords<double> open_ = no_contacts<double>();
+  BlockSpectrum<double> spectrum_;
+  LaneBlocks<double> open_ = empty_blocks<double>();
 };
 
 }  // namespace detail
 
 /// The Lyapunov exponents of the sampled loop with backlash along a motion, from where it stands.
 ///
-///     auto words = std::make_shared<const ContactWords>(loop, gains);
-///     const LyapunovResult result = run_lyapunov(motion, words, {1000000, 1000, 1e-5});
+///     auto blocks = std::make_shared<const ItineraryBlocks>(loop, gains);
+///     const LyapunovResult result = run_lyapunov(motion, blocks, {1000000, 1000, 1e-5});
 ///
 /// @param motion  SampledMotion on scalars; left after the last sample taken
-/// @param words   of the loop whose S and S* are the tangents
+/// @param blocks  of the loop whose S and S* are the tangents
 /// @param run     how long, and with what accuracy, is averaged
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>
-LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ContactWords>& words,
+LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
                             const LyapunovRun& run) {
   validate(run);
-  detail::ContactAverage<Motion> average(motion, words, run.scope);
+  detail::BlockAverage<Motion> average(motion, blocks, run.scope);
   return detail::run_average(average, run);
 }
 

@@ -17,11 +17,11 @@ namespace holdfast {
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)
 ///
-/// A tangent map of rank r < Size annihilates Size − r directions: those exponents are exactly −∞,
+/// A tangent map of rank r < Size has Size − r null directions: those exponents are exactly −∞,
 /// and no logarithm of round-off is taken. The rank is that to working precision: a direction that
-/// one step contracts by more than about 10¹⁵ against the others counts as annihilated. Source:
-/// Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning; G.
-/// Benettin et al., Meccanica 15 (1980).
+/// one step contracts by more than about 10¹⁵ against the others counts as a null direction.
+/// Source: Kollár 2022, Eq. (16), whose Gram–Schmidt steps are this QR with a worse conditioning;
+/// G. Benettin et al., Meccanica 15 (1980).
 template <class Scalar, int Size>
 class LyapunovSpectrum {
  public:
@@ -73,17 +73,17 @@ class LyapunovSpectrum {
   /// Number of batches complete, for the standard errors.
   std::size_t complete_batches() const { return state_.sums.complete_batches(); }
 
-  /// Forgets all but the directions of the tangent vectors and how many of them are annihilated:
-  /// the exponents are those of the steps from here on.
+  /// Forgets all but the directions of the tangent vectors and how many of them are null
+  /// directions: the exponents are those of the steps from here on.
   void restart() {
     state_.sums = BatchSums<Scalar, Size>(1, state_.basis.rows());
     state_.remainder.setZero();
   }
 
  private:
-  Vector<Scalar, Size> with(const Vector<Scalar, Size>& values, Scalar where_annihilated) const {
+  Vector<Scalar, Size> with(const Vector<Scalar, Size>& values, Scalar where_null) const {
     Vector<Scalar, Size> result = values;
-    result.tail(result.size() - state_.finite).setConstant(where_annihilated);
+    result.tail(result.size() - state_.finite).setConstant(where_null);
     return result;
   }
 

@@ -15,7 +15,7 @@ namespace holdfast {
 ///
 ///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
 ///
-/// so that 0 ≤ d ≤ 1 whatever the units. A coordinate that is constant to within round-off, 10⁻¹³
+/// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to within round-off, 10⁻¹³
 /// of its own size, is left out; one that is nothing but round-off about zero
 /// has no size to tell, and needs one given.
 template <int Size>

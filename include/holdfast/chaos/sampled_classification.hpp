@@ -9,37 +9,37 @@
 #include "holdfast/chaos/chaos_indicators.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 
 namespace holdfast {
 
-/// What a motion of the sampled loop with backlash is, with its certificate or the evidence.
-struct MotionVerdict {
-  Verdict verdict;          ///< what the motion is, and what that rests on
-  OrbitResult search;       ///< the orbit, where there is one
-  MotionEvidence evidence;  ///< of a certified orbit its period and its exponent alone
+/// What a motion of the sampled loop with backlash is, with its certificate or the indicators.
+struct SampledClassification {
+  Classification classification;  ///< what the motion is, and what that rests on
+  OrbitResult search;             ///< the orbit, where there is one
+  ChaosIndicators indicators;     ///< of a certified orbit its period and its exponent alone
 };
 
 namespace detail {
 
 /// How a sampled loop is looked at: as many samples as the 0–1 test wants forcing periods for.
 /// @param cycles  f τ, periods of the forcing in a sample, > 0
-inline EvidencePlan evidence_plan(double cycles) {
-  EvidencePlan plan;
+inline IndicatorOptions indicator_options(double cycles) {
+  IndicatorOptions options;
   const double samples_of_period = std::clamp(std::round(1.0 / cycles), 1.0, 200.0);
-  plan.zero_one_stride = static_cast<std::int64_t>(samples_of_period);
-  plan.samples = std::clamp<std::int64_t>(1008 * plan.zero_one_stride, 20160, 100000);
-  plan.transient = plan.samples;
-  plan.base_frequency = cycles;
-  return plan;
+  options.zero_one_stride = static_cast<std::int64_t>(samples_of_period);
+  options.samples = std::clamp<std::int64_t>(1008 * options.zero_one_stride, 20160, 100000);
+  options.transient = options.samples;
+  options.base_frequency = cycles;
+  return options;
 }
 
-/// The evidence of a motion from its samples.
+/// The indicators of a motion from its samples.
 template <class Scalar>
-MotionEvidence evidence_of_motion(const ForcedLoop<Scalar>& loop,
-                                  const Vector<double, 4>& initial_state,
-                                  const EvidencePlan& plan) {
+ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
+                                     const Vector<double, 4>& initial_state,
+                                     const IndicatorOptions& options) {
   auto motion = harmonically_forced_motion(loop, initial_state);
   const Matrix<double, 5> maps[] = {motion.loop().backlash_map(),
                                     motion.loop().engaged_map(loop.gains)};
@@ -54,22 +54,22 @@ MotionEvidence evidence_of_motion(const ForcedLoop<Scalar>& loop,
   const auto contact = [&] { return engaged; };
   Vector<double, 5> first;
   first << initial_state, 0.0;
-  MotionEvidence evidence =
-      gather_evidence<5>(first, advance, displacement, plan, tangent, contact);
+  ChaosIndicators indicators =
+      chaos_indicators<5>(first, advance, displacement, options, tangent, contact);
   if (loop.excitation.amplitude > 0.0)
-    evidence.forcing_periods = plan.base_frequency * static_cast<double>(plan.samples);
-  return evidence;
+    indicators.forcing_periods = options.base_frequency * static_cast<double>(options.samples);
+  return indicators;
 }
 
-/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+/// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
-MotionEvidence evidence_of_orbit(const Orbit& orbit) {
-  MotionEvidence evidence;
-  evidence.certified_period = orbit.period_samples();
+ChaosIndicators indicators_of_orbit(const Orbit& orbit) {
+  ChaosIndicators indicators;
+  indicators.certified_period = orbit.period_samples();
   const double samples = static_cast<double>(orbit.period_samples());
-  evidence.largest_exponent =
-      ExponentEvidence{orbit.multipliers.front().log_modulus / samples, 0.0, "sample"};
-  return evidence;
+  indicators.largest_exponent =
+      ExponentEstimate{orbit.multipliers.front().log_modulus / samples, 0.0, "sample"};
+  return indicators;
 }
 
 /// @param shown  what it shows of the orbit's contacts
@@ -83,14 +83,15 @@ std::string certificate_text(const Orbit& orbit, const std::string& shown) {
     text += ", " + counted(orbit.forcing_periods(), "forcing period");
   const double modulus = orbit.largest_multiplier();
   text += ": " + shown + ", its largest multiplier is " +
-          (modulus > 0.0 ? EvidenceWords::number(modulus)
-                         : "e^" + EvidenceWords::number(orbit.multipliers.front().log_modulus)) +
-          ", and it closes to " + EvidenceWords::number(orbit.closure_error) + " in m and m/s.";
+          (modulus > 0.0 ? IndicatorText::number(modulus)
+                         : "e^" + IndicatorText::number(orbit.multipliers.front().log_modulus)) +
+          ", and it closes to " + IndicatorText::number(orbit.closure_error) + " in m and m/s.";
   return text;
 }
 
-/// Takes the verdict from the search where that has certified an orbit or seen the motion diverge.
-/// @tparam Found  MotionVerdict or HybridVerdict, its search done
+/// Takes the classification from the search where that has certified an orbit or seen the motion
+/// diverge.
+/// @tparam Found  SampledClassification or EventClassification, its search done
 /// @param shown   what a certificate shows of the orbit's contacts
 /// @return whether it has
 template <class Found>
@@ -98,42 +99,44 @@ bool is_decided_by_search(Found& found, const std::string& shown) {
   const bool certified = found.search.outcome == OrbitOutcome::certified;
   if (!certified && found.search.outcome != OrbitOutcome::diverges) return false;
   if (certified)
-    found.evidence = evidence_of_orbit(*found.search.orbit);
+    found.indicators = indicators_of_orbit(*found.search.orbit);
   else
-    found.evidence.diverged_at = found.search.samples;
-  found.verdict = judge(found.evidence);
-  if (certified) found.verdict.rests_on = certificate_text(*found.search.orbit, shown);
+    found.indicators.diverged_at = found.search.samples;
+  found.classification = classify(found.indicators);
+  if (certified) found.classification.rests_on = certificate_text(*found.search.orbit, shown);
   return true;
 }
 
 }  // namespace detail
 
 /// Says what a motion is: by the exact orbit that it comes to, or, where none is found, by the
-/// evidence of its samples.
+/// indicators of its samples.
 ///
-///     classify_motion(loop, Vector<double, 4>::Zero()).verdict.kind;   // MotionKind::periodic
+///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;   //
+///     AttractorType::periodic
 ///
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         of the search for an orbit
-/// Work: that of find_periodic_orbit() and of gather_evidence() for up to 10⁵ samples.
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples.
 /// @throws InvalidParameter where one of them is not admissible
 template <class Scalar>
-MotionVerdict classify_motion(const ForcedLoop<Scalar>& loop,
-                              const Vector<double, 4>& initial_state,
-                              const OrbitLimits& limits = {}) {
-  MotionVerdict found{{}, find_periodic_orbit(loop, initial_state, limits), {}};
+SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
+                                      const Vector<double, 4>& initial_state,
+                                      const OrbitLimits& limits = {}) {
+  SampledClassification found{{}, find_periodic_orbit(loop, initial_state, limits), {}};
   if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
-  EvidencePlan plan = detail::evidence_plan(loop.excitation.frequency * loop.sampling.period);
-  plan.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
-  found.evidence = detail::evidence_of_motion(loop, initial_state, plan);
-  found.verdict = judge(found.evidence);
+  IndicatorOptions options =
+      detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
+  options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
+  found.indicators = detail::indicators_of_motion(loop, initial_state, options);
+  found.classification = classify(found.indicators);
   return found;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template MotionVerdict classify_motion(const ForcedLoop<double>&, const Vector<double, 4>&,
-                                              const OrbitLimits&);
+extern template SampledClassification classify_motion(const IdealLoop<double>&,
+                                                      const Vector<double, 4>&, const OrbitLimits&);
 #endif
 
 }  // namespace holdfast

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// How rich a sequence of contacts (engaged, in the backlash) is.
+/// How rich an itinerary (engaged, in the backlash) is.
 struct SwitchingComplexity {
   std::size_t phrases;  ///< c, the number of phrases of Lempel and Ziv (1976)
   double normalised;    ///< c log₂ n / n: tends to the entropy per symbol (bit), 1 for fair coins
@@ -132,7 +132,7 @@ inline double block_entropy(const std::vector<bool>& sequence, std::size_t block
   return std::fmax(0.0, entropy);
 }
 
-/// Complexity of a sequence of contacts.
+/// Complexity of an itinerary.
 ///
 /// k of the block entropies is the largest with 2^{k+1} ≤ n/32, at most 12, so that each possible
 /// word is expected 32 times. A sequence of period N that is no longer than k has h_k = 0; h_k of a

@@ -122,7 +122,7 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double share
 /// chaos; the median does not see them.
 ///
 /// The test speaks of the samples it is given: of a motion sampled much faster than it moves it
-/// says 0 whatever the motion is, and of fewer than about 500 samples with several frequencies it
+/// says 0 for any motion, and of fewer than about 500 samples with several frequencies it
 /// may say anything. A constant series has K = 0 by definition.
 ///
 /// At most 500 lags from 5000 evenly spaced j for each c, that is 2.5 · 10⁶ squared distances, and

@@ -25,14 +25,14 @@ enum class Switching : std::uint8_t {
 
 /// The contact of a drive with its load as an automaton of three modes, its law chosen at run time:
 /// the play operator between the samples (`ExactBacklashOf`), a dead zone between the samples
-/// (`ExactDeadZoneOf`), or any law at samples alone (`SampledContactMotionOf`).
+/// (`ExactDeadZoneOf`), or any law at samples alone (`SampledLawOf`).
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
 /// In each mode the plant is affine (`dynamics`), guards tell how long it lasts, and `reached`,
 /// `jumped` and `sample` are the transitions. All is that of the law, to the last bit.
-/// @tparam DrivenPlant  TwoDof<double> or a LinearPlant<double, N>
-template <class DrivenPlant = TwoDof<double>>
+/// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
+template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
  public:
   using Plant = DrivenPlant;                           ///< what the drive moves
@@ -40,8 +40,7 @@ class DriveContact {
   using Instant = ContactInstantOf<states_of<Plant>>;  ///< what a change depends on
   using ModeGuards = GuardsOf<states_of<Plant>>;       ///< what ends a mode
   /// The law with what it remembers.
-  using Law =
-      std::variant<ExactBacklashOf<Plant>, ExactDeadZoneOf<Plant>, SampledContactMotionOf<Plant>>;
+  using Law = std::variant<ExactBacklashOf<Plant>, ExactDeadZoneOf<Plant>, SampledLawOf<Plant>>;
 
   static constexpr int modes = 3;  ///< numbered as the law has them
 
@@ -54,7 +53,7 @@ class DriveContact {
                const State& initial_state)
       : law_(law_of(plant, backlash, switching, initial_state)) {}
 
-  /// A law as it stands.
+  /// A law by itself.
   explicit DriveContact(Law law) : law_(std::move(law)) {}
 
   /// The law with what it remembers.
@@ -92,13 +91,11 @@ class DriveContact {
   /// Whether the command of the present sample takes effect: unless a law at samples found it not
   /// transmitted.
   bool transmits_command() const {
-    const auto* sampled = std::get_if<SampledContactMotionOf<Plant>>(&law_);
+    const auto* sampled = std::get_if<SampledLawOf<Plant>>(&law_);
     return sampled == nullptr || sampled->transmits_command();
   }
   /// Whether the contact changes at samples alone.
-  bool switches_at_samples() const {
-    return std::holds_alternative<SampledContactMotionOf<Plant>>(law_);
-  }
+  bool switches_at_samples() const { return std::holds_alternative<SampledLawOf<Plant>>(law_); }
   /// What ends the present mode.
   ModeGuards guards() const {
     return asked(law_, [](const auto& law) { return law.guards(); });
@@ -156,7 +153,7 @@ class DriveContact {
  private:
   static Law law_of(const Plant& plant, const BacklashParameters& backlash, Switching switching,
                     const State& initial_state) {
-    if (switching == Switching::sampled) return SampledContactMotionOf<Plant>(plant, backlash);
+    if (switching == Switching::sampled) return SampledLawOf<Plant>(plant, backlash);
     if (backlash.law == ContactLaw::dead_zone)
       return ExactDeadZoneOf<Plant>(plant, backlash.width, backlash.contact_stiffness,
                                     backlash.contact_damping, initial_state);

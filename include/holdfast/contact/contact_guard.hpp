@@ -34,7 +34,7 @@ struct GuardOf {
 template <int States>
 struct GuardsOf {
   std::array<GuardOf<States>, 2> guard;  ///< the first `count` of them mean something
-  int count = 0;                         ///< 0: the contact stays as it is, whatever the motion
+  int count = 0;                         ///< 0: the contact stays as it is, for any motion
 };
 
 /// Those of the two masses.

@@ -31,7 +31,7 @@ namespace holdfast {
 /// r₀ = 0 is a drive without backlash: always engaged. The rule of Kollár 2022, Eqs. (7)–(8), is
 /// what becomes of this law when it is asked at the samples alone. Source of the sliding force:
 /// A. F. Filippov, Differential equations with discontinuous righthand sides, 1988.
-/// @tparam DrivenPlant  TwoDof<double> or a LinearPlant<double, N>
+/// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant>
 class ExactBacklashOf {
  public:
@@ -244,6 +244,6 @@ class ExactBacklashOf {
 };
 
 /// That of the two masses.
-using ExactBacklash = ExactBacklashOf<TwoDof<double>>;
+using ExactBacklash = ExactBacklashOf<TwoMass<double>>;
 
 }  // namespace holdfast

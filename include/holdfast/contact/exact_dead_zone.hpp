@@ -20,7 +20,7 @@ namespace holdfast {
 /// edge and the command pushes in again, the absorber bounces on it, v = Δż reversing with a period
 /// of 2 |v| (1/|a(0)| + 1/|a(u)|), and damping makes |v| smaller without end but not zero in any
 /// finite time. Every bounce is followed, as far as SwitchCounts::accumulates.
-/// @tparam DrivenPlant  TwoDof<double> or a LinearPlant<double, N>
+/// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant>
 class ExactDeadZoneOf {
  public:
@@ -140,6 +140,6 @@ class ExactDeadZoneOf {
 };
 
 /// That of the two masses.
-using ExactDeadZone = ExactDeadZoneOf<TwoDof<double>>;
+using ExactDeadZone = ExactDeadZoneOf<TwoMass<double>>;
 
 }  // namespace holdfast

@@ -30,7 +30,7 @@ AffineDynamicsOf<States> released_dynamics(const LinearPlant<double, States>& pl
 }
 /// That of the two masses, whose drive has no states of its own: ż = A z + c F.
 template <class Scalar>
-AffineDynamicsOf<4> released_dynamics(const TwoDof<Scalar>& plant) {
+AffineDynamicsOf<4> released_dynamics(const TwoMass<Scalar>& plant) {
   return {plant.state_matrix(), Vector<Scalar, 4>::Zero(), plant.excitation_input()};
 }
 
@@ -51,7 +51,7 @@ AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plan
 }
 /// Both masses move as one: the internal forces drop out of m₁ + m₂.
 template <class Scalar>
-AffineDynamicsOf<4> locked_dynamics(const TwoDof<Scalar>& plant) {
+AffineDynamicsOf<4> locked_dynamics(const TwoMass<Scalar>& plant) {
   const Scalar mass = plant.conductor_mass + plant.absorber_mass;
   AffineDynamicsOf<4> moving{Matrix<Scalar, 4>::Zero(), Vector<Scalar, 4>::Zero(),
                              Vector<Scalar, 4>::Zero()};
@@ -67,7 +67,7 @@ AffineDynamicsOf<4> locked_dynamics(const TwoDof<Scalar>& plant) {
 /// The two masses whose absorber presses on a stop of stiffness k_c and damping c_c: k₂ + k_c,
 /// c₂ + c_c.
 template <class Scalar>
-TwoDof<Scalar> plant_on_stop(TwoDof<Scalar> plant, double stiffness, double damping) {
+TwoMass<Scalar> plant_on_stop(TwoMass<Scalar> plant, double stiffness, double damping) {
   plant.absorber_stiffness += stiffness;
   plant.absorber_damping += damping;
   return plant;
@@ -87,9 +87,9 @@ AffineDynamicsOf<States> dynamics_on_stop(const LinearPlant<double, States>& pla
 }
 /// That of the two masses.
 template <class Scalar>
-AffineDynamicsOf<4> dynamics_on_stop(const TwoDof<Scalar>& plant, double stiffness, double damping,
+AffineDynamicsOf<4> dynamics_on_stop(const TwoMass<Scalar>& plant, double stiffness, double damping,
                                      double at) {
-  const TwoDof<Scalar> pressed = plant_on_stop(plant, stiffness, damping);
+  const TwoMass<Scalar> pressed = plant_on_stop(plant, stiffness, damping);
   return {pressed.state_matrix(), plant.control_input(), plant.excitation_input(),
           -plant.control_input() * (stiffness * at)};
 }
@@ -102,7 +102,7 @@ double engaged_force(const LinearPlant<double, States>& plant,
 }
 /// u, the drive of the two masses being ideal.
 template <class Scalar>
-double engaged_force(const TwoDof<Scalar>&, const ContactInstantOf<4>& now) {
+double engaged_force(const TwoMass<Scalar>&, const ContactInstantOf<4>& now) {
   return now.command;
 }
 
@@ -128,7 +128,7 @@ GapAcceleration<States> gap_acceleration(const LinearPlant<double, States>& plan
 }
 /// That of the two masses: z̈₂ − z̈₁.
 template <class Scalar>
-GapAcceleration<4> gap_acceleration(const TwoDof<Scalar>&, const AffineDynamicsOf<4>& dynamics) {
+GapAcceleration<4> gap_acceleration(const TwoMass<Scalar>&, const AffineDynamicsOf<4>& dynamics) {
   return {dynamics.state.row(3).transpose() - dynamics.state.row(1).transpose(),
           dynamics.command[3] - dynamics.command[1], dynamics.force[3] - dynamics.force[1]};
 }
@@ -140,7 +140,7 @@ double gap_mobility(const LinearPlant<double, States>& plant) {
 }
 /// −1/m₂ − 1/m₁.
 template <class Scalar>
-double gap_mobility(const TwoDof<Scalar>& plant) {
+double gap_mobility(const TwoMass<Scalar>& plant) {
   const Vector<Scalar, 4> input = plant.control_input();
   return input[3] - input[1];
 }

@@ -10,17 +10,17 @@
 
 namespace holdfast {
 
-/// A drive that enters and leaves its backlash at samples alone, by any law: the contact of a
-/// HybridMotion that does not change between the samples.
+/// A drive that enters and leaves its backlash at samples alone, by any law: the contact of an
+/// EventMotion that does not change between the samples.
 ///
 /// Where the law says that the force is not transmitted the computer's command of that sample is
 /// without effect, as in SampledMotion: u_j = 0 from t_j + δ on. The stops of a dead zone touch
 /// from the sample on.
 ///
 /// A drive with states of its own follows that command: what it transmits fades with them.
-/// @tparam DrivenPlant  TwoDof<double> or a LinearPlant<double, N>
+/// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant>
-class SampledContactMotionOf {
+class SampledLawOf {
  public:
   using Plant = DrivenPlant;                           ///< what the drive moves
   using State = StateOf<Plant>;                        ///< x, N × 1
@@ -30,7 +30,7 @@ class SampledContactMotionOf {
   static constexpr int modes = 3;  ///< on the lower stop, between the stops, on the upper one
 
   /// @throws InvalidParameter where the law's parameters are not admissible
-  SampledContactMotionOf(const Plant& plant, const BacklashParameters& backlash)
+  SampledLawOf(const Plant& plant, const BacklashParameters& backlash)
       : plant_(plant), readings_(plant), backlash_(backlash), law_(backlash) {}
 
   /// How the state moves in one of the modes. The command is in force in all of them: it is
@@ -96,6 +96,6 @@ class SampledContactMotionOf {
 };
 
 /// That of the two masses.
-using SampledContactMotion = SampledContactMotionOf<TwoDof<double>>;
+using SampledLaw = SampledLawOf<TwoMass<double>>;
 
 }  // namespace holdfast

@@ -17,7 +17,7 @@ enum class VelocitySensing {
 };
 
 /// What keeps a real controller from u = P z₁ + D ż₁. As it stands, nothing does.
-struct DigitalLimits {
+struct ControllerLimits {
   double displacement_quantum = 0;  ///< q_z (m), ≥ 0: resolution of the displacement; 0: exact
   double velocity_quantum = 0;  ///< q_v (m/s), ≥ 0: resolution of a measured velocity; 0: exact;
                                 ///< without effect on a difference
@@ -27,7 +27,7 @@ struct DigitalLimits {
 };
 
 /// Whether the limits leave the law u = P z₁ + D ż₁ as it is.
-inline bool is_ideal(const DigitalLimits& limits) {
+inline bool is_ideal(const ControllerLimits& limits) {
   return limits.displacement_quantum == 0 && limits.velocity_quantum == 0 &&
          limits.velocity == VelocitySensing::measured &&
          limits.largest_force == std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ inline bool is_ideal(const DigitalLimits& limits) {
 
 /// @throws InvalidParameter unless both quanta are finite and ≥ 0 and the largest force is > 0
 /// (infinity: no limit)
-inline void validate(const DigitalLimits& limits) {
+inline void validate(const ControllerLimits& limits) {
   require_non_negative("displacement quantum", limits.displacement_quantum, "m");
   require_non_negative("velocity quantum", limits.velocity_quantum, "m/s");
   if (!(limits.largest_force > 0)) {
@@ -72,7 +72,7 @@ struct ControllerSlope {
 class Controller {
  public:
   /// @throws InvalidParameter unless gains and limits are admissible
-  Controller(const PdGains<double>& gains, const DigitalLimits& limits)
+  Controller(const PdGains<double>& gains, const ControllerLimits& limits)
       : gains_(gains), limits_(limits) {
     validate(gains_);
     validate(limits_);
@@ -113,7 +113,7 @@ class Controller {
   /// P and D of the law.
   const PdGains<double>& gains() const { return gains_; }
   /// q_z, q_v and u_max, and where the velocity comes from.
-  const DigitalLimits& limits() const { return limits_; }
+  const ControllerLimits& limits() const { return limits_; }
 
  private:
   static void require_elapsed(double elapsed) {
@@ -141,7 +141,7 @@ class Controller {
   }
 
   PdGains<double> gains_;
-  DigitalLimits limits_;
+  ControllerLimits limits_;
   ControllerMemory memory_;
   ControllerSlope slope_;
 };

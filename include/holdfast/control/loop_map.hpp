@@ -122,7 +122,7 @@ LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Sc
 /// How fast the map of a loop moves along a line through the samplings: derivatives, per unit of
 /// whatever varies.
 template <class Scalar>
-struct LoopMapRate {
+struct LoopMapDerivative {
   Matrix<Scalar, Eigen::Dynamic> open_map;  ///< of S₀, (N + k) × (N + k)
   Vector<Scalar, Eigen::Dynamic> command;   ///< of s, (N + k) × 1
 
@@ -143,9 +143,9 @@ struct LoopMapRate {
 /// @param period_rate  τ′
 /// @param delay_rate   δ′
 template <class Plant, class Scalar>
-LoopMapRate<Scalar> loop_map_rate(const Plant& plant, const LoopMap<Scalar>& map,
-                                  const detail::Undeduced<Scalar>& period_rate,
-                                  const detail::Undeduced<Scalar>& delay_rate) {
+LoopMapDerivative<Scalar> loop_map_derivative(const Plant& plant, const LoopMap<Scalar>& map,
+                                              const detail::Undeduced<Scalar>& period_rate,
+                                              const detail::Undeduced<Scalar>& delay_rate) {
   using Column = Vector<Scalar, Eigen::Dynamic>;
   const Eigen::Index k = map.held_commands, size = map.size(), n = size - k;
   const Matrix<Scalar, Eigen::Dynamic> a = plant.state_matrix();
@@ -153,7 +153,8 @@ LoopMapRate<Scalar> loop_map_rate(const Plant& plant, const LoopMap<Scalar>& map
   const Column previous = map.open_map.col(n).head(n);
   const Column present = (k == 1 ? map.command : Column(map.open_map.col(n + 1))).head(n);
   const Column present_rate = (b + a * present) * (Scalar(k) * period_rate - delay_rate);
-  LoopMapRate<Scalar> rate{Matrix<Scalar, Eigen::Dynamic>::Zero(size, size), Column::Zero(size)};
+  LoopMapDerivative<Scalar> rate{Matrix<Scalar, Eigen::Dynamic>::Zero(size, size),
+                                 Column::Zero(size)};
   rate.open_map.topLeftCorner(n, n) = period_rate * (a * map.open_map.topLeftCorner(n, n));
   rate.open_map.col(n).head(n) = (b + a * (present + previous)) * period_rate - present_rate;
   if (k == 1) {
@@ -165,7 +166,7 @@ LoopMapRate<Scalar> loop_map_rate(const Plant& plant, const LoopMap<Scalar>& map
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LoopMap<double> loop_map(const TwoDof<double>&, const Sampling<double>&);
+extern template LoopMap<double> loop_map(const TwoMass<double>&, const Sampling<double>&);
 extern template LoopMap<double> loop_map(const LinearPlant<double>&, const Sampling<double>&);
 #endif
 

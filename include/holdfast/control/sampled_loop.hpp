@@ -32,8 +32,8 @@ inline void validate(const Sampling<double>& sampling) {
 ///     e^{As} ds c
 ///
 /// With z̃_j = [z_j; u_{j−1}] the step is z̃_{j+1} = S z̃_j + [c_d; 0] F_j outside the backlash and
-/// S* z̃_j + [c_d; 0] F_j inside. δ = τ gives the matrices printed in Kollár 2022, Eqs. (13)–(14); δ
-/// = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md). A delay of
+/// S* z̃_j + [c_d; 0] F_j inside. δ = τ gives the matrices printed in Kollár 2022, Eqs. (13)–(14);
+/// δ = 0 gives the map that the paper's numbers come from (docs/reading-the-paper.md). A delay of
 /// more than one sample is in control/loop_map.hpp.
 /// @tparam States  N, the order of the plant; 4 is that of the two masses, Eigen::Dynamic any
 template <class Scalar, int States = 4>
@@ -124,7 +124,7 @@ SampledLoop<Scalar, states_of<Plant>> sampled_loop(
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template SampledLoop<double> sampled_loop(const TwoDof<double>&, const Sampling<double>&);
+extern template SampledLoop<double> sampled_loop(const TwoMass<double>&, const Sampling<double>&);
 #endif
 
 }  // namespace holdfast

@@ -10,9 +10,9 @@
 
 namespace holdfast {
 
-/// How far the instants of the samples stray from their grid. As it stands, not at all.
+/// How far the instants of the samples deviate from their grid. By default, not at all.
 struct Jitter {
-  double half_width = 0;   ///< J (s), ≥ 0: no sample strays farther
+  double half_width = 0;   ///< J (s), ≥ 0: no sample deviates farther
   std::uint64_t seed = 1;  ///< which of the random sequences
 };
 

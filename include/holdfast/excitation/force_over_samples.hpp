@@ -36,7 +36,7 @@ class ForceOverSamples {
   /// @param force            F(t), admissible
   /// @param hold             held at its value at the sample, record included, or followed exactly
   /// @param sampling_period  τ (s), > 0
-  ForceOverSamples(const ComposedForce& force, ForceHold hold, double sampling_period)
+  ForceOverSamples(const MultiHarmonicForce& force, ForceHold hold, double sampling_period)
       : force_(force), hold_(hold) {
     if (hold == ForceHold::sampled) return;
     for (const Harmonic& line : force.harmonics)
@@ -52,7 +52,7 @@ class ForceOverSamples {
       held_ = force_.at(time);
       return;
     }
-    const std::size_t k = static_cast<std::size_t>(index) % TurningPhase<double>::block;
+    const std::size_t k = static_cast<std::size_t>(index) % RotatingPhasor<double>::block;
     for (std::size_t l = 0; l < turning_.size(); ++l) {
       if (k == 0 || index != last_ + 1) turning_[l].turn_to(index - static_cast<std::int64_t>(k));
       phases_[l] = turning_[l].at(k);
@@ -76,7 +76,7 @@ class ForceOverSamples {
     return instant;
   }
 
-  /// F (N) there, by two multiply-adds for each harmonic; of a clock that does not stray.
+  /// F (N) there, by two multiply-adds for each harmonic; of a clock that does not jitter.
   double at(const PeriodInstant& instant) const {
     if (hold_ == ForceHold::sampled) return held_;
     if (force_.record) return force_.at(time_ + instant.after);
@@ -134,9 +134,9 @@ class ForceOverSamples {
   }
 
  private:
-  ComposedForce force_;
+  MultiHarmonicForce force_;
   ForceHold hold_;
-  std::vector<TurningPhase<double>> turning_;
+  std::vector<RotatingPhasor<double>> turning_;
   std::vector<ExcitationSample<double>> phases_;
   double time_ = 0.0, held_ = 0.0;
   std::int64_t last_ = -1;

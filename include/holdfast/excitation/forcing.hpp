@@ -19,7 +19,7 @@ namespace holdfast {
 ///
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 ///
-/// Work: 4 + 2 N multiply-adds a period, and a cosine and sine in every `TurningTable::block` of
+/// Work: 4 + 2 N multiply-adds a period, and a cosine and sine in every `PhasorTable::block` of
 /// them.
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
@@ -34,30 +34,30 @@ class HarmonicForcing {
 
   /// The addition (N × 1) of the present sampling period; goes on to the next one.
   Vector<Scalar, States> next() {
-    const std::size_t k = static_cast<std::size_t>(index_) % TurningTable<Scalar, States>::block;
+    const std::size_t k = static_cast<std::size_t>(index_) % PhasorTable<Scalar, States>::block;
     if (k == 0) table_.turn_to(index_);
     ++index_;
     return table_.addition(k);
   }
 
  private:
-  TurningTable<Scalar, States> table_;
+  PhasorTable<Scalar, States> table_;
   std::int64_t index_ = 0;
 };
 
 /// The same from a table that outlives it and is turned by the motion's driver, so that no sample
 /// asks whether it is to be turned.
 template <class Scalar>
-class TurningForcing {
+class PhasorForcing {
  public:
   /// @param table  to be turned to each multiple of its `block` before that sample is advanced
-  explicit TurningForcing(const TurningTable<Scalar>& table) : table_(&table) {}
+  explicit PhasorForcing(const PhasorTable<Scalar>& table) : table_(&table) {}
 
   /// The addition (4 × 1) of the present sampling period; goes on to the next one.
-  Vector<Scalar, 4> next() { return table_->addition(index_++ % TurningTable<Scalar>::block); }
+  Vector<Scalar, 4> next() { return table_->addition(index_++ % PhasorTable<Scalar>::block); }
 
  private:
-  const TurningTable<Scalar>* table_;
+  const PhasorTable<Scalar>* table_;
   std::size_t index_ = 0;
 };
 
@@ -75,7 +75,7 @@ class PeriodicForcing {
                   const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
 
-  /// @param additions  one for each of the q sampling periods of a coincidence, not empty
+  /// @param additions  one for each of the q sampling periods of a common period, not empty
   explicit PeriodicForcing(std::vector<Vector<Value, States>> additions)
       : additions_(
             std::make_shared<const std::vector<Vector<Value, States>>>(std::move(additions))) {}
@@ -89,7 +89,7 @@ class PeriodicForcing {
 
   /// q.
   std::size_t samples() const { return additions_->size(); }
-  /// Sampling periods since the last coincidence, 0 … q − 1.
+  /// Sampling periods since the last stroboscopic instant, 0 … q − 1.
   std::size_t phase() const { return phase_; }
   /// The q additions (N × 1), that of phase 0 first.
   const std::vector<Vector<Value, States>>& additions() const { return *additions_; }

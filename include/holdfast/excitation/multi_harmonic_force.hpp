@@ -49,7 +49,7 @@ void divide_by_factorials(Eigen::MatrixBase<Coefficients>& coefficients) {
 
 /// F(t) = Σ_i F_i cos(2π f_i t + φ_i) + F_r(t): any number of harmonics, band-limited noise among
 /// them, and at most one recorded force.
-struct ComposedForce {
+struct MultiHarmonicForce {
   std::vector<Harmonic> harmonics;              ///< F_i, f_i, φ_i; may be empty
   std::shared_ptr<const RecordedForce> record;  ///< F_r; null: none
 
@@ -101,13 +101,13 @@ struct ComposedForce {
 };
 
 /// The same force as one harmonic of phase 0 and no record.
-inline ComposedForce composed_force(const HarmonicExcitation<double>& excitation) {
+inline MultiHarmonicForce multi_harmonic_force(const HarmonicExcitation<double>& excitation) {
   return {{Harmonic{excitation.amplitude, excitation.frequency}}, nullptr};
 }
 
 /// @throws InvalidParameter unless every harmonic is admissible; a record was checked when it was
 ///         made
-inline void validate(const ComposedForce& force) {
+inline void validate(const MultiHarmonicForce& force) {
   for (const Harmonic& harmonic : force.harmonics) validate(harmonic);
 }
 

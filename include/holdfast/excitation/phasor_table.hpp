@@ -16,9 +16,9 @@ namespace holdfast {
 
 namespace detail {
 
-/// turn_by() of a type no wider than `double`.
+/// unit_phasor() of a type no wider than `double`.
 template <class Scalar>
-ExcitationSample<Scalar> turn_by_series(const Scalar& x) {
+ExcitationSample<Scalar> unit_phasor_series(const Scalar& x) {
   using std::floor;
   const Scalar quarters = floor(Scalar(4) * x + Scalar(0.5));
   const Scalar angle = Scalar(2 * pi<double>) * (x - Scalar(0.25) * quarters);
@@ -49,7 +49,7 @@ ExcitationSample<Scalar> turn_by_series(const Scalar& x) {
 /// sixteenth power leaves less than 5·10⁻¹⁷. Work: 22 multiply-adds, 10 comparisons and selects.
 /// @param x  cycles, at least 0 and at most 1
 template <class Scalar>
-ExcitationSample<Scalar> turn_by(const Scalar& x) {
+ExcitationSample<Scalar> unit_phasor(const Scalar& x) {
   using Value = typename Lanes<Scalar>::Value;
   if constexpr (std::numeric_limits<Value>::digits > std::numeric_limits<double>::digits) {
     using std::cos;
@@ -57,7 +57,7 @@ ExcitationSample<Scalar> turn_by(const Scalar& x) {
     const Scalar whole = Scalar(2) * pi_of<Scalar>() * x;
     return {cos(whole), sin(whole)};
   } else {
-    return detail::turn_by_series(x);
+    return detail::unit_phasor_series(x);
   }
 }
 
@@ -67,14 +67,14 @@ ExcitationSample<Scalar> turn_by(const Scalar& x) {
 /// The cosine and sine are computed once in `block` periods; between them they are turned by fixed
 /// angles, e^{iω(J+k)τ} = e^{iωJτ} e^{iωkτ}, so that the rounding does not grow with j.
 template <class Scalar>
-class TurningPhase {
+class RotatingPhasor {
  public:
   static constexpr std::size_t block = 16;  ///< periods for which one turn_to() is enough
 
   /// Call `turn_to` before the first `at`.
   /// @param excitation       F_m and f
   /// @param sampling_period  τ (s), > 0
-  TurningPhase(const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
+  RotatingPhasor(const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : amplitude_(excitation.amplitude), cycles_(excitation.frequency * sampling_period) {
     for (std::size_t k = 0; k < block; ++k) turns_[k] = turn_at(static_cast<std::int64_t>(k));
   }
@@ -97,7 +97,7 @@ class TurningPhase {
   ExcitationSample<Scalar> turn_at(std::int64_t index) const {
     using std::floor;
     const Scalar turned = Scalar(static_cast<double>(index)) * cycles_;
-    return turn_by(Scalar(turned - floor(turned)));
+    return unit_phasor(Scalar(turned - floor(turned)));
   }
 
   Scalar amplitude_;  // F_m (N)
@@ -112,17 +112,17 @@ class TurningPhase {
 ///     F_m (g_c cos ω t_j + g_s sin ω t_j),   j = 0, 1, 2, …
 /// @tparam States  N, the order of the plant
 template <class Scalar, int States = 4>
-class TurningTable {
+class PhasorTable {
  public:
   /// Periods for which one turn_to() is enough.
-  static constexpr std::size_t block = TurningPhase<Scalar>::block;
+  static constexpr std::size_t block = RotatingPhasor<Scalar>::block;
 
   /// Call `turn_to` before the first `addition`.
   /// @param input            g_c and g_s, N × 1 per newton
   /// @param excitation       F_m and f
   /// @param sampling_period  τ (s), > 0
-  TurningTable(const HarmonicInput<Scalar, States>& input,
-               const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
+  PhasorTable(const HarmonicInput<Scalar, States>& input,
+              const HarmonicExcitation<Scalar>& excitation, const Scalar& sampling_period)
       : input_(input), phase_(excitation, sampling_period) {}
 
   /// Prepares the periods from `index` on; call at every multiple of `block` before its period.
@@ -140,7 +140,7 @@ class TurningTable {
 
  private:
   HarmonicInput<Scalar, States> input_;
-  TurningPhase<Scalar> phase_;
+  RotatingPhasor<Scalar> phase_;
 };
 
 }  // namespace holdfast

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// What the tangent of a motion asks of its contact; as it stands, for stops that do not move.
+/// What the tangent of a motion asks of its contact; by default, for stops that do not move.
 template <class Contact>
 struct ContactTangent {
   /// The mode in which Δż = 0; −1: there is none.

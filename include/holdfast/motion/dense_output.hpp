@@ -12,9 +12,9 @@
 
 namespace holdfast {
 
-/// What a HybridMotion does between two samples, to be asked for at any instant.
+/// What an EventMotion does between two samples, to be asked for at any instant.
 ///
-///     FlowTrace<Contact> trace(motion);
+///     DenseOutput<Contact> trace(motion);
 ///     motion.sense();
 ///     trace.begin();
 ///     motion.advance(trace);
@@ -23,7 +23,7 @@ namespace holdfast {
 /// The motion must outlive the trace and not be moved. Work: one Taylor series (motion/
 /// affine_expansion.hpp) for each part of constant contact, and for every 1/‖A‖ of its length.
 template <class Contact>
-class FlowTrace {
+class DenseOutput {
  public:
   /// x, N × 1, of the motion.
   using State = typename EventMotion<Contact>::State;
@@ -37,7 +37,7 @@ class FlowTrace {
   };
 
   /// Keeps the address of the motion.
-  explicit FlowTrace(const HybridMotion<Contact>& motion)
+  explicit DenseOutput(const EventMotion<Contact>& motion)
       : motion_(&motion), state_(motion.state()) {}
 
   /// To be called after `sense()` and before `advance(trace)`.
@@ -60,7 +60,7 @@ class FlowTrace {
   /// One after the other, without a space between them.
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// For HybridMotion::advance: a part of the period has been passed, `length` seconds from `begin`
+  /// For EventMotion::advance: a part of the period has been passed, `length` seconds from `begin`
   /// (s after the sample) on, in the mode of that number.
   void flowed(int mode, double begin, double length) {
     const double rate = motion_->rate(mode);
@@ -79,9 +79,9 @@ class FlowTrace {
       reached = part == end - reached ? end : reached + part;
     } while (reached < end);
   }
-  /// For HybridMotion::advance, at t_j + δ: from here on u_j is in force.
+  /// For EventMotion::advance, at t_j + δ: from here on u_j is in force.
   void commanded() { command_ = motion_->command(); }
-  /// For HybridMotion::advance: a change of contact, which the next part shows.
+  /// For EventMotion::advance: a change of contact, which the next part shows.
   template <class Instant>
   void switched(int, int, int, const Instant&) {}
 
@@ -93,7 +93,7 @@ class FlowTrace {
     return later == parts_.begin() ? parts_.front() : *(later - 1);
   }
 
-  const HybridMotion<Contact>* motion_;
+  const EventMotion<Contact>* motion_;
   std::vector<Part> parts_;
   State state_;
   double command_ = 0.0;

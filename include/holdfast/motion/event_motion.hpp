@@ -39,9 +39,9 @@ namespace holdfast {
 struct DigitalLoop {
   Sampling<double> sampling;            ///< τ and δ
   PdGains<double> gains;                ///< P and D
-  ComposedForce force;                  ///< F(t), the excitation of the conductor
+  MultiHarmonicForce force;             ///< F(t), the excitation of the conductor
   ForceHold hold = ForceHold::sampled;  ///< how F is taken over a sample, a record included
-  DigitalLimits limits = {};            ///< of the sensors and the drive
+  ControllerLimits limits = {};         ///< of the sensors and the drive
   Jitter jitter = {};                   ///< of the clock; 2 J + δ ≤ τ
 };
 
@@ -56,12 +56,12 @@ inline void validate(const DigitalLoop& loop) {
 /// What is known of a motion at one sample, with the mode of its contact from then on.
 /// @tparam States  N, the order of the plant
 template <int States>
-struct HybridSampleOf : MotionSample<double, States> {
+struct EventSampleOf : MotionSample<double, States> {
   ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
 };
 
 /// That of the two masses.
-using HybridSample = HybridSampleOf<4>;
+using EventSample = EventSampleOf<4>;
 
 /// What a motion has met with.
 struct SwitchCounts {
@@ -90,7 +90,7 @@ namespace detail {
 /// The plant that a contact says it drives; the two masses where it says nothing.
 template <class Contact, class = void>
 struct DrivenPlant {
-  using type = TwoDof<double>;
+  using type = TwoMass<double>;
   static PortReadings<type> readings(const Contact&) { return {}; }
 };
 template <class Contact>
@@ -122,11 +122,11 @@ class EventMotion {
   using Plant = typename detail::DrivenPlant<Contact>::type;
   /// N, the order of the plant.
   static constexpr int states = states_of<Plant>;
-  using State = StateOf<Plant>;                 ///< x, N × 1
-  using Sample = HybridSampleOf<states>;        ///< what `sense` takes
-  using Instant = ContactInstantOf<states>;     ///< what a change of contact depends on
-  using Dynamics = AffineDynamicsOf<states>;    ///< the motion in one mode
-  using Expansion = AffineExpansionOf<states>;  ///< its Taylor series
+  using State = StateOf<Plant>;               ///< x, N × 1
+  using Sample = EventSampleOf<states>;       ///< what `sense` takes
+  using Instant = ContactInstantOf<states>;   ///< what a change of contact depends on
+  using Dynamics = AffineDynamicsOf<states>;  ///< the motion in one mode
+  using Expansion = TaylorStepOf<states>;     ///< its Taylor series
 
   /// Most changes of contact in one sampling period; beyond them SwitchCounts::accumulates is set.
   static constexpr int most_switches = 1000;
@@ -245,7 +245,7 @@ class EventMotion {
  private:
   /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
   using Norm = std::conditional_t<detail::HasPorts<Plant>::value, DecayingNorm<states>, EnergyNorm>;
-  using Bound = QuietBoundOf<Norm, states>;
+  using Bound = NoEventBoundOf<Norm, states>;
   using ModeGuard = GuardOf<states>;
   using ModeGuards = GuardsOf<states>;
 
@@ -309,15 +309,16 @@ class EventMotion {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
     const ModeGuards guards = contact_.guards();
     for (int g = 0; g < guards.count; ++g)
-      if (!may_be_quiet(guards.guard[at(g)])) return false;
+      if (!may_have_no_event(guards.guard[at(g)])) return false;
     const int mode = contact_.mode();
     State after = steps_[part][at(mode)].state(state_, command, force_.held(), force_.phases());
     contact_.keep(state_, after);
     if (guards.count > 0) {
       if (bounds_[at(mode)] == std::nullopt) make_bound(mode, guards.guard[0]);
-      const double sag = bounds_[at(mode)]->sag(state_, command, length);
+      const double drop_below_chord = bounds_[at(mode)]->drop_below_chord(state_, command, length);
       for (int g = 0; g < guards.count; ++g)
-        if (!(least_at_ends(guards.guard[at(g)], after, command, part) > sag)) return false;
+        if (!(least_at_ends(guards.guard[at(g)], after, command, part) > drop_below_chord))
+          return false;
     }
     state_ = after;
     contact_.flowed();
@@ -333,7 +334,7 @@ class EventMotion {
     }
   }
 
-  static bool may_be_quiet(const ModeGuard& guard) {
+  static bool may_have_no_event(const ModeGuard& guard) {
     return guard.zeros == 0 && !guard.unsigned_yet;
   }
 
@@ -453,7 +454,7 @@ class EventMotion {
   State state_;
   std::array<Dynamics, Contact::modes> dynamics_;
   std::array<double, Contact::modes> rate_{};
-  std::array<std::vector<SegmentStepOf<states>>, 2>
+  std::array<std::vector<SubintervalStepOf<states>>, 2>
       steps_;                            // of the parts before and after t_j + δ
   std::vector<PeriodInstant> instants_;  // at which they begin and end
   std::array<std::optional<Bound>, Contact::modes> bounds_;
@@ -462,9 +463,5 @@ class EventMotion {
   int switches_ = 0;
   SwitchCounts counts_;
 };
-
-/// The motion with a contact of a type of its own; one of DriveContact serves all laws.
-template <class Contact>
-using HybridMotion = EventMotion<Contact>;
 
 }  // namespace holdfast

@@ -25,7 +25,7 @@ namespace holdfast {
 /// @tparam Norm    EnergyNorm of the two masses, DecayingNorm of a plant of any order
 /// @tparam States  N, the order of the plant
 template <class Norm, int States>
-class QuietBoundOf {
+class NoEventBoundOf {
  public:
   /// @param dynamics  A, b, c and the drift of a mode
   /// @param bounded   what the norm is made of: the two masses whose energy bounds the motion in
@@ -34,8 +34,8 @@ class QuietBoundOf {
   /// @param guard     one of the mode's, of which ℓ and m count
   /// @param force     bounds of the excitation
   template <class Bounded>
-  QuietBoundOf(const AffineDynamicsOf<States>& dynamics, const Bounded& bounded,
-               const GuardOf<States>& guard, const ForceBounds& force)
+  NoEventBoundOf(const AffineDynamicsOf<States>& dynamics, const Bounded& bounded,
+                 const GuardOf<States>& guard, const ForceBounds& force)
       : energy_(bounded),
         command_growth_(energy_(dynamics.command)),
         other_growth_(energy_(dynamics.drift) + energy_(dynamics.force) * force.value) {
@@ -49,7 +49,8 @@ class QuietBoundOf {
   }
 
   /// How far below the chord of its ends a guard may come.
-  double sag(const Vector<double, States>& begin, double command, double length) const {
+  double drop_below_chord(const Vector<double, States>& begin, double command,
+                          double length) const {
     const double largest =
         energy_(begin) + length * (command_growth_ * std::abs(command) + other_growth_);
     const double bend = by_state_ * largest + by_command_ * std::abs(command) + by_force_;
@@ -63,6 +64,6 @@ class QuietBoundOf {
 };
 
 /// That of the two masses.
-using QuietBound = QuietBoundOf<EnergyNorm, 4>;
+using NoEventBound = NoEventBoundOf<EnergyNorm, 4>;
 
 }  // namespace holdfast

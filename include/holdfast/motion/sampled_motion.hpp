@@ -54,7 +54,7 @@ struct MotionMemory {
 ///                  sampling period
 /// @tparam Plant    whose ports are read; those of the two masses by subscripts
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
-          class Plant = TwoDof<Scalar>>
+          class Plant = TwoMass<Scalar>>
 class SampledMotion {
  public:
   /// N, the order of the plant.

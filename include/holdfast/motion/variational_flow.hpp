@@ -17,7 +17,7 @@
 
 namespace holdfast {
 
-/// The derivative of a HybridMotion from one sample to the next, changes of contact included.
+/// The derivative of an EventMotion from one sample to the next, changes of contact included.
 ///
 ///     X_j = [x; u_{j−1}; g; z₁ as read at sample j − 1],   δX_{j+1} = map · δX_j
 ///
@@ -38,7 +38,7 @@ namespace holdfast {
 /// zero: the row of g while engaged, and the row of z₁ as read unless the velocity is the
 /// difference of unrounded displacements.
 ///
-///     HybridTangent<ExactBacklash> tangent(motion);
+///     VariationalFlow<ExactBacklash> tangent(motion);
 ///     motion.sense();
 ///     tangent.begin_sample(motion);
 ///     motion.advance(tangent);
@@ -50,17 +50,17 @@ namespace holdfast {
 /// order.
 /// @tparam Contact  of the motion; contact_tangent.hpp tells what it has to offer
 template <class Contact>
-class HybridTangent {
+class VariationalFlow {
  public:
   /// N, the order of the plant.
-  static constexpr int states = HybridMotion<Contact>::states;
+  static constexpr int states = EventMotion<Contact>::states;
   /// N + 3.
   static constexpr int size = larger_size(states, 3);
   /// Of deviations of X, (N + 3) × (N + 3).
   using Map = Matrix<double, size>;
 
   /// Goes on from the sample that the motion has come to.
-  explicit HybridTangent(const HybridMotion<Contact>& motion)
+  explicit VariationalFlow(const EventMotion<Contact>& motion)
       : readings_(detail::DrivenPlant<Contact>::readings(motion.contact())),
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
         pending_(Row::Zero(motion.state().size() + 3)),
@@ -78,8 +78,8 @@ class HybridTangent {
   }
 
   /// To be called after `sense()` and before `advance(tangent)`.
-  void begin_sample(const HybridMotion<Contact>& motion) {
-    const DigitalLimits& limits = motion.controller().limits();
+  void begin_sample(const EventMotion<Contact>& motion) {
+    const ControllerLimits& limits = motion.controller().limits();
     const bool takes_effect = detail::transmits_command(motion.contact(), 0);
     const ControllerSlope slope = takes_effect ? motion.controller().slope() : ControllerSlope{};
     const bool reads =
@@ -103,7 +103,7 @@ class HybridTangent {
     });
   }
 
-  // The observer of HybridMotion::advance.
+  // The observer of EventMotion::advance.
 
   /// Notes a stretch of one mode, `begin` (s) counting from the sample; it enters the map with the
   /// next change, or at the end of the period.
@@ -128,7 +128,7 @@ class HybridTangent {
   /// Multiplies by the saltation matrix where a guard was reached outside stick; a jump of force or
   /// command, guard −1, adds nothing.
   void switched(int from, int to, int guard,
-                const typename HybridMotion<Contact>::Instant& instant) {
+                const typename EventMotion<Contact>::Instant& instant) {
     close_flow();
     if (guard >= 0 && from != sticking_) cross(from, to, instant);
     enter(to);
@@ -148,7 +148,7 @@ class HybridTangent {
   int rank_of_product() const { return rank_.rank(); }
 
  private:
-  using Motion = HybridMotion<Contact>;
+  using Motion = EventMotion<Contact>;
   using Dynamics = typename Motion::Dynamics;
   using Instant = typename Motion::Instant;
   using State = typename Motion::State;
@@ -168,7 +168,7 @@ class HybridTangent {
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
   int directions(int mode) const { return static_cast<int>(order()) - (mode == sticking_ ? 1 : 0); }
 
-  static unsigned inputs(const HybridMotion<Contact>& motion) {
+  static unsigned inputs(const EventMotion<Contact>& motion) {
     const unsigned always =
         static_cast<unsigned>(Carried::in_force) | static_cast<unsigned>(Carried::reading);
     return is_anchored(motion.contact(), motion.contact().mode())
@@ -194,7 +194,7 @@ class HybridTangent {
     note(rank_);
   }
 
-  /// The command depends on z and on what was read, which is then read anew.
+  /// The command depends on z and on what was read, which is then read again.
   static void note_sample(StructuralRank& rank, const ControllerSlope& slope, bool reads) {
     if (slope.displacement != 0.0 || slope.velocity != 0.0) rank.begin(Carried::pending);
     if (slope.previous_displacement != 0.0) rank.become(Carried::reading, Carried::pending);
@@ -293,15 +293,15 @@ class HybridTangent {
 };
 
 template <class Contact>
-typename HybridTangent<Contact>::Step HybridTangent<Contact>::exponential(int mode,
-                                                                          double length) const {
+typename VariationalFlow<Contact>::Step VariationalFlow<Contact>::exponential(int mode,
+                                                                              double length) const {
   const Dynamics& dynamics = dynamics_[at(mode)];
   return zero_order_hold<double, states, 1>(dynamics.state, dynamics.command, length);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template HeldStep<double, 4, 1> HybridTangent<DriveContact<>>::exponential(int,
-                                                                                  double) const;
+extern template HeldStep<double, 4, 1> VariationalFlow<DriveContact<>>::exponential(int,
+                                                                                    double) const;
 #endif
 
 }  // namespace holdfast

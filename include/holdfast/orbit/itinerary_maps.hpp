@@ -10,13 +10,13 @@
 
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/orbit/scaling.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/state_scaling.hpp"
 
 namespace holdfast {
 
 /// Contacts of successive samples: 1 where the drive transmits, 0 in its backlash.
-using Contacts = std::vector<std::uint8_t>;
+using Itinerary = std::vector<std::uint8_t>;
 
 /// x ↦ map x + addition.
 template <class Scalar>
@@ -31,16 +31,16 @@ struct AffineMap {
 ///
 /// where the excitation's a_j repeat every q samples. Source: Kollár 2022, Eq. (14).
 template <class Scalar>
-class ContactMaps {
+class ItineraryMaps {
  public:
   /// @param loop   its backlash width is not looked at
   /// @param ratio  f τ = p/q, of forcing_ratio()
-  ContactMaps(const ForcedLoop<Scalar>& loop, const Rational& ratio);
+  ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio);
 
   /// S or S*, 5 × 5.
   const Matrix<Scalar, 5>& map(bool engaged) const { return engaged ? engaged_ : backlash_; }
 
-  /// plant_units() of the loop.
+  /// plant_scaling() of the loop.
   const Vector<Scalar, 5>& units() const { return units_; }
 
   /// A map of z̃ as one of z̃ in the units.
@@ -48,7 +48,7 @@ class ContactMaps {
     return units_.cwiseInverse().asDiagonal() * map * units_.asDiagonal();
   }
 
-  /// How unequally a sample may stretch directions that it does not annihilate: the largest ratio
+  /// How unequally a sample may stretch directions outside its null space: the largest ratio
   /// of pivots of the plant's part of either map.
   Scalar spread() const { return std::max(spread_of(engaged_), spread_of(backlash_)); }
 
@@ -66,8 +66,8 @@ class ContactMaps {
   }
 
  private:
-  ContactMaps(const SampledLoop<Scalar>& sampled, const ForcedLoop<Scalar>& loop,
-              const Rational& ratio);
+  ItineraryMaps(const SampledLoop<Scalar>& sampled, const IdealLoop<Scalar>& loop,
+                const Rational& ratio);
 
   Scalar spread_of(const Matrix<Scalar, 5>& map) const;
 
@@ -78,20 +78,20 @@ class ContactMaps {
 };
 
 template <class Scalar>
-ContactMaps<Scalar>::ContactMaps(const ForcedLoop<Scalar>& loop, const Rational& ratio)
-    : ContactMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
+ItineraryMaps<Scalar>::ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio)
+    : ItineraryMaps(sampled_loop(loop.plant, loop.sampling), loop, ratio) {}
 
 template <class Scalar>
-ContactMaps<Scalar>::ContactMaps(const SampledLoop<Scalar>& sampled, const ForcedLoop<Scalar>& loop,
-                                 const Rational& ratio)
+ItineraryMaps<Scalar>::ItineraryMaps(const SampledLoop<Scalar>& sampled,
+                                     const IdealLoop<Scalar>& loop, const Rational& ratio)
     : engaged_(sampled.engaged_map(loop.gains)),
       backlash_(sampled.backlash_map()),
-      units_(plant_units(loop.plant.state_matrix(), loop.plant.excitation_input())),
+      units_(plant_scaling(loop.plant.state_matrix(), loop.plant.excitation_input())),
       forcing_(harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency()),
                loop.excitation.amplitude, ratio) {}
 
 template <class Scalar>
-Scalar ContactMaps<Scalar>::spread_of(const Matrix<Scalar, 5>& map) const {
+Scalar ItineraryMaps<Scalar>::spread_of(const Matrix<Scalar, 5>& map) const {
   using std::abs;
   const Matrix<Scalar, 4> plant = in_units(map).template topLeftCorner<4, 4>();
   const Eigen::FullPivLU<Matrix<Scalar, 4>> factors(plant);
@@ -103,30 +103,30 @@ Scalar ContactMaps<Scalar>::spread_of(const Matrix<Scalar, 5>& map) const {
 
 /// How many samples may be multiplied without losing the digits of what they contract most.
 template <class Scalar>
-std::size_t samples_of_block(const ContactMaps<Scalar>& maps) {
+std::size_t samples_of_block(const ItineraryMaps<Scalar>& maps) {
   constexpr double largest_spread = 1e6, most = 8.0;
   const double spread = static_cast<double>(maps.spread());
   const double samples = std::log(largest_spread) / std::log(std::max(spread, 2.0));
   return static_cast<std::size_t>(std::clamp(samples, 1.0, most));
 }
 
-/// Some samples of a sequence of contacts as one affine map each, in the units of the maps and few
+/// Some samples of an itinerary as one affine map each, in the units of the maps and few
 /// enough for their product to lose no digits.
 ///
-/// @param maps      of the loop
-/// @param contacts  of all samples, the first one at phase 0 of the forcing
+/// @param maps       of the loop
+/// @param itinerary  of all samples, the first one at phase 0 of the forcing
 template <class Scalar>
-std::vector<AffineMap<Scalar>> affine_blocks(const ContactMaps<Scalar>& maps,
-                                             const Contacts& contacts) {
+std::vector<AffineMap<Scalar>> affine_blocks(const ItineraryMaps<Scalar>& maps,
+                                             const Itinerary& itinerary) {
   const std::size_t most_samples = samples_of_block(maps);
   const Vector<Scalar, 4> units = maps.units().template head<4>();
   const std::array<Matrix<Scalar, 5>, 2> balanced = {maps.in_units(maps.map(false)),
                                                      maps.in_units(maps.map(true))};
   const Scalar largest_growth(1e3);
   std::vector<AffineMap<Scalar>> blocks;
-  blocks.reserve(contacts.size() / most_samples + 1);
+  blocks.reserve(itinerary.size() / most_samples + 1);
   std::size_t length = most_samples, phase = 0;
-  for (const std::uint8_t contact : contacts) {
+  for (const std::uint8_t contact : itinerary) {
     const bool engaged = contact != 0;
     const bool full =
         length == most_samples || !(blocks.back().map.cwiseAbs().maxCoeff() < largest_growth);
@@ -145,10 +145,10 @@ std::vector<AffineMap<Scalar>> affine_blocks(const ContactMaps<Scalar>& maps,
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template ContactMaps<double>::ContactMaps(const ForcedLoop<double>&, const Rational&);
-extern template double ContactMaps<double>::spread_of(const Matrix<double, 5>&) const;
-extern template std::vector<AffineMap<double>> affine_blocks(const ContactMaps<double>&,
-                                                             const Contacts&);
+extern template ItineraryMaps<double>::ItineraryMaps(const IdealLoop<double>&, const Rational&);
+extern template double ItineraryMaps<double>::spread_of(const Matrix<double, 5>&) const;
+extern template std::vector<AffineMap<double>> affine_blocks(const ItineraryMaps<double>&,
+                                                             const Itinerary&);
 #endif
 
 }  // namespace holdfast

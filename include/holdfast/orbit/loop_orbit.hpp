@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// The share of its own size (PeriodicOrbit::border_share(), HybridOrbit::border_share()) below
+/// The share of its own size (PeriodicOrbit::border_share(), EventOrbit::border_share()) below
 /// which an orbit is near a switching surface: a change of the loop in its fourth digit may end it.
 inline constexpr double near_border = 1e-4;
 
@@ -24,7 +24,7 @@ struct LoopOrbit {
   Rational ratio;                            ///< f τ = p/q
   double sampling_period;                    ///< τ (s)
   std::vector<Vector<double, Size>> states;  ///< N of them, the first one at phase 0 of the force
-  /// Of one period, five, largest first; −∞ for an annihilated direction.
+  /// Of one period, five, largest first; −∞ for a null direction.
   std::vector<Multiplier> multipliers;
   double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
 
@@ -62,7 +62,7 @@ struct SurfaceRounding {
 
 /// @param extent  of the orbit's states
 /// @param error   of the states, as a share of the extent
-inline SurfaceRounding surface_rounding(const StateExtent& extent, double error) {
+inline SurfaceRounding surface_rounding(const StateScale& extent, double error) {
   const double share = 256.0 * std::numeric_limits<double>::epsilon() + 64.0 * error;
   const auto part = [share](double whole) { return whole > 0.0 ? share * whole : 0.0; };
   return {part(extent.displacement), part(extent.velocity)};

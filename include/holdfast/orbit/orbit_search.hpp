@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
@@ -19,9 +19,9 @@ namespace holdfast {
 
 /// How the search for the periodic orbit of a motion ended.
 enum class OrbitOutcome {
-  certified,    ///< the motion is within the orbit's radius of capture: it tends to it
+  certified,    ///< the motion is within the orbit's radius of attraction: it tends to it
   approaching,  ///< a certified orbit was proposed, but the motion was not seen within its radius
-                ///< of capture
+                ///< of attraction
   on_surface,   ///< its contacts repeat, but the orbit touches a switching surface: the result
                 ///< depends on rounding, and no certificate can be given
   incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
@@ -36,7 +36,7 @@ struct OrbitLimits {
   std::int64_t largest_period = 1'000'000;  ///< samples, 1 … 10⁸
   /// Of the motion; 0: eight times the largest period.
   std::int64_t most_samples = 0;
-  /// Called at every coincidence; may throw to end the search.
+  /// Called at every stroboscopic instant; may throw to end the search.
   std::function<void()> watch = {};
 };
 
@@ -57,19 +57,19 @@ struct OrbitResult {
 
 namespace detail {
 
-/// The shortest period of which `contacts` and states are a whole number of repetitions.
+/// The shortest period of which `itinerary` and states are a whole number of repetitions.
 /// @tparam Orbit  PeriodicOrbit
 template <class Orbit>
 std::size_t shortest_period(const Orbit& orbit) {
-  const auto samples = orbit.contacts.size();
+  const auto samples = orbit.itinerary.size();
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
-  const StateExtent extent(orbit.states);
+  const StateScale extent(orbit.states);
   for (std::size_t period = step; period < samples; period += step) {
     if (samples % period != 0) continue;
     const auto apart = (orbit.states[period] - orbit.states.front()).eval();
     if (extent.share_of(apart) > 1e-10) continue;
-    if (std::equal(orbit.contacts.begin() + static_cast<std::ptrdiff_t>(period),
-                   orbit.contacts.end(), orbit.contacts.begin()))
+    if (std::equal(orbit.itinerary.begin() + static_cast<std::ptrdiff_t>(period),
+                   orbit.itinerary.end(), orbit.itinerary.begin()))
       return period;
   }
   return samples;
@@ -77,17 +77,18 @@ std::size_t shortest_period(const Orbit& orbit) {
 
 /// Looks for the orbit that one motion comes to.
 ///
-/// At every coincidence of sampling and forcing the state is compared with a reference that moves
-/// on at powers of two (R. P. Brent, An improved Monte Carlo factorization algorithm, BIT 20,
-/// 1980). A near return proposes a period; its contacts, once they have repeated, are solved for
-/// their exact orbit. The orbit is the motion's once the motion lies within its radius of capture
-/// at a coincidence. Proposals after the first cost about as much as the motion at most: a sample
-/// solved for costs some ten to fifty samples taken, so no more than a sixteenth are.
+/// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
+/// reference that moves on at powers of two (R. P. Brent, An improved Monte Carlo factorization
+/// algorithm, BIT 20, 1980). A near return proposes a period; its contacts, once they have
+/// repeated, are solved for their exact orbit. The orbit is the motion's once the motion lies
+/// within its radius of attraction at a stroboscopic instant. Proposals after the first cost about
+/// as much as the motion at most: a sample solved for costs some ten to fifty samples taken, so no
+/// more than a sixteenth are.
 /// @tparam Scalar  `double`; a template so that only who uses it compiles it
 template <class Scalar>
 class OrbitSearch {
  public:
-  OrbitSearch(const ForcedLoop<Scalar>& loop, const Rational& ratio, const OrbitLimits& limits,
+  OrbitSearch(const IdealLoop<Scalar>& loop, const Rational& ratio, const OrbitLimits& limits,
               const PeriodicallyForcedMotion<Scalar>& motion)
       : loop_(loop),
         ratio_(ratio),
@@ -100,11 +101,11 @@ class OrbitSearch {
   OrbitResult run();
 
  private:
-  std::int64_t taken() const { return static_cast<std::int64_t>(contacts_.size()); }
+  std::int64_t taken() const { return static_cast<std::int64_t>(itinerary_.size()); }
 
-  void take_coincidence() {
+  void take_stroboscopic_instant() {
     for (std::int64_t j = 0; j < ratio_.denominator; ++j) {
-      contacts_.push_back(motion_.sense().engaged ? 1 : 0);
+      itinerary_.push_back(motion_.sense().engaged ? 1 : 0);
       motion_.advance();
     }
     largest_ = largest_.cwiseMax(motion_.state().cwiseAbs());
@@ -114,9 +115,9 @@ class OrbitSearch {
 
   bool left_numbers() const { return !(motion_.state().cwiseAbs().maxCoeff() < 1e100); }
 
-  bool is_captured() const {
-    return std::any_of(points_.begin(), points_.end(), [this](const CapturePoint& point) {
-      return captures(point, motion_.memory(), weights_);
+  bool is_attracted() const {
+    return std::any_of(points_.begin(), points_.end(), [this](const AttractionBall& point) {
+      return attracts(point, motion_.memory(), weights_);
     });
   }
 
@@ -133,14 +134,14 @@ class OrbitSearch {
   }
 
   /// Whether the contacts since the reference are those of as many samples before it.
-  bool contacts_repeat(std::int64_t period) const {
+  bool itinerary_repeats(std::int64_t period) const {
     if (reference_taken_ < period) return reference_taken_ == 0 || period == ratio_.denominator;
-    return std::equal(contacts_.end() - period, contacts_.end(), contacts_.end() - 2 * period);
+    return std::equal(itinerary_.end() - period, itinerary_.end(), itinerary_.end() - 2 * period);
   }
 
   std::optional<OrbitResult> look_for_return() {
     const std::int64_t period = taken() - reference_taken_;
-    if (period > limits_.largest_period || !near_reference() || !contacts_repeat(period))
+    if (period > limits_.largest_period || !near_reference() || !itinerary_repeats(period))
       return std::nullopt;
     if (candidates_ > 0 && 16 * (solved_samples_ + period) > taken()) return std::nullopt;
     return try_period(period);
@@ -149,12 +150,12 @@ class OrbitSearch {
   std::optional<OrbitResult> try_period(std::int64_t period) {
     solved_samples_ += period;
     ++candidates_;
-    const Contacts contacts(contacts_.end() - period, contacts_.end());
+    const Itinerary itinerary(itinerary_.end() - period, itinerary_.end());
     const Backlash<Scalar> law(loop_.backlash_width, reference_.backlash);
-    OrbitCandidate candidate = orbit_of_contacts(loop_, ratio_, maps_, contacts, law);
+    OrbitCandidate candidate = orbit_of_itinerary(loop_, ratio_, maps_, itinerary, law);
     if (!candidate.orbit) return std::nullopt;
     const PeriodicOrbit& orbit = *candidate.orbit;
-    if (candidate.outcome == CandidateOutcome::other_contacts) {
+    if (candidate.outcome == CandidateOutcome::other_itinerary) {
       failed_ = orbit;
     } else if (candidate.outcome == CandidateOutcome::on_surface) {
       if (follows(orbit)) return finish(OrbitOutcome::on_surface, shortest(orbit));
@@ -164,12 +165,12 @@ class OrbitSearch {
     return std::nullopt;
   }
 
-  /// From now on the motion is watched for being captured by this orbit.
+  /// From now on the motion is watched for being attracted by this orbit.
   std::optional<OrbitResult> propose(const PeriodicOrbit& orbit) {
-    if (proposed_ && proposed_->contacts == orbit.contacts) return std::nullopt;
+    if (proposed_ && proposed_->itinerary == orbit.itinerary) return std::nullopt;
     proposed_ = orbit;
-    points_ = capture_points(loop_, orbit);
-    if (!is_captured()) return std::nullopt;
+    points_ = attraction_balls(loop_, orbit);
+    if (!is_attracted()) return std::nullopt;
     return finish(OrbitOutcome::certified, shortest(orbit));
   }
 
@@ -183,16 +184,16 @@ class OrbitSearch {
   bool follows(const PeriodicOrbit& orbit) {
     const Vector<Scalar, 4> first = orbit.states.front().template head<4>();
     const double before = distance_from(first);
-    const auto period = orbit.contacts.size();
-    bool same_contacts = true;
+    const auto period = orbit.itinerary.size();
+    bool same_itinerary = true;
     for (std::size_t j = 0; j < period; ++j) {
       const bool engaged = motion_.sense().engaged;
-      contacts_.push_back(engaged ? 1 : 0);
+      itinerary_.push_back(engaged ? 1 : 0);
       motion_.advance();
-      same_contacts = same_contacts && engaged == (orbit.contacts[j] != 0);
+      same_itinerary = same_itinerary && engaged == (orbit.itinerary[j] != 0);
     }
     const double nearest = std::max(before, 1e-12 * extent_.share_of(first));
-    if (before <= 1e-6 && same_contacts && distance_from(first) <= nearest) return true;
+    if (before <= 1e-6 && same_itinerary && distance_from(first) <= nearest) return true;
     set_reference();
     return false;
   }
@@ -200,11 +201,11 @@ class OrbitSearch {
   /// The same orbit with its shortest period.
   PeriodicOrbit shortest(const PeriodicOrbit& orbit) const {
     const std::size_t period = shortest_period(orbit);
-    if (period == orbit.contacts.size()) return orbit;
-    const Contacts contacts(orbit.contacts.begin(),
-                            orbit.contacts.begin() + static_cast<std::ptrdiff_t>(period));
+    if (period == orbit.itinerary.size()) return orbit;
+    const Itinerary itinerary(orbit.itinerary.begin(),
+                              orbit.itinerary.begin() + static_cast<std::ptrdiff_t>(period));
     const Backlash<Scalar> law(loop_.backlash_width, orbit.memory);
-    OrbitCandidate candidate = orbit_of_contacts(loop_, ratio_, maps_, contacts, law);
+    OrbitCandidate candidate = orbit_of_itinerary(loop_, ratio_, maps_, itinerary, law);
     return candidate.outcome == CandidateOutcome::verified ||
                    candidate.outcome == CandidateOutcome::on_surface
                ? *candidate.orbit
@@ -218,22 +219,22 @@ class OrbitSearch {
 
   using Memory = decltype(std::declval<PeriodicallyForcedMotion<Scalar>>().memory());
 
-  ForcedLoop<Scalar> loop_;
+  IdealLoop<Scalar> loop_;
   Rational ratio_;
   OrbitLimits limits_;
-  ContactMaps<Scalar> maps_;
+  ItineraryMaps<Scalar> maps_;
   PeriodicallyForcedMotion<Scalar> motion_;
-  Contacts contacts_;
+  Itinerary itinerary_;
   Memory reference_{};
   std::int64_t reference_taken_ = 0;
   Vector<Scalar, 4> largest_ = Vector<Scalar, 4>::Zero();
   Vector<Scalar, 4> largest_ever_ = Vector<Scalar, 4>::Zero();
-  StateExtent extent_;  // of the motion
+  StateScale extent_;  // of the motion
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
   Vector<Scalar, 6> weights_;
-  std::optional<PeriodicOrbit> proposed_;  // certified, and the motion not yet captured by it
-  std::vector<CapturePoint> points_;       // of the proposed orbit
+  std::optional<PeriodicOrbit> proposed_;  // certified, and the motion not yet attracted by it
+  std::vector<AttractionBall> points_;     // of the proposed orbit
   std::optional<PeriodicOrbit> failed_;
 };
 
@@ -242,10 +243,10 @@ OrbitResult OrbitSearch<Scalar>::run() {
   if (limits_.most_samples == 0) limits_.most_samples = 8 * limits_.largest_period;
   set_reference();
   while (taken() + ratio_.denominator <= limits_.most_samples) {
-    take_coincidence();
+    take_stroboscopic_instant();
     if (limits_.watch) limits_.watch();
     if (left_numbers()) return finish(OrbitOutcome::diverges);
-    if (is_captured()) return finish(OrbitOutcome::certified, shortest(*proposed_));
+    if (is_attracted()) return finish(OrbitOutcome::certified, shortest(*proposed_));
     if (const auto result = look_for_return()) return *result;
     if (taken() >= 2 * std::max(reference_taken_, ratio_.denominator)) set_reference();
   }
@@ -269,7 +270,7 @@ OrbitResult OrbitSearch<Scalar>::run() {
 /// @param limits         how long and how far to look
 /// @throws InvalidParameter where one of them or the limits are not admissible
 template <class Scalar>
-OrbitResult find_periodic_orbit(const ForcedLoop<Scalar>& loop,
+OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
                                 const Vector<double, 4>& initial_state,
                                 const OrbitLimits& limits = {}) {
   validate(loop);
@@ -286,7 +287,7 @@ OrbitResult find_periodic_orbit(const ForcedLoop<Scalar>& loop,
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template OrbitResult detail::OrbitSearch<double>::run();
-extern template OrbitResult find_periodic_orbit(const ForcedLoop<double>&, const Vector<double, 4>&,
+extern template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<double, 4>&,
                                                 const OrbitLimits&);
 #endif
 

@@ -24,18 +24,18 @@ namespace holdfast {
 /// of decades, is never formed. Source: S. J. Wright, Stable parallel algorithms for two-point
 /// boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 template <class Scalar>
-struct EndRelation {
+struct CondensedBoundary {
   Matrix<Scalar, 5> first;     ///< of z̃₀
   Matrix<Scalar, 5> last;      ///< of z̃_N
   Vector<Scalar, 5> addition;  ///< what the forcing adds on the way
 };
 
-/// The relation of the ends of a sequence of affine maps, at least one. Work per map: about 2000
-/// multiply-adds.
+/// The condensed boundary condition of a sequence of affine maps, at least one. Work per map: about
+/// 2000 multiply-adds.
 template <class Scalar>
-EndRelation<Scalar> relation_of_ends(const std::vector<AffineMap<Scalar>>& maps) {
+CondensedBoundary<Scalar> condensed_boundary(const std::vector<AffineMap<Scalar>>& maps) {
   const Matrix<Scalar, 5> identity = Matrix<Scalar, 5>::Identity();
-  EndRelation<Scalar> ends{-maps.front().map, identity, maps.front().addition};
+  CondensedBoundary<Scalar> ends{-maps.front().map, identity, maps.front().addition};
   Matrix<Scalar, 10, 5> inner;
   Matrix<Scalar, 10, 11> outer;
   for (std::size_t k = 1; k < maps.size(); ++k) {
@@ -53,7 +53,7 @@ EndRelation<Scalar> relation_of_ends(const std::vector<AffineMap<Scalar>>& maps)
   return ends;
 }
 
-/// The states of a motion that repeats a given sequence of contacts for ever.
+/// The states of a motion that repeats a given itinerary for ever.
 template <class Scalar>
 struct PeriodicSolution {
   std::vector<Vector<Scalar, 5>> states;  ///< z̃_j = [z_j; u_{j−1}], one for each sample
@@ -66,56 +66,56 @@ namespace detail {
 
 /// All states of the sequence from a given first one, and the state after its last sample.
 template <class Scalar>
-Vector<Scalar, 5> follow_contacts(const ContactMaps<Scalar>& maps, const Contacts& contacts,
-                                  std::vector<Vector<Scalar, 5>>& states) {
+Vector<Scalar, 5> follow_itinerary(const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
+                                   std::vector<Vector<Scalar, 5>>& states) {
   std::size_t phase = 0;
-  for (std::size_t j = 0; j + 1 < contacts.size(); ++j) {
-    states[j + 1] = maps.step(states[j], contacts[j] != 0, phase);
+  for (std::size_t j = 0; j + 1 < itinerary.size(); ++j) {
+    states[j + 1] = maps.step(states[j], itinerary[j] != 0, phase);
     if (++phase == maps.samples_of_forcing()) phase = 0;
   }
-  return maps.step(states.back(), contacts.back() != 0, phase);
+  return maps.step(states.back(), itinerary.back() != 0, phase);
 }
 
 }  // namespace detail
 
-/// Solves z̃_N = z̃₀ for a sequence of contacts: (I − M) z̃₀ = g without forming M or g.
+/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g without forming M or g.
 ///
-/// The first state comes from the relation of the ends; the others follow by the maps themselves,
-/// and what is left open after one period is divided out once more.
-/// @param maps      of the loop
-/// @param contacts  N samples, N a multiple of the forcing's q, the first one at phase 0
-/// @param ends      relation_of_ends() of the sequence's affine_blocks()
+/// The first state comes from the condensed boundary condition; the others follow by the maps
+/// themselves, and what is left open after one period is divided out once more.
+/// @param maps       of the loop
+/// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
+/// @param ends       condensed_boundary() of the sequence's affine_blocks()
 /// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
 ///         periodic solution, or a continuum of them
 template <class Scalar>
-std::optional<PeriodicSolution<Scalar>> periodic_solution(const ContactMaps<Scalar>& maps,
-                                                          const Contacts& contacts,
-                                                          const EndRelation<Scalar>& ends) {
+std::optional<PeriodicSolution<Scalar>> periodic_solution(const ItineraryMaps<Scalar>& maps,
+                                                          const Itinerary& itinerary,
+                                                          const CondensedBoundary<Scalar>& ends) {
   const Eigen::FullPivLU<Matrix<Scalar, 5>> closed(ends.first + ends.last);
   const Scalar smallest_pivot = closed.matrixLU().diagonal().cwiseAbs().minCoeff();
   const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
   if (!(smallest_pivot > rounding * closed.maxPivot())) return std::nullopt;
   PeriodicSolution<Scalar> solution;
-  solution.states.resize(contacts.size());
+  solution.states.resize(itinerary.size());
   const auto first_state_from = [&](const Vector<Scalar, 5>& addition) -> Vector<Scalar, 5> {
     return maps.units().cwiseProduct(closed.solve(addition));
   };
   solution.states.front() = first_state_from(ends.addition);
   Vector<Scalar, 5> open, correction;
   for (int refinement = 0; refinement < 3; ++refinement) {
-    open = detail::follow_contacts(maps, contacts, solution.states) - solution.states.front();
+    open = detail::follow_itinerary(maps, itinerary, solution.states) - solution.states.front();
     correction = first_state_from(ends.last * open.cwiseQuotient(maps.units()));
     if (refinement < 2) solution.states.front() += correction;
   }
   solution.closure_error = open.template head<4>().norm();
-  solution.state_error = StateExtent(solution.states).share_of(correction);
+  solution.state_error = StateScale(solution.states).share_of(correction);
   return solution;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template EndRelation<double> relation_of_ends(const std::vector<AffineMap<double>>&);
+extern template CondensedBoundary<double> condensed_boundary(const std::vector<AffineMap<double>>&);
 extern template std::optional<PeriodicSolution<double>> periodic_solution(
-    const ContactMaps<double>&, const Contacts&, const EndRelation<double>&);
+    const ItineraryMaps<double>&, const Itinerary&, const CondensedBoundary<double>&);
 #endif
 
 }  // namespace holdfast

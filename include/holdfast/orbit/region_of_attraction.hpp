@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/switching_borders.hpp"
@@ -19,7 +19,7 @@
 namespace holdfast {
 
 /// A neighbourhood of one point of an orbit: every motion in it, at the same phase of the forcing,
-/// follows the orbit's contacts for ever and tends to the orbit.
+/// follows the orbit's itinerary for ever and tends to the orbit.
 ///
 /// Deviations are measured by
 ///
@@ -29,7 +29,7 @@ namespace holdfast {
 /// gap that the drive is in. The drive must be inside or outside as on the orbit, and Δż of the
 /// last sample of the same sign. An orbit that stays in the gap for ever does so in every gap that
 /// holds it: there the radius counts for a metre of clearance between the orbit and the gap's ends.
-struct CapturePoint {
+struct AttractionBall {
   std::int64_t sample;            ///< on the orbit, a multiple of the forcing's q
   Vector<double, 5> state;        ///< z̃ = [z; u_{j−1}] there
   BacklashMemory<double> memory;  ///< of the drive before that sample
@@ -41,7 +41,7 @@ struct CapturePoint {
 
 namespace detail {
 
-/// The number type of a loop such as ForcedLoop.
+/// The number type of a loop such as IdealLoop.
 template <class Loop>
 using ScalarOf = std::decay_t<decltype(std::declval<const Loop&>().sampling.period)>;
 
@@ -51,7 +51,7 @@ using ScalarOf = std::decay_t<decltype(std::declval<const Loop&>().sampling.peri
 ///
 ///     DeviationScale(loop).weights();
 ///
-/// @tparam Loop  ForcedLoop, or a loop with its members
+/// @tparam Loop  IdealLoop, or a loop with its members
 template <class Loop>
 struct DeviationScale {
   using Scalar = detail::ScalarOf<Loop>;
@@ -77,7 +77,7 @@ namespace detail {
 
 /// The deviation by DeviationScale; infinite where contact or direction of the drive differ.
 template <class Memory>
-double deviation_from(const CapturePoint& point, const Memory& motion,
+double deviation_from(const AttractionBall& point, const Memory& motion,
                       const Vector<double, 6>& weights) {
   const BacklashMemory<double>& drive = motion.backlash;
   const bool same_direction = drive.previous_velocity * point.memory.previous_velocity > 0.0;
@@ -94,18 +94,19 @@ double deviation_from(const CapturePoint& point, const Memory& motion,
 
 /// The radius of the neighbourhood for a drive that remembers this (m); not positive where its gap
 /// does not hold an orbit that stays inside.
-inline double capture_radius(const CapturePoint& point, const BacklashMemory<double>& drive) {
+inline double attraction_radius(const AttractionBall& point, const BacklashMemory<double>& drive) {
   if (!point.stays_inside) return point.radius;
   return point.radius * std::min(point.lowest - drive.lower, drive.upper - point.highest);
 }
 
-/// Whether a motion at a coincidence of sampling and forcing lies in a point's neighbourhood.
+/// Whether a motion at a stroboscopic instant (sampling and forcing in phase) lies in a point's
+/// neighbourhood.
 /// @param point    the neighbourhood, at the same phase of the forcing
 /// @param motion   its memory(), before the sample
 /// @param weights  DeviationScale::weights()
 template <class Memory>
-bool captures(const CapturePoint& point, const Memory& motion, const Vector<double, 6>& weights) {
-  return detail::deviation_from(point, motion, weights) < capture_radius(point, motion.backlash);
+bool attracts(const AttractionBall& point, const Memory& motion, const Vector<double, 6>& weights) {
+  return detail::deviation_from(point, motion, weights) < attraction_radius(point, motion.backlash);
 }
 
 namespace detail {
@@ -122,7 +123,7 @@ template <class Scalar>
 class DeviationFlow {
  public:
   template <class Loop>
-  DeviationFlow(const Loop& loop, const ContactMaps<Scalar>& maps, const PeriodicOrbit& orbit)
+  DeviationFlow(const Loop& loop, const ItineraryMaps<Scalar>& maps, const PeriodicOrbit& orbit)
       : orbit_(orbit),
         weights_(DeviationScale(loop).weights()),
         pattern_(
@@ -208,7 +209,7 @@ class DeviationFlow {
 /// Radii at the starts of the segments of one period, or nothing where there are surfaces and the
 /// segments together do not contract. A deviation within a segment's radius stays within the next
 /// one's.
-inline std::vector<double> capture_radii(const std::vector<DeviationSegment>& segments) {
+inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>& segments) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
   double logarithm = 0.0, smallest = everywhere;
   for (const DeviationSegment& segment : segments) {
@@ -229,10 +230,11 @@ inline std::vector<double> capture_radii(const std::vector<DeviationSegment>& se
   return radii;
 }
 
-/// The segments of one period, each of `length` coincidences but perhaps a shorter last one; or one
-/// segment of several whole periods.
+/// The segments of one period, each of `length` common periods but perhaps a shorter last one; or
+/// one segment of several whole periods.
 template <class Loop, class Scalar>
-std::vector<DeviationSegment> deviation_segments(const Loop& loop, const ContactMaps<Scalar>& maps,
+std::vector<DeviationSegment> deviation_segments(const Loop& loop,
+                                                 const ItineraryMaps<Scalar>& maps,
                                                  const PeriodicOrbit& orbit, std::int64_t length) {
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t whole = std::max(orbit.period_samples() / step, length);
@@ -244,16 +246,16 @@ std::vector<DeviationSegment> deviation_segments(const Loop& loop, const Contact
 }
 
 template <class Loop>
-std::vector<CapturePoint> points_with_radii(const Loop& loop, const PeriodicOrbit& orbit,
-                                            std::int64_t samples_of_segment,
-                                            const std::vector<double>& radii) {
+std::vector<AttractionBall> points_with_radii(const Loop& loop, const PeriodicOrbit& orbit,
+                                              std::int64_t samples_of_segment,
+                                              const std::vector<double>& radii) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const auto& state : orbit.states) {
     lowest = std::min(lowest, relative_displacement(state));
     highest = std::max(highest, relative_displacement(state));
   }
   const bool stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
-  std::vector<CapturePoint> points;
+  std::vector<AttractionBall> points;
   Backlash<ScalarOf<Loop>> law(loop.backlash_width, orbit.memory);
   for (std::int64_t j = 0; j < orbit.period_samples(); ++j) {
     const auto& state = orbit.states[static_cast<std::size_t>(j)];
@@ -269,10 +271,10 @@ std::vector<CapturePoint> points_with_radii(const Loop& loop, const PeriodicOrbi
 
 }  // namespace detail
 
-/// Neighbourhoods of an orbit from which every motion tends to it, at the coincidences of sampling
-/// and forcing.
+/// Neighbourhoods of an orbit from which every motion tends to it, at the stroboscopic instants,
+/// sampling and forcing in phase.
 ///
-/// The period is cut into segments of one coincidence, or of twice as many until the segments
+/// The period is cut into segments of one common period, or of twice as many until the segments
 /// together contract. Along each, a deviation changes no decision while |h Φ e| stays below the
 /// distance from the surface, h being the surface's normal and Φ the flow of deviations; at its end
 /// it has grown by at most ‖Φ‖. Both bounds together are an induction over all time.
@@ -281,27 +283,27 @@ std::vector<CapturePoint> points_with_radii(const Loop& loop, const PeriodicOrbi
 /// @return in the order of the orbit; empty where no segments of up to 64 periods, or 10⁶ samples,
 ///         contract
 /// Work: about 300 multiply-adds a sample for every length of segment that is tried.
-/// @tparam Loop  ForcedLoop<double>; a template so that only who calls it compiles it
+/// @tparam Loop  IdealLoop<double>; a template so that only who calls it compiles it
 template <class Loop>
-std::vector<CapturePoint> capture_points(const Loop& loop, const PeriodicOrbit& orbit) {
-  const ContactMaps<detail::ScalarOf<Loop>> maps(loop, orbit.ratio);
+std::vector<AttractionBall> attraction_balls(const Loop& loop, const PeriodicOrbit& orbit) {
+  const ItineraryMaps<detail::ScalarOf<Loop>> maps(loop, orbit.ratio);
   const std::int64_t step = orbit.ratio.denominator;
-  const std::int64_t coincidences = orbit.period_samples() / step;
+  const std::int64_t common_periods = orbit.period_samples() / step;
   // Segments of more than one period hold whole ones, to begin where they are used again.
   std::int64_t length = 1;
-  const std::int64_t longest = std::max(64 * coincidences, 1'000'000 / step);
+  const std::int64_t longest = std::max(64 * common_periods, 1'000'000 / step);
   while (length <= longest) {
     const auto segments = detail::deviation_segments(loop, maps, orbit, length);
-    const std::vector<double> radii = detail::capture_radii(segments);
+    const std::vector<double> radii = detail::attraction_radii(segments);
     if (!radii.empty()) return detail::points_with_radii(loop, orbit, step * length, radii);
-    length = length < coincidences ? std::min(2 * length, coincidences) : 2 * length;
+    length = length < common_periods ? std::min(2 * length, common_periods) : 2 * length;
   }
   return {};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<CapturePoint> capture_points(const ForcedLoop<double>&,
-                                                         const PeriodicOrbit&);
+extern template std::vector<AttractionBall> attraction_balls(const IdealLoop<double>&,
+                                                             const PeriodicOrbit&);
 #endif
 
 }  // namespace holdfast

@@ -14,16 +14,16 @@ namespace holdfast {
 
 /// How far a motion reaches: displacements and velocities apart, so that no unit of time decides
 /// which of them counts.
-struct StateExtent {
+struct StateScale {
   double displacement = 0.0;  ///< largest |z₁|, |z₂| (m)
   double velocity = 0.0;      ///< largest |ż₁|, |ż₂| (m/s)
 
   /// Nothing yet.
-  StateExtent() = default;
+  StateScale() = default;
 
   /// That of states that begin with [z₁, ż₁, z₂, ż₂].
   template <class Scalar, int Size>
-  explicit StateExtent(const std::vector<Vector<Scalar, Size>>& states) {
+  explicit StateScale(const std::vector<Vector<Scalar, Size>>& states) {
     for (const auto& state : states) include(state);
   }
 
@@ -44,7 +44,7 @@ struct StateExtent {
   /// velocities.
   template <class Scalar, int Size>
   double share_of(const Vector<Scalar, Size>& state) const {
-    StateExtent size;
+    StateScale size;
     size.include(state);
     return std::max(share_of_displacement(size.displacement), share_of_velocity(size.velocity));
   }
@@ -55,20 +55,20 @@ struct StateExtent {
 
 /// How far a motion of a plant of order N reaches.
 ///
-/// States of the two masses are measured as StateExtent says. Those of another plant are measured
+/// States of the two masses are measured as StateScale says. Those of another plant are measured
 /// coordinate by coordinate, each in the largest value that it has taken, since their units may be
 /// any: x apart is max_i |x_i| / max |x_i seen|. Its displacements and velocities are those of both
 /// sides of the gap.
 template <class Plant>
-class StateExtentOf {
+class StateScaleOf {
  public:
   using State = StateOf<Plant>;  ///< x, N × 1
 
   /// Nothing yet.
-  explicit StateExtentOf(const PortReadings<Plant>& readings) : readings_(readings) {}
+  explicit StateScaleOf(const PortReadings<Plant>& readings) : readings_(readings) {}
 
   /// That of some states.
-  StateExtentOf(const PortReadings<Plant>& readings, const std::vector<State>& states)
+  StateScaleOf(const PortReadings<Plant>& readings, const std::vector<State>& states)
       : readings_(readings) {
     for (const State& state : states) include(state);
   }
@@ -83,7 +83,7 @@ class StateExtentOf {
   }
 
   /// Of both sides of the gap: |z|, |z + Δz| (m) and |ż|, |ż + Δż| (m/s).
-  const StateExtent& sides() const { return sides_; }
+  const StateScale& sides() const { return sides_; }
 
   /// A state, most often the difference of two: the largest of its shares; infinite where a
   /// coordinate has always been 0 and is not.
@@ -103,17 +103,17 @@ class StateExtentOf {
 
   /// Takes each coordinate of another plant than the two masses for no less than a share of its
   /// size in another motion, so that what has decayed to rounding is measured by what it was.
-  void widen(double share, const StateExtentOf& other) {
+  void widen(double share, const StateScaleOf& other) {
     if constexpr (!of_two_masses) largest_ = largest_.cwiseMax(share * other.largest_);
   }
 
  private:
-  static constexpr bool of_two_masses = std::is_same_v<Plant, TwoDof<double>>;
+  static constexpr bool of_two_masses = std::is_same_v<Plant, TwoMass<double>>;
 
   double largest_seen(Eigen::Index i) const { return largest_.size() == 0 ? 0.0 : largest_[i]; }
 
   PortReadings<Plant> readings_;
-  StateExtent sides_;
+  StateScale sides_;
   State largest_ = State::Zero(states_of<Plant> < 0 ? 0 : states_of<Plant>);
 };
 

@@ -103,10 +103,10 @@ SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
 }
 
 /// Whether these are the contacts that the backlash decides, turn after turn.
-inline bool has_contacts(const SwitchingPattern& pattern, const Contacts& contacts) {
+inline bool has_itinerary(const SwitchingPattern& pattern, const Itinerary& itinerary) {
   return pattern.repeats &&
-         std::equal(pattern.decisions.begin(), pattern.decisions.end(), contacts.begin(),
-                    contacts.end(), [](const ContactDecision& decision, std::uint8_t contact) {
+         std::equal(pattern.decisions.begin(), pattern.decisions.end(), itinerary.begin(),
+                    itinerary.end(), [](const ContactDecision& decision, std::uint8_t contact) {
                       return decision.engaged == (contact != 0);
                     });
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
@@ -17,53 +17,53 @@
 namespace holdfast {
 
 /// What one initial state comes to.
-struct MotionFate {
+struct BasinLabel {
   OrbitOutcome outcome = OrbitOutcome::none_found;  ///< `certified`, or why it has no attractor
   int attractor = -1;  ///< index into the attractors of its BasinsOf; −1 unless certified
 };
 
 /// One attractor of a set of initial states.
-/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+/// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 struct AttractorOf {
-  Orbit orbit;            ///< certified; of copies begun at other coincidences the one found first
-  std::size_t states;     ///< how many of the initial states come to it
-  double fraction;        ///< of all of them
-  double standard_error;  ///< √(fraction (1 − fraction)/n): the states being a sample
+  Orbit orbit;  ///< certified; of copies begun at other stroboscopic instants the one found first
+  std::size_t states;               ///< how many of the initial states come to it
+  double fraction;                  ///< of all of them
+  double standard_error;            ///< √(fraction (1 − fraction)/n): the states being a sample
   std::optional<int> mirror_image;  ///< of an earlier attractor
 };
 
 /// Which attractor each of many initial states comes to.
 template <class Orbit>
 struct BasinsOf {
-  std::vector<MotionFate> fates;               ///< in the order of the initial states
+  std::vector<BasinLabel> labels;              ///< in the order of the initial states
   std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
 };
 
-/// One attractor of a ForcedLoop.
+/// One attractor of an IdealLoop.
 using BasinAttractor = AttractorOf<PeriodicOrbit>;
-/// Which attractor each of many initial states of a ForcedLoop comes to.
+/// Which attractor each of many initial states of an IdealLoop comes to.
 using BasinMap = BasinsOf<PeriodicOrbit>;
 
 namespace detail {
 
-/// The basins of fates whose attractors are numbered in the order in which their orbits were found,
-/// with the attractors in that in which the states meet them.
+/// The basins of labels whose attractors are numbered in the order in which their orbits were
+/// found, with the attractors in that in which the states meet them.
 template <class Orbit>
-BasinsOf<Orbit> numbered_basins(std::vector<MotionFate> fates, const std::vector<Orbit>& orbits) {
-  BasinsOf<Orbit> basins{std::move(fates), {}};
+BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vector<Orbit>& orbits) {
+  BasinsOf<Orbit> basins{std::move(labels), {}};
   std::vector<int> number_of(orbits.size(), -1);
-  for (MotionFate& fate : basins.fates) {
-    if (fate.attractor < 0) continue;
-    const auto found = static_cast<std::size_t>(fate.attractor);
+  for (BasinLabel& label : basins.labels) {
+    if (label.attractor < 0) continue;
+    const auto found = static_cast<std::size_t>(label.attractor);
     if (number_of[found] < 0) {
       number_of[found] = static_cast<int>(basins.attractors.size());
       basins.attractors.push_back({orbits[found], 0, 0.0, 0.0, std::nullopt});
     }
-    fate.attractor = number_of[found];
-    ++basins.attractors[static_cast<std::size_t>(fate.attractor)].states;
+    label.attractor = number_of[found];
+    ++basins.attractors[static_cast<std::size_t>(label.attractor)].states;
   }
-  const auto all = static_cast<double>(basins.fates.size());
+  const auto all = static_cast<double>(basins.labels.size());
   for (std::size_t k = 0; k < basins.attractors.size(); ++k) {
     AttractorOf<Orbit>& attractor = basins.attractors[k];
     attractor.fraction = static_cast<double>(attractor.states) / all;
@@ -76,7 +76,7 @@ BasinsOf<Orbit> numbered_basins(std::vector<MotionFate> fates, const std::vector
   return basins;
 }
 
-/// Finds the fates of many initial states of one loop, in rounds: some of the states that are left
+/// Finds the labels of many initial states of one loop, in rounds: some of the states that are left
 /// are searched for their own orbits, one by one; then all that are left move on together past the
 /// orbits known by now. Each round takes twice as many of both. Nothing depends on the order in
 /// which the parts of a round are done.
@@ -85,17 +85,21 @@ BasinsOf<Orbit> numbered_basins(std::vector<MotionFate> fates, const std::vector
 template <class Travel, class Tiles>
 class BasinSearch {
  public:
-  BasinSearch(const ForcedLoop<double>& loop, const OrbitLimits& limits, const Travel& travel,
+  BasinSearch(const IdealLoop<double>& loop, const OrbitLimits& limits, const Travel& travel,
               const Tiles& for_tiles)
-      : loop_(loop), limits_(limits), travel_(travel), for_tiles_(for_tiles), catalogue_(loop) {}
+      : loop_(loop),
+        limits_(limits),
+        travel_(travel),
+        for_tiles_(for_tiles),
+        attractor_set_(loop) {}
 
   BasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
-    fates_.resize(initial_states.size());
+    labels_.resize(initial_states.size());
     const auto ratio = forcing_ratio(loop_);
     if (!ratio || ratio->denominator > limits_.largest_period) {
       const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
-      for (MotionFate& fate : fates_) fate.outcome = outcome;
-      return {std::move(fates_), {}};
+      for (BasinLabel& label : labels_) label.outcome = outcome;
+      return {std::move(labels_), {}};
     }
     for (std::size_t k = 0; k < initial_states.size(); ++k)
       left_.push_back({k, memory_of_start(initial_states[k])});
@@ -107,7 +111,7 @@ class BasinSearch {
       probes *= 2;
       samples *= 2;
     }
-    return numbered_basins(std::move(fates_), catalogue_.orbits());
+    return numbered_basins(std::move(labels_), attractor_set_.orbits());
   }
 
  private:
@@ -123,14 +127,14 @@ class BasinSearch {
       }
     });
     for (std::size_t k = 0; k < count; ++k) {
-      TravellingMotion& motion = left_[place_of(k, count)];
-      MotionFate& fate = fates_[motion.number];
-      fate.outcome = results[k].outcome;
-      if (fate.outcome == OrbitOutcome::certified)
-        fate.attractor = catalogue_.add(std::move(*results[k].orbit));
+      ActiveTrajectory& motion = left_[place_of(k, count)];
+      BasinLabel& label = labels_[motion.number];
+      label.outcome = results[k].outcome;
+      if (label.outcome == OrbitOutcome::certified)
+        label.attractor = attractor_set_.add(std::move(*results[k].orbit));
       motion.searched = true;
     }
-    drop([](const TravellingMotion& motion) { return motion.searched; });
+    drop([](const ActiveTrajectory& motion) { return motion.searched; });
   }
 
   std::size_t place_of(std::size_t probe, std::size_t probes) const {
@@ -142,13 +146,13 @@ class BasinSearch {
     constexpr std::size_t tile = 64;
     for_tiles_(left_.size(), tile, [&](std::size_t first, std::size_t number) {
       auto own = batch;
-      own.run(left_.data() + first, number, samples, catalogue_);
+      own.run(left_.data() + first, number, samples, attractor_set_);
     });
-    for (const TravellingMotion& motion : left_) {
-      if (motion.diverged) fates_[motion.number] = {OrbitOutcome::diverges, -1};
-      if (motion.orbit >= 0) fates_[motion.number] = {OrbitOutcome::certified, motion.orbit};
+    for (const ActiveTrajectory& motion : left_) {
+      if (motion.diverged) labels_[motion.number] = {OrbitOutcome::diverges, -1};
+      if (motion.orbit >= 0) labels_[motion.number] = {OrbitOutcome::certified, motion.orbit};
     }
-    drop([](const TravellingMotion& motion) { return motion.diverged || motion.orbit >= 0; });
+    drop([](const ActiveTrajectory& motion) { return motion.diverged || motion.orbit >= 0; });
   }
 
   template <class Ended>
@@ -156,13 +160,13 @@ class BasinSearch {
     left_.erase(std::remove_if(left_.begin(), left_.end(), ended), left_.end());
   }
 
-  ForcedLoop<double> loop_;
+  IdealLoop<double> loop_;
   OrbitLimits limits_;
   const Travel& travel_;
   const Tiles& for_tiles_;
-  OrbitCatalogue<ForcedLoop<double>> catalogue_;
-  std::vector<TravellingMotion> left_;
-  std::vector<MotionFate> fates_;
+  AttractorSet<IdealLoop<double>> attractor_set_;
+  std::vector<ActiveTrajectory> left_;
+  std::vector<BasinLabel> labels_;
 };
 
 }  // namespace detail
@@ -171,7 +175,7 @@ class BasinSearch {
 /// @param travel  travel(loop, ratio) gives what has MotionBatch's run() and can be copied
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Travel, class Tiles>
-BasinMap find_basins_by(const Travel& travel, const ForcedLoop<double>& loop,
+BasinMap find_basins_by(const Travel& travel, const IdealLoop<double>& loop,
                         const std::vector<Vector<double, 4>>& initial_states,
                         const OrbitLimits& limits, const Tiles& for_tiles) {
   validate(loop);
@@ -182,8 +186,8 @@ BasinMap find_basins_by(const Travel& travel, const ForcedLoop<double>& loop,
 
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
 ///
-/// Distinct attractors are told apart by their orbits; copies of one that run some coincidences of
-/// sampling and forcing later are the same attractor. An initial state counts as an attractor's
+/// Distinct attractors are told apart by their orbits; copies of one that run some common periods
+/// of sampling and forcing later are the same attractor. An initial state counts as an attractor's
 /// only once its motion is in a neighbourhood from which it surely tends to it.
 /// @param loop            the loop with its excitation and backlash
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
@@ -195,10 +199,10 @@ BasinMap find_basins_by(const Travel& travel, const ForcedLoop<double>& loop,
 ///                        on it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Scalar, class Tiles>
-BasinMap find_basins(const ForcedLoop<double>& loop,
+BasinMap find_basins(const IdealLoop<double>& loop,
                      const std::vector<Vector<double, 4>>& initial_states,
                      const OrbitLimits& limits, const Tiles& for_tiles) {
-  const auto travel = [](const ForcedLoop<double>& of, const Rational& ratio) {
+  const auto travel = [](const IdealLoop<double>& of, const Rational& ratio) {
     return MotionBatch<Scalar>(of, ratio);
   };
   return find_basins_by(travel, loop, initial_states, limits, for_tiles);

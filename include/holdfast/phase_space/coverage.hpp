@@ -30,7 +30,7 @@ inline void validate(const PhaseWindow& window) {
 ///
 /// A motion that is topologically transitive would fill the window as time grows; a periodic one
 /// stops at the cells of its orbit. Source of the question: Kollár 2022, Fig. 12.
-/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+/// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
 class CoverageOf {
  public:
@@ -47,7 +47,7 @@ class CoverageOf {
   }
 
   /// Marks the cell of a sample's (z, ż); of one outside the window nothing.
-  /// @tparam Sample  MotionSample<double, N> or HybridSampleOf<N>
+  /// @tparam Sample  MotionSample<double, N> or EventSampleOf<N>
   template <class Sample>
   void operator()(const Sample& sample) {
     const double x = fraction(readings_.displacement(sample.state), window_.displacement_min,
@@ -84,6 +84,6 @@ class CoverageOf {
 };
 
 /// That of the two masses.
-using Coverage = CoverageOf<TwoDof<double>>;
+using Coverage = CoverageOf<TwoMass<double>>;
 
 }  // namespace holdfast

@@ -13,7 +13,7 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/event/return_map.hpp"
@@ -23,16 +23,16 @@
 
 namespace holdfast {
 
-/// Which attractor each of many initial states of a RealLoop comes to.
-using HybridBasinMap = BasinsOf<HybridOrbit>;
+/// Which attractor each of many initial states of an ImplementedLoop comes to.
+using EventBasinMap = BasinsOf<EventOrbit>;
 
 namespace detail {
 
-/// The different orbits of one RealLoop, by their points at the coincidences of sampling and
-/// forcing.
-/// @tparam Orbit  HybridOrbit
+/// The different orbits of one ImplementedLoop, by their points at the stroboscopic instants,
+/// sampling and forcing in phase.
+/// @tparam Orbit  EventOrbit
 template <class Orbit>
-class HybridCatalogue {
+class EventAttractorSet {
  public:
   /// A point of an orbit.
   struct Place {
@@ -61,7 +61,7 @@ class HybridCatalogue {
   double patience() const { return patience_; }
 
   /// Where a motion is that has come within a millionth of an orbit's extent; nothing where it has
-  /// not. Ask at a coincidence.
+  /// not. Ask at a stroboscopic instant.
   std::optional<Place> near(const Vector<double, 4>& state) const {
     auto entry = std::lower_bound(
         entries_.begin(), entries_.end(), state[0] - largest_reach_,
@@ -108,22 +108,22 @@ class HybridCatalogue {
   double patience_ = 0.0;
 };
 
-/// A motion that may come to an orbit of a catalogue.
+/// A motion that may come to an orbit of a set.
 template <class Contact>
-class CatalogueWalk {
-  using Catalogue = HybridCatalogue<HybridOrbit>;
+class ApproachingMotion {
+  using Attractors = EventAttractorSet<EventOrbit>;
 
  public:
-  /// @param start  at a coincidence of sampling and forcing
-  CatalogueWalk(const HybridMotion<Contact>& start, const Rational& ratio,
-                const Catalogue& catalogue)
-      : catalogue_(catalogue), motion_(start, ratio.denominator) {}
+  /// @param start  at a stroboscopic instant (sampling and forcing in phase)
+  ApproachingMotion(const EventMotion<Contact>& start, const Rational& ratio,
+                    const Attractors& attractor_set)
+      : attractor_set_(attractor_set), motion_(start, ratio.denominator) {}
 
   /// @return the number of the orbit that it comes to; −1: none in so many samples
   int run(const OrbitLimits& limits, std::int64_t samples) {
     while (taken_ < samples && is_followed()) {
       if (limits.watch) limits.watch();
-      const auto place = catalogue_.near(state());
+      const auto place = attractor_set_.near(state());
       if (place && comes_to(*place)) return place->orbit;
       for (std::int64_t j = 0; j < motion_.period(); ++j) take();
     }
@@ -131,7 +131,7 @@ class CatalogueWalk {
   }
 
  private:
-  using Place = Catalogue::Place;
+  using Place = Attractors::Place;
 
   const Vector<double, 4>& state() const { return motion_.motion().state(); }
 
@@ -149,12 +149,12 @@ class CatalogueWalk {
   /// Whether the motion keeps to the orbit's modes and comes nearer over two of its periods, in the
   /// second one as its largest multiplier asks.
   bool comes_to(const Place& place) {
-    const HybridOrbit& orbit = catalogue_.orbits()[static_cast<std::size_t>(place.orbit)];
-    const double before = catalogue_.distance(state(), place);
+    const EventOrbit& orbit = attractor_set_.orbits()[static_cast<std::size_t>(place.orbit)];
+    const double before = attractor_set_.distance(state(), place);
     if (!keeps_to(orbit, place.sample)) return false;
-    const double between = catalogue_.distance(state(), place);
+    const double between = attractor_set_.distance(state(), place);
     if (!keeps_to(orbit, place.sample)) return false;
-    const double after = catalogue_.distance(state(), place);
+    const double after = attractor_set_.distance(state(), place);
     // μ itself is the factor in the long run only: a deviation turns while it shrinks.
     constexpr double share = 0.9, rounding = 1e-11;
     const double factor = std::exp(share * orbit.multipliers.front().log_modulus);
@@ -162,31 +162,31 @@ class CatalogueWalk {
   }
 
   /// One period.
-  bool keeps_to(const HybridOrbit& orbit, std::size_t first) {
+  bool keeps_to(const EventOrbit& orbit, std::size_t first) {
     bool keeps = true;
     for (std::size_t j = 0; j < orbit.modes.size(); ++j)
       keeps = take() == orbit.modes[(first + j) % orbit.modes.size()] && keeps;
     return keeps;
   }
 
-  const Catalogue& catalogue_;
+  const Attractors& attractor_set_;
   RepeatingMotion<Contact> motion_;
   std::int64_t taken_ = 0;
 };
 
-/// Finds the fates of many initial states, in rounds of ever more of them. A motion first goes past
-/// the orbits that the rounds before have found, and is searched for its own where it comes to none
-/// of them. Nothing depends on the order in which the states of a round are done.
+/// Finds the labels of many initial states, in rounds of ever more of them. A motion first goes
+/// past the orbits that the rounds before have found, and is searched for its own where it comes to
+/// none of them. Nothing depends on the order in which the states of a round are done.
 /// @tparam Tiles   as in BasinSearch
 template <class Tiles>
-class HybridBasinSearch {
+class EventBasinSearch {
  public:
-  HybridBasinSearch(const RealLoop& loop, const Rational& ratio, const OrbitLimits& limits,
-                    const Tiles& for_tiles)
+  EventBasinSearch(const ImplementedLoop& loop, const Rational& ratio, const OrbitLimits& limits,
+                   const Tiles& for_tiles)
       : loop_(loop), ratio_(ratio), limits_(limits), for_tiles_(for_tiles) {}
 
-  HybridBasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
-    std::vector<MotionFate> fates(initial_states.size());
+  EventBasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
+    std::vector<BasinLabel> labels(initial_states.size());
     std::vector<std::size_t> left(initial_states.size());
     for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
     std::size_t most = 8;
@@ -197,18 +197,18 @@ class HybridBasinSearch {
         for (std::size_t k = first; k < first + number; ++k)
           found[k] = searched(initial_states[chosen[k]]);
       });
-      for (std::size_t k = 0; k < chosen.size(); ++k) fates[chosen[k]] = noted(found[k]);
+      for (std::size_t k = 0; k < chosen.size(); ++k) labels[chosen[k]] = noted(found[k]);
       most = std::min(2 * most, largest_round);
     }
-    return numbered_basins(std::move(fates), catalogue_.orbits());
+    return numbered_basins(std::move(labels), attractor_set_.orbits());
   }
 
  private:
   static constexpr std::size_t largest_round = std::size_t{1} << 16U;
 
   struct Found {
-    MotionFate fate;
-    std::optional<HybridOrbit> orbit;  // where it is not of the catalogue
+    BasinLabel label;
+    std::optional<EventOrbit> orbit;  // where it is not of the set
   };
 
   /// Some of the states that are left, evenly spread.
@@ -227,34 +227,34 @@ class HybridBasinSearch {
     return with_motion(loop_, initial_state, [this](const auto& motion) {
       const std::int64_t most =
           limits_.most_samples > 0 ? limits_.most_samples : 8 * limits_.largest_period;
-      const double samples = std::min(catalogue_.patience(), static_cast<double>(most));
-      const int known = CatalogueWalk(motion, ratio_, catalogue_)
+      const double samples = std::min(attractor_set_.patience(), static_cast<double>(most));
+      const int known = ApproachingMotion(motion, ratio_, attractor_set_)
                             .run(limits_, static_cast<std::int64_t>(samples));
       if (known >= 0) return Found{{OrbitOutcome::certified, known}, std::nullopt};
-      auto search = find_hybrid_orbit(motion, ratio_, limits_);
+      auto search = find_event_orbit(motion, ratio_, limits_);
       if (search.outcome != OrbitOutcome::certified) search.orbit.reset();
       return Found{{search.outcome, -1}, std::move(search.orbit)};
     });
   }
 
-  MotionFate noted(Found& found) {
-    if (found.orbit) found.fate.attractor = catalogue_.add(std::move(*found.orbit));
-    return found.fate;
+  BasinLabel noted(Found& found) {
+    if (found.orbit) found.label.attractor = attractor_set_.add(std::move(*found.orbit));
+    return found.label;
   }
 
-  RealLoop loop_;
+  ImplementedLoop loop_;
   Rational ratio_;
   OrbitLimits limits_;
   const Tiles& for_tiles_;
-  HybridCatalogue<HybridOrbit> catalogue_;
+  EventAttractorSet<EventOrbit> attractor_set_;
 };
 
 }  // namespace detail
 
-/// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂] of a loop as it is built.
+/// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂] of an implemented loop.
 ///
-/// Distinct attractors are told apart by their orbits; copies of one that run some coincidences of
-/// sampling and forcing later are the same attractor. A motion is an attractor's where its own
+/// Distinct attractors are told apart by their orbits; copies of one that run some common periods
+/// of sampling and forcing later are the same attractor. A motion is an attractor's where its own
 /// search certifies that orbit, or where it comes within a millionth of the extent of an orbit that
 /// another search has certified, keeps to its modes for two periods and comes nearer over both,
 /// over the second by 0.9 of the decay (in logarithms) that the largest multiplier asks.
@@ -266,17 +266,17 @@ class HybridBasinSearch {
 ///                        on it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Tiles>
-HybridBasinMap find_hybrid_basins(const RealLoop& loop,
-                                  const std::vector<Vector<double, 4>>& initial_states,
-                                  const OrbitLimits& limits, const Tiles& for_tiles) {
+EventBasinMap find_event_basins(const ImplementedLoop& loop,
+                                const std::vector<Vector<double, 4>>& initial_states,
+                                const OrbitLimits& limits, const Tiles& for_tiles) {
   validate(loop);
   validate(limits);
   for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
   const auto ratio = forcing_ratio(loop.digital);
   if (ratio && ratio->denominator <= limits.largest_period)
-    return detail::HybridBasinSearch<Tiles>(loop, *ratio, limits, for_tiles).run(initial_states);
+    return detail::EventBasinSearch<Tiles>(loop, *ratio, limits, for_tiles).run(initial_states);
   const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
-  return {std::vector<MotionFate>(initial_states.size(), {outcome, -1}), {}};
+  return {std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
 }
 
 }  // namespace holdfast

@@ -14,7 +14,7 @@
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 
@@ -30,10 +30,10 @@ inline ForcedMotionMemory<double> memory_of_start(const Vector<double, 4>& initi
 }
 
 /// One of many motions on its way to an orbit.
-struct TravellingMotion {
+struct ActiveTrajectory {
   std::size_t number;                 ///< the caller's
-  ForcedMotionMemory<double> memory;  ///< at a coincidence of sampling and forcing
-  int orbit = -1;                     ///< of the catalogue, once captured
+  ForcedMotionMemory<double> memory;  ///< at a stroboscopic instant (sampling and forcing in phase)
+  int orbit = -1;                     ///< of the set, once attracted
   bool diverged = false;  ///< an entry of its state has reached 10¹⁰⁰, or is no number
   bool searched = false;  ///< its own orbit has been looked for
 };
@@ -103,7 +103,7 @@ BatchMotion<Scalar> broadcast(const PeriodicallyForcedMotion<double>& motion,
 
 }  // namespace detail
 
-/// Moves many motions of one loop on until each is captured by an orbit of a catalogue, diverges,
+/// Moves many motions of one loop on until each is attracted by an orbit of a set, diverges,
 /// or has gone a given number of samples: as many at a time as `Scalar` has lanes, a lane taking
 /// the next motion as soon as its own has ended.
 template <class Scalar>
@@ -113,25 +113,25 @@ class MotionBatch {
  public:
   /// @param loop   of all motions
   /// @param ratio  of forcing_ratio(loop)
-  MotionBatch(const ForcedLoop<double>& loop, const Rational& ratio)
+  MotionBatch(const IdealLoop<double>& loop, const Rational& ratio)
       : MotionBatch(periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()),
                     loop.gains, ratio) {}
 
-  /// @param motion  of the loop, at a coincidence; its state does not matter
+  /// @param motion  of the loop, at a stroboscopic instant; its state does not matter
   /// @param gains   of the loop
   MotionBatch(const PeriodicallyForcedMotion<double>& motion, const PdGains<double>& gains,
               const Rational& ratio)
       : ratio_(ratio), motion_(detail::broadcast<Scalar>(motion, gains)) {}
 
-  /// @param motions    captured and diverged ones are marked, the others have moved on by at least
-  ///                   `samples` samples, a whole number of coincidences
-  /// @param count      number of motions, ≥ 0
-  /// @param samples    ≥ 1
-  /// @param catalogue  of orbits of the same loop; or what else has a captured_by(memory)
+  /// @param motions        attracted and diverged ones are marked, the others have moved on by at
+  ///                       least `samples` samples, a whole number of common periods
+  /// @param count          number of motions, ≥ 0
+  /// @param samples        ≥ 1
+  /// @param attractor_set  of orbits of the same loop; or what else has an attracted_by(memory)
   /// @throws InvalidParameter for less than one sample
-  template <class Catalogue>
-  void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
-           const Catalogue& catalogue) {
+  template <class Attractors>
+  void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
+           const Attractors& attractor_set) {
     require_positive("number of samples", static_cast<double>(samples), "");
     // Looking costs about as much as twenty samples of all lanes.
     const std::int64_t looks_every = (63 / ratio_.denominator + 1) * ratio_.denominator;
@@ -147,19 +147,19 @@ class MotionBatch {
       }
       lanes_.read(motion_.memory());
       for (std::size_t lane = 0; lane < Lane::count; ++lane) {
-        if (look(lane, catalogue)) start(places_[lane], motions, count, next, looks);
+        if (look(lane, attractor_set)) start(places_[lane], motions, count, next, looks);
       }
     }
   }
 
  private:
   struct Place {
-    TravellingMotion* motion = nullptr;
+    ActiveTrajectory* motion = nullptr;
     std::int64_t looks_left = 0;
   };
 
   /// Puts the next motion, if there is one, into a lane.
-  void start(Place& place, TravellingMotion* motions, std::size_t count, std::size_t& next,
+  void start(Place& place, ActiveTrajectory* motions, std::size_t count, std::size_t& next,
              std::int64_t looks) {
     place = {};
     if (next == count) return;
@@ -168,14 +168,14 @@ class MotionBatch {
   }
 
   /// Whether a lane's motion has ended, or its samples have.
-  template <class Catalogue>
-  bool look(std::size_t lane, const Catalogue& catalogue) {
+  template <class Attractors>
+  bool look(std::size_t lane, const Attractors& attractor_set) {
     Place& place = places_[lane];
     if (place.motion == nullptr) return false;
-    TravellingMotion& motion = *place.motion;
+    ActiveTrajectory& motion = *place.motion;
     motion.memory = lanes_.get(lane);
     motion.diverged = !(motion.memory.state.cwiseAbs().maxCoeff() < 1e100);
-    if (!motion.diverged) motion.orbit = catalogue.captured_by(motion.memory);
+    if (!motion.diverged) motion.orbit = attractor_set.attracted_by(motion.memory);
     return motion.diverged || motion.orbit >= 0 || --place.looks_left == 0;
   }
 

@@ -16,8 +16,8 @@
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -25,16 +25,16 @@
 namespace holdfast {
 
 /// What an orbit diagram shows at each value of its parameter.
-struct DiagramQuestion {
+struct DiagramOptions {
   double transient = 30.0;           ///< s, ≥ 0: left out at each value
   int strobes = 50;                  ///< 1 … 10⁶: forcing periods that are shown
   std::function<void()> watch = {};  ///< called now and then; may throw to end the diagram
 };
 
 /// @throws InvalidParameter where it is not admissible
-inline void validate(const DiagramQuestion& question) {
-  require_non_negative("transient", question.transient, "s");
-  require_within("number of strobes", question.strobes, "", 1.0, 1e6);
+inline void validate(const DiagramOptions& options) {
+  require_non_negative("transient", options.transient, "s");
+  require_within("number of strobes", options.strobes, "", 1.0, 1e6);
 }
 
 /// One point of an orbit diagram.
@@ -53,20 +53,20 @@ namespace detail {
 
 /// The loop as one that is built.
 template <class Plant>
-RealLoopOf<Plant> as_built(const ForcedLoop<double, Plant>& loop) {
-  return real_loop(loop);
+ImplementedLoopOf<Plant> as_built(const IdealLoop<double, Plant>& loop) {
+  return implemented_loop(loop);
 }
 template <class Plant>
-const RealLoopOf<Plant>& as_built(const RealLoopOf<Plant>& loop) {
+const ImplementedLoopOf<Plant>& as_built(const ImplementedLoopOf<Plant>& loop) {
   return loop;
 }
 
 /// The plant of the loops on a path.
-template <class Path>
-using PlantOnPath = std::decay_t<decltype(std::declval<const Path&>()(0.0).plant)>;
+template <class Family>
+using PlantOfFamily = std::decay_t<decltype(std::declval<const Family&>()(0.0).plant)>;
 
 /// Scale of the static deflection (m) under a force (N).
-inline double static_deflection(const TwoDof<double>& plant, double force) {
+inline double static_deflection(const TwoMass<double>& plant, double force) {
   return force / plant.conductor_stiffness;
 }
 /// That of a plant of order N: the largest entry of A⁻¹ c F, or of c F where A has no inverse.
@@ -79,8 +79,8 @@ double static_deflection(const LinearPlant<double, States>& plant, double force)
 
 /// A size that no bounded motion reaches: 10¹² times all that sets its scale.
 template <class Plant>
-double divergence_bound(const RealLoopOf<Plant>& loop, const StateOf<Plant>& state) {
-  const ComposedForce& force = loop.digital.force;
+double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
+  const MultiHarmonicForce& force = loop.digital.force;
   double largest = 0.0;
   if (force.record)
     for (const double row : force.record->forces()) largest = std::max(largest, std::abs(row));
@@ -96,16 +96,16 @@ double divergence_bound(const RealLoopOf<Plant>& loop, const StateOf<Plant>& sta
 /// @param forcing_period  s
 /// @param bound           of the state's entries
 template <class Contact, class Observer>
-bool show_strobes(EventMotion<Contact>& motion, const DiagramQuestion& question,
+bool show_strobes(EventMotion<Contact>& motion, const DiagramOptions& options,
                   double forcing_period, double bound, typename EventMotion<Contact>::State& state,
                   Observer&& observer) {
   constexpr std::int64_t samples_between_looks = 1 << 14;
-  FlowTrace<Contact> between(motion);
-  auto strobe = std::ceil(question.transient / forcing_period);
-  for (int shown = 0; shown < question.strobes;) {
+  DenseOutput<Contact> between(motion);
+  auto strobe = std::ceil(options.transient / forcing_period);
+  for (int shown = 0; shown < options.strobes;) {
     const auto sample = motion.sense();
     if (!(sample.state.cwiseAbs().maxCoeff() < bound)) return false;
-    if (question.watch && sample.index % samples_between_looks == 0) question.watch();
+    if (options.watch && sample.index % samples_between_looks == 0) options.watch();
     // A strobe that falls on a sample but for rounding is that sample.
     const double period = motion.period(), end = period * (1.0 - 1e-9);
     double after = strobe * forcing_period - sample.time;
@@ -115,7 +115,7 @@ bool show_strobes(EventMotion<Contact>& motion, const DiagramQuestion& question,
     }
     between.begin();
     motion.advance(between);
-    for (; shown < question.strobes && after < end; after += forcing_period) {
+    for (; shown < options.strobes && after < end; after += forcing_period) {
       const bool at_sample = after < 1e-9 * period;
       state = at_sample ? sample.state : between.state(after);
       observer(state);
@@ -129,14 +129,14 @@ bool show_strobes(EventMotion<Contact>& motion, const DiagramQuestion& question,
 /// The same of the motion of a loop, from `state`.
 /// @throws InvalidParameter where the force has no harmonic
 template <class Plant, class Observer>
-bool show_strobes(const RealLoopOf<Plant>& loop, const DiagramQuestion& question,
+bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& options,
                   StateOf<Plant>& state, Observer&& observer) {
   const std::vector<Harmonic>& harmonics = loop.digital.force.harmonics;
   if (harmonics.empty())
     throw InvalidParameter("number of harmonics", 0.0, "",
                            ">= 1: the strobes are at whole periods of the first one");
   auto motion = event_motion(loop, state);
-  return show_strobes(motion, question, 1.0 / harmonics.front().frequency,
+  return show_strobes(motion, options, 1.0 / harmonics.front().frequency,
                       divergence_bound(loop, state), state, observer);
 }
 
@@ -154,29 +154,29 @@ bool show_strobes(const RealLoopOf<Plant>& loop, const DiagramQuestion& question
 /// The drive begins outside its backlash at each value (a dead zone where the state is), the
 /// computer without a memory of the past. A motion that diverges shows no more of itself, and
 /// the next one begins at the initial state.
-/// @param path           parameter ↦ ForcedLoop<double, Plant> or RealLoopOf<Plant>, each of which
-///                       runs as the event-driven flow
+/// @param family         parameter ↦ IdealLoop<double, Plant> or ImplementedLoopOf<Plant>, each of
+///                       which runs as the event-driven flow
 /// @param values         of the parameter, in their order
 /// @param initial_state  of the first motion
-/// @param question       how much is left out and shown at each value
+/// @param options        how much is left out and shown at each value
 /// @param observer       called with each `StrobePoint`
 /// @return how many of the motions, two for each value, diverged
 /// @throws InvalidParameter where the question or a loop is not admissible, or its force has no
 /// harmonic
-template <class Path, class Observer>
-std::size_t run_orbit_diagram(const Path& path, const std::vector<double>& values,
-                              const StateOf<detail::PlantOnPath<Path>>& initial_state,
-                              const DiagramQuestion& question, Observer&& observer) {
-  using State = StateOf<detail::PlantOnPath<Path>>;
-  validate(question);
+template <class Family, class Observer>
+std::size_t run_orbit_diagram(const Family& family, const std::vector<double>& values,
+                              const StateOf<detail::PlantOfFamily<Family>>& initial_state,
+                              const DiagramOptions& options, Observer&& observer) {
+  using State = StateOf<detail::PlantOfFamily<Family>>;
+  validate(options);
   State state = initial_state;
   std::size_t diverged = 0;
   for (const bool upward : {true, false}) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::size_t index = upward ? k : values.size() - 1 - k;
-      const auto loop = path(values[index]);
+      const auto loop = family(values[index]);
       const bool bounded =
-          detail::show_strobes(detail::as_built(loop), question, state, [&](const State& strobe) {
+          detail::show_strobes(detail::as_built(loop), options, state, [&](const State& strobe) {
             observer(StrobePointOf<State::RowsAtCompileTime>{index, upward, strobe});
           });
       if (bounded) continue;

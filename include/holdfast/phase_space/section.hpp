@@ -75,7 +75,7 @@ inline double leading_sign(const Series& p) {
 template <class Contact, class Observer>
 class TurnFinder {
   using Motion = EventMotion<Contact>;
-  using Part = typename FlowTrace<Contact>::Part;
+  using Part = typename DenseOutput<Contact>::Part;
 
  public:
   /// Both must outlive the finder.
@@ -174,7 +174,7 @@ class TurnFinder {
 
   const Motion* motion_;
   Observer* observer_;
-  FlowTrace<Contact> trace_;
+  DenseOutput<Contact> trace_;
   double time_ = 0.0;
   double sign_;  // of Δż; 0 while it is zero, and before it was first unlike zero
 };
@@ -185,7 +185,7 @@ class TurnFinder {
 /// samples as a first root of its Taylor series (math/roots/first_root.hpp), so that none is
 /// missed.
 ///
-///     auto motion = event_motion(real_loop(loop), Vector<double, 4>::Zero().eval());
+///     auto motion = event_motion(implemented_loop(loop), Vector<double, 4>::Zero().eval());
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
 /// A stick, Δż = 0 for some time, is one point, at its beginning, whether Δz goes back or on

@@ -21,7 +21,7 @@ struct AffineDynamicsOf {
 using AffineDynamics = AffineDynamicsOf<4>;
 
 /// ‖A‖ in the balanced coordinates (1/s, largest row sum): the size of A that the powers of A h
-/// show, whatever the units of the state.
+/// show, in any units of the state.
 template <class Scalar, int States>
 Scalar balanced_norm(const Matrix<Scalar, States>& a) {
   return BalancedMatrix<Scalar, States>(a).balanced.cwiseAbs().rowwise().sum().maxCoeff();

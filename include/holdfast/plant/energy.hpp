@@ -10,11 +10,11 @@ namespace holdfast {
 /// The norm ‖z‖² = k₁ z₁² + k₂ (z₂ − z₁)² + m₁ ż₁² + m₂ ż₂², twice the energy of the plant.
 ///
 /// Springs and masses exchange energy and dampers take it away, so that ‖e^{At}‖ ≤ 1: nothing grows
-/// by itself, whatever the units, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
+/// by itself, in any units, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
 class EnergyNorm {
  public:
   /// The norm that belongs to one plant, whose k₁, k₂, m₁ and m₂ must be > 0.
-  explicit EnergyNorm(const TwoDof<double>& plant) : plant_(plant) {}
+  explicit EnergyNorm(const TwoMass<double>& plant) : plant_(plant) {}
 
   /// ‖z‖ (√J).
   double operator()(const Vector<double, 4>& state) const {
@@ -35,7 +35,7 @@ class EnergyNorm {
   }
 
  private:
-  TwoDof<double> plant_;
+  TwoMass<double> plant_;
 };
 
 }  // namespace holdfast

@@ -15,7 +15,7 @@ namespace holdfast {
 /// z(t) = e^{At} z(0) of the plant without control that starts at rest, conductor and absorber both
 /// displaced by z₀: what is left when a load on the conductor is removed.
 template <class Scalar>
-Vector<Scalar, 4> free_decay_at(const TwoDof<Scalar>& plant, const Scalar& displacement,
+Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& displacement,
                                 const Scalar& time) {
   const Matrix<Scalar, 4> exponent = plant.state_matrix() * time;
   return exponential(exponent) *
@@ -23,9 +23,9 @@ Vector<Scalar, 4> free_decay_at(const TwoDof<Scalar>& plant, const Scalar& displ
 }
 
 /// z₁ (m) of that motion at the given instants (s), ascending from the first, which is the start.
-/// The transition e^{Ah} is made anew only where the interval h changes.
+/// The transition e^{Ah} is made again only where the interval h changes.
 template <class Scalar>
-std::vector<Scalar> free_decay(const TwoDof<Scalar>& plant, const Scalar& displacement,
+std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displacement,
                                const std::vector<double>& times) {
   std::vector<Scalar> displacements;
   if (times.empty()) return displacements;
@@ -60,7 +60,7 @@ struct RelativeDecay {
 /// The crossings and peaks of the plant's decay from 1 m, sampled 400 times in the period of both
 /// masses on the conductor's spring, over four such periods.
 template <class Scalar>
-DecayEvents free_decay_events(const TwoDof<Scalar>& plant) {
+DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
   constexpr int samples_per_period = 400, periods = 4;
   const double period =
       2.0 * pi<double> *
@@ -78,7 +78,7 @@ DecayEvents free_decay_events(const TwoDof<Scalar>& plant) {
 /// @param events  `free_decay_events` of the same plant's values
 /// @return nothing for a decay with fewer than five crossings in four periods (overdamped)
 template <class Scalar>
-std::optional<RelativeDecay<Scalar>> relative_decay(const TwoDof<Scalar>& plant,
+std::optional<RelativeDecay<Scalar>> relative_decay(const TwoMass<Scalar>& plant,
                                                     const DecayEvents& events) {
   if (events.crossings.size() < 5 || events.peaks.size() < 4) return std::nullopt;
   const Matrix<Scalar, 4> generator = plant.state_matrix();
@@ -106,7 +106,7 @@ std::optional<RelativeDecay<Scalar>> relative_decay(const TwoDof<Scalar>& plant,
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template DecayEvents free_decay_events(const TwoDof<double>&);
+extern template DecayEvents free_decay_events(const TwoMass<double>&);
 #endif
 
 }  // namespace holdfast

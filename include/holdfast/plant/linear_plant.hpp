@@ -46,7 +46,7 @@ struct LinearPlant {
 
 /// The two masses as a plant of order 4, x = [z₁, ż₁, z₂, ż₂].
 template <class Scalar>
-LinearPlant<Scalar, 4> linear_plant(const TwoDof<Scalar>& plant) {
+LinearPlant<Scalar, 4> linear_plant(const TwoMass<Scalar>& plant) {
   return {plant.state_matrix(),     plant.control_input(),        Vector<Scalar, 4>::Zero(),
           plant.excitation_input(), RowVector<Scalar, 4>::Zero(), Scalar(1),
           two_mass_ports<Scalar>()};

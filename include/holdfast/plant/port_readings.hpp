@@ -91,7 +91,7 @@ class PortReadings {
 
 /// Those of the two masses.
 template <class Number>
-class PortReadings<TwoDof<Number>> {
+class PortReadings<TwoMass<Number>> {
  public:
   using Scalar = Number;            ///< the number type of the plant
   using State = Vector<Number, 4>;  ///< [z₁, ż₁, z₂, ż₂]
@@ -99,7 +99,7 @@ class PortReadings<TwoDof<Number>> {
   /// All plants of this type have the same readings.
   PortReadings() = default;
   /// The same.
-  explicit PortReadings(const TwoDof<Number>&) {}
+  explicit PortReadings(const TwoMass<Number>&) {}
 
   /// z₁ (m).
   const Scalar& displacement(const State& x) const { return x[0]; }

@@ -15,7 +15,7 @@ namespace holdfast {
 /// Source: Kollár 2022, Eqs. (9)–(10). The printed fourth row of A lost a sign and a column; the
 /// row used here, [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂], is what the equations of motion above give.
 template <class Scalar>
-struct TwoDof {
+struct TwoMass {
   Scalar conductor_mass;       ///< m₁ (kg), > 0
   Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
   Scalar conductor_damping;    ///< c₁ (N s/m), ≥ 0
@@ -49,7 +49,7 @@ struct TwoDof {
 
 /// Refuses a plant outside the ranges that its members state.
 /// @throws InvalidParameter naming the first member that is not admissible
-inline void validate(const TwoDof<double>& plant) {
+inline void validate(const TwoMass<double>& plant) {
   require_positive("conductor mass m1", plant.conductor_mass, "kg");
   require_positive("conductor stiffness k1", plant.conductor_stiffness, "N/m");
   require_non_negative("conductor damping c1", plant.conductor_damping, "N s/m");
@@ -72,13 +72,13 @@ Scalar relative_velocity(const Vector<Scalar, Size>& state) {
 
 /// The same numbers in another number type, for instance `long double`.
 template <class To, class From>
-TwoDof<To> converted(const TwoDof<From>& plant) {
+TwoMass<To> converted(const TwoMass<From>& plant) {
   return {To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),
           To(plant.absorber_mass),  To(plant.absorber_stiffness),  To(plant.absorber_damping)};
 }
 
 /// The plant of Kollár 2022, Table 1: a small-scale span with the absorber at one tenth of its
 /// length.
-inline TwoDof<double> kollar2022_plant() { return {0.0767, 50.3, 0.079, 0.16, 74.4, 4.0}; }
+inline TwoMass<double> kollar2022_plant() { return {0.0767, 50.3, 0.079, 0.16, 74.4, 4.0}; }
 
 }  // namespace holdfast

@@ -20,7 +20,7 @@ namespace holdfast::simd {
 /// @param limits          of each search for one motion's own orbit
 /// @param threads         ≥ 1, or 0 for all cores; the result does not depend on it
 /// @throws InvalidParameter where loop, states or limits are not admissible
-inline BasinMap find_basins(const ForcedLoop<double>& loop,
+inline BasinMap find_basins(const IdealLoop<double>& loop,
                             const std::vector<Vector<double, 4>>& initial_states,
                             const OrbitLimits& limits = {}, int threads = 0) {
   const auto for_tiles = [threads](std::size_t count, std::size_t tile, const auto& job) {

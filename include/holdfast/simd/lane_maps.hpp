@@ -8,16 +8,16 @@
 
 namespace holdfast {
 
-/// The maps of as many words as a pack has lanes, entry by entry side by side.
+/// The maps of as many blocks as a pack has lanes, entry by entry side by side.
 template <class Architecture>
 class LaneMaps<xsimd::batch<double, Architecture>> {
   using Number = xsimd::batch<double, Architecture>;
 
  public:
-  /// Refers to maps of `words`, which must outlive this; one word a lane.
-  LaneMaps(const ContactWords& words, const LaneWords<Number>& lanes) {
+  /// Refers to maps of `blocks`, which must outlive this; one block a lane.
+  LaneMaps(const ItineraryBlocks& blocks, const LaneBlocks<Number>& lanes) {
     for (std::size_t lane = 0; lane < Number::size; ++lane)
-      maps_[lane] = words.map(lanes[lane]).data();
+      maps_[lane] = blocks.map(lanes[lane]).data();
   }
 
   /// The entry of every lane's T⁻¹ M T, 0 ≤ row, column < 5.

@@ -10,7 +10,7 @@
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/excitation/forcing.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/simd/lyapunov_group.hpp"
 #include "holdfast/simd/motion_family.hpp"
 #include "holdfast/simd/pack.hpp"
@@ -22,13 +22,13 @@ namespace detail {
 
 template <class Forcing>
 std::vector<LyapunovResult> lyapunov_spectra(const MotionFamily<Forcing>& family,
-                                             const std::shared_ptr<const ContactWords>& words,
+                                             const std::shared_ptr<const ItineraryBlocks>& blocks,
                                              const std::vector<Vector<double, 4>>& initial_states,
                                              const LyapunovRun& run, int threads) {
   using Group = LyapunovGroup<MotionFamily<Forcing>>;
   std::vector<LyapunovResult> results(initial_states.size());
   parallel_rows(static_cast<std::int64_t>(initial_states.size()),
-                static_cast<std::int64_t>(lanes_of_group), threads, Group(family, words, run),
+                static_cast<std::int64_t>(lanes_of_group), threads, Group(family, blocks, run),
                 [&](Group& group, std::int64_t first, std::int64_t count) {
                   group.compute(initial_states.data() + first, static_cast<std::size_t>(count),
                                 results.data() + first);
@@ -53,31 +53,31 @@ std::vector<LyapunovResult> lyapunov_spectra(const MotionFamily<Forcing>& family
 /// @return in the order of the initial states
 /// @throws InvalidParameter where `loop`, `run` or `tangent_sampling` is not admissible
 inline std::vector<LyapunovResult> lyapunov_spectra(
-    const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
+    const IdealLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
     const LyapunovRun& run, const Sampling<double>& tangent_sampling, int threads = 0) {
   validate(loop);
   validate(run);
   validate(tangent_sampling);
   const SampledLoop<double> sampled = sampled_loop(loop.plant, loop.sampling);
-  const auto words =
-      std::make_shared<const ContactWords>(sampled_loop(loop.plant, tangent_sampling), loop.gains);
+  const auto blocks = std::make_shared<const ItineraryBlocks>(
+      sampled_loop(loop.plant, tangent_sampling), loop.gains);
   const HarmonicInput<double> input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
   if (const auto ratio = forcing_ratio(loop)) {
     using Forcing = PeriodicForcing<double>;
     const detail::MotionFamily<Forcing> family{sampled, loop,
                                                Forcing(input, loop.excitation.amplitude, *ratio)};
-    return detail::lyapunov_spectra(family, words, initial_states, run, threads);
+    return detail::lyapunov_spectra(family, blocks, initial_states, run, threads);
   }
   using Forcing = HarmonicForcing<double>;
   const detail::MotionFamily<Forcing> family{sampled, loop,
                                              Forcing(input, loop.excitation, loop.sampling.period)};
-  return detail::lyapunov_spectra(family, words, initial_states, run, threads);
+  return detail::lyapunov_spectra(family, blocks, initial_states, run, threads);
 }
 
 /// The same with the tangents of the motion itself.
 inline std::vector<LyapunovResult> lyapunov_spectra(
-    const ForcedLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
+    const IdealLoop<double>& loop, const std::vector<Vector<double, 4>>& initial_states,
     const LyapunovRun& run, int threads = 0) {
   return lyapunov_spectra(loop, initial_states, run, loop.sampling, threads);
 }

@@ -30,20 +30,20 @@ class LyapunovGroup {
   static constexpr std::size_t lanes = Lanes<Number>::count;
 
  public:
-  LyapunovGroup(const Family& family, const std::shared_ptr<const ContactWords>& words,
+  LyapunovGroup(const Family& family, const std::shared_ptr<const ItineraryBlocks>& blocks,
                 const LyapunovRun& run)
-      : family_(family), words_(words), run_(run) {}
+      : family_(family), blocks_(blocks), run_(run) {}
 
   /// @param initial_states  `count` of them, 1 ≤ count ≤ lanes_of_group
   void compute(const Vector<double, 4>* initial_states, std::size_t count,
                LyapunovResult* results) {
     start(initial_states, count);
-    const Words discarded = advance(run_.discard, [] { return true; });
+    const Blocks discarded = advance(run_.discard, [] { return true; });
     for (std::size_t pack = 0; pack < packs_of_group; ++pack)
       spectra_[pack].restart(discarded[pack]);
     holdfast::detail::JudgingTimes judging(run_);
-    const Words open = advance(run_.most_samples, [&] {
-      if (judging.have_come(spectra_[0].complete_batches())) judge();
+    const Blocks open = advance(run_.most_samples, [&] {
+      if (judging.have_come(spectra_[0].complete_batches())) classify();
       return running_ > 0;
     });
     for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
@@ -56,7 +56,7 @@ class LyapunovGroup {
   }
 
  private:
-  using Words = std::array<LaneWords<Number>, packs_of_group>;
+  using Blocks = std::array<LaneBlocks<Number>, packs_of_group>;
 
   /// Lanes beyond the last trajectory repeat it.
   void start(const Vector<double, 4>* initial_states, std::size_t count) {
@@ -71,28 +71,28 @@ class LyapunovGroup {
         states[i] = Lanes<Number>::load(values);
       }
       motions_.push_back(family_.motion(states));
-      spectra_.emplace_back(words_, run_.scope);
+      spectra_.emplace_back(blocks_, run_.scope);
     }
     settled_.fill(false);
     diverged_.fill(false);
     running_ = lanes_of_group;
   }
 
-  /// Goes through `samples` samples, or fewer when `go_on` says so after a word or all lanes are
-  /// settled. @return the last words, incomplete
+  /// Goes through `samples` samples, or fewer when `go_on` says so after a block or all lanes are
+  /// settled. @return the last blocks, incomplete
   template <class GoOn>
-  Words advance(std::int64_t samples, const GoOn& go_on) {
-    while (samples >= ContactWords::length && running_ > 0) {
-      const Words words = contacts(ContactWords::length);
-      for (std::size_t pack = 0; pack < packs_of_group; ++pack) spectra_[pack].push(words[pack]);
-      samples -= ContactWords::length;
-      if (!go_on()) return contacts(0);
+  Blocks advance(std::int64_t samples, const GoOn& go_on) {
+    while (samples >= ItineraryBlocks::length && running_ > 0) {
+      const Blocks blocks = itinerary(ItineraryBlocks::length);
+      for (std::size_t pack = 0; pack < packs_of_group; ++pack) spectra_[pack].push(blocks[pack]);
+      samples -= ItineraryBlocks::length;
+      if (!go_on()) return itinerary(0);
     }
-    return contacts(running_ > 0 ? static_cast<int>(samples) : 0);
+    return itinerary(running_ > 0 ? static_cast<int>(samples) : 0);
   }
 
   /// The contacts of the next samples of all lanes.
-  Words contacts(int samples) {
+  Blocks itinerary(int samples) {
     std::array<Number, packs_of_group> codes;  // whole numbers below 2⁸
     codes.fill(Number(1.0));
     for (int taken = 0; taken < samples; ++taken) {
@@ -102,15 +102,15 @@ class LyapunovGroup {
         motions_[pack].advance();
       }
     }
-    Words words;
+    Blocks blocks;
     for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
       double values[lanes];
       Lanes<Number>::store(codes[pack], values);
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        words[pack][lane] = static_cast<ContactWord>(values[lane]);
+        blocks[pack][lane] = static_cast<ItineraryBlock>(values[lane]);
       find_diverged(pack);
     }
-    return words;
+    return blocks;
   }
 
   void find_diverged(std::size_t pack) {
@@ -126,7 +126,7 @@ class LyapunovGroup {
     }
   }
 
-  void judge() {
+  void classify() {
     for (std::size_t pack = 0; pack < packs_of_group; ++pack) {
       const auto spectra = spectra_[pack].spectra();
       for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -146,14 +146,14 @@ class LyapunovGroup {
   /// A trajectory that leaves the range of the number type, on scalars.
   LyapunovResult alone(const Vector<double, 4>& initial_state) const {
     auto motion = family_.motion(initial_state);
-    return run_lyapunov(motion, words_, run_);
+    return run_lyapunov(motion, blocks_, run_);
   }
 
   Family family_;
-  std::shared_ptr<const ContactWords> words_;
+  std::shared_ptr<const ItineraryBlocks> blocks_;
   LyapunovRun run_;
   std::vector<Motion> motions_;
-  std::vector<ContactSpectrum<Number>> spectra_;
+  std::vector<BlockSpectrum<Number>> spectra_;
   std::array<LyapunovResult, lanes_of_group> results_{};
   std::array<bool, lanes_of_group> settled_{};
   std::array<bool, lanes_of_group> diverged_{};

@@ -4,7 +4,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/simd/pack.hpp"
 
@@ -19,7 +19,7 @@ struct MotionFamily {
   using Motion = SampledMotion<Scalar, Backlash<Scalar>, SharedForcing<Scalar, Forcing>>;
 
   SampledLoop<double> loop;
-  ForcedLoop<double> parameters;
+  IdealLoop<double> parameters;
   Forcing forcing;
 
   template <class Scalar>

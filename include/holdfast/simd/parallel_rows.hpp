@@ -12,7 +12,7 @@ namespace holdfast::simd {
 
 /// Does the rows of a chart in tiles on several threads.
 ///
-/// Tiles begin at multiples of `tile` whatever the number of threads, and each is computed by a
+/// Tiles begin at multiples of `tile` for any number of threads, and each is computed by a
 /// copy of `kernel`, so that results do not depend on that number. Exceptions of a tile come out
 /// here.
 /// @param rows     number of rows, ≥ 0

@@ -12,7 +12,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/sundials/cvode.hpp"
 
 namespace holdfast::cvode {
@@ -44,7 +44,7 @@ class DriveDynamics {
     double conductor, relative;  // z̈₁, v̇ (m/s²)
   };
 
-  explicit DriveDynamics(const ForcedLoop<double>& loop) : loop_(loop) {}
+  explicit DriveDynamics(const IdealLoop<double>& loop) : loop_(loop) {}
 
   /// From the sample j at t_j = j τ on; whole cycles are removed, so that j may be large.
   void begin_period(std::int64_t sample) {
@@ -54,7 +54,7 @@ class DriveDynamics {
   }
 
   Accelerations moving(double after_sample, const double* y, double transmitted) const {
-    const TwoDof<double>& part = loop_.plant;
+    const TwoMass<double>& part = loop_.plant;
     const double between =
         part.absorber_stiffness * y[2] + part.absorber_damping * y[3] + transmitted;
     const double conductor = (on_conductor(after_sample, y) + between) / part.conductor_mass;
@@ -70,7 +70,7 @@ class DriveDynamics {
   /// While the drive sticks, the rate (m/s³) at which v̇ under any constant transmitted force would
   /// change.
   double relative_jerk_sticking(double after_sample, const double* y) const {
-    const TwoDof<double>& part = loop_.plant;
+    const TwoMass<double>& part = loop_.plant;
     return (part.conductor_stiffness * y[1] +
             part.conductor_damping * sticking(after_sample, y).conductor -
             excitation_rate(after_sample)) /
@@ -96,7 +96,7 @@ class DriveDynamics {
            std::sin(phase(after_sample));
   }
 
-  const ForcedLoop<double>& loop_;
+  const IdealLoop<double>& loop_;
   double phase_ = 0.0;
 };
 
@@ -117,7 +117,7 @@ class DriveDynamics {
 /// once v has turned back towards it.
 class SwitchingMotion : public Session {
  public:
-  SwitchingMotion(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state,
+  SwitchingMotion(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state,
                   const Tolerances& tolerances);
 
   /// Takes the sample j and moves to the sample j + 1.
@@ -160,7 +160,7 @@ class SwitchingMotion : public Session {
   }
   double inward_distance(const double* y) const { return direction_ * (near_end_ - y[2]); }
 
-  ForcedLoop<double> loop_;
+  IdealLoop<double> loop_;
   DriveDynamics dynamics_{loop_};
   std::int64_t sample_ = 0;
   double time_ = 0.0;          // s after the sample
@@ -175,7 +175,7 @@ class SwitchingMotion : public Session {
   IntegrationCost cost_;
 };
 
-inline SwitchingMotion::SwitchingMotion(const ForcedLoop<double>& loop,
+inline SwitchingMotion::SwitchingMotion(const IdealLoop<double>& loop,
                                         const Vector<double, 4>& initial_state,
                                         const Tolerances& tolerances)
     : Session(tolerances), loop_(loop) {
@@ -271,7 +271,7 @@ inline void SwitchingMotion::hold(double command, double from, double to) {
 inline void SwitchingMotion::restart(double to) {
   check(CVodeReInit(memory_.get(), time_, state_.get()));
   check(CVodeSetStopTime(memory_.get(), to));
-  // Root functions taken away and given anew: CVODE would else remember which were zero before.
+  // Root functions taken away and given again: CVODE would else remember which were zero before.
   check(CVodeRootInit(memory_.get(), 0, nullptr));
   if (loop_.backlash_width == 0.0) return;
   check(CVodeRootInit(memory_.get(), guard_count, &SwitchingMotion::guards));
@@ -392,7 +392,7 @@ inline void SwitchingMotion::enter(ContactMode mode) {
 /// @param samples        ≥ 1
 /// @param tolerances     local error per step, at best about 1e-13 relative
 /// @throws InvalidParameter outside these ranges, or where a part of the loop is not admissible
-inline SwitchingReference switching_reference(const ForcedLoop<double>& loop,
+inline SwitchingReference switching_reference(const IdealLoop<double>& loop,
                                               const Vector<double, 4>& initial_state,
                                               std::int64_t samples, const Tolerances& tolerances) {
   validate(loop);

@@ -10,8 +10,8 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/real_loop.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -28,7 +28,7 @@ namespace detail {
 inline SampleSpan sample_span(const SamplingClock& clock, double duration) {
   SampleSpan span = sample_span(0, duration, clock.period());
   if (clock.jitter().half_width == 0.0) return span;
-  // No sample strays by half a period from the grid, and each comes after the one before.
+  // No sample deviates by half a period from the grid, and each comes after the one before.
   while (not_before(duration, clock.time(span.samples))) ++span.samples;
   while (!not_before(duration, clock.time(span.samples - 1))) --span.samples;
   const auto is_steady = [&](std::int64_t index) {
@@ -49,11 +49,11 @@ inline MotionMetrics unfollowed_metrics(std::int64_t samples) {
 
 /// Takes the samples of one motion, each into all that is kept of them.
 template <class Plant>
-class HybridTrack {
-  using Sample = HybridSampleOf<states_of<Plant>>;
+class EventTrack {
+  using Sample = EventSampleOf<states_of<Plant>>;
 
  public:
-  HybridTrack(const SampleSpan& span, const PortReadings<Plant>& readings)
+  EventTrack(const SampleSpan& span, const PortReadings<Plant>& readings)
       : span_(span), readings_(readings) {}
 
   void observe(const Sample& sample) {
@@ -101,16 +101,16 @@ class HybridTrack {
 
 }  // namespace detail
 
-/// The metrics of sweep/motion_metrics.hpp for one motion of a loop as it is built.
+/// The metrics of sweep/motion_metrics.hpp for one motion of an implemented loop.
 ///
 /// All is taken at the samples, t_j of the loop's clock, also where the drive switches between
 /// them: a sample transmits where the drive is `engaged` (a stick is not), and the force u_j is
 /// what the drive transmits there. Of the loop of the paper's model the metrics are those of
 /// `motion_metrics`, but for rounding.
 ///
-///     hybrid_metrics(real_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
+///     event_metrics(implemented_loop(loop), Vector<double, 4>::Zero(), 20.0).steady_peak;
 ///
-/// Work: that of HybridMotion, and about 30 operations a sample. The loop over samples allocates
+/// Work: that of EventMotion, and about 30 operations a sample. The loop over samples allocates
 /// nothing.
 /// @param loop           as it is built
 /// @param initial_state  x, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
@@ -118,17 +118,18 @@ class HybridTrack {
 /// @param pause          called every 2¹⁴ samples; may throw to end the motion
 /// @throws InvalidParameter where the loop or the duration is not admissible, or the state not
 /// finite
-/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+/// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
-MotionMetrics hybrid_metrics(const RealLoopOf<Plant>& loop, const StateOf<Plant>& initial_state,
-                             double duration, const std::function<void()>& pause = {}) {
+MotionMetrics event_metrics(const ImplementedLoopOf<Plant>& loop,
+                            const StateOf<Plant>& initial_state, double duration,
+                            const std::function<void()>& pause = {}) {
   constexpr std::int64_t samples_between_pauses = 1 << 14;
   validate(loop);
   for (const double entry : initial_state) require_finite("initial state", entry, "SI");
   const SamplingClock clock(loop.digital.sampling.period, loop.digital.jitter);
   const detail::SampleSpan span = detail::sample_span(clock, duration);
   auto motion = event_motion(loop, initial_state);
-  detail::HybridTrack<Plant> track(span, motion.readings());
+  detail::EventTrack<Plant> track(span, motion.readings());
   for (std::int64_t taken = 0; taken < span.samples; ++taken) {
     if (pause && taken % samples_between_pauses == 0) pause();
     if (!std::isfinite(motion.state().sum())) return track.diverged(taken);
@@ -140,8 +141,8 @@ MotionMetrics hybrid_metrics(const RealLoopOf<Plant>& loop, const StateOf<Plant>
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template MotionMetrics hybrid_metrics(const RealLoop&, const Vector<double, 4>&, double,
-                                             const std::function<void()>&);
+extern template MotionMetrics event_metrics(const ImplementedLoop&, const Vector<double, 4>&,
+                                            double, const std::function<void()>&);
 #endif
 
 }  // namespace holdfast

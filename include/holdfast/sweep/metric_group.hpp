@@ -89,7 +89,7 @@ class MetricGroup {
     const auto number = [&](const auto& of) {
       return from_lanes<Scalar>([&](std::size_t lane) { return of(motion(lane).loop); });
     };
-    using Loop = ForcedLoop<double>;
+    using Loop = IdealLoop<double>;
     const SampledLoop<Scalar> loop = loop_from_lanes<Scalar>(matrices);
     tables_.emplace_back(
         input_from_lanes<Scalar>(matrices),
@@ -100,7 +100,7 @@ class MetricGroup {
                                 number([](const Loop& of) { return of.gains.differential; })};
     const Scalar width = number([](const Loop& of) { return of.backlash_width; });
     return MetricTrack<Scalar>(typename MetricTrack<Scalar>::Motion(
-        loop, gains, TurningForcing<Scalar>(tables_.back()), Backlash<Scalar>(width),
+        loop, gains, PhasorForcing<Scalar>(tables_.back()), Backlash<Scalar>(width),
         matrix_from_lanes<Scalar, 4, 1>([&](std::size_t lane) -> const auto& {
           return motion(lane).initial_state;
         })));
@@ -179,7 +179,7 @@ class MetricGroup {
             std::size_t... Pack>
   [[gnu::flatten]] void take(std::int64_t end, SwitchingObserver& observer,
                              std::index_sequence<Pack...> /*packs*/) {
-    constexpr auto block = static_cast<std::int64_t>(TurningTable<Scalar>::block);
+    constexpr auto block = static_cast<std::int64_t>(PhasorTable<Scalar>::block);
     const auto go = [&](auto... track) {
       for (std::int64_t j = index_; j < end;) {
         if (j % block == 0) (tables_[Pack].turn_to(j), ...);
@@ -243,7 +243,7 @@ class MetricGroup {
   }
 
   MatricesOfLoop matrices_;
-  std::vector<TurningTable<Scalar>> tables_;
+  std::vector<PhasorTable<Scalar>> tables_;
   std::vector<MetricTrack<Scalar>> tracks_;
   std::array<SampleSpan, lanes> spans_{};
   std::array<std::size_t, lanes> numbers_{};

@@ -15,7 +15,7 @@ struct LaneSums {
 };
 
 /// What the metrics of one motion, or of as many as a pack has lanes, need of its samples. The
-/// drivers, MetricTrack of the sampled map and HybridTrack of the event-driven flow, decide which
+/// drivers, MetricTrack of the sampled map and EventTrack of the event-driven flow, decide which
 /// samples are looked at.
 template <class Scalar>
 class MetricObserver {

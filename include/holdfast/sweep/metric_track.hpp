@@ -33,7 +33,7 @@ inline constexpr double large_state = 1e60, unseen_state = 1e200;
 template <class Scalar>
 class MetricTrack {
  public:
-  using Motion = SampledMotion<Scalar, Backlash<Scalar>, TurningForcing<Scalar>>;
+  using Motion = SampledMotion<Scalar, Backlash<Scalar>, PhasorForcing<Scalar>>;
 
   explicit MetricTrack(const Motion& motion) : motion_(motion) {}
 

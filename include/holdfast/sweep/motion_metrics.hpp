@@ -116,7 +116,7 @@ struct SteadySums {
     reversals = reversals + select(reverses, one, zero);
   }
 
-  /// Begins anew in the lanes of the mask, at the sample about to be observed.
+  /// Begins again in the lanes of the mask, at the sample about to be observed.
   /// @param lanes     those whose sums go back to zero
   /// @param reverses  of that sample: its reversal began before and does not count
   void restart(const Mask<Scalar>& lanes, const Mask<Scalar>& reverses) {

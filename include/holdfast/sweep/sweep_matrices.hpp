@@ -8,7 +8,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 
 namespace holdfast::detail {
@@ -22,7 +22,7 @@ class SweepMatrices {
     HarmonicInput<double> input;
   };
 
-  /// @tparam Loop  ForcedLoop<double>; a template so that only who calls it compiles it
+  /// @tparam Loop  IdealLoop<double>; a template so that only who calls it compiles it
   template <class Loop>
   const Matrices& of(const Loop& loop) {
     const bool same_loop = known_ && numbers_of(known_->plant) == numbers_of(loop.plant) &&
@@ -41,7 +41,7 @@ class SweepMatrices {
   }
 
  private:
-  std::optional<ForcedLoop<double>> known_;
+  std::optional<IdealLoop<double>> known_;
   Matrices matrices_{};
 };
 

@@ -63,7 +63,7 @@ CaseChart loop_chart_of(const Case& the_case, const std::vector<std::string>& ax
   }
   const KeyAxis slow = admissible_axis(axes[0]), fast = admissible_axis(axes[1]);
   if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key);
-  const LoopChart chart{loop_point_of(the_case),
+  const LoopChart chart{operating_point_of(the_case),
                         {parameter_of(slow.key), slow.axis},
                         {parameter_of(fast.key), fast.axis}};
   validate(chart);

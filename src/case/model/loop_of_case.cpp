@@ -6,7 +6,7 @@
 namespace holdfast::program {
 namespace {
 
-DigitalLimits limits_of(const Case& the_case) {
+ControllerLimits limits_of(const Case& the_case) {
   const auto& control = the_case.control;
   return {
       control.displacement_quantum, control.velocity_quantum,
@@ -22,10 +22,10 @@ ContactLaw law_of(const std::string& word) {
 }
 
 /// The main harmonic first, then the further ones, then the noise.
-ComposedForce force_of(const Case& the_case) {
+MultiHarmonicForce force_of(const Case& the_case) {
   const auto given = effective_excitation(the_case);
-  ComposedForce force =
-      composed_force(HarmonicExcitation<double>{given.amplitude, given.frequency});
+  MultiHarmonicForce force =
+      multi_harmonic_force(HarmonicExcitation<double>{given.amplitude, given.frequency});
   for (const auto& [amplitude, frequency, phase] : given.harmonics)
     force.harmonics.push_back({amplitude, frequency, phase});
   if (given.noise_rms > 0.0) {
@@ -40,7 +40,7 @@ ComposedForce force_of(const Case& the_case) {
 
 }  // namespace
 
-ForcedLoop<double> forced_loop_of(const Case& the_case) {
+IdealLoop<double> ideal_loop_of(const Case& the_case) {
   const double width = the_case.backlash.law == "none" ? 0.0 : the_case.backlash.width;
   return {plant_of(the_case),
           sampling_of(the_case),
@@ -50,15 +50,15 @@ ForcedLoop<double> forced_loop_of(const Case& the_case) {
           force_hold_of(the_case)};
 }
 
-ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value) {
-  return forced_loop_of(case_with(the_case, key, value));
+IdealLoop<double> ideal_loop_with(const Case& the_case, const std::string& key, double value) {
+  return ideal_loop_of(case_with(the_case, key, value));
 }
 
 SampledMotion<double> motion_of(const Case& the_case) {
-  return harmonically_forced_motion(forced_loop_of(the_case), initial_state_of(the_case));
+  return harmonically_forced_motion(ideal_loop_of(the_case), initial_state_of(the_case));
 }
 
-ForcedLoop<double> uncontrolled(ForcedLoop<double> loop) {
+IdealLoop<double> uncontrolled(IdealLoop<double> loop) {
   loop.gains = {0.0, 0.0};
   loop.backlash_width = 0.0;
   return loop;
@@ -73,7 +73,7 @@ bool is_of_the_paper(const Case& the_case, Switching switching) {
          the_case.force_record == nullptr && excitation.noise_rms == 0.0;
 }
 
-RealLoop real_loop_of(const Case& the_case, Switching switching) {
+ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
   const auto& control = the_case.control;
   const auto& backlash = the_case.backlash;
   const Jitter jitter{control.jitter, static_cast<std::uint64_t>(control.jitter_seed)};
@@ -85,12 +85,12 @@ RealLoop real_loop_of(const Case& the_case, Switching switching) {
       switching};
 }
 
-RealLoop real_loop_with(const Case& the_case, const std::string& key, double value,
-                        Switching switching) {
-  return real_loop_of(case_with(the_case, key, value), switching);
+ImplementedLoop implemented_loop_with(const Case& the_case, const std::string& key, double value,
+                                      Switching switching) {
+  return implemented_loop_of(case_with(the_case, key, value), switching);
 }
 
-RealLoop uncontrolled(RealLoop loop) {
+ImplementedLoop uncontrolled(ImplementedLoop loop) {
   loop.digital.gains = {0.0, 0.0};
   loop.backlash = {ContactLaw::none};
   return loop;

@@ -5,23 +5,23 @@
 #include "case/case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/sampled_loop_of_case.hpp"
-#include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast::program {
 
 /// All that a motion depends on beside its initial state.
-ForcedLoop<double> forced_loop_of(const Case& the_case);
+IdealLoop<double> ideal_loop_of(const Case& the_case);
 
 /// The same with one number of the case changed, by its key. Throws WrongInput where the key or the
 /// value is not admissible.
-ForcedLoop<double> forced_loop_with(const Case& the_case, const std::string& key, double value);
+IdealLoop<double> ideal_loop_with(const Case& the_case, const std::string& key, double value);
 
 /// The loop with P = D = 0 and a drive without backlash.
-ForcedLoop<double> uncontrolled(ForcedLoop<double> loop);
+IdealLoop<double> uncontrolled(IdealLoop<double> loop);
 
-/// Whether the motion is one of the paper's model, which ForcedLoop describes: switching at
+/// Whether the motion is one of the paper's model, which IdealLoop describes: switching at
 /// samples, the paper's backlash or none, one harmonic, an ideal computer.
 bool is_of_the_paper(const Case& the_case, Switching switching);
 
@@ -29,14 +29,14 @@ bool is_of_the_paper(const Case& the_case, Switching switching);
 SampledMotion<double> motion_of(const Case& the_case);
 
 /// The loop with all that the case says of it.
-RealLoop real_loop_of(const Case& the_case, Switching switching);
+ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
 
 /// The same with one number of the case changed, by its key. Throws WrongInput where the key or the
 /// value is not admissible.
-RealLoop real_loop_with(const Case& the_case, const std::string& key, double value,
-                        Switching switching);
+ImplementedLoop implemented_loop_with(const Case& the_case, const std::string& key, double value,
+                                      Switching switching);
 
 /// The loop with P = D = 0 and a drive without backlash.
-RealLoop uncontrolled(RealLoop loop);
+ImplementedLoop uncontrolled(ImplementedLoop loop);
 
 }  // namespace holdfast::program

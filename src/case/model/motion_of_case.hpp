@@ -18,15 +18,15 @@ struct MotionChoice {
 };
 
 /// Calls `visit` with the motion of the case from its initial state: the stepper of the paper's
-/// model where that is all there is to the case, else a HybridMotion.
+/// model where that is all there is to the case, else an EventMotion.
 template <class Visit>
 auto with_motion_of(const Case& the_case, const MotionChoice& choice, Visit&& visit) {
   const Vector<double, 4> state = initial_state_of(the_case);
   if (is_of_the_paper(the_case, choice.switching)) {
-    const ForcedLoop<double> loop = forced_loop_of(the_case);
+    const IdealLoop<double> loop = ideal_loop_of(the_case);
     return visit(harmonically_forced_motion(choice.controlled ? loop : uncontrolled(loop), state));
   }
-  const RealLoop loop = real_loop_of(the_case, choice.switching);
+  const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
   return with_motion(choice.controlled ? loop : uncontrolled(loop), state,
                      std::forward<Visit>(visit));
 }
@@ -37,11 +37,11 @@ template <class Motion>
 void require_resolved(const Motion&, bool) {}
 
 template <class Contact>
-void require_resolved(const HybridMotion<Contact>& motion, bool quiet) {
+void require_resolved(const EventMotion<Contact>& motion, bool quiet) {
   const SwitchCounts& counts = motion.counts();
   if (counts.accumulates) {
     throw NoAnswer("the contact changes more than " +
-                   std::to_string(HybridMotion<Contact>::most_switches) +
+                   std::to_string(EventMotion<Contact>::most_switches) +
                    " times within one sampling period, at t = " + format_number(motion.time()) +
                    " s at the latest: the motion cannot be followed further");
   }

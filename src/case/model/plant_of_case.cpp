@@ -9,7 +9,7 @@
 
 namespace holdfast::program {
 
-TwoDof<double> plant_of(const Case& the_case) {
+TwoMass<double> plant_of(const Case& the_case) {
   const auto& plant = the_case.plant;
   return {plant.conductor_mass, plant.conductor_stiffness, plant.conductor_damping,
           plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};

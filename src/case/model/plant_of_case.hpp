@@ -13,7 +13,7 @@
 namespace holdfast::program {
 
 /// The library's objects for what a case file says of plant, control and excitation.
-TwoDof<double> plant_of(const Case& the_case);
+TwoMass<double> plant_of(const Case& the_case);
 PdGains<double> gains_of(const Case& the_case);
 Sampling<double> sampling_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);

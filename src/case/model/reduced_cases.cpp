@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "case/model/settled_plant.hpp"
+#include "case/model/resolved_plant.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -27,17 +27,17 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
 
 }  // namespace
 
-FrequencyReduction<double> reduction_question_of(const Case& the_case) {
+FrequencyReduction<double> reduction_options_of(const Case& the_case) {
   return {conductor_stiffness_of(the_case), the_case.absorber.mass,
           the_case.reduction.first_frequency, the_case.reduction.second_frequency};
 }
 
 ReductionResult reduction_of(const Case& the_case) {
-  return reduce_to_frequencies(reduction_question_of(the_case));
+  return reduce_to_frequencies(reduction_options_of(the_case));
 }
 
-TwoDof<double> plant_without_absorber_damping(const Case& the_case) {
-  const FrequencyReduction<double> asked = reduction_question_of(the_case);
+TwoMass<double> plant_without_absorber_damping(const Case& the_case) {
+  const FrequencyReduction<double> asked = reduction_options_of(the_case);
   const ReductionResult result = reduce_to_frequencies(asked);
   if (result.outcome == ReductionOutcome::no_solution) throw no_plant(the_case, asked, result);
   const ReducedMasses& smaller = result.solutions.front();

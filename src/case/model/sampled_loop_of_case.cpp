@@ -8,7 +8,7 @@ SampledLoop<double> loop_of(const Case& the_case) {
   return sampled_loop(plant_of(the_case), sampling_of(the_case));
 }
 
-LoopPoint loop_point_of(const Case& the_case) {
+OperatingPoint operating_point_of(const Case& the_case) {
   return {plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
 }
 

@@ -8,6 +8,6 @@ namespace holdfast::program {
 
 /// The exact discretisation of the case's loop, and what its stability depends on.
 SampledLoop<double> loop_of(const Case& the_case);
-LoopPoint loop_point_of(const Case& the_case);
+OperatingPoint operating_point_of(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -26,7 +26,7 @@ struct CellText {
 
 CellText cell_text(double value);
 
-/// Copies the whole text, whatever its length, and returns the place behind its comma: a copy of
+/// Copies the whole text, of any length, and returns the place behind its comma: a copy of
 /// fixed size is two instructions, and what is behind the digits will be written over. There must
 /// be room for sizeof(CellText) characters.
 inline char* put_text(char* place, const CellText& text) {

@@ -9,7 +9,7 @@
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/basins.hpp"
@@ -41,32 +41,32 @@ struct ThreadedTiles {
   }
 };
 
-class CatalogueTest final : public CaptureTest {
+class AttractorSetTest final : public AttractionTest {
  public:
-  explicit CatalogueTest(const OrbitCatalogue<ForcedLoop<double>>& catalogue)
-      : catalogue_(catalogue) {}
-  int captured_by(const ForcedMotionMemory<double>& memory) const override {
-    return catalogue_.captured_by(memory);
+  explicit AttractorSetTest(const AttractorSet<IdealLoop<double>>& attractor_set)
+      : attractor_set_(attractor_set) {}
+  int attracted_by(const ForcedMotionMemory<double>& memory) const override {
+    return attractor_set_.attracted_by(memory);
   }
 
  private:
-  const OrbitCatalogue<ForcedLoop<double>>& catalogue_;
+  const AttractorSet<IdealLoop<double>>& attractor_set_;
 };
 
 /// MotionBatch on the packs of an instruction set.
 class TravelOnPacks : public CopiedKernel<TravelKernel> {
  public:
   using CopiedKernel::CopiedKernel;
-  void run(TravellingMotion* motions, std::size_t count, std::int64_t samples,
-           const OrbitCatalogue<ForcedLoop<double>>& catalogue) {
-    kernel().run(motions, count, samples, CatalogueTest(catalogue));
+  void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
+           const AttractorSet<IdealLoop<double>>& attractor_set) {
+    kernel().run(motions, count, samples, AttractorSetTest(attractor_set));
   }
 };
 
-BasinMap basins_on_packs(const ForcedLoop<double>& loop,
+BasinMap basins_on_packs(const IdealLoop<double>& loop,
                          const std::vector<Vector<double, 4>>& states, const OrbitLimits& limits,
                          InstructionSet set, const ThreadedTiles& tiles) {
-  const auto travel = [&](const ForcedLoop<double>& of, const Rational& ratio) {
+  const auto travel = [&](const IdealLoop<double>& of, const Rational& ratio) {
     return TravelOnPacks(pack_kernels(set).travel(
         periodically_forced_motion(of, ratio, Vector<double, 4>::Zero().eval()), of.gains, ratio));
   };
@@ -101,12 +101,12 @@ struct StateGrid {
   }
 };
 
-StateGrid grid_of(const BasinQuestion& question) {
-  if (question.axes.size() != 2)
+StateGrid grid_of(const BasinOptions& options) {
+  if (options.axes.size() != 2)
     throw WrongInput(
         "--axis: basins need two axes over initial.*, for example --axis "
         "initial.z1=-0.005:0.005:101 --axis initial.z2=-0.005:0.005:101");
-  StateGrid grid{initial_axis(question.axes[0]), initial_axis(question.axes[1])};
+  StateGrid grid{initial_axis(options.axes[0]), initial_axis(options.axes[1])};
   if (grid.slow.key == grid.fast.key) throw WrongInput("--axis: both axes are " + grid.slow.key);
   const double count =
       static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
@@ -116,15 +116,15 @@ StateGrid grid_of(const BasinQuestion& question) {
   return grid;
 }
 
-double number_of(const MotionFate& fate) {
-  if (fate.outcome == OrbitOutcome::diverges) return 0.0;
-  return fate.attractor < 0 ? -1.0 : static_cast<double>(fate.attractor + 1);
+double number_of(const BasinLabel& label) {
+  if (label.outcome == OrbitOutcome::diverges) return 0.0;
+  return label.attractor < 0 ? -1.0 : static_cast<double>(label.attractor + 1);
 }
 
 template <class Orbit>
-double period_of(const BasinsOf<Orbit>& map, const MotionFate& fate) {
-  if (fate.attractor < 0) return std::numeric_limits<double>::quiet_NaN();
-  return map.attractors[static_cast<std::size_t>(fate.attractor)].orbit.period();
+double period_of(const BasinsOf<Orbit>& map, const BasinLabel& label) {
+  if (label.attractor < 0) return std::numeric_limits<double>::quiet_NaN();
+  return map.attractors[static_cast<std::size_t>(label.attractor)].orbit.period();
 }
 
 template <class Orbit>
@@ -136,10 +136,10 @@ void write_states(const JobContext& context, const StateGrid& grid, const Basins
        {{"period_s", "s", "of the attractor; nan where there is none"}}});
   const auto columns = static_cast<std::size_t>(grid.fast.axis.count);
   std::vector<double> numbers(columns), periods(columns);
-  for (std::size_t first = 0; first < map.fates.size(); first += columns) {
+  for (std::size_t first = 0; first < map.labels.size(); first += columns) {
     for (std::size_t k = 0; k < columns; ++k) {
-      numbers[k] = number_of(map.fates[first + k]);
-      periods[k] = period_of(map, map.fates[first + k]);
+      numbers[k] = number_of(map.labels[first + k]);
+      periods[k] = period_of(map, map.labels[first + k]);
     }
     table.append_row({numbers.data(), periods.data()});
   }
@@ -159,7 +159,7 @@ void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
        {"fraction", "", "of all initial states"},
        {"standard_error", "", "of the fraction, the states being taken as a sample"},
        {"mirror_image_of", "", "number of the attractor that it mirrors; 0: none", "integer"}});
-  const auto all = static_cast<double>(map.fates.size());
+  const auto all = static_cast<double>(map.labels.size());
   int number = 0;
   for (const auto& attractor : map.attractors) {
     const Orbit& orbit = attractor.orbit;
@@ -170,7 +170,7 @@ void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const double kind : {0.0, -1.0}) {
     std::size_t states = 0;
-    for (const MotionFate& fate : map.fates) states += number_of(fate) == kind ? 1 : 0;
+    for (const BasinLabel& label : map.labels) states += number_of(label) == kind ? 1 : 0;
     if (states == 0) continue;
     const double fraction = static_cast<double>(states) / all;
     table.row(static_cast<int>(kind), 0, none, none, none, states, fraction,
@@ -193,27 +193,27 @@ void require_attractors(const std::optional<Rational>& ratio, std::int64_t large
 }
 
 template <class Orbit>
-void write_map(const JobContext& context, const BasinQuestion& question, const StateGrid& grid,
+void write_map(const JobContext& context, const BasinOptions& options, const StateGrid& grid,
                const BasinsOf<Orbit>& map) {
-  question.fractions ? write_fractions(context, map) : write_states(context, grid, map);
+  options.fractions ? write_fractions(context, map) : write_states(context, grid, map);
 }
 
 }  // namespace
 
-void write_basins(const JobContext& context, const BasinQuestion& question) {
-  const StateGrid grid = grid_of(question);
+void write_basins(const JobContext& context, const BasinOptions& options) {
+  const StateGrid grid = grid_of(options);
   const auto states = grid.states(context.case_data);
-  const OrbitLimits limits{question.largest_period, 0, throw_if_interrupted};
+  const OrbitLimits limits{options.largest_period, 0, throw_if_interrupted};
   const ThreadedTiles tiles{context.threads};
-  if (is_of_the_paper(context.case_data, question.switching)) {
-    const ForcedLoop<double> loop = forced_loop_of(context.case_data);
-    require_attractors(forcing_ratio(loop), question.largest_period);
-    write_map(context, question, grid,
+  if (is_of_the_paper(context.case_data, options.switching)) {
+    const IdealLoop<double> loop = ideal_loop_of(context.case_data);
+    require_attractors(forcing_ratio(loop), options.largest_period);
+    write_map(context, options, grid,
               basins_on_packs(loop, states, limits, context.instructions, tiles));
   } else {
-    const RealLoop loop = real_loop_of(context.case_data, question.switching);
-    require_attractors(forcing_ratio(loop.digital), question.largest_period);
-    write_map(context, question, grid, find_hybrid_basins(loop, states, limits, tiles));
+    const ImplementedLoop loop = implemented_loop_of(context.case_data, options.switching);
+    require_attractors(forcing_ratio(loop.digital), options.largest_period);
+    write_map(context, options, grid, find_event_basins(loop, states, limits, tiles));
   }
 }
 

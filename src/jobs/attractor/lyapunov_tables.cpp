@@ -7,7 +7,7 @@
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "io/text/table.hpp"
 #include "jobs/charts/conditioning.hpp"
 #include "jobs/motion/motion_run.hpp"
@@ -19,43 +19,43 @@ namespace holdfast::program {
 namespace {
 
 /// The loop whose S and S* are the tangents: that of the motion, or the printed one with δ = τ.
-SampledLoop<double> tangent_loop_of(const Case& the_case, const LyapunovQuestion& question) {
+SampledLoop<double> tangent_loop_of(const Case& the_case, const LyapunovOptions& options) {
   Sampling<double> sampling = sampling_of(the_case);
-  if (question.tangent == "printed") sampling.processing_delay = sampling.period;
+  if (options.tangent == "printed") sampling.processing_delay = sampling.period;
   return sampled_loop(plant_of(the_case), sampling);
 }
 
-std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& question) {
-  const std::int64_t steps = samples_of(context.case_data, question.duration) - 1;
+std::int64_t steps_of(const JobContext& context, const LyapunovOptions& options) {
+  const std::int64_t steps = samples_of(context.case_data, options.duration) - 1;
   if (steps < 1) throw WrongInput("--duration is shorter than one sampling period");
   return steps;
 }
 
 /// Of the paper's model.
-LyapunovResult sampled_exponents(const JobContext& context, const LyapunovQuestion& question,
+LyapunovResult sampled_exponents(const JobContext& context, const LyapunovOptions& options,
                                  const LyapunovRun& run) {
   InterruptibleMotion motion(motion_of(context.case_data));
-  const auto words = std::make_shared<const ContactWords>(
-      tangent_loop_of(context.case_data, question), gains_of(context.case_data));
-  const LyapunovResult result = run_lyapunov(motion, words, run);
+  const auto blocks = std::make_shared<const ItineraryBlocks>(
+      tangent_loop_of(context.case_data, options), gains_of(context.case_data));
+  const LyapunovResult result = run_lyapunov(motion, blocks, run);
   if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
   return result;
 }
 
 /// Of any loop, with the saltation at its switches.
-LyapunovResult built_exponents(const JobContext& context, const LyapunovQuestion& question,
+LyapunovResult built_exponents(const JobContext& context, const LyapunovOptions& options,
                                const LyapunovRun& run) {
-  const RealLoop loop = real_loop_of(context.case_data, question.switching);
+  const ImplementedLoop loop = implemented_loop_of(context.case_data, options.switching);
   return with_motion(loop, initial_state_of(context.case_data), [&](auto motion) {
-    const LyapunovResult result = run_hybrid_lyapunov(motion, run, throw_if_interrupted);
+    const LyapunovResult result = run_event_lyapunov(motion, run, throw_if_interrupted);
     if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
     require_resolved(motion, context.quiet);
     return result;
   });
 }
 
-void require_consistent(const LyapunovQuestion& question) {
-  if (question.tangent != "printed") return;
+void require_consistent(const LyapunovOptions& options) {
+  if (options.tangent != "printed") return;
   throw WrongInput(
       "--tangent printed goes with --switching sampled, the paper's backlash, one harmonic and an "
       "ideal computer only");
@@ -68,10 +68,10 @@ void write_history_row(Table& table, double time, const Vector<double, 5>& expon
   table.writer().end_row();
 }
 
-void write_sampled_history(const JobContext& context, const LyapunovQuestion& question,
+void write_sampled_history(const JobContext& context, const LyapunovOptions& options,
                            std::int64_t steps, Table& table) {
   const double period = context.case_data.control.sampling_period;
-  LyapunovObserver observer(tangent_loop_of(context.case_data, question),
+  LyapunovObserver observer(tangent_loop_of(context.case_data, options),
                             gains_of(context.case_data));
   auto motion = motion_of(context.case_data);
   run_to_completion(motion, steps, {}, observer, [&](const MotionSample<double>& sample) {
@@ -79,11 +79,11 @@ void write_sampled_history(const JobContext& context, const LyapunovQuestion& qu
   });
 }
 
-void write_built_history(const JobContext& context, const LyapunovQuestion& question,
+void write_built_history(const JobContext& context, const LyapunovOptions& options,
                          std::int64_t steps, Table& table) {
-  const RealLoop loop = real_loop_of(context.case_data, question.switching);
+  const ImplementedLoop loop = implemented_loop_of(context.case_data, options.switching);
   with_motion(loop, initial_state_of(context.case_data), [&](auto motion) {
-    HybridLyapunov lyapunov(motion);
+    EventLyapunov lyapunov(motion);
     for (std::int64_t step = 0; step < steps; ++step) {
       look_for_interrupt(step);
       run_to_completion(lyapunov, 1, {});
@@ -95,13 +95,13 @@ void write_built_history(const JobContext& context, const LyapunovQuestion& ques
 
 }  // namespace
 
-void write_exponents(const JobContext& context, const LyapunovQuestion& question) {
+void write_exponents(const JobContext& context, const LyapunovOptions& options) {
   const double period = context.case_data.control.sampling_period;
-  const std::int64_t steps = steps_of(context, question);
-  const std::int64_t discard = samples_within(question.discard, period) - 1;
+  const std::int64_t steps = steps_of(context, options);
+  const std::int64_t discard = samples_within(options.discard, period) - 1;
   if (discard >= steps) throw WrongInput("--discard leaves nothing of --duration");
-  const bool of_the_paper = is_of_the_paper(context.case_data, question.switching);
-  if (!of_the_paper) require_consistent(question);
+  const bool of_the_paper = is_of_the_paper(context.case_data, options.switching);
+  if (!of_the_paper) require_consistent(options);
   Table table(
       context,
       {{"exponent", "", "number of the exponent, in the order of the QR; descending once converged",
@@ -109,31 +109,31 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& question
        {"per_sample", "", "natural logarithm per sample; -inf where a direction is annihilated"},
        {"per_second", "1/s", "per sample over the sampling period"},
        {"standard_error", "", "of per_sample, by batch means"}});
-  LyapunovRun run{steps - discard, discard, question.standard_error, LyapunovScope::all,
+  LyapunovRun run{steps - discard, discard, options.standard_error, LyapunovScope::all,
                   LyapunovScope::largest};
-  if (question.largest) run.scope = LyapunovScope::largest;
-  const LyapunovResult result = of_the_paper ? sampled_exponents(context, question, run)
-                                             : built_exponents(context, question, run);
-  if (question.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
+  if (options.largest) run.scope = LyapunovScope::largest;
+  const LyapunovResult result = of_the_paper ? sampled_exponents(context, options, run)
+                                             : built_exponents(context, options, run);
+  if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);
-  for (int i = 0; i < (question.largest ? 1 : 5); ++i)
+  for (int i = 0; i < (options.largest ? 1 : 5); ++i)
     table.row(i + 1, result.exponents[i], result.exponents[i] / period, result.standard_errors[i]);
   table.commit();
 }
 
-void write_exponent_history(const JobContext& context, const LyapunovQuestion& question) {
+void write_exponent_history(const JobContext& context, const LyapunovOptions& options) {
   std::vector<Column> columns = {{"time_s", "s", "end of the averaged motion"}};
   for (int i = 1; i <= 5; ++i)
     columns.push_back({"lambda" + std::to_string(i), "", "exponent per sample up to this time"});
-  const std::int64_t steps = steps_of(context, question);
-  const bool of_the_paper = is_of_the_paper(context.case_data, question.switching);
-  if (!of_the_paper) require_consistent(question);
+  const std::int64_t steps = steps_of(context, options);
+  const bool of_the_paper = is_of_the_paper(context.case_data, options.switching);
+  if (!of_the_paper) require_consistent(options);
   Table table(context, columns);
   if (of_the_paper)
-    write_sampled_history(context, question, steps, table);
+    write_sampled_history(context, options, steps, table);
   else
-    write_built_history(context, question, steps, table);
+    write_built_history(context, options, steps, table);
   table.commit();
 }
 

@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {
 
 /// What the job `lyapunov` was asked.
-struct LyapunovQuestion {
+struct LyapunovOptions {
   double duration = 100.0;             ///< s, the longest
   double discard = 0.0;                ///< s, left out at the start
   double standard_error = 0.0;         ///< per sample, at which to stop; 0: go on to the end
@@ -20,9 +20,9 @@ struct LyapunovQuestion {
 /// One row for each exponent: per sample, per second, standard error.
 /// Throws WrongInput for a duration of less than a sampling period, NoAnswer where the motion
 /// diverges.
-void write_exponents(const JobContext& context, const LyapunovQuestion& question);
+void write_exponents(const JobContext& context, const LyapunovOptions& options);
 
 /// The exponents after every sample.
-void write_exponent_history(const JobContext& context, const LyapunovQuestion& question);
+void write_exponent_history(const JobContext& context, const LyapunovOptions& options);
 
 }  // namespace holdfast::program

@@ -42,58 +42,62 @@ double known(const std::optional<Part>& part, const Read& read) {
   return part ? read(*part) : std::numeric_limits<double>::quiet_NaN();
 }
 
-struct Judged {
-  Verdict verdict;
-  MotionEvidence evidence;
+struct Classified {
+  Classification classification;
+  ChaosIndicators indicators;
   std::string warning;
 };
 
-/// @tparam Search  OrbitResult or HybridSearch
+/// @tparam Search  OrbitResult or EventSearchResult
 template <class Search>
 std::string warning_of(const Search& search) {
   const bool certified = search.outcome == OrbitOutcome::certified;
   return certified ? near_border_warning(search.orbit->border_share()) : "";
 }
 
-Judged judged(const Case& the_case, std::int64_t largest_period, Switching switching) {
+Classified classified(const Case& the_case, std::int64_t largest_period, Switching switching) {
   const Vector<double, 4> state = initial_state_of(the_case);
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
   if (is_of_the_paper(the_case, switching)) {
-    const MotionVerdict found = classify_motion(forced_loop_of(the_case), state, limits);
-    return {found.verdict, found.evidence, warning_of(found.search)};
+    const SampledClassification found = classify_motion(ideal_loop_of(the_case), state, limits);
+    return {found.classification, found.indicators, warning_of(found.search)};
   }
-  const HybridVerdict found = classify_motion(real_loop_of(the_case, switching), state, limits);
-  return {found.verdict, found.evidence, warning_of(found.search)};
+  const EventClassification found =
+      classify_motion(implemented_loop_of(the_case, switching), state, limits);
+  return {found.classification, found.indicators, warning_of(found.search)};
 }
 
 /// The verdict for a reader who does not count columns: "periodic(100), 0.1 s: …".
-void say(const Verdict& verdict, double period, const JobContext& context) {
+void say(const Classification& classification, double period, const JobContext& context) {
   if (!progress_wanted(context)) return;
-  const std::string seconds = verdict.period > 0 ? ", " + format_rounded(period) + " s" : "";
-  report_error(motion_kind_text(verdict) + seconds + ": " + verdict.rests_on);
+  const std::string seconds = classification.period > 0 ? ", " + format_rounded(period) + " s" : "";
+  report_error(attractor_type_text(classification) + seconds + ": " + classification.rests_on);
 }
 
 }  // namespace
 
 void write_verdict(const JobContext& context, std::int64_t largest_period, Switching switching) {
   Table table(context, verdict_columns());
-  const auto [verdict, evidence, warning] = judged(context.case_data, largest_period, switching);
+  const auto [classification, indicators, warning] =
+      classified(context.case_data, largest_period, switching);
   report_warning(warning, context.quiet);
-  const double period = verdict.period > 0 ? static_cast<double>(verdict.period) *
-                                                 context.case_data.control.sampling_period
-                                           : std::numeric_limits<double>::quiet_NaN();
+  const double period = classification.period > 0 ? static_cast<double>(classification.period) *
+                                                        context.case_data.control.sampling_period
+                                                  : std::numeric_limits<double>::quiet_NaN();
   table.row(
-      motion_kind_text(verdict), verdict.period, period, evidence.certified_period ? 1 : 0,
-      known(evidence.largest_exponent, [](const auto& exponent) { return exponent.value; }),
-      known(evidence.largest_exponent, [](const auto& exponent) { return exponent.half_width; }),
-      known(evidence.zero_one, [](double k) { return k; }),
-      known(evidence.closest_return, [](const auto& closest) { return closest.distance; }),
-      known(evidence.recurrence, [](const auto& shares) { return shares.determinism; }),
-      known(evidence.switching, [](const auto& complexity) { return complexity.entropy; }),
-      evidence.lines ? evidence.lines->division : 0,
-      known(evidence.lines, [](const auto& lines) { return lines.continuous; }), verdict.rests_on);
+      attractor_type_text(classification), classification.period, period,
+      indicators.certified_period ? 1 : 0,
+      known(indicators.largest_exponent, [](const auto& exponent) { return exponent.value; }),
+      known(indicators.largest_exponent, [](const auto& exponent) { return exponent.half_width; }),
+      known(indicators.zero_one, [](double k) { return k; }),
+      known(indicators.closest_return, [](const auto& closest) { return closest.distance; }),
+      known(indicators.recurrence, [](const auto& shares) { return shares.determinism; }),
+      known(indicators.switching, [](const auto& complexity) { return complexity.entropy; }),
+      indicators.lines ? indicators.lines->division : 0,
+      known(indicators.lines, [](const auto& lines) { return lines.continuous; }),
+      classification.rests_on);
   table.commit();
-  say(verdict, period, context);
+  say(classification, period, context);
 }
 
 }  // namespace holdfast::program

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {

@@ -14,7 +14,7 @@
 
 namespace holdfast::program {
 
-CableDecayQuestion usual_decay(const Case& the_case) {
+CableDecayOptions usual_decay(const Case& the_case) {
   const double period = 1.0 / the_case.reduction.first_frequency;
   const double force = the_case.absorber.mass * the_case.conductor.gravity / 8.0;
   return {force, 6.0 * period, period / 250.0};
@@ -26,22 +26,22 @@ namespace {
 
 /// Refuses a decay of so many periods of the cable that it would take for ever, as when the
 /// frequencies of the reduction are not those of the cable at all.
-void require_followable(const Case& the_case, const CableDecayQuestion& question) {
+void require_followable(const Case& the_case, const CableDecayOptions& options) {
   constexpr double most_periods = 1e5;
   const double lowest = irvine_modes(conductor_of(the_case), 1).front().frequency;
-  const double periods = question.duration * lowest;
+  const double periods = options.duration * lowest;
   if (periods <= most_periods) return;
-  throw NoAnswer("a decay over " + format_rounded(question.duration) + " s has " +
+  throw NoAnswer("a decay over " + format_rounded(options.duration) + " s has " +
                  format_rounded(periods) + " periods of the cable (" + format_rounded(lowest) +
                  " Hz), more than are followed; its length is given, or six periods of "
                  "reduction.first_frequency");
 }
 
 template <class Cable>
-CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
-  const auto removal = cvode::load_removal(cable, question.force, question.duration,
-                                           question.interval, {}, throw_if_interrupted);
-  const std::string force = "a force of " + format_number(question.force) + " N";
+CableDecay decay_of(const Cable& cable, const CableDecayOptions& options) {
+  const auto removal = cvode::load_removal(cable, options.force, options.duration, options.interval,
+                                           {}, throw_if_interrupted);
+  const std::string force = "a force of " + format_number(options.force) + " N";
   switch (removal.outcome) {
     case cvode::LoadRemovalOutcome::completed:
       break;
@@ -63,18 +63,18 @@ CableDecay decay_of(const Cable& cable, const CableDecayQuestion& question) {
 bool has_sundials() { return true; }
 void require_sundials() {}
 
-CableDecay cable_decay(const Case& the_case, const CableDecayQuestion& question) {
-  require_force_within_statics(the_case, question.force);
-  require_followable(the_case, question);
-  return decay_of(elements_of(the_case, question.elements, question.reading), question);
+CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options) {
+  require_force_within_statics(the_case, options.force);
+  require_followable(the_case, options);
+  return decay_of(elements_of(the_case, options.elements, options.reading), options);
 }
 
-CableDecay condensed_decay(const Case& the_case, const CableDecayQuestion& question) {
-  require_force_within_statics(the_case, question.force);
-  require_followable(the_case, question);
+CableDecay condensed_decay(const Case& the_case, const CableDecayOptions& options) {
+  require_force_within_statics(the_case, options.force);
+  require_followable(the_case, options);
   const CondensedCable<8> cable(conductor_of(the_case), the_case.absorber.position,
                                 the_case.absorber.mass, rayleigh_damping_of(the_case));
-  return decay_of(cable, question);
+  return decay_of(cable, options);
 }
 
 #else
@@ -87,12 +87,12 @@ void require_sundials() {
       "package libsundials-dev and build again");
 }
 
-CableDecay cable_decay(const Case&, const CableDecayQuestion&) {
+CableDecay cable_decay(const Case&, const CableDecayOptions&) {
   require_sundials();
   return {};
 }
 
-CableDecay condensed_decay(const Case&, const CableDecayQuestion&) {
+CableDecay condensed_decay(const Case&, const CableDecayOptions&) {
   require_sundials();
   return {};
 }

@@ -13,7 +13,7 @@ bool has_sundials();
 void require_sundials();
 
 /// A load that is removed from the continuous cable of a case.
-struct CableDecayQuestion {
+struct CableDecayOptions {
   double force;     ///< N, downward positive
   double duration;  ///< s
   double interval;  ///< s between the instants of the record
@@ -23,7 +23,7 @@ struct CableDecayQuestion {
 
 /// What is asked where nobody says: an eighth of the absorber's weight removed, six periods of the
 /// first frequency of [reduction], 250 instants in each.
-CableDecayQuestion usual_decay(const Case& the_case);
+CableDecayOptions usual_decay(const Case& the_case);
 
 /// The vibration of the absorber's place.
 struct CableDecay {
@@ -34,9 +34,9 @@ struct CableDecay {
 /// Throws WrongInput where the force is beyond the statics or the cable goes slack; NoAnswer where
 /// CVODE gives up, in its words, or where the program was built without SUNDIALS, naming the
 /// package.
-CableDecay cable_decay(const Case& the_case, const CableDecayQuestion& question);
+CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options);
 
 /// The same by the condensed model, the cheap second opinion; the absorber by its weight.
-CableDecay condensed_decay(const Case& the_case, const CableDecayQuestion& question);
+CableDecay condensed_decay(const Case& the_case, const CableDecayOptions& options);
 
 }  // namespace holdfast::program

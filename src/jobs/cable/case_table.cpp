@@ -11,7 +11,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
@@ -34,7 +34,7 @@ struct Derived {
 
 using Derivations = std::vector<Derived>;
 
-void add_force(Derivations& derived, const Case& the_case, const TwoDof<double>& plant) {
+void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
   const auto excitation = excitation_of(the_case);
   derived.push_back({"force_amplitude", excitation.amplitude, "N",
                      "of the harmonic force, from [excitation] or [wind]"});
@@ -48,7 +48,7 @@ void add_force(Derivations& derived, const Case& the_case, const TwoDof<double>&
                      "the force over the conductor's stiffness, F/k1"});
 }
 
-void add_gains(Derivations& derived, const Case& the_case, const TwoDof<double>& plant) {
+void add_gains(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
   derived.push_back({"proportional_gain", gains_of(the_case).proportional, "N/m", "P in force"});
   derived.push_back(
       {"tuned_proportional_gain",
@@ -57,8 +57,8 @@ void add_gains(Derivations& derived, const Case& the_case, const TwoDof<double>&
        "N/m", "k2 - m2 (2 pi f)^2, Eq. 6: the absorber's own frequency becomes that of the force"});
 }
 
-void add_modes(Derivations& derived, const TwoDof<double>& plant) {
-  TwoDof<double> undamped = plant;
+void add_modes(Derivations& derived, const TwoMass<double>& plant) {
+  TwoMass<double> undamped = plant;
   undamped.conductor_damping = undamped.absorber_damping = 0.0;
   const auto free = natural_modes(undamped), damped = natural_modes(plant);
   const auto frequency = [&](std::size_t k) {
@@ -78,7 +78,7 @@ void add_modes(Derivations& derived, const TwoDof<double>& plant) {
 
 void add_clock(Derivations& derived, const Case& the_case) {
   const double period = the_case.control.sampling_period;
-  const auto ratio = forcing_ratio(real_loop_of(the_case, Switching::sampled).digital);
+  const auto ratio = forcing_ratio(implemented_loop_of(the_case, Switching::sampled).digital);
   derived.push_back({"sampling_rate", 1.0 / period, "Hz", "of the computer"});
   derived.push_back({"samples_per_forcing_period",
                      1.0 / (excitation_of(the_case).frequency * period), "",
@@ -108,7 +108,7 @@ void add_stability(Derivations& derived, const Case& the_case) {
 }
 
 Derivations derivations_of(const Case& the_case) {
-  const TwoDof<double> plant = plant_of(the_case);
+  const TwoMass<double> plant = plant_of(the_case);
   Derivations derived;
   add_force(derived, the_case, plant);
   add_gains(derived, the_case, plant);

@@ -23,9 +23,9 @@ namespace holdfast::program {
 
 void require_ceres() {}
 
-fit::DecayFit fit_record(const DecayRecord& record, const TwoDof<double>& plant,
-                         const fit::DecayQuestion& question) {
-  fit::DecayFit found = fit::fit_decay(record, plant, question);
+fit::DecayFit fit_record(const DecayRecord& record, const TwoMass<double>& plant,
+                         const fit::DecayFitOptions& options) {
+  fit::DecayFit found = fit::fit_decay(record, plant, options);
   if (found.outcome == fit::FitOutcome::no_minimum)
     throw NoAnswer("the fit found no minimum: the record does not determine what is asked for");
   return found;
@@ -39,7 +39,7 @@ void require_ceres() {
       "libceres-dev and build again");
 }
 
-fit::DecayFit fit_record(const DecayRecord&, const TwoDof<double>&, const fit::DecayQuestion&) {
+fit::DecayFit fit_record(const DecayRecord&, const TwoMass<double>&, const fit::DecayFitOptions&) {
   require_ceres();
   return {};
 }
@@ -47,9 +47,9 @@ fit::DecayFit fit_record(const DecayRecord&, const TwoDof<double>&, const fit::D
 #endif
 
 DecayRecord record_for_fit(const Case& the_case) {
-  CableDecayQuestion question = usual_decay(the_case);
-  question.elements = 60;
-  return cable_decay(the_case, question).record;
+  CableDecayOptions options = usual_decay(the_case);
+  options.elements = 60;
+  return cable_decay(the_case, options).record;
 }
 
 namespace {
@@ -74,12 +74,12 @@ struct DampingReading {
 
 /// None where the decay does not determine it.
 std::optional<DampingReading> damping_by(fit::DecayTarget target, const DecayRecord& record,
-                                         const TwoDof<double>& plant) {
-  fit::DecayQuestion question;
-  question.fit_initial_displacement = false;
-  question.target = target;
+                                         const TwoMass<double>& plant) {
+  fit::DecayFitOptions options;
+  options.fit_initial_displacement = false;
+  options.target = target;
   try {
-    fit::DecayFit found = fit_record(record, plant, question);
+    fit::DecayFit found = fit_record(record, plant, options);
     const double unit = fit::is_measured(target) ? 1.0 : std::abs(record.displacements.front());
     const double misfit = found.minima.front().residual / unit;
     return DampingReading{std::move(found), misfit};
@@ -94,7 +94,7 @@ double misfit_of(const std::optional<DampingReading>& reading) {
 
 }  // namespace
 
-AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant) {
+AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoMass<double>& plant) {
   require_ceres();
   constexpr double largest_misfit = 0.1;
   const DecayRecord record = record_for_fit(the_case);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "case/case.hpp"
-#include "holdfast/ceres/decay_question.hpp"
+#include "holdfast/ceres/decay_fit_options.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
@@ -14,8 +14,8 @@ void require_ceres();
 
 /// `fit::fit_decay`; throws what require_ceres() throws, and NoAnswer where no start led to a
 /// minimum.
-fit::DecayFit fit_record(const DecayRecord& record, const TwoDof<double>& plant,
-                         const fit::DecayQuestion& question);
+fit::DecayFit fit_record(const DecayRecord& record, const TwoMass<double>& plant,
+                         const fit::DecayFitOptions& options);
 
 /// The usual decay of the case's continuous cable, which a fit without data reads.
 DecayRecord record_for_fit(const Case& the_case);
@@ -33,7 +33,7 @@ struct AbsorberDampingFit {
 
 /// Fits c2 to the first peak and the period of that decay where the plant meets them to a tenth,
 /// else to its time history. Throws NoAnswer where neither determines it.
-AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoDof<double>& plant);
+AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoMass<double>& plant);
 
 /// What the user has to know of that fit: that the plant's decay is not the cable's, where it
 /// cannot meet its first peak and period. Empty otherwise.

@@ -10,7 +10,7 @@ namespace {
 
 using Rows = std::vector<Quantity>;
 
-void append_plant(Rows& rows, const TwoDof<double>& plant, double absorber_damping) {
+void append_plant(Rows& rows, const TwoMass<double>& plant, double absorber_damping) {
   rows.push_back({"conductor_mass", "m1", plant.conductor_mass, "kg"});
   rows.push_back({"conductor_stiffness", "k1", plant.conductor_stiffness, "N/m"});
   rows.push_back({"conductor_damping", "c1", plant.conductor_damping, "N s/m"});

@@ -118,7 +118,7 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
       });
 }
 
-void append_continuous_chart(const JobContext& context, const TwoDof<double>& plant,
+void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
                              const GainGrid& grid, bool abscissa, GridTable& table) {
   using Kernel = StabilityRows<4>;
   const auto abscissa_at = [&](const PdGains<double>& gains) {

@@ -18,7 +18,7 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
                           GridTable& table);
 
 /// Columns: stable and, with `abscissa`, the spectral abscissa (1/s) of the continuous loop.
-void append_continuous_chart(const JobContext& context, const TwoDof<double>& plant,
+void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
                              const GainGrid& grid, bool abscissa, GridTable& table);
 
 /// Columns: stable, amplitude (m) and its ratio to that without control; nan where unstable.

@@ -21,7 +21,7 @@ template <class Scalar>
 std::string near_cusp_warning(const std::vector<BoundaryFeature<Scalar>>& features);
 
 /// Of an orbit near a switching surface.
-/// @param border_share  of PeriodicOrbit or HybridOrbit
+/// @param border_share  of PeriodicOrbit or EventOrbit
 std::string near_border_warning(double border_share);
 
 /// Of a largest exponent whose sign is not known.

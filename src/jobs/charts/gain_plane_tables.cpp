@@ -40,7 +40,7 @@ const char* word_for(BoundaryFeatureKind kind) {
 /// them are about to meet.
 using Precise = long double;
 
-TwoDof<Precise> precise_plant(const Case& the_case) {
+TwoMass<Precise> precise_plant(const Case& the_case) {
   return converted<Precise>(plant_of(the_case));
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 
 namespace holdfast::program {
@@ -15,12 +15,12 @@ class BestGains {
   explicit BestGains(double duration) : duration_(duration) {}
 
   /// Its D is NaN where the outcome says that there is none.
-  const LeastAmplitude& of(const ForcedLoop<double>& loop);
+  const MinimumAmplitude& of(const IdealLoop<double>& loop);
 
  private:
   double duration_;
-  std::optional<ForcedLoop<double>> known_;  // the last one asked for
-  LeastAmplitude answer_{};
+  std::optional<IdealLoop<double>> known_;  // the last one asked for
+  MinimumAmplitude answer_{};
 };
 
 }  // namespace holdfast::program

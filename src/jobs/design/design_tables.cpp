@@ -20,21 +20,21 @@
 namespace holdfast::program {
 namespace {
 
-const char* name_of(LeastAmplitudeOutcome outcome) {
+const char* name_of(MinimumAmplitudeOutcome outcome) {
   switch (outcome) {
-    case LeastAmplitudeOutcome::stationary:
+    case MinimumAmplitudeOutcome::stationary:
       return "stationary";
-    case LeastAmplitudeOutcome::edge:
+    case MinimumAmplitudeOutcome::edge:
       return "edge";
-    case LeastAmplitudeOutcome::none:
+    case MinimumAmplitudeOutcome::none:
       return "none";
-    case LeastAmplitudeOutcome::aliased:
+    case MinimumAmplitudeOutcome::aliased:
       return "aliased";
   }
   return "";
 }
 
-AmplitudeQuestion question_of(const Case& the_case, double largest_radius) {
+AmplitudeOptions options_of(const Case& the_case, double largest_radius) {
   return {sampling_of(the_case), force_hold_of(the_case), largest_radius};
 }
 
@@ -43,12 +43,12 @@ std::string no_gain_text(double proportional_gain, double largest_radius) {
          " N/m no D keeps the spectral radius below " + format_rounded(largest_radius);
 }
 
-/// Why a single row has no D of least amplitude.
-void warn_of_no_gain(LeastAmplitudeOutcome outcome, double proportional_gain, double largest_radius,
-                     bool quiet) {
-  if (outcome == LeastAmplitudeOutcome::none)
+/// Why a single row has no D of minimum amplitude.
+void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
+                     double largest_radius, bool quiet) {
+  if (outcome == MinimumAmplitudeOutcome::none)
     report_warning(no_gain_text(proportional_gain, largest_radius), quiet);
-  if (outcome == LeastAmplitudeOutcome::aliased)
+  if (outcome == MinimumAmplitudeOutcome::aliased)
     report_warning(
         "the excitation frequency is not below half the sampling rate: its samples do "
         "not show the vibration",
@@ -60,7 +60,7 @@ void warn_of_no_gain(LeastAmplitudeOutcome outcome, double proportional_gain, do
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
                       double largest_radius) {
   const Case& the_case = context.case_data;
-  const TwoDof<double> plant = plant_of(the_case);
+  const TwoMass<double> plant = plant_of(the_case);
   const auto loop = sampled_loop(plant, sampling_of(the_case));
   const double own = excitation_of(the_case).frequency;
   const Axis axis = frequencies.value_or(Axis{own, own, 1});
@@ -85,8 +85,8 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
                                                            plant.absorber_mass, frequency)
                                  : gains_of(the_case).proportional;
     const auto quietest =
-        least_amplitude(plant, question_of(the_case, largest_radius), frequency, p);
-    const LeastRadius fastest = least_radius(loop, p);
+        minimum_amplitude(plant, options_of(the_case, largest_radius), frequency, p);
+    const MinimumRadius fastest = minimum_radius(loop, p);
     if (!frequencies) warn_of_no_gain(quietest.outcome, p, largest_radius, context.quiet);
     table.row(frequency, p, quietest.differential_gain, quietest.ratio_to_uncontrolled,
               quietest.attenuation, fastest.differential_gain, fastest.radius,
@@ -99,10 +99,10 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
 void write_band_gain(const JobContext& context, const Range& band, double largest_radius) {
   const Case& the_case = context.case_data;
   const double p = gains_of(the_case).proportional;
-  const auto answer = least_worst_amplitude(
-      plant_of(the_case), question_of(the_case, largest_radius), p, {band.min, band.max});
-  if (answer.outcome == LeastWorstOutcome::none) throw NoAnswer(no_gain_text(p, largest_radius));
-  if (answer.outcome == LeastWorstOutcome::not_converged)
+  const auto answer = minimax_amplitude(plant_of(the_case), options_of(the_case, largest_radius), p,
+                                        {band.min, band.max});
+  if (answer.outcome == MinimaxOutcome::none) throw NoAnswer(no_gain_text(p, largest_radius));
+  if (answer.outcome == MinimaxOutcome::not_converged)
     report_warning("the search has not closed: some D may have a worst ratio as small as " +
                        format_rounded(answer.lower_bound),
                    context.quiet);
@@ -121,10 +121,10 @@ void write_band_gain(const JobContext& context, const Range& band, double larges
 }
 
 void write_best_pair(const JobContext& context) {
-  const auto answer = least_radius_gains(loop_of(context.case_data));
-  if (answer.outcome == LeastRadiusGainsOutcome::idle)
+  const auto answer = minimum_radius_gains(loop_of(context.case_data));
+  if (answer.outcome == MinimumRadiusGainsOutcome::idle)
     report_warning("the gains do not move all roots; P is set to 0", context.quiet);
-  if (answer.outcome == LeastRadiusGainsOutcome::open)
+  if (answer.outcome == MinimumRadiusGainsOutcome::open)
     report_warning("the search has not closed: better gains may exist", context.quiet);
   Table table(context, {{"proportional_gain", "N/m", "P of least spectral radius"},
                         {"differential_gain", "N.s/m", "D of least spectral radius"},

@@ -28,7 +28,7 @@ struct Sensitivities {
 
 /// The loop and the excitation that the answers are about.
 struct Question {
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   Sampling<double> sampling;
   PdGains<double> gains;
   double frequency;
@@ -58,18 +58,18 @@ void add_stable_interval(const Question& q, std::vector<Sensitivities>& answers)
   }
 }
 
-void add_least_radius(const Question& q, std::vector<Sensitivities>& answers) {
+void add_minimum_radius(const Question& q, std::vector<Sensitivities>& answers) {
   const double p = q.gains.proportional;
-  const LeastRadius least = least_radius(sampled_loop(q.plant, q.sampling), p);
-  const auto moved = least_radius_sensitivity(q.plant, q.sampling, {p, least.differential_gain});
+  const MinimumRadius least = minimum_radius(sampled_loop(q.plant, q.sampling), p);
+  const auto moved = minimum_radius_sensitivity(q.plant, q.sampling, {p, least.differential_gain});
   answers.push_back({"least_radius", "", least.radius, moved.radius});
   answers.push_back(
       {"least_radius_gain", "N.s/m", least.differential_gain, moved.differential_gain});
 }
 
-void add_least_amplitude(const Question& q, std::vector<Sensitivities>& answers) {
-  const AmplitudeQuestion question{q.sampling, q.hold};
-  const auto least = least_amplitude(q.plant, question, q.frequency, q.gains.proportional);
+void add_minimum_amplitude(const Question& q, std::vector<Sensitivities>& answers) {
+  const AmplitudeOptions question{q.sampling, q.hold};
+  const auto least = minimum_amplitude(q.plant, question, q.frequency, q.gains.proportional);
   if (!std::isfinite(least.differential_gain)) return;
   const auto moved = amplitude_sensitivity(q.plant, question, q.frequency, q.gains.proportional);
   answers.push_back({"least_amplitude_ratio", "", least.ratio_to_uncontrolled, moved.ratio});
@@ -79,7 +79,7 @@ void add_least_amplitude(const Question& q, std::vector<Sensitivities>& answers)
 
 void add_largest_period(const Question& q, DelayCriterion criterion, const char* name,
                         std::vector<Sensitivities>& answers) {
-  MaxDelayQuestion question;
+  MaxDelayOptions question;
   question.frequency = q.frequency;
   question.proportional_gain = q.gains.proportional;
   question.criterion = criterion;
@@ -100,8 +100,8 @@ std::vector<Sensitivities> answers_of(const Question& q) {
   std::vector<Sensitivities> answers;
   add_radius(q, answers);
   add_stable_interval(q, answers);
-  add_least_radius(q, answers);
-  add_least_amplitude(q, answers);
+  add_minimum_radius(q, answers);
+  add_minimum_amplitude(q, answers);
   add_largest_period(q, DelayCriterion::stable, "max_stable_period", answers);
   add_largest_period(q, DelayCriterion::attenuates, "max_attenuating_period", answers);
   return answers;

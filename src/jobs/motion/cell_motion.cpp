@@ -25,7 +25,7 @@ constexpr std::size_t motions_of_batch = 256;
 /// The matrices of a batch's loops; lets it be interrupted.
 class BatchSource final : public MotionSource {
  public:
-  const detail::SweepMatrices::Matrices& of(const ForcedLoop<double>& loop) override {
+  const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) override {
     return matrices_.of(loop);
   }
   void pause() override { throw_if_interrupted(); }
@@ -54,10 +54,10 @@ std::int64_t certified_period(const Search& search) {
 }
 
 LyapunovResult exponents_of_paper(const SweepMotion& cell, const LyapunovRun& run) {
-  const auto words = std::make_shared<const ContactWords>(
+  const auto blocks = std::make_shared<const ItineraryBlocks>(
       sampled_loop(cell.loop.plant, cell.loop.sampling), cell.loop.gains);
   InterruptibleMotion motion(harmonically_forced_motion(cell.loop, cell.initial_state));
-  return run_lyapunov(motion, words, run);
+  return run_lyapunov(motion, blocks, run);
 }
 
 bool has_one_harmonic(const DigitalLoop& digital) {
@@ -68,11 +68,11 @@ bool has_one_harmonic(const DigitalLoop& digital) {
 }  // namespace
 
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration) {
-  CellMotion motion{{forced_loop_of(the_case), initial_state_of(the_case)}, std::nullopt};
+  CellMotion motion{{ideal_loop_of(the_case), initial_state_of(the_case)}, std::nullopt};
   samples_of(the_case, duration);
   validate(motion.of_paper.loop);
   if (is_of_the_paper(the_case, switching)) return motion;
-  motion.built = real_loop_of(the_case, switching);
+  motion.built = implemented_loop_of(the_case, switching);
   with_motion(*motion.built, motion.of_paper.initial_state, [](const auto&) { return true; });
   return motion;
 }
@@ -102,8 +102,8 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const CellMotion& motion = motions[k];
     if (motion.built) {
-      all[k] = hybrid_metrics(*motion.built, motion.of_paper.initial_state, duration,
-                              throw_if_interrupted);
+      all[k] = event_metrics(*motion.built, motion.of_paper.initial_state, duration,
+                             throw_if_interrupted);
     } else {
       of_paper.push_back(motion.of_paper);
       places.push_back(k);
@@ -122,7 +122,7 @@ double largest_exponent_of(const CellMotion& motion, double duration) {
   const LyapunovResult result =
       motion.built ? with_motion(*motion.built, cell.initial_state,
                                  [&](auto built) {
-                                   return run_hybrid_lyapunov(built, run, throw_if_interrupted);
+                                   return run_event_lyapunov(built, run, throw_if_interrupted);
                                  })
                    : exponents_of_paper(cell, run);
   return result.outcome == LyapunovOutcome::diverged ? unknown : result.exponents[0];
@@ -133,18 +133,18 @@ std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {
   if (!motion.built)
     return certified_period(find_periodic_orbit(cell.loop, cell.initial_state, limits));
   return with_motion(*motion.built, cell.initial_state, [&](const auto& built) {
-    return certified_period(find_hybrid_orbit(built, limits));
+    return certified_period(find_event_orbit(built, limits));
   });
 }
 
 CellVerdict verdict_of(const CellMotion& motion, const OrbitLimits& limits) {
   const SweepMotion& cell = motion.of_paper;
   if (motion.built) {
-    const HybridVerdict found = classify_motion(*motion.built, cell.initial_state, limits);
-    return {found.verdict.kind, found.evidence.certified_period.value_or(0)};
+    const EventClassification found = classify_motion(*motion.built, cell.initial_state, limits);
+    return {found.classification.kind, found.indicators.certified_period.value_or(0)};
   }
-  const MotionVerdict found = classify_motion(cell.loop, cell.initial_state, limits);
-  return {found.verdict.kind, found.evidence.certified_period.value_or(0)};
+  const SampledClassification found = classify_motion(cell.loop, cell.initial_state, limits);
+  return {found.classification.kind, found.indicators.certified_period.value_or(0)};
 }
 
 }  // namespace holdfast::program

@@ -6,7 +6,7 @@
 
 #include "case/case.hpp"
 #include "holdfast/chaos/classification.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
@@ -19,7 +19,7 @@ struct CellMotion {
   /// The motion of the paper's model; of another loop what that has of it: plant, sampling, gains
   /// and main harmonic, which the best gain depends on.
   SweepMotion of_paper;
-  std::optional<RealLoop> built;  ///< the loop, where it is another one
+  std::optional<ImplementedLoop> built;  ///< the loop, where it is another one
 };
 
 /// Throws InvalidParameter where the loop is not admissible, WrongInput where a recorded force ends
@@ -45,7 +45,7 @@ std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits);
 
 /// The verdict and the period of its certified orbit.
 struct CellVerdict {
-  MotionKind kind;
+  AttractorType kind;
   std::int64_t period;  ///< samples; 0: none
 };
 CellVerdict verdict_of(const CellMotion& motion, const OrbitLimits& limits);

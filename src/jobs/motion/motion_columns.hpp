@@ -4,7 +4,7 @@
 
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/table.hpp"
 

@@ -13,7 +13,7 @@ namespace {
 
 using Wide = long double;
 
-SampledMotion<Wide> wide_motion(const ForcedLoop<double>& loop, const Vector<double, 4>& state) {
+SampledMotion<Wide> wide_motion(const IdealLoop<double>& loop, const Vector<double, 4>& state) {
   return harmonically_forced_motion(converted<Wide>(loop), Vector<Wide, 4>(state.cast<Wide>()));
 }
 
@@ -48,7 +48,7 @@ void take_root(Fewest& fewest, const ReducedMasses& found, const FrequencyReduct
 
 }  // namespace
 
-MotionDigits::MotionDigits(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state,
+MotionDigits::MotionDigits(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state,
                            const std::optional<Kick>& kick, double from)
     : reference_(wide_motion(loop, initial_state)), kick_(kick), from_(from) {}
 
@@ -88,7 +88,7 @@ TrustedDigits MotionDigits::result() const {
 std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
                                           const std::optional<Kick>& kick, double from) {
   if (!is_of_the_paper(the_case, choice.switching)) return std::nullopt;
-  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  const IdealLoop<double> loop = ideal_loop_of(the_case);
   return MotionDigits(choice.controlled ? loop : uncontrolled(loop), initial_state_of(the_case),
                       kick, from);
 }
@@ -97,7 +97,7 @@ TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching
                                        std::int64_t samples, double from) {
   auto digits = digits_beside(the_case, {switching}, {}, from);
   if (!digits) return {};
-  auto motion = event_motion(real_loop_of(the_case, switching), initial_state_of(the_case));
+  auto motion = event_motion(implemented_loop_of(the_case, switching), initial_state_of(the_case));
   run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
   return digits->result();
 }
@@ -106,7 +106,7 @@ TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switch
                                           std::int64_t samples) {
   if (!is_of_the_paper(the_case, switching)) return {};
   auto first = motion_of(the_case), second = first;
-  auto wide_first = wide_motion(forced_loop_of(the_case), initial_state_of(the_case));
+  auto wide_first = wide_motion(ideal_loop_of(the_case), initial_state_of(the_case));
   auto wide_second = wide_first;
   second.displace_conductor(offset);
   wide_second.displace_conductor(offset);

@@ -5,7 +5,7 @@
 
 #include "case/case.hpp"
 #include "case/model/motion_of_case.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "jobs/motion/trusted_digits.hpp"
@@ -24,7 +24,7 @@ class MotionDigits {
   /// @param initial_state  z₀, 4 × 1 (m, m/s, m, m/s)
   /// @param kick           that run_trajectory() is given
   /// @param from           s; earlier samples are no rows of the table
-  MotionDigits(const ForcedLoop<double>& loop, const Vector<double, 4>& initial_state,
+  MotionDigits(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state,
                const std::optional<Kick>& kick = std::nullopt, double from = 0.0);
 
   /// Takes every sample of the motion, from the first on.

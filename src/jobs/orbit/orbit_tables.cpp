@@ -43,11 +43,11 @@ void write_border(QuantityRows& rows, const std::string& name, const Border& bor
            there ? static_cast<double>(border.sample) * sampling_period : std::nan(""), "s");
 }
 
-void write_recheck(QuantityRows& rows, const OrbitRecheck& recheck) {
-  rows.row("extended_precision_same_contacts", recheck.same_contacts ? 1.0 : 0.0);
-  rows.row("extended_precision_displacement_difference", recheck.displacement_difference, "m");
-  rows.row("extended_precision_velocity_difference", recheck.velocity_difference, "m/s");
-  rows.row("extended_precision_closure_error", recheck.closure_error, "m");
+void write_verification(QuantityRows& rows, const OrbitVerification& verification) {
+  rows.row("extended_precision_same_contacts", verification.same_itinerary ? 1.0 : 0.0);
+  rows.row("extended_precision_displacement_difference", verification.displacement_difference, "m");
+  rows.row("extended_precision_velocity_difference", verification.velocity_difference, "m/s");
+  rows.row("extended_precision_closure_error", verification.closure_error, "m");
 }
 
 struct KeyRange {
@@ -96,13 +96,13 @@ double followed_value(const Case& the_case, const std::string& key, const std::s
   return value;
 }
 
-const char* word_for(const OrbitEnd& end) {
+const char* word_for(const BranchEnd& end) {
   switch (end.outcome) {
-    case OrbitEndOutcome::border_collision:
+    case BranchEndOutcome::border_collision:
       return "border_collision";
-    case OrbitEndOutcome::unit_circle:
+    case BranchEndOutcome::unit_circle:
       return "unit_circle";
-    case OrbitEndOutcome::range_end:
+    case BranchEndOutcome::range_end:
       return "range_end";
   }
   return "";
@@ -111,7 +111,7 @@ const char* word_for(const OrbitEnd& end) {
 }  // namespace
 
 PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_period) {
-  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+  const IdealLoop<double> loop = ideal_loop_of(context.case_data);
   OrbitResult found = find_periodic_orbit(loop, initial_state_of(context.case_data),
                                           {largest_period, 0, throw_if_interrupted});
   if (found.outcome != OrbitOutcome::certified) {
@@ -134,7 +134,7 @@ void write_orbit(const JobContext& context, std::int64_t largest_period) {
 
 void write_certificate(const JobContext& context, std::int64_t largest_period) {
   Table table(context, certificate_columns());
-  const ForcedLoop<double> loop = forced_loop_of(context.case_data);
+  const IdealLoop<double> loop = ideal_loop_of(context.case_data);
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.amplitude());
@@ -144,7 +144,7 @@ void write_certificate(const JobContext& context, std::int64_t largest_period) {
   rows.row("capture_radius_smallest", certificate.smallest_radius, "m");
   rows.row("capture_radius_largest", certificate.largest_radius, "m");
   write_multipliers(rows, orbit.multipliers, orbit.period_samples());
-  write_recheck(rows, certificate.recheck);
+  write_verification(rows, certificate.verification);
   table.commit();
 }
 
@@ -157,13 +157,13 @@ void write_orbit_trace(const JobContext& context, std::int64_t largest_period) {
     write_motion_row(table, Switching::sampled,
                      {static_cast<double>(k) * orbit.sampling_period, orbit.states[j].head<4>(),
                       orbit.states[(k + 1) % samples][4],
-                      orbit.contacts[j] != 0 ? ContactMode::engaged : ContactMode::gap});
+                      orbit.itinerary[j] != 0 ? ContactMode::engaged : ContactMode::gap});
   }
   table.commit();
 }
 
-void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
-                      const std::string& axis) {
+void write_branch_ends(const JobContext& context, std::int64_t largest_period,
+                       const std::string& axis) {
   const auto [key, range] = parse_key_range(axis);
   const double value = followed_value(context.case_data, key, axis, range);
   Table table(context, {{"side", "", "below or above the case's value", "string"},
@@ -179,11 +179,11 @@ void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
                         {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   const auto path = [&, name = key](double position) {
-    return forced_loop_with(context.case_data, name, position);
+    return ideal_loop_with(context.case_data, name, position);
   };
   for (const bool above : {false, true}) {
-    const OrbitEnd end = follow_orbit(path, orbit, value, above ? range.max : range.min);
-    const bool collides = end.outcome == OrbitEndOutcome::border_collision;
+    const BranchEnd end = continue_orbit(path, orbit, value, above ? range.max : range.min);
+    const bool collides = end.outcome == BranchEndOutcome::border_collision;
     table.row(above ? "above" : "below", word_for(end), end.parameter,
               std::abs(end.parameter - value), collides ? word_for(end.border.surface) : "",
               end.border.sample, std::abs(end.multiplier.value()), end.multiplier.angle);

@@ -16,7 +16,7 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
 void write_orbit(const JobContext& context, std::int64_t largest_period);
 
 /// The whole certificate, one quantity a row: ratio of the frequencies, period, multipliers,
-/// distances to the switching surfaces, radius of capture, and the same orbit in extended
+/// distances to the switching surfaces, radius of attraction, and the same orbit in extended
 /// precision.
 void write_certificate(const JobContext& context, std::int64_t largest_period);
 
@@ -26,7 +26,7 @@ void write_orbit_trace(const JobContext& context, std::int64_t largest_period);
 /// Where the orbit ends below and above the case's value of one key, and why: two rows.
 /// @param axis  KEY=MIN:MAX
 /// Throws WrongInput for a key that changes f τ or a range that does not hold the case's value.
-void write_orbit_ends(const JobContext& context, std::int64_t largest_period,
-                      const std::string& axis);
+void write_branch_ends(const JobContext& context, std::int64_t largest_period,
+                       const std::string& axis);
 
 }  // namespace holdfast::program

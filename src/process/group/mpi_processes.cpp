@@ -63,7 +63,7 @@ class MpiProcesses final : public ProcessGroup {
   const int exceptions_before_ = std::uncaught_exceptions();
   mpi::Session session_;
   MPI_Comm processes_ = copy_of(MPI_COMM_WORLD);
-  MPI_Comm leaving_ = copy_of(MPI_COMM_WORLD);  // apart, lest a farewell meet an exchange
+  MPI_Comm leaving_ = copy_of(MPI_COMM_WORLD);  // apart, so that no farewell meets an exchange
   const int rank_ = rank_in(processes_);
   const int size_ = number_of(processes_);
   mpi::Counter tickets_{session_, processes_};

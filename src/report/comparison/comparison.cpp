@@ -85,12 +85,12 @@ void compare_best_gain(Rows& rows) {
       "decays, and the paper does not say which amplitude is meant"));
 }
 
-MaxDelayQuestion delay_question(double frequency, double delay_fraction) {
-  MaxDelayQuestion question;
-  question.frequency = frequency;
-  question.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
-  question.delay_fraction = delay_fraction;
-  return question;
+MaxDelayOptions delay_options(double frequency, double delay_fraction) {
+  MaxDelayOptions options;
+  options.frequency = frequency;
+  options.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
+  options.delay_fraction = delay_fraction;
+  return options;
 }
 
 /// Frequency, in steps of 0.1 Hz, at which the slowest computer serves.
@@ -99,7 +99,7 @@ double frequency_of_longest_period(double delay_fraction) {
   for (int tenths = 20; tenths <= 100; ++tenths) {
     const double frequency = tenths / 10.0;
     const MaxDelay answer =
-        max_sampling_period(kollar2022_plant(), delay_question(frequency, delay_fraction));
+        max_sampling_period(kollar2022_plant(), delay_options(frequency, delay_fraction));
     best = std::max(best, {answer.sampling_period, frequency});
   }
   return best.second;
@@ -109,9 +109,9 @@ void compare_delay(Rows& rows) {
   for (const auto& [fraction, reading] :
        {std::pair{0.0, no_delay}, std::pair{1.0, printed_delay}}) {
     const double at_10 =
-        max_sampling_period(kollar2022_plant(), delay_question(10.0, fraction)).sampling_period;
+        max_sampling_period(kollar2022_plant(), delay_options(10.0, fraction)).sampling_period;
     const double at_50 =
-        max_sampling_period(kollar2022_plant(), delay_question(50.0, fraction)).sampling_period;
+        max_sampling_period(kollar2022_plant(), delay_options(50.0, fraction)).sampling_period;
     rows.push_back(
         number("Fig. 5: largest sampling period that attenuates at 10 Hz", "about 30 ms", 30.0, 1.5,
                at_10 * 1e3, "ms", reading,

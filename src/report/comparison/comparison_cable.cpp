@@ -116,9 +116,9 @@ void compare_statics(Rows& rows, const Case& the_case) {
 }
 
 double peak_discrepancy(const Case& the_case, double force, bool equal_displacement) {
-  CableDecayQuestion question{force, 0.5, 0.001};
-  question.elements = 40;
-  const CableDecay cable = cable_decay(the_case, question);
+  CableDecayOptions options{force, 0.5, 0.001};
+  options.elements = 40;
+  const CableDecay cable = cable_decay(the_case, options);
   const double start = equal_displacement ? cable.initial_displacement
                                           : force / kollar2022_plant().conductor_stiffness;
   const DecayRecord plant{cable.record.times,

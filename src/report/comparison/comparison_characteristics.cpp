@@ -36,8 +36,8 @@ void compare_boundedness(Rows& rows) {
 }
 
 OrbitResult orbit_from_rest(const PaperLoop& loop) {
-  const ForcedLoop<double> forced{kollar2022_plant(), loop.loop().sampling, loop.gains,
-                                  {0.5, 10.0},        loop.backlash_width,  ForceHold::sampled};
+  const IdealLoop<double> forced{kollar2022_plant(), loop.loop().sampling, loop.gains,
+                                 {0.5, 10.0},        loop.backlash_width,  ForceHold::sampled};
   return find_periodic_orbit(forced, Vector<double, 4>::Zero());
 }
 

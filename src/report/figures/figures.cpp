@@ -139,7 +139,7 @@ void add_characteristics(Figures& figures) {
 }
 
 /// A window of gains around those of the case, as wide as the gains themselves.
-ChartWindow window_around(const PdGains<double>& gains, const TwoDof<double>& plant) {
+ChartWindow window_around(const PdGains<double>& gains, const TwoMass<double>& plant) {
   const double p_reach = std::max(std::abs(gains.proportional), plant.absorber_stiffness);
   const double d_reach =
       std::max({2.0 * std::abs(gains.differential), 5.0 * plant.absorber_damping, p_reach / 100.0});
@@ -205,7 +205,7 @@ std::vector<Figure> case_figures(const Case& the_case) {
   Figures figures = loop_figures(the_case);
   for (Figure& figure : success_figures(the_case)) figures.push_back(std::move(figure));
   if (!plant_is_reduced(the_case)) return figures;
-  const CableDecayQuestion decay = usual_decay(the_case);
+  const CableDecayOptions decay = usual_decay(the_case);
   const std::string force = format_number(decay.force);
   figures.insert(
       figures.begin(),

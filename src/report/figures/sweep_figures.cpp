@@ -26,7 +26,7 @@ MapAxis period_axis(const Case& the_case, double from, double to) {
 /// Both ends of the steady z₂ − z₁ without control apart (m): a backlash as wide swallows it.
 double swing_without_control(const Case& the_case) {
   using Complex = std::complex<double>;
-  const TwoDof<double> plant = plant_of(the_case);
+  const TwoMass<double> plant = plant_of(the_case);
   const double omega = 2.0 * pi<double> * frequency_of(the_case);
   const Complex link(plant.absorber_stiffness, omega * plant.absorber_damping);
   const Complex absorber = link - plant.absorber_mass * omega * omega;

@@ -158,7 +158,7 @@ std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
 }
 
 std::string gain_of_case_text(const Case& the_case) {
-  const TwoDof<double> plant = plant_of(the_case);
+  const TwoMass<double> plant = plant_of(the_case);
   const double tuned = tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
                                                excitation_of(the_case).frequency);
   const PdGains<double> gains = gains_of(the_case);
@@ -181,15 +181,15 @@ std::string in_play_text(const Case& the_case, double differential_gain, double 
 }
 
 Answer which_gain(const Case& the_case, double free, InstructionSet set) {
-  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  const IdealLoop<double> loop = ideal_loop_of(the_case);
   const double duration = duration_of(the_case);
-  const LeastAmplitude best = BestGains(duration).of(loop);
+  const MinimumAmplitude best = BestGains(duration).of(loop);
   Answer answer{"Which D?", "", "", {"design", "--largest-radius"}};
   answer.arguments.push_back(format_number(std::exp(-10.0 * loop.sampling.period / duration)));
-  if (best.outcome == LeastAmplitudeOutcome::none) {
+  if (best.outcome == MinimumAmplitudeOutcome::none) {
     answer.answer = "None: at the case's P no D lets the motion settle in " +
                     rounded(0.5 * duration, 3) + " s.";
-  } else if (best.outcome == LeastAmplitudeOutcome::aliased) {
+  } else if (best.outcome == MinimumAmplitudeOutcome::aliased) {
     answer.answer =
         "None: the computer takes fewer than two samples in a period of the vibration and does "
         "not see it.";
@@ -221,8 +221,8 @@ std::string own_period_text(const Case& the_case) {
 }
 
 Answer how_slow(const Case& the_case) {
-  const TwoDof<double> plant = plant_of(the_case);
-  MaxDelayQuestion question;
+  const TwoMass<double> plant = plant_of(the_case);
+  MaxDelayOptions question;
   question.criterion = DelayCriterion::attenuates;
   question.hold = force_hold_of(the_case);
   question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;

@@ -24,9 +24,9 @@ constexpr const char* none = "–";
 
 /// A motion with all that is known of it.
 struct KnownMotion {
-  ForcedLoop<double> loop;
+  IdealLoop<double> loop;
   Vector<double, 4> initial_state;
-  MotionVerdict found;
+  SampledClassification found;
 
   const PeriodicOrbit* orbit() const {
     return found.search.outcome == OrbitOutcome::certified ? &*found.search.orbit : nullptr;
@@ -34,7 +34,7 @@ struct KnownMotion {
 };
 
 KnownMotion known_motion(const Case& the_case) {
-  const ForcedLoop<double> loop = forced_loop_of(the_case);
+  const IdealLoop<double> loop = ideal_loop_of(the_case);
   const Vector<double, 4> start = initial_state_of(the_case);
   return {loop, start, classify_motion(loop, start)};
 }
@@ -44,7 +44,7 @@ std::string counted(std::int64_t count, const std::string& what) {
 }
 
 std::string period_text(const KnownMotion& motion) {
-  const std::int64_t samples = motion.found.verdict.period;
+  const std::int64_t samples = motion.found.classification.period;
   if (samples == 0) return none;
   const double tau = motion.loop.sampling.period;
   std::string text =
@@ -70,14 +70,15 @@ std::string capture_text(const OrbitCertificate& certificate) {
   return (from == to ? from : from + " … " + to) + " mm";
 }
 
-std::string precision_text(const OrbitRecheck& recheck) {
-  if (!recheck.same_contacts) return "other contacts";
-  return "same contacts; " + rounded(recheck.displacement_difference, 2) + " m";
+std::string precision_text(const OrbitVerification& verification) {
+  if (!verification.same_itinerary) return "other contacts";
+  return "same contacts; " + rounded(verification.displacement_difference, 2) + " m";
 }
 
-/// Steps of one coincidence by which an orbit is ahead of its own first sample at some state: where
-/// it comes nearest.
-std::size_t nearest_coincidence(const PeriodicOrbit& orbit, const Vector<double, 4>& state) {
+/// Steps of one common period by which an orbit is ahead of its own first sample at some state:
+/// where it comes nearest.
+std::size_t nearest_stroboscopic_instant(const PeriodicOrbit& orbit,
+                                         const Vector<double, 4>& state) {
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   std::size_t nearest = 0;
   double smallest = std::numeric_limits<double>::infinity();
@@ -104,7 +105,7 @@ std::string meeting_text(const KnownMotion& reference, const KnownMotion& other)
       moving.sense();
       moving.advance();
     }
-    return nearest_coincidence(*first, moving.state());
+    return nearest_stroboscopic_instant(*first, moving.state());
   };
   const auto copies = first->states.size() / static_cast<std::size_t>(first->ratio.denominator);
   const std::size_t later = (phase(reference) + copies - phase(other)) % copies;
@@ -123,16 +124,16 @@ std::vector<std::string> arguments_for(const KnownMotion& motion,
 
 MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
                  const std::vector<std::string>& settings) {
-  const Verdict& verdict = motion.found.verdict;
+  const Classification& classification = motion.found.classification;
   MotionRow row{place,
                 text,
-                motion_kind_text(verdict),
+                attractor_type_text(classification),
                 period_text(motion),
                 none,
                 none,
                 none,
                 none,
-                verdict.rests_on,
+                classification.rests_on,
                 "",
                 arguments_for(motion, settings)};
   if (const PeriodicOrbit* orbit = motion.orbit()) {
@@ -140,7 +141,7 @@ MotionRow row_of(const std::string& place, const std::string& text, const KnownM
     row.border = border_text(orbit->borders);
     const OrbitCertificate certificate = certificate_of(motion.loop, *orbit);
     row.capture = capture_text(certificate);
-    row.precision = precision_text(certificate.recheck);
+    row.precision = precision_text(certificate.verification);
   }
   return row;
 }

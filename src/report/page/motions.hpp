@@ -11,7 +11,7 @@ namespace holdfast::program {
 struct MotionRow {
   std::string place;       ///< of the motion in the paper, or whose it is
   std::string motion;      ///< sampling period, backlash and start
-  std::string verdict;     ///< motion_kind_text()
+  std::string verdict;     ///< attractor_type_text()
   std::string period;      ///< s, samples, forcing periods
   std::string multiplier;  ///< largest modulus, of one period
   std::string border;      ///< nearest change of contact (mm; mm/s)

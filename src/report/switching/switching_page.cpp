@@ -25,7 +25,7 @@ double forcing_period(const Case& the_case) {
 }
 
 std::size_t harmonics_of(const Case& the_case) {
-  return real_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
+  return implemented_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
 }
 
 double studied_duration(const Case& the_case) {

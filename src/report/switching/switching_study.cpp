@@ -13,15 +13,15 @@
 #include "holdfast/orbit/event/event_orbit_measures.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "jobs/orbit/hybrid_orbit_tables.hpp"
+#include "jobs/orbit/event_orbit_tables.hpp"
 #include "jobs/orbit/orbit_tables.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
 
-RealLoop loop_of(const StudiedLoop& studied) {
-  RealLoop loop = real_loop_of(studied.the_case, studied.reading.switching);
+ImplementedLoop loop_of(const StudiedLoop& studied) {
+  ImplementedLoop loop = implemented_loop_of(studied.the_case, studied.reading.switching);
   loop.digital.hold = studied.reading.hold;
   return loop;
 }
@@ -42,7 +42,7 @@ std::size_t index_of(ContactMode mode) { return static_cast<std::size_t>(mode); 
 template <class Contact>
 class ModeCounter {
  public:
-  explicit ModeCounter(const HybridMotion<Contact>& motion) : motion_(&motion) {}
+  explicit ModeCounter(const EventMotion<Contact>& motion) : motion_(&motion) {}
 
   /// From here on they count. Call before the sample is taken.
   void start() {
@@ -51,7 +51,7 @@ class ModeCounter {
   }
 
   /// A motion that switches at samples counts no modes itself.
-  void take(const HybridSample& sample) {
+  void take(const EventSample& sample) {
     if (started_ && sample.mode != mode_) ++at_samples_[index_of(sample.mode)];
     mode_ = sample.mode;
   }
@@ -67,16 +67,16 @@ class ModeCounter {
   }
 
  private:
-  const HybridMotion<Contact>* motion_;
+  const EventMotion<Contact>* motion_;
   bool started_ = false;
   ContactMode mode_ = ContactMode::engaged;
   std::array<std::int64_t, 3> at_samples_{}, before_{};
 };
 
 template <class Contact>
-SteadyMotion steady_part(HybridMotion<Contact>& motion, const StudiedLoop& studied) {
+SteadyMotion steady_part(EventMotion<Contact>& motion, const StudiedLoop& studied) {
   SteadyMotion steady;
-  HybridMeasures<Contact> measures(motion);
+  EventOrbitMeasures<Contact> measures(motion);
   ModeCounter<Contact> counter(motion);
   const double half = 0.5 * studied.duration;
   const std::int64_t samples =
@@ -89,7 +89,7 @@ SteadyMotion steady_part(HybridMotion<Contact>& motion, const StudiedLoop& studi
       is_steady = true;
       counter.start();
     }
-    const HybridSample sample = motion.sense();
+    const EventSample sample = motion.sense();
     steady.diverges = has_diverged(sample.state);
     steady.accumulates = motion.counts().accumulates;
     if (steady.diverges || steady.accumulates) return steady;
@@ -110,11 +110,12 @@ SteadyMotion steady_part(HybridMotion<Contact>& motion, const StudiedLoop& studi
 /// Of the orbits that are looked for (samples); eight times as many are looked at.
 constexpr std::int64_t largest_period = 8'000;
 
-/// @tparam Orbit  PeriodicOrbit or HybridOrbit
+/// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 FoundPeriod found_period(const Orbit& orbit) {
-  return {motion_kind_text(MotionKind::periodic, orbit.period_samples()), orbit.period_samples(),
-          orbit.forcing_periods(), orbit.period(), orbit.largest_multiplier()};
+  return {attractor_type_text(AttractorType::periodic, orbit.period_samples()),
+          orbit.period_samples(), orbit.forcing_periods(), orbit.period(),
+          orbit.largest_multiplier()};
 }
 
 FoundPeriod searched_period(const StudiedLoop& studied) {
@@ -129,7 +130,7 @@ FoundPeriod searched_period(const StudiedLoop& studied) {
 
 /// F (N), in the sample that the motion has just left behind.
 template <class Contact>
-double transmitted_force(const HybridMotion<Contact>& motion, ContactMode mode,
+double transmitted_force(const EventMotion<Contact>& motion, ContactMode mode,
                          const ContactInstant& now) {
   if (mode == ContactMode::gap && !motion.contact().switches_at_samples()) return 0.0;
   if (mode != ContactMode::stick) return now.command;
@@ -150,8 +151,8 @@ class WindowRecorder {
 
   /// What the motion has done since a sample.
   template <class Contact>
-  void take(const HybridMotion<Contact>& motion, const FlowTrace<Contact>& trace,
-            const HybridSample& sample, double previous_command) {
+  void take(const EventMotion<Contact>& motion, const DenseOutput<Contact>& trace,
+            const EventSample& sample, double previous_command) {
     for (const auto& part : trace.parts()) {
       const double begin = std::max(sample.time + part.begin, window_.begin);
       const double end = std::min(sample.time + part.begin + part.length, window_.end);
@@ -227,11 +228,11 @@ std::vector<StudiedMotion> study(const std::vector<StudiedLoop>& loops, int thre
 
 MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int instants) {
   return with_motion_of_loop(studied, [&](auto motion) {
-    FlowTrace trace(motion);
+    DenseOutput trace(motion);
     WindowRecorder recorder(begin, end, instants);
     while (motion.time() <= end) {
       const double previous_command = motion.previous_command();
-      const HybridSample sample = motion.sense();
+      const EventSample sample = motion.sense();
       if (has_diverged(sample.state)) throw NoAnswer("the motion diverges");
       if (motion.counts().accumulates) throw NoAnswer("the changes of contact accumulate");
       const bool seen = sample.time + motion.period() > begin;
@@ -252,7 +253,7 @@ double swing_without_control(const Case& the_case, double duration) {
   return with_motion_of_loop(studied, [&](auto motion) {
     double largest = 0.0;
     while (motion.time() < duration) {
-      const HybridSample sample = motion.sense();
+      const EventSample sample = motion.sense();
       if (not_before(sample.time, 0.5 * duration))
         largest = std::max(largest, std::abs(relative_displacement(sample.state)));
       motion.advance();

@@ -9,7 +9,7 @@
 #include "case/case.hpp"
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 
 namespace holdfast::program {
 

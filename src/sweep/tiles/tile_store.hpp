@@ -26,7 +26,7 @@ class TileStore {
   /// Throws WrongInput where the folder holds tiles and `resume` is false (saying that --resume
   /// goes on with them), where its plan is damaged or another one (naming each entry that differs,
   /// with both texts), where it is no work folder, or cannot be written; OutputError where another
-  /// program holds it, or the disk is full. A folder without tiles is begun anew either way.
+  /// program holds it, or the disk is full. A folder without tiles is begun again either way.
   static TileStore open(const std::filesystem::path& folder, const TilePlan& plan, bool resume);
 
   /// Joins a folder that another process of the same computation has opened, and keeps nobody from

@@ -95,7 +95,7 @@ FolderLock enter_work_folder(const fs::path& folder, const TilePlan& plan, bool 
   make_folder(folder);
   require_work_folder(folder);
   FolderLock lock(folder);
-  // Read anew: until here another program may have held the folder.
+  // Read again: until here another program may have held the folder.
   const WorkFolderContents contents = read_contents(folder);
   if (contents.tiles > 0) require_tiles_of_plan(folder, contents.tiles, plan, resume);
   std::error_code ignored;

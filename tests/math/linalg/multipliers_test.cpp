@@ -144,7 +144,7 @@ TEST(Multipliers, CloseModuliAreNotMixedUp) {
                 3.0 * std::log(std::abs(block(i, i))), 1e-9);
 }
 
-TEST(Multipliers, AnAnnihilatedDirectionIsExactlyMinusInfinity) {
+TEST(Multipliers, ANullDirectionIsExactlyMinusInfinity) {
   // One map of rank 4 among others, its kernel anywhere.
   test::Random random(806);
   for (const int count : {1, 5, 200}) {

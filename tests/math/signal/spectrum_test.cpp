@@ -123,12 +123,12 @@ TEST(Spectrum, WhatIsOutOfRangeIsRefused) {
   }
 }
 
-TEST(SamplesPerCoincidence, IsTheDenominatorOfFrequencyTimesPeriod) {
-  EXPECT_EQ(samples_per_coincidence(10.0, 0.001), 100);
-  EXPECT_EQ(samples_per_coincidence(10.0, 0.011), 100);
-  EXPECT_EQ(samples_per_coincidence(10.0, 0.01), 10);
-  EXPECT_EQ(samples_per_coincidence(4.0, 0.25), 1);
-  EXPECT_EQ(samples_per_coincidence(std::sqrt(2.0), 0.01), 0);
+TEST(SamplesPerCommonPeriod, IsTheDenominatorOfFrequencyTimesPeriod) {
+  EXPECT_EQ(samples_per_common_period(10.0, 0.001), 100);
+  EXPECT_EQ(samples_per_common_period(10.0, 0.011), 100);
+  EXPECT_EQ(samples_per_common_period(10.0, 0.01), 10);
+  EXPECT_EQ(samples_per_common_period(4.0, 0.25), 1);
+  EXPECT_EQ(samples_per_common_period(std::sqrt(2.0), 0.01), 0);
 }
 
 TEST(WholePeriodSamples, IsTheLongestRecordOfWholePeriods) {

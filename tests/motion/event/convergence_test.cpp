@@ -11,7 +11,7 @@
 
 #include "holdfast/contact/exact_backlash.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/energy.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "motion/event/kollar_event.hpp"
@@ -82,7 +82,7 @@ double distance_of_asked_rule(const DigitalLoop& loop, double width, double dura
 // A rule that is asked at sub-steps of the length s sees a reversal late by s at most, and at a
 // sliding surface flickers across it with the same amplitude: the error is of first order in s,
 // while the number of entries into the gap grows without limit.
-TEST(HybridMotion, TheRuleAskedEverMoreOftenConvergesToItAtFirstOrder) {
+TEST(EventMotion, TheRuleAskedEverMoreOftenConvergesToItAtFirstOrder) {
   for (const auto& [period, width] : {std::pair{0.001, 0.0005}, {0.001, 0.002}, {0.005, 0.001}}) {
     const DigitalLoop loop = kollar_digital(period);
     std::array<double, 4> errors{};
@@ -144,8 +144,8 @@ CommonStates exactly_switched(double period, double width) {
 }
 
 CommonStates switched_at_samples(double period, double width) {
-  const ForcedLoop<double> loop{kollar2022_plant(), {period, 0.0}, {-557.0, -13.0},
-                                {0.5, 10.0},        width,         ForceHold::exact};
+  const IdealLoop<double> loop{kollar2022_plant(), {period, 0.0}, {-557.0, -13.0},
+                               {0.5, 10.0},        width,         ForceHold::exact};
   return states_every_4_ms(harmonically_forced_motion(loop, Vector<double, 4>::Zero().eval()),
                            period);
 }
@@ -155,7 +155,7 @@ CommonStates switched_at_samples(double period, double width) {
 // between no force and the command, whose mean over a few samples is the sliding force. Each
 // changes the impulse of a half cycle by O(τ) and the motion by as much: first order. Where within
 // a period a reversal falls is a matter of chance, so that the errors scatter about their line.
-TEST(HybridMotion, SwitchingAtSamplesConvergesToItAtFirstOrder) {
+TEST(EventMotion, SwitchingAtSamplesConvergesToItAtFirstOrder) {
   for (const double width : {0.0005, 0.002}) {
     std::vector<double> errors;
     for (const double period : {0.004, 0.002, 0.001, 0.0005, 0.00025, 0.000125})
@@ -172,7 +172,7 @@ TEST(HybridMotion, SwitchingAtSamplesConvergesToItAtFirstOrder) {
 
 // With exact switching the one thing that depends on τ is the command: held over [t_j, t_j + τ) it
 // is old by τ/2 in the mean, which is a delay, of first order in τ.
-TEST(HybridMotion, ExactSwitchingConvergesWithTheSamplingPeriodAtFirstOrder) {
+TEST(EventMotion, ExactSwitchingConvergesWithTheSamplingPeriodAtFirstOrder) {
   for (const double width : {0.0005, 0.002}) {
     std::vector<double> errors;
     CommonStates coarse = exactly_switched(0.002, width);
@@ -191,7 +191,7 @@ TEST(HybridMotion, ExactSwitchingConvergesWithTheSamplingPeriodAtFirstOrder) {
 // As r₀ → 0 the drive still sticks where the spring pushes on and the command turns back: the
 // motion has a limit, which is not that of a drive without backlash. A gap that begins where a
 // stick ends, v = v̇ = 0, is crossed in a time ∝ r₀^(1/3), and so the limit is approached.
-TEST(HybridMotion, ANarrowBacklashHasALimitThatSticks) {
+TEST(EventMotion, ANarrowBacklashHasALimitThatSticks) {
   std::vector<double> distances;
   CommonStates wider = exactly_switched(0.001, 1e-4);
   for (const double width : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
@@ -206,7 +206,7 @@ TEST(HybridMotion, ANarrowBacklashHasALimitThatSticks) {
 
 // Without limit the paper's rule flickers; the exact law makes one phase of each mode in a half
 // cycle of the force.
-TEST(HybridMotion, AHalfCycleHasOnePhaseOfEachMode) {
+TEST(EventMotion, AHalfCycleHasOnePhaseOfEachMode) {
   for (const auto& [period, width] : {std::pair{0.001, 0.0005}, {0.005, 0.001}}) {
     BacklashMotion motion = kollar_motion(kollar_digital(period), width);
     SwitchNotes notes(motion);

@@ -49,7 +49,7 @@ class BeltContact {
   }
   /// Its energy is that of the block and the belt: conserved while it slips; while it sticks every
   /// guard is linear in time.
-  TwoDof<double> plant(int) const { return {block_.mass, block_.stiffness, 0.0, 1.0, 1.0, 0.0}; }
+  TwoMass<double> plant(int) const { return {block_.mass, block_.stiffness, 0.0, 1.0, 1.0, 0.0}; }
 
   int mode() const { return mode_; }
   ContactMode word() const {
@@ -102,7 +102,7 @@ class BeltContact {
 std::vector<MotionSwitch> changes_of_block(const BeltBlock& block, double period, int samples) {
   const DigitalLoop loop{{period, 0.0}, {0.0, 0.0}, {}, ForceHold::exact};
   const Vector<double, 4> state(0.0, block.belt_speed, 0.0, block.belt_speed);
-  HybridMotion<BeltContact> motion(loop, BeltContact(block), state);
+  EventMotion<BeltContact> motion(loop, BeltContact(block), state);
   SwitchNotes notes(motion);
   notes.move(samples);
   EXPECT_FALSE(motion.counts().accumulates);
@@ -161,7 +161,7 @@ TEST(DryFriction, FromAnyStateItComesToTheSameCycle) {
     BeltContact contact(block);
     ContactInstant begin{state, 0.0, 0.0};
     contact.reached(speed > block.belt_speed ? 1 : 0, begin);
-    HybridMotion<BeltContact> motion(loop, contact, state);
+    EventMotion<BeltContact> motion(loop, contact, state);
     SwitchNotes notes(motion);
     notes.move(200);
     const auto& changes = notes.switches;

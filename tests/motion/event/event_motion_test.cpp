@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 
 #include "motion/event/kollar_event.hpp"
 #include "support/kollar_case.hpp"
@@ -26,14 +26,14 @@ using test::pushed_state;
 using test::SwitchNotes;
 using test::zero_record;
 
-TEST(HybridMotion, WithoutBacklashItIsTheSampledMotion) {
+TEST(EventMotion, WithoutBacklashItIsTheSampledMotion) {
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
     for (const double share : {0.0, 1.0 / 3.0, 1.0}) {
       for (const double period : {0.001, 0.004}) {
         DigitalLoop loop = kollar_digital(period, share * period, hold);
         loop.gains = {-200.0, -5.0};
-        const ForcedLoop<double> sampled{kollar2022_plant(), loop.sampling, loop.gains,
-                                         {0.5, 10.0},        0.0,           hold};
+        const IdealLoop<double> sampled{kollar2022_plant(), loop.sampling, loop.gains,
+                                        {0.5, 10.0},        0.0,           hold};
         auto expected = harmonically_forced_motion(sampled, pushed_state());
         BacklashMotion motion = kollar_motion(loop, 0.0, pushed_state());
         double largest = 0.0;
@@ -70,7 +70,7 @@ std::vector<Vector<double, 4>> linear_response(const std::vector<Harmonic>& line
   return states;
 }
 
-TEST(HybridMotion, WithoutBacklashItsForcesAddUp) {
+TEST(EventMotion, WithoutBacklashItsForcesAddUp) {
   const std::vector<Harmonic> lines{{0.5, 10.0, 0.3}, {0.3, 27.0, -1.1}, {0.2, 1.7, 2.9}};
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
     for (const double delay : {0.0, 0.001, 0.004}) {
@@ -91,7 +91,7 @@ TEST(HybridMotion, WithoutBacklashItsForcesAddUp) {
 }
 
 // F cos(ω t + φ) = cos φ · F cos ω t + sin φ · F cos(ω t + π/2): the phase goes with ω.
-TEST(HybridMotion, WithoutBacklashAPhaseTurnsTheResponse) {
+TEST(EventMotion, WithoutBacklashAPhaseTurnsTheResponse) {
   for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
     const double phase = 1.234;
     const auto straight = linear_response({{0.5, 10.0, 0.0}}, hold, 0.001);
@@ -126,7 +126,7 @@ void expect_the_same_motion(const DigitalLoop& first, const DigitalLoop& second,
 
 // A record of zeros makes the force irregular, a jitter of 10⁻³⁰⁰ s the clock: whole periods are
 // then followed by their series.
-TEST(HybridMotion, TheMatricesOfAPeriodAndItsSeriesGiveTheSameMotion) {
+TEST(EventMotion, TheMatricesOfAPeriodAndItsSeriesGiveTheSameMotion) {
   for (const double width : {0.0, 0.0005, 0.002}) {
     for (const double period : {0.001, 0.005, 0.011}) {
       for (const double share : {0.0, 0.4}) {
@@ -145,7 +145,7 @@ TEST(HybridMotion, TheMatricesOfAPeriodAndItsSeriesGiveTheSameMotion) {
 }
 
 // From both ends of a period, at every δ, a mirrored force moves a mirrored state.
-TEST(HybridMotion, AMirroredMotionIsMirrored) {
+TEST(EventMotion, AMirroredMotionIsMirrored) {
   for (const double delay : {0.0, 0.0004}) {
     DigitalLoop loop = kollar_digital(0.001, delay);
     if (delay > 0.0) loop.gains = {-300.0, -4.0};
@@ -164,7 +164,7 @@ TEST(HybridMotion, AMirroredMotionIsMirrored) {
   }
 }
 
-TEST(HybridMotion, GoesOnFromWhatItRestores) {
+TEST(EventMotion, GoesOnFromWhatItRestores) {
   const DigitalLoop loop = kollar_digital(0.001, 0.0002);
   BacklashMotion motion = kollar_motion(loop, 0.0005);
   std::array<int, 3> stored{};

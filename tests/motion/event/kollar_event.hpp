@@ -12,12 +12,12 @@
 
 namespace holdfast::test {
 
-using BacklashMotion = HybridMotion<ExactBacklash>;
+using BacklashMotion = EventMotion<ExactBacklash>;
 
 /// The loop of Kollár 2022, §4.2, with its force taken exactly.
 inline DigitalLoop kollar_digital(double period, double delay = 0.0,
                                   ForceHold hold = ForceHold::exact) {
-  return {{period, delay}, {-557.0, -13.0}, composed_force({0.5, 10.0}), hold};
+  return {{period, delay}, {-557.0, -13.0}, multi_harmonic_force({0.5, 10.0}), hold};
 }
 
 inline BacklashMotion kollar_motion(const DigitalLoop& loop, double width,

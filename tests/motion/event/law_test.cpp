@@ -25,7 +25,7 @@ using test::SlowFlow;
 /// the law with a direction and a gap of its own.
 class LawWatch {
  public:
-  LawWatch(BacklashMotion& motion, const TwoDof<double>& plant, double width)
+  LawWatch(BacklashMotion& motion, const TwoMass<double>& plant, double width)
       : motion_(motion), plant_(plant), width_(width), flow_(plant, motion.loop().force.harmonics) {
     mode_ = motion.contact().mode();
   }
@@ -142,7 +142,7 @@ class LawWatch {
   }
 
   BacklashMotion& motion_;
-  TwoDof<double> plant_;
+  TwoMass<double> plant_;
   double width_;
   SlowFlow flow_;
   Vector<double, 4> state_ = Vector<double, 4>::Zero();
@@ -154,7 +154,7 @@ class LawWatch {
 
 /// A drive over decades, its force and gains of the size of the absorber's spring.
 struct RandomDrive {
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   DigitalLoop loop;
   double width;
   Vector<double, 4> state;
@@ -184,7 +184,7 @@ RandomDrive random_drive(test::Random& random) {
   return {plant, loop, random.log_uniform(1e-3, 1.0), state};
 }
 
-TEST(HybridMotion, KeepsTheLawAtEveryInstantOfRandomMotions) {
+TEST(EventMotion, KeepsTheLawAtEveryInstantOfRandomMotions) {
   test::Random random(1361);
   std::array<int, 3> counts{};
   for (int draw = 0; draw < 200; ++draw) {

@@ -30,7 +30,7 @@ using test::SlowFlow;
 using test::SwitchNotes;
 using test::zero_record;
 
-TEST(HybridMotion, AtRestWithoutForceItStaysThere) {
+TEST(EventMotion, AtRestWithoutForceItStaysThere) {
   for (const double width : {0.0, 0.001}) {
     DigitalLoop loop = kollar_digital(0.001, 0.0003);
     loop.force = {};
@@ -44,7 +44,7 @@ TEST(HybridMotion, AtRestWithoutForceItStaysThere) {
 
 // The gap reaches to where the drive reversed last. Once the transient is over Δz does not come
 // back there, and the plant moves as it does alone.
-TEST(HybridMotion, AGapWiderThanTheMotionIsNotLeft) {
+TEST(EventMotion, AGapWiderThanTheMotionIsNotLeft) {
   const DigitalLoop loop = kollar_digital(0.001);
   BacklashMotion motion = kollar_motion(loop, 1e3);
   move_samples(motion, 30000);
@@ -61,7 +61,7 @@ TEST(HybridMotion, AGapWiderThanTheMotionIsNotLeft) {
 
 /// A drive that moved at Δż > 0, sticks at this state while u = `command`, and was then left to the
 /// end of its stick by a command that just lets it go on.
-ExactBacklash released_drive(const TwoDof<double>& plant, const Vector<double, 4>& state) {
+ExactBacklash released_drive(const TwoMass<double>& plant, const Vector<double, 4>& state) {
   ExactBacklash drive(plant, 0.001);
   drive.learn_sign(1.0);
   ContactInstant now{state, 0.0, 0.0};
@@ -76,7 +76,7 @@ ExactBacklash released_drive(const TwoDof<double>& plant, const Vector<double, 4
 
 // A stick may end exactly at a sample, which brings a new command: what is zero at the end of a
 // stick under the old one is not zero under the new one.
-TEST(HybridMotion, AStickThatEndsAtASampleHeedsTheNewCommand) {
+TEST(EventMotion, AStickThatEndsAtASampleHeedsTheNewCommand) {
   const auto plant = kollar2022_plant();
   const Vector<double, 4> state(0.001, 0.02, -0.003, 0.02);
   const double free = acceleration_between(plant, state, 0.0, 0.0).value;
@@ -108,7 +108,7 @@ TEST(HybridMotion, AStickThatEndsAtASampleHeedsTheNewCommand) {
 
 // The rows of a record part the motion wherever they lie; where they are all zero they change
 // nothing, also just after a change of contact, where the guard has not come out of its rounding.
-TEST(HybridMotion, ABreakJustAfterAChangeOfContactChangesNothing) {
+TEST(EventMotion, ABreakJustAfterAChangeOfContactChangesNothing) {
   for (const double period : {0.001, 0.005}) {
     const DigitalLoop plain = kollar_digital(period);
     const int samples = static_cast<int>(std::lround(0.6 / period));
@@ -145,7 +145,7 @@ std::vector<MotionSwitch> switches_under_step(double force, double begin, double
 
 // A recorded force may jump within a period. A stick then ends at once or not at all, as it would
 // if the jump came with a sample.
-TEST(HybridMotion, AForceThatJumpsEndsAStickAsASampleWould) {
+TEST(EventMotion, AForceThatJumpsEndsAStickAsASampleWould) {
   BacklashMotion motion = kollar_motion(kollar_digital(0.001), 0.0005);
   while (!(motion.time() > 0.4 && motion.contact().word() == ContactMode::stick))
     move_samples(motion, 1);
@@ -164,7 +164,7 @@ TEST(HybridMotion, AForceThatJumpsEndsAStickAsASampleWould) {
 }
 
 // A force that is constant is the same held or not, whichever way it is given.
-TEST(HybridMotion, AConstantForceIsTheSameHeldAndExact) {
+TEST(EventMotion, AConstantForceIsTheSameHeldAndExact) {
   const auto plant = kollar2022_plant();
   const double half_width = 0.001;
   const Vector<double, 4> state(0.0, -0.5, half_width - 5e-5, 0.0);  // into the stop and out again
@@ -173,9 +173,9 @@ TEST(HybridMotion, AConstantForceIsTheSameHeldAndExact) {
                                                             std::vector<double>{100.0, 100.0},
                                                             RecordInterpolation::held);
   const ExactDeadZone stops(plant, 2.0 * half_width, 1e4, 0.0, state);
-  HybridMotion<ExactDeadZone> held(loop, stops, state);
+  EventMotion<ExactDeadZone> held(loop, stops, state);
   loop.hold = ForceHold::exact;
-  HybridMotion<ExactDeadZone> exact(loop, stops, state);
+  EventMotion<ExactDeadZone> exact(loop, stops, state);
   for (int j = 0; j < 20; ++j) {
     move_samples(held, 1);
     move_samples(exact, 1);
@@ -187,7 +187,7 @@ TEST(HybridMotion, AConstantForceIsTheSameHeldAndExact) {
 
 // A kick moves the conductor and no more: Δż goes on from where it was, whatever the mode and
 // wherever the kick leads.
-TEST(HybridMotion, AKickChangesNoVelocity) {
+TEST(EventMotion, AKickChangesNoVelocity) {
   test::Random random(1362);
   const auto plant = kollar2022_plant();
   const double period = 0.0001, width = 0.001;
@@ -236,7 +236,7 @@ double free_displacement(const Vector<double, 4>& state, double time) {
 
 // Stops without stiffness change nothing: the motion is that of the plant alone, and only the
 // record of its contacts tells whether Δz came to the end. It touches that end at its largest.
-TEST(HybridMotion, ATouchIsNamedOrAPairOfChanges) {
+TEST(EventMotion, ATouchIsNamedOrAPairOfChanges) {
   const Vector<double, 4> state(0.0, 0.0, 0.0, 0.1);
   double low = 0.001, high = 0.04;
   while (high - low > 1e-9) {
@@ -256,7 +256,7 @@ TEST(HybridMotion, ATouchIsNamedOrAPairOfChanges) {
   for (const double above :
        {-1e-3, -1e-5, -1e-7, -1e-9, -1e-11, -1e-14, -1e-16, 0.0, 1e-16, 1e-14, 1e-11, 1e-6}) {
     const ExactDeadZone stops(kollar2022_plant(), 2.0 * top * (1.0 + above), 0.0, 0.0, state);
-    HybridMotion<ExactDeadZone> motion(loop, stops, state);
+    EventMotion<ExactDeadZone> motion(loop, stops, state);
     SwitchNotes notes(motion);
     notes.move(1);
     const std::size_t changes = notes.switches.size();
@@ -282,7 +282,7 @@ TEST(HybridMotion, ATouchIsNamedOrAPairOfChanges) {
 // than its reversals ask for.
 // F = ± F_m sin ωt written as a cosine begins at zero to rounding only; that must not decide which
 // way the drive goes first.
-TEST(HybridMotion, TheRoundingOfTheFirstForceGivesItNoDirection) {
+TEST(EventMotion, TheRoundingOfTheFirstForceGivesItNoDirection) {
   const auto motion_of = [](double quarters) {
     DigitalLoop loop = kollar_digital(0.001);
     loop.force.harmonics = {{0.5, 10.0, 0.5 * pi<double> * quarters}};
@@ -300,8 +300,8 @@ TEST(HybridMotion, TheRoundingOfTheFirstForceGivesItNoDirection) {
 
 // σ a(u) = 0 at the reversal itself, and falling: the command pushes back from then on, the spring
 // pushes on, and the drive sticks.
-TEST(HybridMotion, AReversalWithoutAccelerationIsDecidedByItsRate) {
-  const TwoDof<double> plant{1.0, 1.0, 0.0, 1.0, 1.0, 0.0};
+TEST(EventMotion, AReversalWithoutAccelerationIsDecidedByItsRate) {
+  const TwoMass<double> plant{1.0, 1.0, 0.0, 1.0, 1.0, 0.0};
   const Vector<double, 4> state(1.0, -1.0, 1.0, -1.0);
   const DigitalLoop loop{{0.1, 0.1}, {0.0, 0.0}, {}, ForceHold::exact};
   ExactBacklash contact(plant, 1e-3);
@@ -315,7 +315,7 @@ TEST(HybridMotion, AReversalWithoutAccelerationIsDecidedByItsRate) {
   EXPECT_FALSE(motion.counts().accumulates);
 }
 
-TEST(HybridMotion, ChangesOfContactDoNotPileUp) {
+TEST(EventMotion, ChangesOfContactDoNotPileUp) {
   for (const double width : {1e-6, 1e-9, 1e-12, 1e-15}) {
     BacklashMotion motion = kollar_motion(kollar_digital(0.001), width);
     std::int64_t before = 0, most = 0;
@@ -332,7 +332,7 @@ TEST(HybridMotion, ChangesOfContactDoNotPileUp) {
   }
 }
 
-TEST(HybridMotion, WhatIsNotAdmissibleIsRefused) {
+TEST(EventMotion, WhatIsNotAdmissibleIsRefused) {
   const auto refused = [](auto&& spoil) {
     DigitalLoop loop = kollar_digital(0.001);
     spoil(loop);

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/control/loop_input.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
@@ -19,7 +19,7 @@ struct RelativeAcceleration {
   double value, size;
 };
 
-inline RelativeAcceleration acceleration_between(const TwoDof<double>& plant,
+inline RelativeAcceleration acceleration_between(const TwoMass<double>& plant,
                                                  const Vector<double, 4>& z, double transmitted,
                                                  double force) {
   const double between = plant.absorber_stiffness * (z[2] - z[0]) +
@@ -34,7 +34,7 @@ inline RelativeAcceleration acceleration_between(const TwoDof<double>& plant,
 /// The three modes by Newton's law, moved by matrix exponentials of the test's own.
 class SlowFlow {
  public:
-  SlowFlow(const TwoDof<double>& plant, const std::vector<Harmonic>& lines)
+  SlowFlow(const TwoMass<double>& plant, const std::vector<Harmonic>& lines)
       : plant_(plant), lines_(lines) {}
 
   /// z after a length, from an instant on, under a command in force.
@@ -92,7 +92,7 @@ class SlowFlow {
     return steps_.emplace(key, step).first->second;
   }
 
-  TwoDof<double> plant_;
+  TwoMass<double> plant_;
   std::vector<Harmonic> lines_;
   std::map<std::pair<int, double>, Step> steps_;
 };

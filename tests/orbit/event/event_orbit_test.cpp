@@ -20,7 +20,7 @@
 #include "holdfast/contact/sampled_law.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/dense_output.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit_measures.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -30,36 +30,37 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> hybrid_orbit_loop(double period, double width, ForceHold hold,
-                                     double delay_fraction = 0.0) {
+IdealLoop<double> event_orbit_loop(double period, double width, ForceHold hold,
+                                   double delay_fraction = 0.0) {
   test::KollarCase which;
   which.sampling_period = period;
   which.width = width;
   which.processing_delay = delay_fraction * period;
-  ForcedLoop<double> loop = which.forced_loop();
+  IdealLoop<double> loop = which.ideal_loop();
   loop.hold = hold;
   return loop;
 }
 
-HybridMotion<ExactBacklash> exactly_switching(
-    const ForcedLoop<double>& loop,
+EventMotion<ExactBacklash> exactly_switching(
+    const IdealLoop<double>& loop,
     const Vector<double, 4>& initial_state = Vector<double, 4>::Zero()) {
-  return {real_loop(loop).digital, ExactBacklash(loop.plant, loop.backlash_width), initial_state};
+  return {implemented_loop(loop).digital, ExactBacklash(loop.plant, loop.backlash_width),
+          initial_state};
 }
 
-HybridOrbitResult<ExactBacklash> certified_hybrid_orbit(
-    const ForcedLoop<double>& loop,
+EventOrbitResult<ExactBacklash> certified_event_orbit(
+    const IdealLoop<double>& loop,
     const Vector<double, 4>& initial_state = Vector<double, 4>::Zero()) {
-  auto found = find_hybrid_orbit(exactly_switching(loop, initial_state), OrbitLimits{20000});
+  auto found = find_event_orbit(exactly_switching(loop, initial_state), OrbitLimits{20000});
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return found;
 }
 
 /// A motion on its orbit, before the orbit's first sample.
 template <class Contact>
-RepeatingMotion<Contact> motion_on(const HybridMotion<Contact>& any,
-                                   const HybridOrbitResult<Contact>& found) {
-  HybridMotion<Contact> motion = any;
+RepeatingMotion<Contact> motion_on(const EventMotion<Contact>& any,
+                                   const EventOrbitResult<Contact>& found) {
+  EventMotion<Contact> motion = any;
   motion.restore(0, found.point->state, found.point->previous_command, found.point->contact);
   RepeatingMotion<Contact> repeating(motion, found.orbit->ratio.denominator);
   repeating.go_to(*found.point);
@@ -74,22 +75,22 @@ void pass_samples(RepeatingMotion<Contact>& motion, std::int64_t samples) {
   }
 }
 
-struct HybridOrbitCase {
+struct EventOrbitCase {
   double period, width, displacement;
 };
 
 /// MODEL.md, section 6.
-std::vector<HybridOrbitCase> known_motions() {
+std::vector<EventOrbitCase> known_motions() {
   return {{0.001, 0.0005, 0.0}, {0.001, 0.002, 0.0}, {0.01, 0.002, 0.0},  {0.011, 0.002, 0.0},
           {0.011, 0.001, 0.0},  {0.003, 0.002, 0.0}, {0.003, 0.002, 1e-5}};
 }
 
-TEST(HybridOrbit, WithoutBacklashIsThatOfTheSampledLoop) {
+TEST(EventOrbit, WithoutBacklashIsThatOfTheSampledLoop) {
   for (const double period : {0.001, 0.01, 0.011}) {
     for (const double delay_fraction : {0.0, 0.3}) {
       if (delay_fraction > 0.0 && period > 0.01) continue;  // unstable
-      const auto loop = hybrid_orbit_loop(period, 0.0, ForceHold::exact, delay_fraction);
-      const HybridOrbit orbit = certified_hybrid_orbit(loop).orbit.value();
+      const auto loop = event_orbit_loop(period, 0.0, ForceHold::exact, delay_fraction);
+      const EventOrbit orbit = certified_event_orbit(loop).orbit.value();
       const PeriodicOrbit sampled =
           find_periodic_orbit(loop, Vector<double, 4>::Zero()).orbit.value();
       ASSERT_EQ(orbit.period_samples(), sampled.period_samples());
@@ -117,14 +118,14 @@ TEST(HybridOrbit, WithoutBacklashIsThatOfTheSampledLoop) {
 
 // With switching at samples and the force held, the motions of 1 ms, 2 mm and 11 ms, 2 mm have
 // periods of 0.5 s and 23.1 s (tests/validation/motions_test.cpp).
-TEST(HybridOrbit, ExactSwitchingLeavesOfEveryKnownMotionThePeriodOfTheCoincidences) {
+TEST(EventOrbit, ExactSwitchingLeavesOfEveryKnownMotionTheCommonPeriod) {
   for (const auto& which : known_motions()) {
     for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
-      const auto loop = hybrid_orbit_loop(which.period, which.width, hold);
-      const HybridOrbit orbit =
-          certified_hybrid_orbit(loop, {which.displacement, 0.0, 0.0, 0.0}).orbit.value();
-      const std::int64_t coincidence = forcing_ratio(loop).value().denominator;
-      EXPECT_EQ(orbit.period_samples(), coincidence) << which.period << ' ' << which.width;
+      const auto loop = event_orbit_loop(which.period, which.width, hold);
+      const EventOrbit orbit =
+          certified_event_orbit(loop, {which.displacement, 0.0, 0.0, 0.0}).orbit.value();
+      const std::int64_t common_period = forcing_ratio(loop).value().denominator;
+      EXPECT_EQ(orbit.period_samples(), common_period) << which.period << ' ' << which.width;
       // Far from losing its stability, from grazing and from another order of its switches.
       EXPECT_LT(orbit.largest_multiplier(), 0.98);
       EXPECT_GT(orbit.margins.exit_velocity, 0.01);
@@ -139,40 +140,40 @@ TEST(HybridOrbit, ExactSwitchingLeavesOfEveryKnownMotionThePeriodOfTheCoincidenc
   }
 }
 
-TEST(HybridOrbit, TheLongPeriodsAreMadeBySwitchingAtSamples) {
+TEST(EventOrbit, TheLongPeriodsAreMadeBySwitchingAtSamples) {
   for (const double width : {0.001, 0.002}) {
     for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
-      const auto loop = hybrid_orbit_loop(0.011, width, hold);
+      const auto loop = event_orbit_loop(0.011, width, hold);
       const OrbitResult sampled = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {10000, 0});
       ASSERT_EQ(sampled.outcome, OrbitOutcome::certified);
       EXPECT_GE(sampled.orbit->period_samples(), 1000);
-      EXPECT_EQ(certified_hybrid_orbit(loop).orbit->period_samples(), 100);
+      EXPECT_EQ(certified_event_orbit(loop).orbit->period_samples(), 100);
     }
   }
 }
 
-TEST(HybridOrbit, AllStartsComeToTheSameOneWhereSwitchingAtSamplesHasSeveral) {
-  const auto loop = hybrid_orbit_loop(0.003, 0.002, ForceHold::sampled);
-  const HybridOrbit orbit = certified_hybrid_orbit(loop).orbit.value();
+TEST(EventOrbit, AllStartsComeToTheSameOneWhereSwitchingAtSamplesHasSeveral) {
+  const auto loop = event_orbit_loop(0.003, 0.002, ForceHold::sampled);
+  const EventOrbit orbit = certified_event_orbit(loop).orbit.value();
   test::Random random(5011);
   for (int trial = 0; trial < 20; ++trial) {
     Vector<double, 4> start = random.matrix<Vector<double, 4>>();
     start = start.cwiseProduct(Vector<double, 4>(5e-3, 0.2, 5e-3, 0.2));
-    const HybridOrbit other = certified_hybrid_orbit(loop, start).orbit.value();
+    const EventOrbit other = certified_event_orbit(loop, start).orbit.value();
     ASSERT_EQ(other.period_samples(), orbit.period_samples());
     for (std::size_t j = 0; j < orbit.states.size(); ++j)
       EXPECT_LT((other.states[j] - orbit.states[j]).norm(), 1e-13);
   }
 }
 
-TEST(HybridOrbit, ClosesUponItselfAndIsWhereALongMotionEnds) {
+TEST(EventOrbit, ClosesUponItselfAndIsWhereALongMotionEnds) {
   for (const auto& which : known_motions()) {
-    const auto loop = hybrid_orbit_loop(which.period, which.width, ForceHold::exact);
-    const auto found = certified_hybrid_orbit(loop);
-    const HybridOrbit& orbit = found.orbit.value();
+    const auto loop = event_orbit_loop(which.period, which.width, ForceHold::exact);
+    const auto found = certified_event_orbit(loop);
+    const EventOrbit& orbit = found.orbit.value();
     EXPECT_LT(orbit.closure_error, 1e-14);
     EXPECT_EQ(orbit.states.front(), found.point->state);
-    HybridMotion<ExactBacklash> motion = exactly_switching(loop);
+    EventMotion<ExactBacklash> motion = exactly_switching(loop);
     const std::int64_t periods = 60000 / orbit.period_samples();
     for (std::int64_t j = 0; j < periods * orbit.period_samples(); ++j) {
       motion.sense();
@@ -183,10 +184,10 @@ TEST(HybridOrbit, ClosesUponItselfAndIsWhereALongMotionEnds) {
   }
 }
 
-TEST(HybridOrbit, OfAnEvenCoincidenceIsItsOwnOppositeHalfAPeriodLater) {
+TEST(EventOrbit, OfAnEvenCommonPeriodIsItsOwnOppositeHalfAPeriodLater) {
   for (const double width : {0.0005, 0.002}) {
-    const auto loop = hybrid_orbit_loop(0.001, width, ForceHold::exact);
-    const HybridOrbit orbit = certified_hybrid_orbit(loop).orbit.value();
+    const auto loop = event_orbit_loop(0.001, width, ForceHold::exact);
+    const EventOrbit orbit = certified_event_orbit(loop).orbit.value();
     const std::size_t half = orbit.states.size() / 2, halves = orbit.switches.size() / 2;
     for (std::size_t j = 0; j < half; ++j) {
       EXPECT_LT((orbit.states[j] + orbit.states[j + half]).norm(), 1e-12);
@@ -203,8 +204,8 @@ TEST(HybridOrbit, OfAnEvenCoincidenceIsItsOwnOppositeHalfAPeriodLater) {
 /// Eigenvalues of the derivative of X_N by X_0 at an orbit's first sample, by differences; |λ| in
 /// falling order.
 template <class Contact>
-std::vector<double> moduli_by_differences(const HybridMotion<Contact>& any,
-                                          const HybridOrbitResult<Contact>& found) {
+std::vector<double> moduli_by_differences(const EventMotion<Contact>& any,
+                                          const EventOrbitResult<Contact>& found) {
   RepeatingMotion<Contact> motion = motion_on(any, found);
   Vector<double, 7> step;
   step << 1e-8, 1e-6, 1e-8, 1e-6, 1e-5, 1e-8, 1e-8;
@@ -231,8 +232,8 @@ std::vector<double> moduli_by_differences(const HybridMotion<Contact>& any,
 }
 
 template <class Contact>
-void expect_multipliers_of_differences(const HybridMotion<Contact>& motion) {
-  const auto found = find_hybrid_orbit(motion, OrbitLimits{20000});
+void expect_multipliers_of_differences(const EventMotion<Contact>& motion) {
+  const auto found = find_event_orbit(motion, OrbitLimits{20000});
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
   const std::vector<double> moduli = moduli_by_differences(motion, found);
   const auto& multipliers = found.orbit->multipliers;
@@ -243,55 +244,56 @@ void expect_multipliers_of_differences(const HybridMotion<Contact>& motion) {
   }
 }
 
-TEST(HybridOrbit, MultipliersAreThoseOfTheReturnMapByDifferences) {
+TEST(EventOrbit, MultipliersAreThoseOfTheReturnMapByDifferences) {
   for (const double delay_fraction : {0.0, 0.4, 1.0}) {
     for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled}) {
       for (const double width : {0.0005, 0.002}) {
         expect_multipliers_of_differences(
-            exactly_switching(hybrid_orbit_loop(0.001, width, hold, delay_fraction)));
+            exactly_switching(event_orbit_loop(0.001, width, hold, delay_fraction)));
         if (delay_fraction < 0.5)
           expect_multipliers_of_differences(
-              exactly_switching(hybrid_orbit_loop(0.005, width, hold, delay_fraction)));
+              exactly_switching(event_orbit_loop(0.005, width, hold, delay_fraction)));
       }
     }
   }
 }
 
-TEST(HybridOrbit, MultipliersCountWhatTheControllerRemembers) {
+TEST(EventOrbit, MultipliersCountWhatTheControllerRemembers) {
   for (const double delay_fraction : {0.0, 0.4}) {
-    RealLoop loop = real_loop(hybrid_orbit_loop(0.001, 0.0005, ForceHold::exact, delay_fraction));
+    ImplementedLoop loop =
+        implemented_loop(event_orbit_loop(0.001, 0.0005, ForceHold::exact, delay_fraction));
     loop.digital.limits.velocity = VelocitySensing::difference;
     for (const double largest : {0.35, std::numeric_limits<double>::infinity()}) {
       loop.digital.limits.largest_force = largest;
-      expect_multipliers_of_differences(HybridMotion<ExactBacklash>(
+      expect_multipliers_of_differences(EventMotion<ExactBacklash>(
           loop.digital, ExactBacklash(loop.plant, 0.0005), Vector<double, 4>::Zero()));
     }
   }
 }
 
-TEST(HybridOrbit, OfADeadZoneHasTheMultipliersOfDifferences) {
+TEST(EventOrbit, OfADeadZoneHasTheMultipliersOfDifferences) {
   const Vector<double, 4> rest = Vector<double, 4>::Zero();
   for (const double stiffness : {0.0, 200.0, 2000.0}) {
-    RealLoop loop = real_loop(hybrid_orbit_loop(0.001, 0.0, ForceHold::exact));
+    ImplementedLoop loop = implemented_loop(event_orbit_loop(0.001, 0.0, ForceHold::exact));
     const double width = stiffness < 1000.0 ? 0.0005 : 0.002;
     loop.digital.gains.differential = -5.0;
     const ExactDeadZone contact(loop.plant, width, stiffness, 0.5, rest);
-    expect_multipliers_of_differences(HybridMotion<ExactDeadZone>(loop.digital, contact, rest));
+    expect_multipliers_of_differences(EventMotion<ExactDeadZone>(loop.digital, contact, rest));
   }
 }
 
 // x_{k+3} = e₁ x_{k+2} − e₂ x_{k+1} + e₃ x_k of any deviation x, once what is annihilated is gone,
 // e_i being the elementary symmetric functions of the three multipliers that are not zero.
-TEST(HybridOrbit, APushedMotionComesBackAsTheMultipliersSay) {
+TEST(EventOrbit, APushedMotionComesBackAsTheMultipliersSay) {
   for (const double width : {0.0005, 0.002}) {
-    const auto loop = hybrid_orbit_loop(0.001, width, ForceHold::exact);
-    const auto found = certified_hybrid_orbit(loop);
-    const HybridOrbit& orbit = found.orbit.value();
+    const auto loop = event_orbit_loop(0.001, width, ForceHold::exact);
+    const auto found = certified_event_orbit(loop);
+    const EventOrbit& orbit = found.orbit.value();
     std::vector<std::complex<double>> z;
     for (const Multiplier& multiplier : orbit.multipliers) z.push_back(multiplier.value());
     ASSERT_EQ(z[3], 0.0);
     auto motion = motion_on(exactly_switching(loop), found);
-    HybridPoint<ExactBacklash> pushed = *found.point;
+    StroboscopicState<ExactBacklash> pushed = *found.point;
     pushed.state[0] += 1e-8;
     motion.go_to(pushed);
     pass_samples(motion, orbit.period_samples());
@@ -315,22 +317,22 @@ TEST(HybridOrbit, APushedMotionComesBackAsTheMultipliersSay) {
   }
 }
 
-TEST(HybridOrbit, StickAnnihilatesOneDirectionMore) {
-  const auto finite = [](const HybridOrbit& orbit) {
+TEST(EventOrbit, StickHasOneNullDirectionMore) {
+  const auto finite = [](const EventOrbit& orbit) {
     return std::count_if(orbit.multipliers.begin(), orbit.multipliers.end(),
                          [](const Multiplier& m) { return std::isfinite(m.log_modulus); });
   };
-  const auto sticking = certified_hybrid_orbit(hybrid_orbit_loop(0.001, 0.002, ForceHold::exact));
-  const auto rigid = certified_hybrid_orbit(hybrid_orbit_loop(0.001, 0.0, ForceHold::exact));
+  const auto sticking = certified_event_orbit(event_orbit_loop(0.001, 0.002, ForceHold::exact));
+  const auto rigid = certified_event_orbit(event_orbit_loop(0.001, 0.0, ForceHold::exact));
   ASSERT_GT(sticking.orbit->entries(ContactMode::stick), 0);
   EXPECT_EQ(finite(*rigid.orbit), 4);
   EXPECT_EQ(finite(*sticking.orbit), 3);
 }
 
-TEST(HybridOrbit, InAGapThatIsNeverLeftIsThatOfThePlant) {
+TEST(EventOrbit, InAGapThatIsNeverLeftIsThatOfThePlant) {
   for (const double width : {0.0028, 0.01}) {
-    const auto loop = hybrid_orbit_loop(0.001, width, ForceHold::exact);
-    const HybridOrbit orbit = certified_hybrid_orbit(loop).orbit.value();
+    const auto loop = event_orbit_loop(0.001, width, ForceHold::exact);
+    const EventOrbit orbit = certified_event_orbit(loop).orbit.value();
     EXPECT_EQ(orbit.period_samples(), 100);
     EXPECT_EQ(orbit.engaged_fraction(), 0.0);
     EXPECT_EQ(orbit.time_share[1], 1.0);
@@ -360,11 +362,11 @@ struct DenseOrbit {
   std::array<double, 3> share{};
 };
 
-DenseOrbit sampled_densely(const ForcedLoop<double>& loop,
-                           const HybridOrbitResult<ExactBacklash>& found) {
-  HybridMotion<ExactBacklash> motion = exactly_switching(loop);
+DenseOrbit sampled_densely(const IdealLoop<double>& loop,
+                           const EventOrbitResult<ExactBacklash>& found) {
+  EventMotion<ExactBacklash> motion = exactly_switching(loop);
   motion.restore(0, found.point->state, found.point->previous_command, found.point->contact);
-  FlowTrace<ExactBacklash> trace(motion);
+  DenseOutput<ExactBacklash> trace(motion);
   DenseOrbit dense;
   constexpr int instants = 400;
   double before = 0.0, last = 0.0;
@@ -389,17 +391,17 @@ DenseOrbit sampled_densely(const ForcedLoop<double>& loop,
   return dense;
 }
 
-TEST(HybridOrbit, IsMeasuredAsItsFlowShows) {
-  auto slow = hybrid_orbit_loop(0.003, 3.039e-4, ForceHold::exact);
+TEST(EventOrbit, IsMeasuredAsItsFlowShows) {
+  auto slow = event_orbit_loop(0.003, 3.039e-4, ForceHold::exact);
   slow.excitation = {0.465, 2.0};
   slow.gains = {-379.5, -5.93};
-  std::vector<ForcedLoop<double>> loops{slow};
+  std::vector<IdealLoop<double>> loops{slow};
   for (const auto& which : known_motions())
-    loops.push_back(hybrid_orbit_loop(which.period, which.width, ForceHold::sampled));
+    loops.push_back(event_orbit_loop(which.period, which.width, ForceHold::sampled));
   bool nearly_reverses = false;
   for (const auto& loop : loops) {
-    const auto found = certified_hybrid_orbit(loop);
-    const HybridOrbit& orbit = found.orbit.value();
+    const auto found = certified_event_orbit(loop);
+    const EventOrbit& orbit = found.orbit.value();
     const DenseOrbit dense = sampled_densely(loop, found);
     EXPECT_NEAR(orbit.largest_displacement, dense.largest_displacement, 1e-9);
     EXPECT_GE(orbit.largest_displacement, orbit.amplitude());
@@ -418,12 +420,12 @@ TEST(HybridOrbit, IsMeasuredAsItsFlowShows) {
   EXPECT_TRUE(nearly_reverses);
 }
 
-TEST(HybridOrbit, MarginsAreMetAtTheSwitchesThemselves) {
-  const auto loop = hybrid_orbit_loop(0.001, 0.002, ForceHold::exact);
-  const auto found = certified_hybrid_orbit(loop);
-  HybridMotion<ExactBacklash> motion = exactly_switching(loop);
+TEST(EventOrbit, MarginsAreMetAtTheSwitchesThemselves) {
+  const auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
+  const auto found = certified_event_orbit(loop);
+  EventMotion<ExactBacklash> motion = exactly_switching(loop);
   motion.restore(0, found.point->state, found.point->previous_command, found.point->contact);
-  FlowTrace<ExactBacklash> trace(motion);
+  DenseOutput<ExactBacklash> trace(motion);
   std::size_t next = 0;
   double slowest = SwitchingMargins::none, shortest = SwitchingMargins::none, left = 0.0;
   const auto& switches = found.orbit->switches;
@@ -450,20 +452,20 @@ TEST(HybridOrbit, MarginsAreMetAtTheSwitchesThemselves) {
   EXPECT_NEAR(found.orbit->margins.shortest_travel, shortest, 1e-13);
 }
 
-TEST(HybridOrbit, OfSwitchingAtSamplesIsTheOneOfItsContacts) {
+TEST(EventOrbit, OfSwitchingAtSamplesIsTheOneOfItsContacts) {
   for (const double width : {0.001, 0.002}) {
-    const auto loop = hybrid_orbit_loop(0.011, width, ForceHold::sampled);
-    const RealLoop real = real_loop(loop);
-    const HybridMotion<SampledContactMotion> motion(
-        real.digital, SampledContactMotion(loop.plant, real.backlash), Vector<double, 4>::Zero());
-    const auto found = find_hybrid_orbit(motion, OrbitLimits{5000});
+    const auto loop = event_orbit_loop(0.011, width, ForceHold::sampled);
+    const ImplementedLoop real = implemented_loop(loop);
+    const EventMotion<SampledLaw> motion(real.digital, SampledLaw(loop.plant, real.backlash),
+                                         Vector<double, 4>::Zero());
+    const auto found = find_event_orbit(motion, OrbitLimits{5000});
     ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-    const HybridOrbit& orbit = found.orbit.value();
+    const EventOrbit& orbit = found.orbit.value();
     const PeriodicOrbit sampled =
         find_periodic_orbit(loop, Vector<double, 4>::Zero(), {5000, 0}).orbit.value();
     ASSERT_EQ(orbit.period_samples(), sampled.period_samples());
     EXPECT_GT(orbit.period_samples(), 1000);
-    // Which coincidence of the orbit comes first is left open.
+    // Which stroboscopic instant of the orbit comes first is left open.
     const auto first = std::min_element(
         sampled.states.begin(), sampled.states.end(), [&](const auto& a, const auto& b) {
           return (a.template head<4>() - orbit.states.front()).norm() <
@@ -476,126 +478,126 @@ TEST(HybridOrbit, OfSwitchingAtSamplesIsTheOneOfItsContacts) {
   }
 }
 
-/// A loop whose motion, switching exactly, repeats after more than one coincidence.
-ForcedLoop<double> subharmonic_loop() {
-  auto loop = hybrid_orbit_loop(0.008, 1.424e-4, ForceHold::exact);
+/// A loop whose motion, switching exactly, repeats after more than one common period.
+IdealLoop<double> subharmonic_loop() {
+  auto loop = event_orbit_loop(0.008, 1.424e-4, ForceHold::exact);
   loop.excitation = {0.405, 4.0};
   loop.gains = {-439.3, -12.79};
   return loop;
 }
 
-TEST(HybridOrbit, HasItsShortestPeriod) {
+TEST(EventOrbit, HasItsShortestPeriod) {
   const auto loop = subharmonic_loop();
-  const auto found = certified_hybrid_orbit(loop);
-  const HybridOrbit& orbit = found.orbit.value();
-  const auto coincidence = static_cast<std::size_t>(orbit.ratio.denominator);
+  const auto found = certified_event_orbit(loop);
+  const EventOrbit& orbit = found.orbit.value();
+  const auto common_period = static_cast<std::size_t>(orbit.ratio.denominator);
   const std::size_t samples = orbit.states.size();
-  EXPECT_EQ(samples % coincidence, 0U);
-  EXPECT_GT(samples, coincidence);
-  for (std::size_t lag = coincidence; lag < samples; lag += coincidence) {
+  EXPECT_EQ(samples % common_period, 0U);
+  EXPECT_GT(samples, common_period);
+  for (std::size_t lag = common_period; lag < samples; lag += common_period) {
     EXPECT_GT((orbit.states[lag] - orbit.states[0]).norm(), 1e-4 * orbit.states[0].norm());
   }
   EXPECT_LT(orbit.closure_error, 1e-14);
 }
 
-TEST(HybridOrbit, GrowingMotionsDiverge) {
+TEST(EventOrbit, GrowingMotionsDiverge) {
   for (const double width : {0.0, 0.002}) {
-    const auto loop = hybrid_orbit_loop(0.011, width, ForceHold::sampled, 1.0);
+    const auto loop = event_orbit_loop(0.011, width, ForceHold::sampled, 1.0);
     const auto found =
-        find_hybrid_orbit(exactly_switching(loop, {0.05, 0.0, 0.0, 0.0}), OrbitLimits{10000});
+        find_event_orbit(exactly_switching(loop, {0.05, 0.0, 0.0, 0.0}), OrbitLimits{10000});
     EXPECT_EQ(found.outcome, OrbitOutcome::diverges);
     EXPECT_FALSE(found.orbit);
   }
 }
 
-TEST(HybridOrbit, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
-  auto loop = hybrid_orbit_loop(0.001, 0.002, ForceHold::exact);
+TEST(EventOrbit, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
+  auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
   loop.excitation.amplitude = 0.0;
-  const auto found = find_hybrid_orbit(exactly_switching(loop), OrbitLimits{1000});
+  const auto found = find_event_orbit(exactly_switching(loop), OrbitLimits{1000});
   ASSERT_EQ(found.outcome, OrbitOutcome::on_surface);
   EXPECT_EQ(found.orbit->amplitude(), 0.0);
   EXPECT_EQ(found.orbit->forcing_periods(), 0);
 }
 
-TEST(HybridOrbit, AFreeVibrationEndsAtRestInItsGap) {
-  auto loop = hybrid_orbit_loop(0.001, 0.002, ForceHold::exact);
+TEST(EventOrbit, AFreeVibrationEndsAtRestInItsGap) {
+  auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
   loop.excitation.amplitude = 0.0;
-  const auto found = certified_hybrid_orbit(loop, {0.0002, 0.0, 0.0, 0.01});
+  const auto found = certified_event_orbit(loop, {0.0002, 0.0, 0.0, 0.01});
   EXPECT_EQ(found.orbit->period_samples(), 1);
   EXPECT_EQ(found.orbit->modes.front(), ContactMode::gap);
   EXPECT_LT(found.orbit->states.front().norm(), 1e-12);
 }
 
-TEST(HybridOrbit, LooksAtNoMoreSamplesThanAllowed) {
-  const auto loop = hybrid_orbit_loop(0.011, 0.002, ForceHold::exact);
+TEST(EventOrbit, LooksAtNoMoreSamplesThanAllowed) {
+  const auto loop = event_orbit_loop(0.011, 0.002, ForceHold::exact);
   for (const std::int64_t most : {1, 99, 100, 234}) {
-    const auto found = find_hybrid_orbit(exactly_switching(loop), OrbitLimits{1000, most});
+    const auto found = find_event_orbit(exactly_switching(loop), OrbitLimits{1000, most});
     EXPECT_EQ(found.outcome, OrbitOutcome::none_found) << most;
     EXPECT_LE(found.samples, most);
   }
-  EXPECT_EQ(find_hybrid_orbit(exactly_switching(loop), OrbitLimits{99}).outcome,
+  EXPECT_EQ(find_event_orbit(exactly_switching(loop), OrbitLimits{99}).outcome,
             OrbitOutcome::none_found);
 }
 
-TEST(HybridOrbit, AMotionSeenTooShortlyIsSaidToApproach) {
-  const auto loop = hybrid_orbit_loop(0.001, 0.002, ForceHold::exact);
-  const auto whole = certified_hybrid_orbit(loop);
+TEST(EventOrbit, AMotionSeenTooShortlyIsSaidToApproach) {
+  const auto loop = event_orbit_loop(0.001, 0.002, ForceHold::exact);
+  const auto whole = certified_event_orbit(loop);
   const auto found =
-      find_hybrid_orbit(exactly_switching(loop), OrbitLimits{1000, whole.samples / 2});
+      find_event_orbit(exactly_switching(loop), OrbitLimits{1000, whole.samples / 2});
   ASSERT_EQ(found.outcome, OrbitOutcome::approaching);
   EXPECT_LT((found.orbit->states.front() - whole.orbit->states.front()).norm(), 1e-12);
 }
 
-TEST(HybridOrbit, StartsAtAnySample) {
-  const auto loop = hybrid_orbit_loop(0.011, 0.001, ForceHold::exact);
-  HybridMotion<ExactBacklash> motion = exactly_switching(loop);
+TEST(EventOrbit, StartsAtAnySample) {
+  const auto loop = event_orbit_loop(0.011, 0.001, ForceHold::exact);
+  EventMotion<ExactBacklash> motion = exactly_switching(loop);
   for (int j = 0; j < 137; ++j) {
     motion.sense();
     motion.advance();
   }
-  const auto late = find_hybrid_orbit(motion, OrbitLimits{1000});
+  const auto late = find_event_orbit(motion, OrbitLimits{1000});
   ASSERT_EQ(late.outcome, OrbitOutcome::certified);
-  const auto early = certified_hybrid_orbit(loop);
+  const auto early = certified_event_orbit(loop);
   EXPECT_LT((late.orbit->states.front() - early.orbit->states.front()).norm(), 1e-12);
 }
 
-TEST(HybridOrbit, OfSeveralHarmonicsHasThePeriodOfAll) {
-  RealLoop loop = real_loop(hybrid_orbit_loop(0.001, 0.0005, ForceHold::exact));
+TEST(EventOrbit, OfSeveralHarmonicsHasThePeriodOfAll) {
+  ImplementedLoop loop = implemented_loop(event_orbit_loop(0.001, 0.0005, ForceHold::exact));
   loop.digital.force.harmonics.push_back({0.1, 12.5, 0.3});
-  const HybridMotion<ExactBacklash> motion(loop.digital, ExactBacklash(loop.plant, 0.0005),
-                                           Vector<double, 4>::Zero());
-  const auto found = find_hybrid_orbit(motion, OrbitLimits{4000});
+  const EventMotion<ExactBacklash> motion(loop.digital, ExactBacklash(loop.plant, 0.0005),
+                                          Vector<double, 4>::Zero());
+  const auto found = find_event_orbit(motion, OrbitLimits{4000});
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
   EXPECT_EQ(found.orbit->period_samples(), 400);
   EXPECT_EQ(found.orbit->forcing_periods(), 4);
 }
 
-TEST(HybridOrbit, IsNotLookedForWhereNothingRepeats) {
-  RealLoop loop = real_loop(hybrid_orbit_loop(0.001, 0.0005, ForceHold::exact));
+TEST(EventOrbit, IsNotLookedForWhereNothingRepeats) {
+  ImplementedLoop loop = implemented_loop(event_orbit_loop(0.001, 0.0005, ForceHold::exact));
   std::vector<DigitalLoop> restless(3, loop.digital);
   restless[0].force.harmonics[0].frequency = 10.0 * std::sqrt(0.5);
   restless[1].jitter.half_width = 1e-5;
   restless[2].force.record = std::make_shared<const RecordedForce>(
       std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 0.1}, RecordInterpolation::linear);
   for (const DigitalLoop& digital : restless) {
-    const HybridMotion<ExactBacklash> motion(digital, ExactBacklash(loop.plant, 0.0005),
-                                             Vector<double, 4>::Zero());
-    const auto found = find_hybrid_orbit(motion);
+    const EventMotion<ExactBacklash> motion(digital, ExactBacklash(loop.plant, 0.0005),
+                                            Vector<double, 4>::Zero());
+    const auto found = find_event_orbit(motion);
     EXPECT_EQ(found.outcome, OrbitOutcome::incommensurate);
     EXPECT_EQ(found.samples, 0);
-    EXPECT_THROW(find_hybrid_orbit(motion, Rational{1, 100}, {}), InvalidParameter);
+    EXPECT_THROW(find_event_orbit(motion, Rational{1, 100}, {}), InvalidParameter);
   }
 }
 
-TEST(HybridOrbit, RefusesWhatDoesNotFitTheMotion) {
-  const auto motion = exactly_switching(hybrid_orbit_loop(0.011, 0.0005, ForceHold::exact));
-  EXPECT_THROW(find_hybrid_orbit(motion, Rational{11, 99}, {}), InvalidParameter);
-  EXPECT_THROW(find_hybrid_orbit(motion, Rational{1, 0}, {}), InvalidParameter);
-  EXPECT_THROW(find_hybrid_orbit(motion, OrbitLimits{0}), InvalidParameter);
-  EXPECT_THROW(find_hybrid_orbit(motion, OrbitLimits{1000, -1}), InvalidParameter);
+TEST(EventOrbit, RefusesWhatDoesNotFitTheMotion) {
+  const auto motion = exactly_switching(event_orbit_loop(0.011, 0.0005, ForceHold::exact));
+  EXPECT_THROW(find_event_orbit(motion, Rational{11, 99}, {}), InvalidParameter);
+  EXPECT_THROW(find_event_orbit(motion, Rational{1, 0}, {}), InvalidParameter);
+  EXPECT_THROW(find_event_orbit(motion, OrbitLimits{0}), InvalidParameter);
+  EXPECT_THROW(find_event_orbit(motion, OrbitLimits{1000, -1}), InvalidParameter);
 }
 
-TEST(HybridMeasuresDetail, FindsEverySignChangeOfASeries) {
+TEST(EventOrbitMeasuresDetail, FindsEverySignChangeOfASeries) {
   test::Random random(77);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<double> roots(1 + random.index(5));

@@ -18,19 +18,19 @@
 namespace holdfast::test {
 
 /// A loop near that of Kollár 2022 whose drive may switch between the samples.
-struct HybridSetting {
-  TwoDof<double> plant;
+struct EventSetting {
+  TwoMass<double> plant;
   DigitalLoop loop;
   double width;
 
-  HybridMotion<ExactBacklash> motion() const {
+  EventMotion<ExactBacklash> motion() const {
     return {loop, ExactBacklash(plant, width), Vector<double, 4>::Zero()};
   }
 };
 
 /// Whether a motion stays within 20 mm for some seconds.
 template <class Contact>
-bool stays_small(HybridMotion<Contact> motion, double duration) {
+bool stays_small(EventMotion<Contact> motion, double duration) {
   while (motion.time() < duration) {
     motion.sense();
     if (!(motion.state().cwiseAbs().maxCoeff() < 2.0) || !(std::abs(motion.state()[0]) < 0.02))
@@ -43,10 +43,10 @@ bool stays_small(HybridMotion<Contact> motion, double duration) {
 /// All masses, springs and dampers of Table 1 within ± 30 %, τ 0.5 … 20 ms, δ = 0, τ/3 and τ in
 /// turn, both holds of the force in turn, r₀ 0.1 … 3 mm, F at 3 … 60 Hz, gains up to those of the
 /// paper; to half of them a second harmonic, which makes sticking end in any way.
-inline HybridSetting random_hybrid_setting(Random& random, int index) {
+inline EventSetting random_event_setting(Random& random, int index) {
   const auto near = [&random](double value) { return value * random.uniform(0.7, 1.3); };
-  const TwoDof<double> table = kollar2022_plant();
-  HybridSetting setting;
+  const TwoMass<double> table = kollar2022_plant();
+  EventSetting setting;
   setting.plant = {near(table.conductor_mass),     near(table.conductor_stiffness),
                    near(table.conductor_damping),  near(table.absorber_mass),
                    near(table.absorber_stiffness), near(table.absorber_damping)};
@@ -62,9 +62,9 @@ inline HybridSetting random_hybrid_setting(Random& random, int index) {
 }
 
 /// The same for a motion that stays small for three seconds.
-inline HybridSetting bounded_hybrid_setting(Random& random, int index) {
+inline EventSetting bounded_event_setting(Random& random, int index) {
   for (;;) {
-    HybridSetting setting = random_hybrid_setting(random, index);
+    EventSetting setting = random_event_setting(random, index);
     if (stays_small(setting.motion(), 3.0)) return setting;
   }
 }
@@ -82,7 +82,7 @@ struct SeenSwitch {
 class SwitchRecorder {
  public:
   template <class Contact>
-  void advance(HybridMotion<Contact>& motion) {
+  void advance(EventMotion<Contact>& motion) {
     index_ = motion.index();
     const int before = motion.contact().mode();
     motion.sense();
@@ -113,7 +113,7 @@ double anchor_of(const Contact&) {
 }
 
 template <class Contact>
-Vector<double, 7> extended_state(const HybridMotion<Contact>& motion) {
+Vector<double, 7> extended_state(const EventMotion<Contact>& motion) {
   const bool reads = motion.controller().limits().velocity == VelocitySensing::difference;
   Vector<double, 7> extended;
   extended << motion.state(), motion.previous_command(), anchor_of(motion.contact()),
@@ -127,9 +127,9 @@ void shift_anchor(Contact&, double) {}
 
 /// A motion moved by a deviation of its z, u_{j−1} and g.
 template <class Contact>
-HybridMotion<Contact> displaced_motion(const HybridMotion<Contact>& motion,
-                                       const Vector<double, 7>& by) {
-  HybridMotion<Contact> other = motion;
+EventMotion<Contact> displaced_motion(const EventMotion<Contact>& motion,
+                                      const Vector<double, 7>& by) {
+  EventMotion<Contact> other = motion;
   Contact contact = motion.contact();
   shift_anchor(contact, by[5]);
   other.restore(motion.index(), motion.state() + by.head<4>(), motion.previous_command() + by[4],
@@ -139,7 +139,7 @@ HybridMotion<Contact> displaced_motion(const HybridMotion<Contact>& motion,
 
 /// Sizes of the entries of X that belong to a displacement of 1 mm.
 template <class Contact>
-Vector<double, 7> sizes_of(const HybridMotion<Contact>& motion) {
+Vector<double, 7> sizes_of(const EventMotion<Contact>& motion) {
   constexpr double displacement = 1e-3, rate = 20.0;
   const PdGains<double>& gains = motion.loop().gains;
   const double command =
@@ -153,12 +153,12 @@ Vector<double, 7> sizes_of(const HybridMotion<Contact>& motion) {
 /// The two neighbours of a motion along a direction after some samples, nothing if either goes
 /// another way than `seen`.
 template <class Contact>
-std::optional<Vector<double, 7>> difference_along(const HybridMotion<Contact>& motion,
+std::optional<Vector<double, 7>> difference_along(const EventMotion<Contact>& motion,
                                                   const Vector<double, 7>& direction, int samples,
                                                   const std::vector<SeenSwitch>& seen) {
   Vector<double, 7> ends[2];
   for (const int side : {0, 1}) {
-    HybridMotion<Contact> other =
+    EventMotion<Contact> other =
         displaced_motion(motion, side == 0 ? direction : Vector<double, 7>(-direction));
     SwitchRecorder recorder;
     for (int sample = 0; sample < samples; ++sample) recorder.advance(other);
@@ -176,7 +176,7 @@ struct Difference {
 };
 
 template <class Contact>
-std::optional<Difference> derivative_along(const HybridMotion<Contact>& motion,
+std::optional<Difference> derivative_along(const EventMotion<Contact>& motion,
                                            const Vector<double, 7>& direction, double step,
                                            int samples, const std::vector<SeenSwitch>& seen) {
   const auto coarse = difference_along<Contact>(motion, direction * step, samples, seen);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "holdfast/math/linalg/eigenvalues.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "support/lagging_loop.hpp"
 
@@ -18,9 +18,9 @@ namespace holdfast {
 namespace {
 
 template <class Plant>
-auto orbit_from_rest(const RealLoopOf<Plant>& loop) {
+auto orbit_from_rest(const ImplementedLoopOf<Plant>& loop) {
   const Eigen::Index order = loop.plant.state_matrix().rows();
-  return find_hybrid_orbit(event_motion(loop, StateOf<Plant>(StateOf<Plant>::Zero(order))));
+  return find_event_orbit(event_motion(loop, StateOf<Plant>(StateOf<Plant>::Zero(order))));
 }
 
 void expect_same_multipliers(const std::vector<Multiplier>& first,
@@ -38,7 +38,7 @@ void expect_same_multipliers(const std::vector<Multiplier>& first,
 TEST(OrbitOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const double delay : {0.0, 0.001}) {
-      const TwoDof<double> plant = kollar2022_plant();
+      const TwoMass<double> plant = kollar2022_plant();
       const auto masses = orbit_from_rest(test::lagging_loop(plant, switching, delay));
       const auto ported =
           orbit_from_rest(test::lagging_loop(linear_plant(plant), switching, delay));
@@ -62,8 +62,9 @@ TEST(OrbitOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
 
 /// The motion some samples after a point of it.
 template <class Contact>
-HybridPoint<Contact> after_samples(const RepeatingMotion<Contact>& any,
-                                   const HybridPoint<Contact>& from, std::int64_t samples) {
+StroboscopicState<Contact> after_samples(const RepeatingMotion<Contact>& any,
+                                         const StroboscopicState<Contact>& from,
+                                         std::int64_t samples) {
   RepeatingMotion<Contact> motion = any;
   motion.go_to(from);
   for (std::int64_t j = 0; j < samples; ++j) {
@@ -77,7 +78,8 @@ HybridPoint<Contact> after_samples(const RepeatingMotion<Contact>& any,
 /// a point at which the drive is engaged.
 template <class Contact>
 double largest_multiplier_by_differences(const RepeatingMotion<Contact>& motion,
-                                         const HybridPoint<Contact>& point, std::int64_t period,
+                                         const StroboscopicState<Contact>& point,
+                                         std::int64_t period,
                                          const Vector<double, Eigen::Dynamic>& sizes) {
   const Eigen::Index order = point.state.size();
   Eigen::MatrixXd map(order + 1, order + 1);
@@ -85,10 +87,10 @@ double largest_multiplier_by_differences(const RepeatingMotion<Contact>& motion,
     Vector<double, Eigen::Dynamic> ends[2];
     const double step = 1e-5 * sizes[k];
     for (const int side : {0, 1}) {
-      HybridPoint<Contact> from = point;
+      StroboscopicState<Contact> from = point;
       const double by = side == 0 ? step : -step;
       (k < order ? from.state[k] : from.previous_command) += by;
-      const HybridPoint<Contact> to = after_samples(motion, from, period);
+      const StroboscopicState<Contact> to = after_samples(motion, from, period);
       ends[side].resize(order + 1);
       ends[side] << to.state, to.previous_command;
     }
@@ -101,7 +103,7 @@ double largest_multiplier_by_differences(const RepeatingMotion<Contact>& motion,
 }
 
 template <class Plant>
-void expect_closes_with_multiplier(const RealLoopOf<Plant>& loop) {
+void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
   const auto found = orbit_from_rest(loop);
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
   const auto& orbit = *found.orbit;

@@ -36,12 +36,12 @@ double largest_of_samples(const StudiedLoop& studied) {
   PhaseExtent extent(0.5 * studied.duration);
   const std::int64_t samples = samples_within(studied.duration, the_case.control.sampling_period);
   if (studied.reading.switching == Switching::sampled) {
-    ForcedLoop<double> loop = program::forced_loop_of(the_case);
+    IdealLoop<double> loop = program::ideal_loop_of(the_case);
     loop.hold = studied.reading.hold;
     auto motion = harmonically_forced_motion(loop, program::initial_state_of(the_case));
     run_trajectory(motion, samples, {}, extent);
   } else {
-    RealLoop loop = program::real_loop_of(the_case, Switching::exact);
+    ImplementedLoop loop = program::implemented_loop_of(the_case, Switching::exact);
     loop.digital.hold = studied.reading.hold;
     with_motion(loop, program::initial_state_of(the_case),
                 [&](auto motion) { run_trajectory(motion, samples, {}, extent); });
@@ -92,7 +92,7 @@ TEST(SwitchingPage, LooksForTheLargestSampleAsTheMotionsShowIt) {
 // (ω τ/400)²/2 of it, and no more.
 TEST(SwitchingPage, SeesThePeaksBetweenTheSamples) {
   const StudiedLoop studied = loop_of_paper(0.011, 0.002, program::sampled_and_held);
-  const ForcedLoop<double> loop = program::forced_loop_of(studied.the_case);
+  const IdealLoop<double> loop = program::ideal_loop_of(studied.the_case);
   auto motion = harmonically_forced_motion(loop, program::initial_state_of(studied.the_case));
   double previous_force = 0.0, largest = 0.0;
   while (motion.time() < studied.duration - 0.011) {

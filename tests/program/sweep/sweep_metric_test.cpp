@@ -61,13 +61,14 @@ TEST(SweepMetric, WordsAreThoseOfTheirCodes) {
   const auto word_of = [&](SweepMetric metric) {
     return metric_column(metric).words.at(static_cast<std::size_t>(metric_value(metric, cell)));
   };
-  for (const auto kind : {MotionKind::periodic, MotionKind::quasi_periodic, MotionKind::chaotic,
-                          MotionKind::diverges, MotionKind::undecided}) {
+  for (const auto kind :
+       {AttractorType::periodic, AttractorType::quasi_periodic, AttractorType::chaotic,
+        AttractorType::diverges, AttractorType::undecided}) {
     cell.kind = kind;
     EXPECT_EQ(word_of(SweepMetric::verdict),
-              motion_kind_text(kind).substr(0, motion_kind_text(kind).find('(')));
+              attractor_type_text(kind).substr(0, attractor_type_text(kind).find('(')));
   }
-  cell.kind = MotionKind::irregular_contracting;
+  cell.kind = AttractorType::irregular_contracting;
   EXPECT_EQ(word_of(SweepMetric::verdict), "irregular");
   EXPECT_EQ(word_of(SweepMetric::outcome), "computed");
   cell.outcome = CellOutcome::diverges;

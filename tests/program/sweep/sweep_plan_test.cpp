@@ -21,14 +21,14 @@ JobContext sweep_context(const std::vector<std::string>& settings = {}) {
   return context;
 }
 
-SweepQuestion sweep_over(std::vector<std::string> axes) {
-  SweepQuestion question;
-  question.axes = std::move(axes);
-  return question;
+SweepOptions sweep_over(std::vector<std::string> axes) {
+  SweepOptions options;
+  options.axes = std::move(axes);
+  return options;
 }
 
-std::string refusal_of(const SweepQuestion& question) {
-  return tests::message_of<WrongInput>([&] { SweepPlan(sweep_context(), question); });
+std::string refusal_of(const SweepOptions& options) {
+  return tests::message_of<WrongInput>([&] { SweepPlan(sweep_context(), options); });
 }
 
 TEST(SweepPlan, NumbersItsCellsWithTheFirstAxisSlowest) {
@@ -52,9 +52,9 @@ TEST(SweepPlan, NumbersItsCellsWithTheFirstAxisSlowest) {
 
 TEST(SweepPlan, TilesCoverEveryCellOnce) {
   for (const std::int64_t size : {1, 5, 7, 35, 36, 1000}) {
-    SweepQuestion question = sweep_over({"backlash.width=0:0.003:36"});
-    question.tile_cells = size;
-    const SweepPlan plan(sweep_context(), question);
+    SweepOptions options = sweep_over({"backlash.width=0:0.003:36"});
+    options.tile_cells = size;
+    const SweepPlan plan(sweep_context(), options);
     std::int64_t next = 0;
     for (std::int64_t tile = 0; tile < plan.tiles(); ++tile) {
       EXPECT_EQ(plan.first_cell(tile), next);
@@ -66,15 +66,15 @@ TEST(SweepPlan, TilesCoverEveryCellOnce) {
 }
 
 TEST(SweepPlan, CountsTheSamplesOfItsMotions) {
-  SweepQuestion question = sweep_over({"control.sampling_period=0.001,0.01", "backlash.width=0,1"});
-  question.duration = 2.0;
-  EXPECT_EQ(SweepPlan(sweep_context(), question).samples(), 2.0 * (2001.0 + 201.0));
+  SweepOptions options = sweep_over({"control.sampling_period=0.001,0.01", "backlash.width=0,1"});
+  options.duration = 2.0;
+  EXPECT_EQ(SweepPlan(sweep_context(), options).samples(), 2.0 * (2001.0 + 201.0));
 }
 
 TEST(SweepPlan, TunesTheProportionalGainOfEveryCell) {
   const SweepPlan plan(sweep_context({"control.proportional_gain=tuned"}),
                        sweep_over({"excitation.frequency=5,10"}));
-  const TwoDof<double> plant = plant_of(plan.case_of(0));
+  const TwoMass<double> plant = plant_of(plan.case_of(0));
   for (const std::int64_t cell : {0, 1}) {
     const double frequency = cell == 0 ? 5.0 : 10.0;
     EXPECT_EQ(gains_of(plan.case_of(cell)).proportional,
@@ -94,11 +94,11 @@ TEST(SweepPlan, RefusesWhatNoCellCouldHave) {
   EXPECT_NE(refusal_of(sweep_over({"initial.z1=0:1:1000000000", "initial.z2=0:1:1000000000"}))
                 .find("2^53"),
             std::string::npos);
-  SweepQuestion question = sweep_over({"backlash.width=0,1"});
-  question.metrics = {"steady_peek"};
-  EXPECT_NE(refusal_of(question).find("steady_peak"), std::string::npos);
-  question.metrics = {"steady_rms", "steady_rms"};
-  EXPECT_NE(refusal_of(question).find("twice"), std::string::npos);
+  SweepOptions options = sweep_over({"backlash.width=0,1"});
+  options.metrics = {"steady_peek"};
+  EXPECT_NE(refusal_of(options).find("steady_peak"), std::string::npos);
+  options.metrics = {"steady_rms", "steady_rms"};
+  EXPECT_NE(refusal_of(options).find("twice"), std::string::npos);
 }
 
 TEST(SweepPlan, AValueThatItsKeyDoesNotAdmitIsAFaultOfItsCellAlone) {
@@ -108,46 +108,46 @@ TEST(SweepPlan, AValueThatItsKeyDoesNotAdmitIsAFaultOfItsCellAlone) {
 }
 
 TEST(SweepPlan, PlanOfTheTilesTellsAllThatTheyDependOn) {
-  const SweepQuestion question = sweep_over({"backlash.width=0,1"});
-  const auto entries = [&](const std::vector<std::string>& settings, const SweepQuestion& asked) {
+  const SweepOptions options = sweep_over({"backlash.width=0,1"});
+  const auto entries = [&](const std::vector<std::string>& settings, const SweepOptions& asked) {
     return SweepPlan(sweep_context(settings), asked).tile_plan().entries;
   };
-  const auto usual = entries({}, question);
-  EXPECT_EQ(usual, entries({}, question));
-  EXPECT_EQ(usual, entries({"control.differential_gain=-13"}, question));
-  EXPECT_NE(usual, entries({"control.differential_gain=-12.999999999999998"}, question));
-  EXPECT_NE(usual, entries({"excitation.hold=exact"}, question));
-  EXPECT_NE(usual, entries({"control.proportional_gain=tuned"}, question));
-  std::vector<SweepQuestion> others(6, question);
+  const auto usual = entries({}, options);
+  EXPECT_EQ(usual, entries({}, options));
+  EXPECT_EQ(usual, entries({"control.differential_gain=-13"}, options));
+  EXPECT_NE(usual, entries({"control.differential_gain=-12.999999999999998"}, options));
+  EXPECT_NE(usual, entries({"excitation.hold=exact"}, options));
+  EXPECT_NE(usual, entries({"control.proportional_gain=tuned"}, options));
+  std::vector<SweepOptions> others(6, options);
   others[0].axes = {"backlash.width=0,1.0000001"};
   others[1].metrics = {"steady_rms"};
   others[2].duration = 20.000000000000004;
   others[3].largest_period = 99'999;
   others[4].best_gain = true;
   others[5].tile_cells = 1;
-  for (const SweepQuestion& other : others) EXPECT_NE(usual, entries({}, other));
+  for (const SweepOptions& other : others) EXPECT_NE(usual, entries({}, other));
 }
 
 TEST(SweepPlan, PlanOfTilesWithTheirOwnPlantsTellsWhatTheyAreReducedFrom) {
-  const SweepQuestion question = sweep_over({"conductor.sag=0.285,0.29"});
+  const SweepOptions options = sweep_over({"conductor.sag=0.285,0.29"});
   const auto entries = [&](const std::vector<std::string>& settings) {
-    return SweepPlan(sweep_context(settings), question).tile_plan().entries;
+    return SweepPlan(sweep_context(settings), options).tile_plan().entries;
   };
   // The value of the built-in case, but given: the plant is no longer reduced.
   EXPECT_NE(entries({}), entries({"plant.conductor_mass=0.0767"}));
   JobContext of_file = sweep_context();
   of_file.case_source.text = "[conductor]\n";
-  EXPECT_NE(entries({}), SweepPlan(of_file, question).tile_plan().entries);
+  EXPECT_NE(entries({}), SweepPlan(of_file, options).tile_plan().entries);
 }
 
 TEST(SweepPlan, WithTheBestGainHasNoOtherAndTimeToSettle) {
-  SweepQuestion question = sweep_over({"control.differential_gain=-20,-10"});
-  question.best_gain = true;
-  EXPECT_NE(refusal_of(question).find("is an axis"), std::string::npos);
-  question = sweep_over({"backlash.width=0,1"});
-  question.best_gain = true;
-  question.duration = 0.0;
-  EXPECT_NE(refusal_of(question).find("--duration"), std::string::npos);
+  SweepOptions options = sweep_over({"control.differential_gain=-20,-10"});
+  options.best_gain = true;
+  EXPECT_NE(refusal_of(options).find("is an axis"), std::string::npos);
+  options = sweep_over({"backlash.width=0,1"});
+  options.best_gain = true;
+  options.duration = 0.0;
+  EXPECT_NE(refusal_of(options).find("--duration"), std::string::npos);
 }
 
 TEST(SweepPlan, OfAHundredMillionCellsIsMadeAtOnce) {

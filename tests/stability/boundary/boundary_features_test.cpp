@@ -367,8 +367,10 @@ TEST(BoundaryFeatures, OfTheLoopWithoutDelayAreThoseWithoutItsRootAtZero) {
     };
     expect_same(curves.pairs().proportional_extremes(), reduced.proportional_extremes());
     expect_same(curves.pairs().differential_extremes(), reduced.differential_extremes());
-    EXPECT_EQ(double_pairs(curves.pairs()).size(), double_pairs(reduced).size()) << draw;
-    crossings += static_cast<int>(double_pairs(reduced).size());
+    EXPECT_EQ(double_neimark_sacker_points(curves.pairs()).size(),
+              double_neimark_sacker_points(reduced).size())
+        << draw;
+    crossings += static_cast<int>(double_neimark_sacker_points(reduced).size());
   }
   EXPECT_GT(seen, 300);
   EXPECT_GT(crossings, 20);
@@ -377,7 +379,7 @@ TEST(BoundaryFeatures, OfTheLoopWithoutDelayAreThoseWithoutItsRootAtZero) {
 TEST(BoundaryFeatures, WithoutDampingTheContinuousCurveTurnsBackOnItself) {
   test::Random random(829);
   for (int draw = 0; draw < 200; ++draw) {
-    TwoDof<double> plant = test::random_plant(random);
+    TwoMass<double> plant = test::random_plant(random);
     plant.conductor_damping = plant.absorber_damping = 0.0;
     // On D = 0, P = −(m₁m₂ω⁴ − (…)ω² + k₁k₂)/(m₂ω²) has its maximum at ω⁴ = k₁k₂/(m₁m₂).
     const auto features = boundary_features(characteristic_polynomial(plant), whole_plane);

@@ -21,7 +21,7 @@ using PreciseComplex = std::complex<Precise>;
 
 const ProportionalRange range{-1500.0, 300.0};
 
-TwoDof<Precise> plant() { return {0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L}; }
+TwoMass<Precise> plant() { return {0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L}; }
 
 /// Distance from `target` to the nearest eigenvalue, in extended precision.
 template <int Size>

@@ -21,7 +21,7 @@ using LongDouble = long double;
 
 /// A random loop and a range of P in which sampling matters to it.
 struct TracedLoop {
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   Sampling<double> sampling;
   ProportionalRange range;
 
@@ -194,7 +194,7 @@ TEST(CurveTracer, APictureTakesFewPoints) {
 }
 
 TEST(CurveTracer, WithoutDampingTheContinuousPairsNeedNoDamping) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = plant.absorber_damping = 0.0;
   const auto points = stability_boundary(characteristic_polynomial(plant), {-500.0, 200.0});
   ASSERT_GT(points.size(), 10U);
@@ -207,7 +207,7 @@ TEST(CurveTracer, WithoutDampingTheContinuousPairsNeedNoDamping) {
 
 TEST(CurveTracer, ExtremeLoopsGiveNumbersAndAscendingAngles) {
   for (const double damping : {0.0, 1.0}) {
-    TwoDof<double> plant = kollar2022_plant();
+    TwoMass<double> plant = kollar2022_plant();
     plant.conductor_damping *= damping;
     plant.absorber_damping *= damping;
     for (const double period : {1e-7, 1e-5, 0.1, 0.5, 5.0, 500.0}) {

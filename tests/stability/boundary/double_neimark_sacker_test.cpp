@@ -28,9 +28,9 @@ void expect_made_pairs_are_found(std::uint64_t seed) {
                                             random.uniform(-2, 2));
     const RootPairCurve<double> curve(test::through<Degree>(made, gains, random));
     const double unit = curve.unit() * curve.unit();
-    const auto pairs = double_pairs(curve);
+    const auto pairs = double_neimark_sacker_points(curve);
     EXPECT_LE(pairs.size(), Degree == 4 ? 1U : 3U);
-    const auto found = [&](const DoublePair<double>& pair) {
+    const auto found = [&](const DoubleNeimarkSacker<double>& pair) {
       return std::abs(pair.lower_square * unit - std::min(first, second)) < 1e-7 &&
              std::abs(pair.upper_square * unit - std::max(first, second)) < 1e-7 &&
              std::abs(pair.gains.proportional - gains.proportional) < 1e-7 &&
@@ -40,15 +40,15 @@ void expect_made_pairs_are_found(std::uint64_t seed) {
   }
 }
 
-TEST(DoublePairs, MadeOnPurposeAreFound) {
+TEST(DoubleNeimarkSackerPoints, MadeOnPurposeAreFound) {
   expect_made_pairs_are_found<4>(811);
   expect_made_pairs_are_found<5>(812);
 }
 
-TEST(DoublePairs, OfAnUndampedPlantAreItsOwnFrequenciesAtZeroGains) {
+TEST(DoubleNeimarkSackerPoints, OfAnUndampedPlantAreItsOwnFrequenciesAtZeroGains) {
   test::Random random(813);
   for (int draw = 0; draw < 200; ++draw) {
-    TwoDof<double> plant = test::random_plant(random);
+    TwoMass<double> plant = test::random_plant(random);
     plant.conductor_damping = plant.absorber_damping = 0.0;
     const auto sampling = test::random_sampling(plant, random);
     const BoundaryCurves<double, 5> curves(
@@ -63,8 +63,8 @@ TEST(DoublePairs, OfAnUndampedPlantAreItsOwnFrequenciesAtZeroGains) {
       return std::acos(std::cos(std::sqrt(square) * sampling.period));
     };
     const double first = folded(large), second = folded(c / (a * large));
-    const auto pairs = double_pairs(curves.pairs());
-    const auto at_rest = [&](const DoublePair<double>& pair) {
+    const auto pairs = double_neimark_sacker_points(curves.pairs());
+    const auto at_rest = [&](const DoubleNeimarkSacker<double>& pair) {
       const double lower = curves.angle(pair.lower_square);
       const double upper = curves.angle(pair.upper_square);
       return std::abs(lower - std::min(first, second)) < 1e-7 &&
@@ -76,7 +76,7 @@ TEST(DoublePairs, OfAnUndampedPlantAreItsOwnFrequenciesAtZeroGains) {
   }
 }
 
-TEST(DoublePairs, ArePairsOfEigenvalues) {
+TEST(DoubleNeimarkSackerPoints, ArePairsOfEigenvalues) {
   test::Random random(814);
   int seen = 0;
   long double worst = 0;
@@ -87,7 +87,7 @@ TEST(DoublePairs, ArePairsOfEigenvalues) {
         sampled_loop(converted<long double>(rough),
                      Sampling<long double>{sampling.period, sampling.processing_delay});
     const BoundaryCurves<long double, 5> curves(characteristic_polynomial(loop));
-    for (const auto& pair : double_pairs(curves.pairs())) {
+    for (const auto& pair : double_neimark_sacker_points(curves.pairs())) {
       ++seen;
       const auto eigenvalues =
           detail::balanced_eigenvalues<long double, 5>(loop.engaged_map(pair.gains));
@@ -156,14 +156,14 @@ struct ChordCount {
       const double from = cuts[k] * (1 + 1e-3), to = cuts[k + 1] * (1 - 1e-3);
       if (!(from < to)) continue;
       found += crossing_chords(finely_sampled(curve, from, to, 1000));
-      for (const auto& pair : double_pairs(curve)) {
+      for (const auto& pair : double_neimark_sacker_points(curve)) {
         expected += pair.lower_square > from && pair.upper_square < to ? 1 : 0;
       }
     }
   }
 };
 
-TEST(DoublePairs, AreAllThatTryingEveryPairOfChordsFinds) {
+TEST(DoubleNeimarkSackerPoints, AreAllThatTryingEveryPairOfChordsFinds) {
   test::Random random(815);
   int loops = 0, others = 0;
   for (int draw = 0; draw < 60; ++draw) {
@@ -186,19 +186,20 @@ TEST(DoublePairs, AreAllThatTryingEveryPairOfChordsFinds) {
   EXPECT_GT(others, 15);
 }
 
-TEST(DoublePairs, OfTheUndampedContinuousLoopAreNotIsolated) {
-  TwoDof<double> plant = kollar2022_plant();
+TEST(DoubleNeimarkSackerPoints, OfTheUndampedContinuousLoopAreNotIsolated) {
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = plant.absorber_damping = 0.0;
-  EXPECT_TRUE(double_pairs(RootPairCurve(characteristic_polynomial(plant))).empty());
+  EXPECT_TRUE(
+      double_neimark_sacker_points(RootPairCurve(characteristic_polynomial(plant))).empty());
 }
 
-TEST(DoublePairs, NeedTwoDifferentPairs) {
+TEST(DoubleNeimarkSackerPoints, NeedTwoDifferentPairs) {
   test::Random random(816);
   for (int draw = 0; draw < 100; ++draw) {
     const double square = random.log_uniform(0.1, 10.0);
     const auto cusp = test::product<5>(test::quadratic(square, 0), test::quadratic(square, 0), 0.7);
     const RootPairCurve<double> curve(test::through<5>(cusp, {0.3, -0.4}, random));
-    for (const auto& pair : double_pairs(curve)) {
+    for (const auto& pair : double_neimark_sacker_points(curve)) {
       EXPECT_GT(pair.upper_square - pair.lower_square, 1e-3 * pair.upper_square) << draw;
     }
   }

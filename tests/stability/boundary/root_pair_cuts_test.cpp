@@ -54,7 +54,7 @@ TEST(RootPairCuts, PIsMonotoneBetweenThem) {
 
 TEST(RootPairCuts, AnOverdampedAbsorberDoesNotHideAnExtreme) {
   // Roots from 7 to 2400 rad/s: the coefficients of dP/dY span sixteen decades.
-  const TwoDof<double> plant{0.0137, 0.76, 0.07, 3.04, 429.0, 32.8};
+  const TwoMass<double> plant{0.0137, 0.76, 0.07, 3.04, 429.0, 32.8};
   const RootPairCurve curve(characteristic_polynomial(plant));
   int turns = 0;
   double before = curve.gains(1e-8).proportional;
@@ -73,7 +73,7 @@ TEST(RootPairCuts, AnOverdampedAbsorberDoesNotHideAnExtreme) {
 }
 
 TEST(RootPairCuts, WithoutDampingThePoleOfDAloneIsNoPoleOfP) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = plant.absorber_damping = 0.0;
   for (const double delay : {0.0, 0.1}) {
     const auto polynomial =

@@ -20,7 +20,7 @@ namespace {
 
 /// A random loop and a window of gains in which sampling matters to it.
 struct WindowedLoop {
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   Sampling<double> sampling;
   GainWindow window;
 
@@ -177,7 +177,7 @@ TEST(StableRegions, TheCountIsTheSameAllOverACell) {
   for (int draw = 0; draw < 150; ++draw) {
     const WindowedLoop loop(random);
     const BoundaryCurves<double, 5> curves(loop.polynomial<double>());
-    const GainSlabs<double, 5> slabs(curves, loop.window);
+    const GainDecomposition<double, 5> slabs(curves, loop.window);
     for (int point = 0; point < 20; ++point) {
       const auto& window = loop.window;
       const PdGains<double> gains{
@@ -412,7 +412,7 @@ TEST(StableRegions, OfFastSamplingAreThoseOfTheContinuousLoop) {
 }
 
 TEST(StableRegions, WithoutDampingOnlyDelayedFeedbackStabilises) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = plant.absorber_damping = 0.0;
   // No delay: stability would need all odd coefficients D · m₂ k₁ … of one sign, but they are 0.
   EXPECT_TRUE(stable_regions(characteristic_polynomial(plant), picture).empty());

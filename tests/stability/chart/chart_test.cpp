@@ -17,7 +17,7 @@ namespace {
 
 const GainGrid chart_grid{{-900.0, 100.0, 26}, {-40.0, 10.0, 51}};
 
-AffinePolynomial<double, 5> half_plane_polynomial(const TwoDof<double>& plant,
+AffinePolynomial<double, 5> half_plane_polynomial(const TwoMass<double>& plant,
                                                   const Sampling<double>& sampling) {
   return characteristic_polynomial(sampled_loop(plant, sampling))
       .transformed(in_half_plane<double, 6>);
@@ -68,7 +68,7 @@ TEST(Chart, RowsDoNotDependOnTheRowsBefore) {
 
 /// A chart of 20 × 50 cells about the origin, as wide as sampling lets gains be; each of its rows
 /// spans the boundary.
-GainGrid random_grid(const TwoDof<double>& plant, double period, test::Random& random) {
+GainGrid random_grid(const TwoMass<double>& plant, double period, test::Random& random) {
   const double mass =
       plant.conductor_mass * plant.absorber_mass / (plant.conductor_mass + plant.absorber_mass);
   const double p = random.log_uniform(1e-3, 1.0) * mass / (period * period);
@@ -149,7 +149,7 @@ TEST(Chart, GainsOfAnySizeHaveAnAnswer) {
 /// Without damping and without control every root sits on the boundary: such a loop is not
 /// asymptotically stable, and round-off may not say otherwise.
 TEST(Chart, TheUndampedUncontrolledLoopIsNotStable) {
-  TwoDof<double> plant = kollar2022_plant();
+  TwoMass<double> plant = kollar2022_plant();
   plant.conductor_damping = plant.absorber_damping = 0.0;
   for (const double period : {1e-4, 1e-3, 0.01, 0.03}) {
     for (const double fraction : {0.0, 0.3, 1.0}) {

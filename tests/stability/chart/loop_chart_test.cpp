@@ -13,7 +13,7 @@ namespace {
 
 using Parameter = LoopParameter;
 
-const LoopPoint chart_point{kollar2022_plant(), {0.005, 0.002}, {-557.0, -13.0}};
+const OperatingPoint chart_point{kollar2022_plant(), {0.005, 0.002}, {-557.0, -13.0}};
 const LoopAxis axis_p{Parameter::proportional_gain, {-1000.0, 200.0, 11}};
 const LoopAxis axis_d{Parameter::differential_gain, {-40.0, 20.0, 13}};
 const LoopAxis axis_period{Parameter::sampling_period, {0.0005, 0.03, 12}};
@@ -21,7 +21,7 @@ const LoopAxis axis_delay{Parameter::processing_delay, {0.0, 0.005, 7}};
 const LoopAxis axis_mass{Parameter::absorber_mass, {0.05, 0.5, 9}};
 const LoopAxis axis_damping{Parameter::conductor_damping, {0.0, 2.0, 9}};
 
-double radius_at(const LoopPoint& point) {
+double radius_at(const OperatingPoint& point) {
   return spectral_radius<double, 5>(
       sampled_loop(point.plant, point.sampling).engaged_map(point.gains));
 }

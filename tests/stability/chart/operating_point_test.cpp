@@ -9,32 +9,32 @@ namespace holdfast {
 namespace {
 
 /// All numbers of a loop in the order of LoopParameter.
-std::array<double, 10> numbers_of(const LoopPoint& point) {
-  const TwoDof<double>& plant = point.plant;
+std::array<double, 10> numbers_of(const OperatingPoint& point) {
+  const TwoMass<double>& plant = point.plant;
   return {point.gains.proportional,        point.gains.differential, point.sampling.period,
           point.sampling.processing_delay, plant.conductor_mass,     plant.conductor_stiffness,
           plant.conductor_damping,         plant.absorber_mass,      plant.absorber_stiffness,
           plant.absorber_damping};
 }
 
-LoopPoint some_point() { return {kollar2022_plant(), {0.010, 0.004}, {-557.0, -13.0}}; }
+OperatingPoint some_point() { return {kollar2022_plant(), {0.010, 0.004}, {-557.0, -13.0}}; }
 
-TEST(LoopPoint, AParameterIsSetAndNoOther) {
+TEST(OperatingPoint, AParameterIsSetAndNoOther) {
   for (int k = 0; k < 10; ++k) {
     const auto parameter = static_cast<LoopParameter>(k);
     if (parameter == LoopParameter::sampling_period) continue;
     auto expected = numbers_of(some_point());
     expected[static_cast<std::size_t>(k)] = 0.0123;
-    LoopPoint point = some_point();
+    OperatingPoint point = some_point();
     set(point, parameter, 0.0123);
     EXPECT_EQ(numbers_of(point), expected) << k;
     EXPECT_EQ(is_gain(parameter), k < 2) << k;
   }
 }
 
-TEST(LoopPoint, TheDelayKeepsItsFractionOfTheSamplingPeriod) {
+TEST(OperatingPoint, TheDelayKeepsItsFractionOfTheSamplingPeriod) {
   auto expected = numbers_of(some_point());
-  LoopPoint point = some_point();
+  OperatingPoint point = some_point();
   set(point, LoopParameter::sampling_period, 0.020);
   expected[2] = 0.020;
   expected[3] = 0.008;

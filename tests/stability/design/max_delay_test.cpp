@@ -13,25 +13,24 @@
 namespace holdfast {
 namespace {
 
-MaxDelayQuestion tuned_to(double frequency, DelayCriterion criterion) {
-  MaxDelayQuestion question;
-  question.frequency = frequency;
-  question.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
-  question.criterion = criterion;
-  return question;
+MaxDelayOptions tuned_to(double frequency, DelayCriterion criterion) {
+  MaxDelayOptions options;
+  options.frequency = frequency;
+  options.proportional_gain = tuned_proportional_gain(74.4, 0.16, frequency);
+  options.criterion = criterion;
+  return options;
 }
 
 TEST(MaxDelay, JustBelowIsFeasibleAndJustAboveIsNot) {
   const auto plant = kollar2022_plant();
   for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
     for (const double frequency : {8.0, 10.0, 20.0}) {
-      const auto question = tuned_to(frequency, criterion);
-      const auto answer = max_sampling_period(plant, question);
+      const auto options = tuned_to(frequency, criterion);
+      const auto answer = max_sampling_period(plant, options);
       ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
-      EXPECT_TRUE(feasible_differential_gain(plant, question, answer.sampling_period));
-      EXPECT_TRUE(feasible_differential_gain(plant, question, answer.sampling_period * (1 - 1e-9)));
-      EXPECT_FALSE(
-          feasible_differential_gain(plant, question, answer.sampling_period * (1 + 1e-9)));
+      EXPECT_TRUE(feasible_differential_gain(plant, options, answer.sampling_period));
+      EXPECT_TRUE(feasible_differential_gain(plant, options, answer.sampling_period * (1 - 1e-9)));
+      EXPECT_FALSE(feasible_differential_gain(plant, options, answer.sampling_period * (1 + 1e-9)));
       EXPECT_TRUE(std::isfinite(answer.differential_gain));
     }
   }
@@ -41,11 +40,11 @@ TEST(MaxDelay, AttenuatingAsksForMoreThanStability) {
   const auto plant = kollar2022_plant();
   for (const double frequency : {8.0, 10.0, 20.0, 40.0}) {
     for (const double fraction : {0.0, 0.5, 1.0}) {
-      auto question = tuned_to(frequency, DelayCriterion::stable);
-      question.delay_fraction = fraction;
-      const auto stable = max_sampling_period(plant, question);
-      question.criterion = DelayCriterion::attenuates;
-      const auto attenuates = max_sampling_period(plant, question);
+      auto options = tuned_to(frequency, DelayCriterion::stable);
+      options.delay_fraction = fraction;
+      const auto stable = max_sampling_period(plant, options);
+      options.criterion = DelayCriterion::attenuates;
+      const auto attenuates = max_sampling_period(plant, options);
       EXPECT_LE(attenuates.sampling_period, stable.sampling_period * (1 + 1e-11))
           << frequency << ' ' << fraction;
     }
@@ -72,52 +71,52 @@ TEST(MaxDelay, NamesWhatALongerPeriodLacks) {
 }
 
 TEST(MaxDelay, SamplesThatNoLongerShowTheVibrationAreTheLastLimit) {
-  auto question = tuned_to(10.0, DelayCriterion::attenuates);
-  question.proportional_gain = 0.0;
-  const MaxDelay answer = max_sampling_period(kollar2022_plant(), question);
+  auto options = tuned_to(10.0, DelayCriterion::attenuates);
+  options.proportional_gain = 0.0;
+  const MaxDelay answer = max_sampling_period(kollar2022_plant(), options);
   EXPECT_EQ(answer.limit, MaxDelayLimit::nyquist);
   EXPECT_NEAR(answer.sampling_period, 0.05, 1e-12);
 }
 
 TEST(MaxDelay, NoGainServesWhereTheSamplesDoNotShowTheVibration) {
   const auto plant = kollar2022_plant();
-  auto question = tuned_to(10.0, DelayCriterion::attenuates);
-  question.proportional_gain = 0.0;
-  EXPECT_FALSE(feasible_differential_gains(plant, question, 0.049).empty());
-  EXPECT_TRUE(feasible_differential_gains(plant, question, 0.051).empty());
-  EXPECT_TRUE(feasible_differential_gain(plant, question, 0.049));
-  EXPECT_FALSE(feasible_differential_gain(plant, question, 0.051));
+  auto options = tuned_to(10.0, DelayCriterion::attenuates);
+  options.proportional_gain = 0.0;
+  EXPECT_FALSE(feasible_differential_gains(plant, options, 0.049).empty());
+  EXPECT_TRUE(feasible_differential_gains(plant, options, 0.051).empty());
+  EXPECT_TRUE(feasible_differential_gain(plant, options, 0.049));
+  EXPECT_FALSE(feasible_differential_gain(plant, options, 0.051));
 }
 
 TEST(MaxDelay, TheGainThatItNamesServes) {
   const auto plant = kollar2022_plant();
-  const auto question = tuned_to(10.0, DelayCriterion::attenuates);
+  const auto options = tuned_to(10.0, DelayCriterion::attenuates);
   for (const double period : {0.001, 0.01, 0.02}) {
-    const auto gain = feasible_differential_gain(plant, question, period);
+    const auto gain = feasible_differential_gain(plant, options, period);
     ASSERT_TRUE(gain);
     const auto loop = sampled_loop(plant, Sampling<double>{period});
     const double omega = 2.0 * pi<double> * 10.0;
     const SteadyResponse<double> response(loop, held_harmonic(loop), omega);
-    EXPECT_LT(response.ratio_to_uncontrolled({question.proportional_gain, *gain}), 1.0);
+    EXPECT_LT(response.ratio_to_uncontrolled({options.proportional_gain, *gain}), 1.0);
     // The best gain may be the end of a stable interval, the limit of stable gains.
-    EXPECT_LE((spectral_radius<double, 5>(loop.engaged_map({question.proportional_gain, *gain}))),
+    EXPECT_LE((spectral_radius<double, 5>(loop.engaged_map({options.proportional_gain, *gain}))),
               1.0 + 1e-9);
   }
 }
 
 TEST(MaxDelay, IsUnlimitedWhereNoControlIsNeededForStability) {
-  auto question = tuned_to(10.0, DelayCriterion::stable);
-  question.proportional_gain = 0.0;
-  const auto answer = max_sampling_period(kollar2022_plant(), question);
+  auto options = tuned_to(10.0, DelayCriterion::stable);
+  options.proportional_gain = 0.0;
+  const auto answer = max_sampling_period(kollar2022_plant(), options);
   EXPECT_EQ(answer.outcome, MaxDelayOutcome::unlimited);
   EXPECT_EQ(answer.sampling_period, std::numeric_limits<double>::infinity());
 }
 
 TEST(MaxDelay, IsNeverWhereNoDifferentialGainStabilises) {
   // P alone sets the s² coefficient of the continuous loop; this one makes it negative.
-  auto question = tuned_to(10.0, DelayCriterion::stable);
-  question.proportional_gain = 1e5;
-  const auto answer = max_sampling_period(kollar2022_plant(), question);
+  auto options = tuned_to(10.0, DelayCriterion::stable);
+  options.proportional_gain = 1e5;
+  const auto answer = max_sampling_period(kollar2022_plant(), options);
   EXPECT_EQ(answer.outcome, MaxDelayOutcome::never);
   EXPECT_EQ(answer.sampling_period, 0.0);
   EXPECT_TRUE(std::isnan(answer.differential_gain));
@@ -125,19 +124,19 @@ TEST(MaxDelay, IsNeverWhereNoDifferentialGainStabilises) {
 
 TEST(MaxDelay, DependsOnHowTheForceIsHeldOnlyForAttenuation) {
   const auto plant = kollar2022_plant();
-  auto question = tuned_to(10.0, DelayCriterion::stable);
-  const double sampled = max_sampling_period(plant, question).sampling_period;
-  question.hold = ForceHold::exact;
-  EXPECT_EQ(max_sampling_period(plant, question).sampling_period, sampled);
+  auto options = tuned_to(10.0, DelayCriterion::stable);
+  const double sampled = max_sampling_period(plant, options).sampling_period;
+  options.hold = ForceHold::exact;
+  EXPECT_EQ(max_sampling_period(plant, options).sampling_period, sampled);
 }
 
 TEST(MaxDelay, WhatIsOutOfRangeIsRefused) {
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto refused = [](const std::function<void(MaxDelayQuestion&)>& spoil) {
-    auto question = tuned_to(10.0, DelayCriterion::stable);
-    spoil(question);
-    EXPECT_THROW(max_sampling_period(kollar2022_plant(), question), InvalidParameter);
+  const auto refused = [](const std::function<void(MaxDelayOptions&)>& spoil) {
+    auto options = tuned_to(10.0, DelayCriterion::stable);
+    spoil(options);
+    EXPECT_THROW(max_sampling_period(kollar2022_plant(), options), InvalidParameter);
   };
   for (const double bad : {not_a_number, infinity, -infinity}) {
     refused([bad](auto& q) { q.frequency = bad; });

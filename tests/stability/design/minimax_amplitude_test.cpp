@@ -13,7 +13,7 @@ namespace holdfast {
 namespace {
 
 struct BandCase {
-  AmplitudeQuestion question;
+  AmplitudeOptions options;
   double proportional_gain;
   FrequencyBand band;
 };
@@ -26,8 +26,8 @@ const BandCase band_cases[] = {
     {{Sampling<double>{0.020}, ForceHold::sampled, 1.0}, -10.0, {1.0, 25.0}}};
 
 /// Lightly damped, so that the amplitude has narrow peaks over the frequency.
-TwoDof<double> light_plant() {
-  TwoDof<double> plant = kollar2022_plant();
+TwoMass<double> light_plant() {
+  TwoMass<double> plant = kollar2022_plant();
   plant.absorber_damping = 0.1;
   return plant;
 }
@@ -35,15 +35,14 @@ TwoDof<double> light_plant() {
 /// The ratio at one D and frequency, from the loop's own response.
 double ratio_of(const SampledLoop<double>& loop, const BandCase& c, double frequency, double d) {
   const double omega = 2.0 * pi<double> * frequency;
-  const auto input = harmonic_input(kollar2022_plant(), loop, c.question.hold, omega);
+  const auto input = harmonic_input(kollar2022_plant(), loop, c.options.hold, omega);
   return SteadyResponse<double>(loop, input, omega).ratio_to_uncontrolled({c.proportional_gain, d});
 }
 
 TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
   for (const BandCase& c : band_cases) {
-    const auto loop = sampled_loop(kollar2022_plant(), c.question.sampling);
-    const AmplitudeBand band(kollar2022_plant(), loop, c.question.hold, c.proportional_gain,
-                             c.band);
+    const auto loop = sampled_loop(kollar2022_plant(), c.options.sampling);
+    const AmplitudeBand band(kollar2022_plant(), loop, c.options.hold, c.proportional_gain, c.band);
     for (const double d : {-13.0, -5.0, 1.0}) {
       const WorstFrequency worst = band.worst(d);
       double scanned = 0.0;
@@ -77,26 +76,26 @@ TEST(AmplitudeBand, FindsANarrowPeak) {
   }
 }
 
-TEST(LeastWorstAmplitude, OfALightlyDampedPlantHasItsBoundsInOrder) {
-  const AmplitudeQuestion question{Sampling<double>{0.02}, ForceHold::exact};
-  const auto answer = least_worst_amplitude(light_plant(), question, -20.0, {1.0, 20.0});
-  EXPECT_EQ(answer.outcome, LeastWorstOutcome::found);
+TEST(MinimaxAmplitude, OfALightlyDampedPlantHasItsBoundsInOrder) {
+  const AmplitudeOptions options{Sampling<double>{0.02}, ForceHold::exact};
+  const auto answer = minimax_amplitude(light_plant(), options, -20.0, {1.0, 20.0});
+  EXPECT_EQ(answer.outcome, MinimaxOutcome::found);
   EXPECT_NEAR(answer.worst_ratio, answer.lower_bound, 1e-7 * answer.lower_bound);
 }
 
-TEST(LeastWorstAmplitude, NoGainOfADenseScanIsBetter) {
+TEST(MinimaxAmplitude, NoGainOfADenseScanIsBetter) {
   for (const BandCase& c : band_cases) {
     const auto answer =
-        least_worst_amplitude(kollar2022_plant(), c.question, c.proportional_gain, c.band);
-    ASSERT_EQ(answer.outcome, LeastWorstOutcome::found);
+        minimax_amplitude(kollar2022_plant(), c.options, c.proportional_gain, c.band);
+    ASSERT_EQ(answer.outcome, MinimaxOutcome::found);
     EXPECT_LE(answer.lower_bound, answer.worst_ratio);
     EXPECT_GE(answer.lower_bound, answer.worst_ratio * (1.0 - 1e-8));
     EXPECT_NEAR(std::pow(10.0, -answer.attenuation / 20.0), answer.worst_ratio, 1e-9);
-    const auto loop = sampled_loop(kollar2022_plant(), c.question.sampling);
+    const auto loop = sampled_loop(kollar2022_plant(), c.options.sampling);
     double scanned = std::numeric_limits<double>::infinity();
     for (double d = -60.0; d <= 60.0; d += 0.2) {
       const PdGains<double> gains{c.proportional_gain, d};
-      if (!(spectral_radius<double, 5>(loop.engaged_map(gains)) < c.question.largest_radius))
+      if (!(spectral_radius<double, 5>(loop.engaged_map(gains)) < c.options.largest_radius))
         continue;
       double worst = 0.0;
       for (int k = 0; k <= 500 && worst < scanned; ++k) {
@@ -110,28 +109,28 @@ TEST(LeastWorstAmplitude, NoGainOfADenseScanIsBetter) {
   }
 }
 
-TEST(LeastWorstAmplitude, OfANarrowBandIsThatOfItsFrequency) {
-  const AmplitudeQuestion question{Sampling<double>{0.01}, ForceHold::sampled, 0.995};
+TEST(MinimaxAmplitude, OfANarrowBandIsThatOfItsFrequency) {
+  const AmplitudeOptions options{Sampling<double>{0.01}, ForceHold::sampled, 0.995};
   const auto narrow =
-      least_worst_amplitude(kollar2022_plant(), question, -557.0, {10.0 - 1e-9, 10.0 + 1e-9});
-  const auto single = least_amplitude(kollar2022_plant(), question, 10.0, -557.0);
+      minimax_amplitude(kollar2022_plant(), options, -557.0, {10.0 - 1e-9, 10.0 + 1e-9});
+  const auto single = minimum_amplitude(kollar2022_plant(), options, 10.0, -557.0);
   EXPECT_NEAR(narrow.worst_ratio, single.ratio_to_uncontrolled, 1e-7);
   EXPECT_NEAR(narrow.differential_gain, single.differential_gain, 1e-5);
 }
 
-TEST(LeastWorstAmplitude, SaysWhereNoGainIsAdmissible) {
+TEST(MinimaxAmplitude, SaysWhereNoGainIsAdmissible) {
   const auto answer =
-      least_worst_amplitude(kollar2022_plant(), {Sampling<double>{0.05}}, -557.0, {5.0, 9.0});
-  EXPECT_EQ(answer.outcome, LeastWorstOutcome::none);
+      minimax_amplitude(kollar2022_plant(), {Sampling<double>{0.05}}, -557.0, {5.0, 9.0});
+  EXPECT_EQ(answer.outcome, MinimaxOutcome::none);
   EXPECT_TRUE(std::isnan(answer.differential_gain));
 }
 
-TEST(LeastWorstAmplitude, RefusesWhatIsNoBand) {
+TEST(MinimaxAmplitude, RefusesWhatIsNoBand) {
   const auto plant = kollar2022_plant();
-  const AmplitudeQuestion question{Sampling<double>{0.01}};
+  const AmplitudeOptions options{Sampling<double>{0.01}};
   for (const FrequencyBand& band :
        {FrequencyBand{0.0, 1.0}, {2.0, 2.0}, {3.0, 2.0}, {1.0, 50.1}, {NAN, 2.0}}) {
-    EXPECT_THROW(least_worst_amplitude(plant, question, -557.0, band), InvalidParameter);
+    EXPECT_THROW(minimax_amplitude(plant, options, -557.0, band), InvalidParameter);
   }
 }
 

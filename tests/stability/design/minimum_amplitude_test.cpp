@@ -15,7 +15,7 @@ namespace holdfast {
 namespace {
 
 /// Against a dense scan over D by eigenvalues and by the response of each loop.
-TEST(LeastAmplitude, IsNoWorseThanADenseScan) {
+TEST(MinimumAmplitude, IsNoWorseThanADenseScan) {
   const auto plant = kollar2022_plant();
   for (const Sampling<double>& sampling :
        {Sampling<double>{0.001, 0.0}, {0.01, 0.0}, {0.01, 0.01}}) {
@@ -23,8 +23,8 @@ TEST(LeastAmplitude, IsNoWorseThanADenseScan) {
     for (const double frequency : {6.0, 10.0, 15.0}) {
       for (const double largest_radius : {1.0, 0.99}) {
         const double p = tuned_proportional_gain(74.4, 0.16, frequency);
-        const AmplitudeQuestion question{sampling, ForceHold::sampled, largest_radius};
-        const LeastAmplitude answer = least_amplitude(plant, question, frequency, p);
+        const AmplitudeOptions options{sampling, ForceHold::sampled, largest_radius};
+        const MinimumAmplitude answer = minimum_amplitude(plant, options, frequency, p);
         const SteadyResponse<double> response(loop, held_harmonic(loop),
                                               2.0 * pi<double> * frequency);
         double least = std::numeric_limits<double>::infinity();
@@ -33,7 +33,7 @@ TEST(LeastAmplitude, IsNoWorseThanADenseScan) {
           if (!(spectral_radius<double, 5>(loop.engaged_map({p, d})) < largest_radius)) continue;
           least = std::min(least, response.ratio_to_uncontrolled({p, d}));
         }
-        if (answer.outcome == LeastAmplitudeOutcome::none) {
+        if (answer.outcome == MinimumAmplitudeOutcome::none) {
           EXPECT_TRUE(std::isinf(least)) << "no D of the scan is admissible";
           EXPECT_TRUE(std::isnan(answer.differential_gain));
           continue;
@@ -46,34 +46,34 @@ TEST(LeastAmplitude, IsNoWorseThanADenseScan) {
                     1e-12);
         const double radius = spectral_radius<double, 5>(loop.engaged_map(gains));
         EXPECT_LE(radius, largest_radius + 1e-9);
-        EXPECT_EQ(answer.outcome == LeastAmplitudeOutcome::edge, radius > largest_radius - 1e-9);
+        EXPECT_EQ(answer.outcome == MinimumAmplitudeOutcome::edge, radius > largest_radius - 1e-9);
       }
     }
   }
 }
 
-TEST(LeastAmplitude, SaysWhereTheSamplesDoNotShowTheVibration) {
+TEST(MinimumAmplitude, SaysWhereTheSamplesDoNotShowTheVibration) {
   for (const double frequency : {50.0, 100.0, 123.0}) {
     const auto answer =
-        least_amplitude(kollar2022_plant(), {Sampling<double>{0.01}}, frequency, -557.0);
-    EXPECT_EQ(answer.outcome, LeastAmplitudeOutcome::aliased);
+        minimum_amplitude(kollar2022_plant(), {Sampling<double>{0.01}}, frequency, -557.0);
+    EXPECT_EQ(answer.outcome, MinimumAmplitudeOutcome::aliased);
     EXPECT_TRUE(std::isnan(answer.differential_gain));
     EXPECT_TRUE(std::isnan(answer.ratio_to_uncontrolled));
   }
 }
 
-TEST(LeastAmplitude, RefusesWhatIsNoQuestion) {
+TEST(MinimumAmplitude, RefusesWhatIsNoQuestion) {
   const auto plant = kollar2022_plant();
-  const AmplitudeQuestion question{Sampling<double>{0.001}};
-  EXPECT_THROW(least_amplitude(plant, question, 0.0, -557.0), InvalidParameter);
-  EXPECT_THROW(least_amplitude(plant, question, 10.0, INFINITY), InvalidParameter);
-  EXPECT_THROW(least_amplitude(plant, {Sampling<double>{0.0}}, 10.0, -557.0), InvalidParameter);
-  AmplitudeQuestion no_radius = question;
+  const AmplitudeOptions options{Sampling<double>{0.001}};
+  EXPECT_THROW(minimum_amplitude(plant, options, 0.0, -557.0), InvalidParameter);
+  EXPECT_THROW(minimum_amplitude(plant, options, 10.0, INFINITY), InvalidParameter);
+  EXPECT_THROW(minimum_amplitude(plant, {Sampling<double>{0.0}}, 10.0, -557.0), InvalidParameter);
+  AmplitudeOptions no_radius = options;
   no_radius.largest_radius = 0.0;
-  EXPECT_THROW(least_amplitude(plant, no_radius, 10.0, -557.0), InvalidParameter);
-  AmplitudeQuestion divergent = question;
+  EXPECT_THROW(minimum_amplitude(plant, no_radius, 10.0, -557.0), InvalidParameter);
+  AmplitudeOptions divergent = options;
   divergent.largest_radius = 1.1;
-  EXPECT_THROW(least_amplitude(plant, divergent, 10.0, -557.0), InvalidParameter);
+  EXPECT_THROW(minimum_amplitude(plant, divergent, 10.0, -557.0), InvalidParameter);
 }
 
 }  // namespace

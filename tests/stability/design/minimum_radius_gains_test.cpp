@@ -14,7 +14,7 @@ namespace holdfast {
 namespace {
 
 struct PairCase {
-  TwoDof<double> plant;
+  TwoMass<double> plant;
   Sampling<double> sampling;
 };
 
@@ -32,10 +32,10 @@ double radius_at(const PairCase& c, const PdGains<double>& gains) {
   return spectral_radius<double, 5>(sampled_loop(c.plant, c.sampling).engaged_map(gains));
 }
 
-TEST(LeastRadiusGains, HaveTheRadiusThatTheyName) {
+TEST(MinimumRadiusGains, HaveTheRadiusThatTheyName) {
   for (const PairCase& c : pair_cases()) {
-    const auto best = least_radius_gains(sampled_loop(c.plant, c.sampling));
-    EXPECT_EQ(best.outcome, LeastRadiusGainsOutcome::found);
+    const auto best = minimum_radius_gains(sampled_loop(c.plant, c.sampling));
+    EXPECT_EQ(best.outcome, MinimumRadiusGainsOutcome::found);
     EXPECT_LE(best.lower_bound, best.radius);
     EXPECT_NEAR(best.radius, 1.0 - best.margin, 1e-15);
     // Gains in double hold the radius to about the square root of their precision.
@@ -45,10 +45,10 @@ TEST(LeastRadiusGains, HaveTheRadiusThatTheyName) {
 
 /// Nothing better by eigenvalues: on a coarse grid over the plane, a fine one about the answer, and
 /// downhill from there by random steps.
-TEST(LeastRadiusGains, NoOtherGainsAreBetter) {
+TEST(MinimumRadiusGains, NoOtherGainsAreBetter) {
   std::mt19937 generator(2022);
   for (const PairCase& c : pair_cases()) {
-    const auto best = least_radius_gains(sampled_loop(c.plant, c.sampling));
+    const auto best = minimum_radius_gains(sampled_loop(c.plant, c.sampling));
     const PdGains<double> at = best.gains;
     const double width = std::max(100.0, std::abs(at.proportional));
     const double height = std::max(5.0, std::abs(at.differential));
@@ -64,24 +64,24 @@ TEST(LeastRadiusGains, NoOtherGainsAreBetter) {
   }
 }
 
-TEST(LeastRadiusGains, AreNoWorseThanTheBestDifferentialGainAtAnyProportionalGain) {
+TEST(MinimumRadiusGains, AreNoWorseThanTheBestDifferentialGainAtAnyProportionalGain) {
   for (const PairCase& c : pair_cases()) {
     const auto loop = sampled_loop(c.plant, c.sampling);
-    const auto best = least_radius_gains(loop);
+    const auto best = minimum_radius_gains(loop);
     double least = 2.0;
     for (double p = -800.0; p <= 800.0; p += 8.0)
-      least = std::min(least, least_radius(loop, p).radius);
+      least = std::min(least, minimum_radius(loop, p).radius);
     EXPECT_GE(least, best.radius - 1e-9);
-    EXPECT_NEAR(least_radius(loop, best.gains.proportional).radius, best.radius, 1e-6);
+    EXPECT_NEAR(minimum_radius(loop, best.gains.proportional).radius, best.radius, 1e-6);
   }
 }
 
-TEST(LeastRadiusGains, AreIdleWhereTheyMoveNothing) {
+TEST(MinimumRadiusGains, AreIdleWhereTheyMoveNothing) {
   auto loop = sampled_loop(kollar2022_plant(), Sampling<double>{0.01});
   loop.present_force.setZero();
   loop.previous_force.setZero();
-  const auto answer = least_radius_gains(loop);
-  EXPECT_EQ(answer.outcome, LeastRadiusGainsOutcome::idle);
+  const auto answer = minimum_radius_gains(loop);
+  EXPECT_EQ(answer.outcome, MinimumRadiusGainsOutcome::idle);
   EXPECT_EQ(answer.gains.proportional, 0.0);
 }
 

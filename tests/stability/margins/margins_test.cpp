@@ -103,7 +103,7 @@ TEST(Margins, NothingUnstableLiesBetween) {
 /// one root passes it and comes back within about one per cent of the period.
 TEST(Margins, ARealRootThatPassesMinusOneAndComesBackIsSeen) {
   struct Window {
-    TwoDof<double> plant;
+    TwoMass<double> plant;
     double period, unstable;
     PdGains<double> gains;
   };
@@ -141,8 +141,8 @@ TEST(Margins, OfRandomLoopsHoldOnAFineGrid) {
   int tried = 0;
   while (tried < 40) {
     const auto between = [&](double a, double b) { return a * std::pow(b / a, share(generator)); };
-    const TwoDof<double> plant{between(0.05, 0.5), between(20, 200),   between(1e-3, 1.0),
-                               between(0.05, 0.5), between(20.0, 200), between(1e-3, 5.0)};
+    const TwoMass<double> plant{between(0.05, 0.5), between(20, 200),   between(1e-3, 1.0),
+                                between(0.05, 0.5), between(20.0, 200), between(1e-3, 5.0)};
     const Sampling<double> sampling{between(1e-3, 0.3), 0.0};
     const PdGains<double> gains{-between(1.0, 100.0),
                                 between(0.05, 5.0) * (share(generator) - 0.5)};

@@ -16,48 +16,48 @@
 namespace holdfast {
 namespace {
 
-LeastRadius least_radius_of(const LoopSetting& setting) {
-  return least_radius(sampled_loop(setting.plant, setting.sampling), setting.gains.proportional,
-                      setting.gains.differential);
+MinimumRadius minimum_radius_of(const LoopSetting& setting) {
+  return minimum_radius(sampled_loop(setting.plant, setting.sampling), setting.gains.proportional,
+                        setting.gains.differential);
 }
 
 struct RadiusCase {
   Sampling<double> sampling;
   double absorber_damping, proportional_gain;
-  LeastRadiusKind kind;
+  MinimumRadiusKind kind;
 };
 
-/// The D of least radius is known to about half of the digits where two roots meet.
-TEST(LeastRadiusSensitivity, IsTheSlopeOfTheLeastRadius) {
-  for (const RadiusCase& c : {RadiusCase{{0.010, 0.0}, 4.0, -557.0, LeastRadiusKind::balanced},
-                              {{0.001, 0.0}, 4.0, -557.0, LeastRadiusKind::balanced},
-                              {{0.010, 0.005}, 4.0, -300.0, LeastRadiusKind::balanced},
-                              {{0.0072, 0.0015}, 7.4, 26.0, LeastRadiusKind::smooth},
-                              {{0.0094, 0.0057}, 0.96, -492.0, LeastRadiusKind::smooth},
-                              {{0.0411, 0.0129}, 2.6, -558.0, LeastRadiusKind::double_root},
-                              {{0.0442, 0.0039}, 1.3, -672.0, LeastRadiusKind::double_root}}) {
+/// The D of minimum radius is known to about half of the digits where two roots meet.
+TEST(MinimumRadiusSensitivity, IsTheSlopeOfTheLeastRadius) {
+  for (const RadiusCase& c : {RadiusCase{{0.010, 0.0}, 4.0, -557.0, MinimumRadiusKind::balanced},
+                              {{0.001, 0.0}, 4.0, -557.0, MinimumRadiusKind::balanced},
+                              {{0.010, 0.005}, 4.0, -300.0, MinimumRadiusKind::balanced},
+                              {{0.0072, 0.0015}, 7.4, 26.0, MinimumRadiusKind::smooth},
+                              {{0.0094, 0.0057}, 0.96, -492.0, MinimumRadiusKind::smooth},
+                              {{0.0411, 0.0129}, 2.6, -558.0, MinimumRadiusKind::double_root},
+                              {{0.0442, 0.0039}, 1.3, -672.0, MinimumRadiusKind::double_root}}) {
     LoopSetting setting{kollar2022_plant(), c.sampling, {c.proportional_gain, 0.0}};
     setting.plant.absorber_damping = c.absorber_damping;
-    const LeastRadius least = least_radius_of(setting);
+    const MinimumRadius least = minimum_radius_of(setting);
     setting.gains.differential = least.differential_gain;
-    const auto s = least_radius_sensitivity(setting.plant, setting.sampling, setting.gains);
+    const auto s = minimum_radius_sensitivity(setting.plant, setting.sampling, setting.gains);
     EXPECT_EQ(s.kind, c.kind);
     expect_sensitivity(
-        s.radius, [](const LoopSetting& at) { return -least_radius_of(at).margin; }, setting,
+        s.radius, [](const LoopSetting& at) { return -minimum_radius_of(at).margin; }, setting,
         std::abs(least.margin), 1e-5);
     expect_sensitivity(
         s.differential_gain,
-        [](const LoopSetting& at) { return least_radius_of(at).differential_gain; }, setting,
+        [](const LoopSetting& at) { return minimum_radius_of(at).differential_gain; }, setting,
         std::abs(least.differential_gain), 1e-3);
   }
 }
 
-TEST(LeastRadiusSensitivity, OfOtherGainsIsThatOfTheRadiusAlone) {
+TEST(MinimumRadiusSensitivity, OfOtherGainsIsThatOfTheRadiusAlone) {
   for (const double p : {-557.0, -100.0, 0.0}) {
     for (const double d : {-13.0, 0.0, 1e-9, 1.0}) {
       const PdGains<double> gains{p, d};
-      const auto s = least_radius_sensitivity(kollar2022_plant(), {0.010, 0.0}, gains);
-      EXPECT_EQ(s.kind, LeastRadiusKind::fixed) << p << ' ' << d;
+      const auto s = minimum_radius_sensitivity(kollar2022_plant(), {0.010, 0.0}, gains);
+      EXPECT_EQ(s.kind, MinimumRadiusKind::fixed) << p << ' ' << d;
       EXPECT_TRUE(std::isnan(s.differential_gain.conductor_mass));
       const auto radius = radius_sensitivity(kollar2022_plant(), {0.010, 0.0}, gains);
       EXPECT_NEAR(s.radius.conductor_mass, radius.conductor_mass, 1e-10);
@@ -69,28 +69,33 @@ struct AmplitudeCase {
   Sampling<double> sampling;
   ForceHold hold;
   double largest_radius, frequency, proportional_gain;
-  LeastAmplitudeOutcome outcome;
+  MinimumAmplitudeOutcome outcome;
 };
 
 TEST(AmplitudeSensitivity, IsTheSlopeOfTheLeastAmplitude) {
   const std::vector<AmplitudeCase> cases = {
-      {{0.001, 0.0}, ForceHold::sampled, 1.0, 10.0, -557.0, LeastAmplitudeOutcome::edge},
-      {{0.010, 0.004}, ForceHold::sampled, 0.995, 10.0, -557.0, LeastAmplitudeOutcome::edge},
-      {{0.010, 0.0}, ForceHold::exact, 0.999, 10.0, -557.0, LeastAmplitudeOutcome::edge},
-      {{0.01656, 0.00513}, ForceHold::exact, 1.0, 29.68, -181.8, LeastAmplitudeOutcome::stationary},
+      {{0.001, 0.0}, ForceHold::sampled, 1.0, 10.0, -557.0, MinimumAmplitudeOutcome::edge},
+      {{0.010, 0.004}, ForceHold::sampled, 0.995, 10.0, -557.0, MinimumAmplitudeOutcome::edge},
+      {{0.010, 0.0}, ForceHold::exact, 0.999, 10.0, -557.0, MinimumAmplitudeOutcome::edge},
+      {{0.01656, 0.00513},
+       ForceHold::exact,
+       1.0,
+       29.68,
+       -181.8,
+       MinimumAmplitudeOutcome::stationary},
       {{0.02705, 0.01738},
        ForceHold::sampled,
        1.0,
        16.45,
        -256.4,
-       LeastAmplitudeOutcome::stationary}};
+       MinimumAmplitudeOutcome::stationary}};
   for (const AmplitudeCase& c : cases) {
     const auto least = [&c](const LoopSetting& at) {
-      return least_amplitude(at.plant, {at.sampling, c.hold, c.largest_radius}, c.frequency,
-                             at.gains.proportional);
+      return minimum_amplitude(at.plant, {at.sampling, c.hold, c.largest_radius}, c.frequency,
+                               at.gains.proportional);
     };
     LoopSetting setting{kollar2022_plant(), c.sampling, {c.proportional_gain, 0.0}};
-    const LeastAmplitude answer = least(setting);
+    const MinimumAmplitude answer = least(setting);
     setting.gains.differential = answer.differential_gain;
     const auto s = amplitude_sensitivity(setting.plant, {c.sampling, c.hold, c.largest_radius},
                                          c.frequency, c.proportional_gain);
@@ -106,40 +111,40 @@ TEST(AmplitudeSensitivity, IsTheSlopeOfTheLeastAmplitude) {
 
 TEST(AmplitudeSensitivity, ThereIsNoneWhereNoGainIsAdmitted) {
   const auto plant = kollar2022_plant();
-  const AmplitudeQuestion fast{{0.001, 0.0}, ForceHold::sampled, 1.0};
+  const AmplitudeOptions fast{{0.001, 0.0}, ForceHold::sampled, 1.0};
   const auto unstable = amplitude_sensitivity(plant, fast, 10.0, 1e5);
-  EXPECT_EQ(unstable.outcome, LeastAmplitudeOutcome::none);
+  EXPECT_EQ(unstable.outcome, MinimumAmplitudeOutcome::none);
   EXPECT_TRUE(std::isnan(unstable.ratio.conductor_mass));
   EXPECT_TRUE(std::isnan(unstable.differential_gain.sampling_period));
   const auto aliased =
       amplitude_sensitivity(plant, {{0.06, 0.0}, ForceHold::sampled, 1.0}, 10.0, -557.0);
-  EXPECT_EQ(aliased.outcome, LeastAmplitudeOutcome::aliased);
+  EXPECT_EQ(aliased.outcome, MinimumAmplitudeOutcome::aliased);
   EXPECT_TRUE(std::isnan(aliased.ratio.absorber_stiffness));
 }
 
 TEST(MaxDelaySensitivity, IsTheSlopeOfTheLargestPeriod) {
   for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
     for (const double fraction : {0.0, 0.4}) {
-      const auto question_of = [&](const LoopSetting& at) {
-        MaxDelayQuestion question;
-        question.frequency = 10.0;
-        question.proportional_gain = at.gains.proportional;
-        question.criterion = criterion;
-        question.delay_fraction = fraction;
-        return question;
+      const auto options_of = [&](const LoopSetting& at) {
+        MaxDelayOptions options;
+        options.frequency = 10.0;
+        options.proportional_gain = at.gains.proportional;
+        options.criterion = criterion;
+        options.delay_fraction = fraction;
+        return options;
       };
       const auto answer_of = [&](const LoopSetting& at) {
-        return max_sampling_period(at.plant, question_of(at));
+        return max_sampling_period(at.plant, options_of(at));
       };
       LoopSetting setting{kollar2022_plant(), {0.001, 0.0}, {-557.0, -13.0}};
       const MaxDelay answer = answer_of(setting);
       ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
-      const auto s = max_delay_sensitivity(setting.plant, question_of(setting), answer);
+      const auto s = max_delay_sensitivity(setting.plant, options_of(setting), answer);
       const double scale = answer.sampling_period;
       expect_sensitivity(
           s.sampling_period, [&](const LoopSetting& at) { return answer_of(at).sampling_period; },
           setting, scale, 1e-5);
-      auto more = question_of(setting), less = more;
+      auto more = options_of(setting), less = more;
       more.delay_fraction += 1e-5;
       less.delay_fraction = std::max(0.0, less.delay_fraction - 1e-5);
       const double slope = (max_sampling_period(setting.plant, more).sampling_period -
@@ -151,11 +156,11 @@ TEST(MaxDelaySensitivity, IsTheSlopeOfTheLargestPeriod) {
 }
 
 TEST(MaxDelaySensitivity, IsZeroWhereTheSamplesSetTheLimit) {
-  MaxDelayQuestion question;
-  question.frequency = 10.0;
-  question.proportional_gain = -557.0;
+  MaxDelayOptions options;
+  options.frequency = 10.0;
+  options.proportional_gain = -557.0;
   const MaxDelay answer{MaxDelayOutcome::found, 0.05, -13.0, MaxDelayLimit::nyquist};
-  const auto s = max_delay_sensitivity(kollar2022_plant(), question, answer);
+  const auto s = max_delay_sensitivity(kollar2022_plant(), options, answer);
   EXPECT_EQ(entries_of(s.sampling_period).norm(), 0.0);
   EXPECT_EQ(s.by_delay_fraction, 0.0);
 }

@@ -97,7 +97,7 @@ TEST(Sensitivity, OfTheSpectralRadiusHoldsForSlowSampling) {
   for (const double p : {-20.0, 10.0}) {
     LoopSetting setting{kollar2022_plant(), {10.0, 3.0}, {p, 0.0}};
     setting.gains.differential =
-        least_radius(sampled_loop(setting.plant, setting.sampling), p).differential_gain + 1.0;
+        minimum_radius(sampled_loop(setting.plant, setting.sampling), p).differential_gain + 1.0;
     const auto radius = [](const LoopSetting& at) {
       return 1.0 + loop_polynomial(sampled_loop(at.plant, at.sampling)).excess(at.gains);
     };

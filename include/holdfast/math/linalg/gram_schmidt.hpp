@@ -15,7 +15,7 @@ template <class Number, int Columns>
 using TangentBasis =
     Eigen::Matrix<Number, 5, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-/// For each tangent vector whether it still has a length; false where a map has annihilated it.
+/// For each tangent vector whether it still has a length; false where a map has taken it to zero.
 template <class Number>
 using Alive = std::array<Mask<Number>, 5>;
 

@@ -17,7 +17,7 @@ namespace holdfast {
 /// An eigenvalue of a product of many matrices, by its logarithm since it may be far below the
 /// range of the number type.
 struct Multiplier {
-  double log_modulus;  ///< ln |λ|; −∞ for an annihilated direction
+  double log_modulus;  ///< ln |λ|; −∞ for a null direction
   double angle;        ///< arg λ (rad), in (−π, π]
 
   /// λ itself; 0 where it is below the smallest number.
@@ -33,7 +33,7 @@ struct ScaledTriangle {
   Vector<Scalar, 5> logarithms = Vector<Scalar, 5>::Zero();
   Vector<Scalar, 5> signs = Vector<Scalar, 5>::Ones();
   Matrix<Scalar, 5> unit = Matrix<Scalar, 5>::Identity();
-  int rank = 5;  ///< leading rows that are not annihilated
+  int rank = 5;  ///< leading rows that no map takes to zero
 
   /// R ← next · R. A diagonal entry below the round-off of `size` ends the rank.
   void multiply_from_left(const Matrix<Scalar, 5>& next, const Scalar& size) {
@@ -116,7 +116,7 @@ void append_multipliers(const Matrix<Scalar, 5>& turn, const ScaledTriangle<Scal
 /// eigenvalues whose moduli are apart. Each block is scaled by its own exponent, so that a modulus
 /// of 10⁻³⁰⁰⁰ is found as well as one of 0.9.
 /// @param maps  at least one; each well enough conditioned to be factorised alone
-/// @return five; those of annihilated directions have log_modulus −∞
+/// @return five; those of null directions have log_modulus −∞
 template <class Scalar = double>
 std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, 5>>& maps) {
   constexpr int most_turns = 40;

@@ -65,7 +65,7 @@ HurwitzConditions<Scalar, Size - 1> hurwitz_conditions(const Vector<Scalar, Size
   return result;
 }
 
-/// True (lane by lane) when all roots lie in Re s < 0, whatever the sign of the leading
+/// True (lane by lane) when all roots lie in Re s < 0, for either sign of the leading
 /// coefficient.
 ///
 /// Liénard and Chipart's half of Hurwitz's conditions, which suffices:

@@ -49,7 +49,7 @@ Scalar chandrupatla_share(const Ordinate<Scalar>& near, const Ordinate<Scalar>& 
 /// @param function   Scalar → Scalar; a value that is not positive, NaN too, counts as negative
 /// @param bracket    lower < upper, values of opposite sign; returned as it is where they are not
 /// @param tolerance  ≥ 0, in the unit of the argument
-/// Source: T. R. Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of
+/// Source: T. R. Chandrupatla, A new event quadratic/bisection algorithm for finding the zero of
 /// a nonlinear function without using derivatives, Advances in Engineering Software 28 (1997).
 template <class Scalar, class Function>
 SignChange<Scalar> bracketing_root(const Function& function, const SignChange<Scalar>& bracket,

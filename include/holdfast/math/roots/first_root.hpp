@@ -68,7 +68,7 @@ inline FirstRoot root_in_stretch(const Series& q, double rounding, int most_eval
 /// The first root of q(x), q(0) > 0.
 ///
 /// Where the bound M is far too large, the terms cancelling each other, the steps are too short:
-/// then the polynomial is written anew about the place reached, over a shorter stretch.
+/// then the polynomial is written again about the place reached, over a shorter stretch.
 inline FirstRoot first_root_of_positive(const Series& q) {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * q.cwiseAbs().sum();
   constexpr int most_evaluations = 2048, patience = 16;

@@ -64,8 +64,8 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
 
 /// Number of samples after which sampling and forcing coincide: q, where f τ = p/q in lowest terms.
 /// @return 0 when f τ is no fraction with q ≤ `largest`: the two never coincide in reach
-inline std::int64_t samples_per_coincidence(double frequency, double sampling_period,
-                                            std::int64_t largest = 1'000'000) {
+inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
+                                              std::int64_t largest = 1'000'000) {
   if (!(frequency * sampling_period < 1e15)) return 0;
   const auto ratio = reconstruct_rational(frequency * sampling_period, largest);
   return ratio ? ratio->denominator : 0;
@@ -77,7 +77,7 @@ inline std::int64_t samples_per_coincidence(double frequency, double sampling_pe
 /// @return `available` itself when the two frequencies do not coincide within it
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {
-  const std::int64_t common = samples_per_coincidence(frequency, sampling_period);
+  const std::int64_t common = samples_per_common_period(frequency, sampling_period);
   if (common == 0 || common > available) return available;
   return available - available % common;
 }

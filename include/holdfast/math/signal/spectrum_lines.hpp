@@ -37,7 +37,7 @@ struct SubharmonicShares {
 };
 
 /// What to ask of the lines.
-struct SubharmonicQuestion {
+struct SubharmonicOptions {
   double base_frequency;      ///< f (Hz), > 0
   int largest_division = 16;  ///< of m, ≥ 1
   double share = 0.999;       ///< of the power that makes a division, 0 < share ≤ 1
@@ -57,17 +57,17 @@ struct SubharmonicQuestion {
 /// @throws InvalidParameter for a question out of its ranges, or lines that do not belong to N
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
-                                            const SubharmonicQuestion& question) {
-  require_positive("base frequency", question.base_frequency, "Hz");
-  require_within("largest division", question.largest_division, "", 1.0, 1e5);
-  require_within("share of the power", question.share, "", 1e-9, 1.0);
+                                            const SubharmonicOptions& options) {
+  require_positive("base frequency", options.base_frequency, "Hz");
+  require_within("largest division", options.largest_division, "", 1.0, 1e5);
+  require_within("share of the power", options.share, "", 1e-9, 1.0);
   const std::vector<double> powers = line_powers(lines, samples);
   double total = 0.0;
   for (std::size_t k = 1; k < powers.size(); ++k) total += powers[k];
 
   SubharmonicShares result;
-  for (int m = 1; m <= question.largest_division; ++m) {
-    const double spacing = question.base_frequency / (m * lines[1].frequency);  // in lines
+  for (int m = 1; m <= options.largest_division; ++m) {
+    const double spacing = options.base_frequency / (m * lines[1].frequency);  // in lines
     double on_multiples = 0.0;
     for (std::size_t k = 1; k < powers.size() && spacing >= 3.0 - 1e-9; ++k) {
       const double place = static_cast<double>(k) / spacing;
@@ -75,7 +75,7 @@ inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lin
       if (std::round(place) >= 1.0 && away <= 0.5 + 1e-9) on_multiples += powers[k];
     }
     result.shares.push_back(total > 0.0 ? on_multiples / total : 1.0);
-    if (result.division == 0 && result.shares.back() >= question.share) result.division = m;
+    if (result.division == 0 && result.shares.back() >= options.share) result.division = m;
   }
   return result;
 }

@@ -37,7 +37,7 @@ struct SwitchingMargins {
 /// A periodic motion of the sampled loop whose contact switches between the samples, with its
 /// numerical certificate.
 ///
-/// What is certified, in double precision: that the motion of HybridMotion closes upon itself after
+/// What is certified, in double precision: that the motion of EventMotion closes upon itself after
 /// N samples, to the error stated; that it switches alike in three successive periods; that all its
 /// multipliers, with the saltation at every switch, lie inside the unit circle; and how far it is
 /// from switching otherwise. Not certified is what interval arithmetic would: that a true orbit
@@ -47,7 +47,7 @@ struct SwitchingMargins {
 /// the past at all, padded to five.
 /// @tparam States  N, the order of the plant
 template <int States>
-struct HybridOrbitOf : LoopOrbit<States> {
+struct EventOrbitOf : LoopOrbit<States> {
   std::vector<ContactMode> modes;  ///< from each sample on
   /// At each sample (N): u_j where the drive is engaged, in force from t_j + δ on, 0 in the gap,
   /// and in stick what holds the sides together at t_j.
@@ -57,7 +57,7 @@ struct HybridOrbitOf : LoopOrbit<States> {
   std::array<double, 3> time_share;     ///< of each ContactMode; their sum is 1
   double largest_displacement;          ///< max |z(t)| (m), between the samples too
   double largest_sample;                ///< max |z_j| (m), at the samples
-  StateExtent extent;                   ///< of both sides of the gap, at the samples
+  StateScale extent;                    ///< of both sides of the gap, at the samples
 
   /// Largest |z| (m) of the conductor at the samples.
   double amplitude() const { return largest_sample; }
@@ -90,6 +90,6 @@ struct HybridOrbitOf : LoopOrbit<States> {
 };
 
 /// That of the two masses.
-using HybridOrbit = HybridOrbitOf<4>;
+using EventOrbit = EventOrbitOf<4>;
 
 }  // namespace holdfast

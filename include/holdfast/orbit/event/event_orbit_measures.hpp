@@ -64,7 +64,7 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 /// Measures what happens between the samples of a motion: the margins of its switches, the time
 /// that it spends in each mode, and its largest displacement.
 ///
-///     HybridMeasures<Contact> measures(motion);
+///     EventOrbitMeasures<Contact> measures(motion);
 ///     motion.sense();
 ///     measures.begin();
 ///     motion.advance(measures);
@@ -74,8 +74,8 @@ bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
 /// switches, so that none is passed over.
 /// @tparam Contact  of the motion
 template <class Contact>
-class HybridMeasures {
-  using Motion = HybridMotion<Contact>;
+class EventOrbitMeasures {
+  using Motion = EventMotion<Contact>;
   using ModeGuard = GuardOf<Motion::states>;
   using ModeGuards = GuardsOf<Motion::states>;
   using Expansion = typename Motion::Expansion;
@@ -83,7 +83,7 @@ class HybridMeasures {
 
  public:
   /// Measures from the motion's present sample on.
-  explicit HybridMeasures(const HybridMotion<Contact>& motion)
+  explicit EventOrbitMeasures(const EventMotion<Contact>& motion)
       : motion_(&motion),
         readings_(motion.readings()),
         displacement_row_(readings_.displacement_row()),
@@ -106,7 +106,7 @@ class HybridMeasures {
   /// max |z(t)| (m) of the conductor.
   double largest_displacement() const { return largest_displacement_; }
 
-  // The observer of HybridMotion::advance.
+  // The observer of EventMotion::advance.
 
   /// Measures a stretch of one mode; `begin` (s) counts from the sample.
   void flowed(int mode, double begin, double length) {
@@ -194,7 +194,7 @@ class HybridMeasures {
   const Motion* motion_;
   PortReadings<typename Motion::Plant> readings_;
   typename Motion::State displacement_row_, velocity_row_;  // of Δz and Δż, N × 1
-  FlowTrace<Contact> trace_;
+  DenseOutput<Contact> trace_;
   std::size_t seen_ = 0;                // parts of the trace
   ModeGuards guards_;                   // of the last stretch
   std::array<double, 2> last_slope_{};  // of the guards where the last part ended; 0: not known

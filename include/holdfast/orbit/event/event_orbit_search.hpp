@@ -11,7 +11,7 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_solver.hpp"
 #include "holdfast/orbit/event/repeating_motion.hpp"
@@ -19,34 +19,34 @@
 
 namespace holdfast {
 
-/// What a search for the periodic orbit of a HybridMotion found.
+/// What a search for the periodic orbit of an EventMotion found.
 template <class Contact>
-struct HybridOrbitResult {
+struct EventOrbitResult {
   OrbitOutcome outcome;  ///< how the search ended
-  std::optional<HybridOrbitOf<EventMotion<Contact>::states>>
+  std::optional<EventOrbitOf<EventMotion<Contact>::states>>
       orbit;  ///< certified, approached, touching a surface, not reproduced
-  std::optional<HybridPoint<Contact>> point;  ///< of the orbit, at its first sample
-  std::int64_t samples = 0;                   ///< of the motion that was looked at
-  int candidates = 0;                         ///< returns that were solved for
+  std::optional<StroboscopicState<Contact>> point;  ///< of the orbit, at its first sample
+  std::int64_t samples = 0;                         ///< of the motion that was looked at
+  int candidates = 0;                               ///< returns that were solved for
 };
 
 namespace detail {
 
 /// Looks for the orbit that one motion comes to.
 ///
-/// At every coincidence of sampling and forcing the state is compared with a reference that moves
-/// on at powers of two (R. P. Brent, An improved Monte Carlo factorization algorithm, BIT 20,
-/// 1980). A near return proposes a period, whose fixed point is solved for. The orbit is the
-/// motion's once the motion has come within a millionth of it, and has ended two periods in
-/// succession no farther from it than it began them, in the same modes.
+/// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
+/// reference that moves on at powers of two (R. P. Brent, An improved Monte Carlo factorization
+/// algorithm, BIT 20, 1980). A near return proposes a period, whose fixed point is solved for. The
+/// orbit is the motion's once the motion has come within a millionth of it, and has ended two
+/// periods in succession no farther from it than it began them, in the same modes.
 template <class Contact>
-class HybridOrbitSearch {
+class EventOrbitSearch {
  public:
-  using Result = HybridOrbitResult<Contact>;
+  using Result = EventOrbitResult<Contact>;
 
-  /// @param start  at a coincidence
-  HybridOrbitSearch(const HybridMotion<Contact>& start, const Rational& ratio,
-                    const OrbitLimits& limits)
+  /// @param start  at a stroboscopic instant
+  EventOrbitSearch(const EventMotion<Contact>& start, const Rational& ratio,
+                   const OrbitLimits& limits)
       : ratio_(ratio),
         limits_(limits),
         motion_(start, ratio.denominator),
@@ -59,7 +59,7 @@ class HybridOrbitSearch {
     extent_.include(state());
     set_reference();
     while (taken() + ratio_.denominator <= limits_.most_samples) {
-      take_coincidence();
+      take_stroboscopic_instant();
       if (limits_.watch) limits_.watch();
       if (!(state().cwiseAbs().maxCoeff() < 1e100)) return finish(OrbitOutcome::diverges);
       if (motion_.motion().counts().accumulates) return unfollowed();
@@ -74,7 +74,7 @@ class HybridOrbitSearch {
   }
 
  private:
-  using Solver = HybridOrbitSolver<Contact>;
+  using Solver = EventOrbitSolver<Contact>;
   using Candidate = typename Solver::Candidate;
   using Extent = typename Solver::Extent;
   using Orbit = typename Solver::Orbit;
@@ -83,7 +83,7 @@ class HybridOrbitSearch {
   std::int64_t taken() const { return static_cast<std::int64_t>(modes_.size()); }
   const State& state() const { return motion_.motion().state(); }
 
-  void take_coincidence() {
+  void take_stroboscopic_instant() {
     for (std::int64_t j = 0; j < ratio_.denominator; ++j) {
       modes_.push_back(motion_.sense().mode);
       motion_.advance();
@@ -117,7 +117,7 @@ class HybridOrbitSearch {
     ++candidates_;
     const Candidate candidate = solver_.solve(motion_.point(), period);
     if (!candidate.orbit) return;
-    if (candidate.outcome == CandidateOutcome::other_contacts)
+    if (candidate.outcome == CandidateOutcome::other_itinerary)
       failed_ = candidate;
     else if (candidate.outcome == CandidateOutcome::on_surface || candidate.orbit->is_attracting())
       propose(candidate);
@@ -145,7 +145,8 @@ class HybridOrbitSearch {
   /// Of the motion from the proposed orbit, as a share of the motion's extent.
   double distance() const { return extent_.share_of(state() - proposed_state()); }
 
-  /// Asked at every coincidence, looks at those at which the motion began the proposed orbit.
+  /// Asked at every stroboscopic instant, looks at those at which the motion began the proposed
+  /// orbit.
   bool has_come() {
     if (!proposed_) return false;
     const std::vector<ContactMode>& modes = proposed_->orbit->modes;
@@ -195,13 +196,13 @@ class HybridOrbitSearch {
 
 }  // namespace detail
 
-/// The periodic orbit that a motion comes to, with its numerical certificate (HybridOrbit).
+/// The periodic orbit that a motion comes to, with its numerical certificate (EventOrbit).
 ///
-///     HybridMotion<ExactBacklash> motion(loop, ExactBacklash(plant, width), state);
-///     const auto found = find_hybrid_orbit(motion, *forcing_ratio(loop), {});
+///     EventMotion<ExactBacklash> motion(loop, ExactBacklash(plant, width), state);
+///     const auto found = find_event_orbit(motion, *forcing_ratio(loop), {});
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
-/// `certified` means beside what HybridOrbit says that the motion was seen to come to the orbit:
+/// `certified` means beside what EventOrbit says that the motion was seen to come to the orbit:
 /// within a millionth of its size, nearer still over two further periods. `none_found` is also the
 /// answer where changes of contact accumulate.
 ///
@@ -211,10 +212,10 @@ class HybridOrbitSearch {
 /// @param ratio   of forcing_ratio()
 /// @param limits  how long and how far to look
 /// @throws InvalidParameter where the limits are not admissible, or where sampling and forcing do
-///         not coincide every q samples: other frequencies, a recorded force, samples that stray
+///         not coincide every q samples: other frequencies, a recorded force, samples that jitter
 template <class Contact>
-HybridOrbitResult<Contact> find_hybrid_orbit(const HybridMotion<Contact>& start,
-                                             const Rational& ratio, const OrbitLimits& limits) {
+EventOrbitResult<Contact> find_event_orbit(const EventMotion<Contact>& start, const Rational& ratio,
+                                           const OrbitLimits& limits) {
   validate(limits);
   const std::optional<Rational> fits = forcing_ratio(start.loop());
   if (!fits || ratio.denominator < 1 || ratio.denominator % fits->denominator != 0)
@@ -223,24 +224,24 @@ HybridOrbitResult<Contact> find_hybrid_orbit(const HybridMotion<Contact>& start,
                            "a multiple of those after which sampling and forcing repeat");
   if (ratio.denominator > limits.largest_period)
     return {OrbitOutcome::none_found, std::nullopt, std::nullopt, 0, 0};
-  HybridMotion<Contact> motion = start;
+  EventMotion<Contact> motion = start;
   for (; motion.index() % ratio.denominator != 0; motion.advance()) motion.sense();
-  return detail::HybridOrbitSearch<Contact>(motion, ratio, limits).run();
+  return detail::EventOrbitSearch<Contact>(motion, ratio, limits).run();
 }
 
 /// The same where the ratio is not known yet: incommensurate where there is none.
 template <class Contact>
-HybridOrbitResult<Contact> find_hybrid_orbit(const HybridMotion<Contact>& start,
-                                             const OrbitLimits& limits = {}) {
+EventOrbitResult<Contact> find_event_orbit(const EventMotion<Contact>& start,
+                                           const OrbitLimits& limits = {}) {
   validate(limits);
   const std::optional<Rational> ratio = forcing_ratio(start.loop());
   if (!ratio) return {OrbitOutcome::incommensurate, std::nullopt, std::nullopt, 0, 0};
-  return find_hybrid_orbit(start, *ratio, limits);
+  return find_event_orbit(start, *ratio, limits);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template HybridOrbitResult<DriveContact<>> find_hybrid_orbit(
-    const HybridMotion<DriveContact<>>&, const Rational&, const OrbitLimits&);
+extern template EventOrbitResult<DriveContact<>> find_event_orbit(
+    const EventMotion<DriveContact<>>&, const Rational&, const OrbitLimits&);
 #endif
 
 }  // namespace holdfast

@@ -25,14 +25,14 @@ namespace holdfast::detail {
 /// One period of a motion, sample by sample.
 /// @tparam States  N, the order of the plant
 template <int States>
-struct HybridTurn {
+struct OnePeriod {
   std::vector<Vector<double, States>> states;
   std::vector<ContactMode> modes_before, modes;  // of the contact before and after each sample
   std::vector<double> forces;
   std::vector<ContactSwitch> switches;
 
   /// Whether another turn has the same modes and the same switches at the same times (s).
-  bool switches_like(const HybridTurn& other, double tolerance) const {
+  bool switches_like(const OnePeriod& other, double tolerance) const {
     return modes_before == other.modes_before && modes == other.modes &&
            std::equal(switches.begin(), switches.end(), other.switches.begin(),
                       other.switches.end(), [&](const auto& a, const auto& b) {
@@ -43,13 +43,13 @@ struct HybridTurn {
 
 /// Notes the switches of a motion, and lets its measures look on.
 template <class Contact>
-class TurnRecorder {
+class PeriodRecorder {
  public:
-  using Motion = HybridMotion<Contact>;
-  using Turn = HybridTurn<Motion::states>;
+  using Motion = EventMotion<Contact>;
+  using Period = OnePeriod<Motion::states>;
 
-  TurnRecorder(const Motion& motion, HybridMeasures<Contact>& measures, Turn& turn)
-      : motion_(motion), measures_(measures), turn_(turn) {}
+  PeriodRecorder(const Motion& motion, EventOrbitMeasures<Contact>& measures, Period& one_period)
+      : motion_(motion), measures_(measures), one_period_(one_period) {}
 
   void flowed(int mode, double begin, double length) {
     reached_ = begin + length;
@@ -58,16 +58,16 @@ class TurnRecorder {
   void commanded() { measures_.commanded(); }
   void switched(int from, int to, int guard, const typename Motion::Instant& instant) {
     measures_.switched(from, to, guard, instant);
-    turn_.switches.push_back({sample_time() + reached_, motion_.contact().word()});
+    one_period_.switches.push_back({sample_time() + reached_, motion_.contact().word()});
   }
 
   /// Takes a sample whose contact was in a mode before it.
   void take(ContactMode before, const typename Motion::Sample& sample) {
-    turn_.states.push_back(sample.state);
-    turn_.modes_before.push_back(before);
-    turn_.modes.push_back(sample.mode);
-    turn_.forces.push_back(sample.control_force);
-    if (sample.mode != before) turn_.switches.push_back({sample_time(), sample.mode});
+    one_period_.states.push_back(sample.state);
+    one_period_.modes_before.push_back(before);
+    one_period_.modes.push_back(sample.mode);
+    one_period_.forces.push_back(sample.control_force);
+    if (sample.mode != before) one_period_.switches.push_back({sample_time(), sample.mode});
     reached_ = 0.0;
     measures_.begin();
   }
@@ -75,36 +75,36 @@ class TurnRecorder {
  private:
   /// s after the first sample of the turn.
   double sample_time() const {
-    return static_cast<double>(turn_.states.size() - 1) * motion_.loop().sampling.period;
+    return static_cast<double>(one_period_.states.size() - 1) * motion_.loop().sampling.period;
   }
 
   const Motion& motion_;
-  HybridMeasures<Contact>& measures_;
-  Turn& turn_;
+  EventOrbitMeasures<Contact>& measures_;
+  Period& one_period_;
   double reached_ = 0.0;  // s after the sample
 };
 
 /// The next N samples of a motion.
 template <class Contact>
-HybridTurn<EventMotion<Contact>::states> turn_of(RepeatingMotion<Contact>& motion,
-                                                 std::int64_t samples,
-                                                 HybridMeasures<Contact>& measures) {
-  HybridTurn<EventMotion<Contact>::states> turn;
-  TurnRecorder<Contact> recorder(motion.motion(), measures, turn);
+OnePeriod<EventMotion<Contact>::states> one_period_of(RepeatingMotion<Contact>& motion,
+                                                      std::int64_t samples,
+                                                      EventOrbitMeasures<Contact>& measures) {
+  OnePeriod<EventMotion<Contact>::states> one_period;
+  PeriodRecorder<Contact> recorder(motion.motion(), measures, one_period);
   for (std::int64_t j = 0; j < samples; ++j) {
     const ContactMode before = motion.motion().contact().word();
     recorder.take(before, motion.sense());
     motion.advance(recorder);
   }
-  return turn;
+  return one_period;
 }
 
 /// Of the samples at which the contact is in a mode, that which is farthest from any switch in
 /// time; −1 where there is none.
 template <int States>
-std::int64_t quiet_sample(const HybridTurn<States>& turn, ContactMode mode,
-                          double sampling_period) {
-  const auto samples = static_cast<std::int64_t>(turn.states.size());
+std::int64_t sample_far_from_switches(const OnePeriod<States>& one_period, ContactMode mode,
+                                      double sampling_period) {
+  const auto samples = static_cast<std::int64_t>(one_period.states.size());
   const double period = static_cast<double>(samples) * sampling_period;
   std::int64_t best = -1;
   double farthest = -1.0;
@@ -112,14 +112,15 @@ std::int64_t quiet_sample(const HybridTurn<States>& turn, ContactMode mode,
   for (std::int64_t j = 0; j < samples; ++j) {
     const auto k = static_cast<std::size_t>(j);
     const double time = static_cast<double>(j) * sampling_period;
-    while (next < turn.switches.size() && turn.switches[next].time < time) ++next;
-    if (turn.modes_before[k] != mode || turn.modes[k] != mode) continue;
+    while (next < one_period.switches.size() && one_period.switches[next].time < time) ++next;
+    if (one_period.modes_before[k] != mode || one_period.modes[k] != mode) continue;
     double distance = std::numeric_limits<double>::infinity();
-    if (!turn.switches.empty()) {
-      const bool last = next == turn.switches.size();
-      const double after = last ? turn.switches.front().time + period : turn.switches[next].time;
+    if (!one_period.switches.empty()) {
+      const bool last = next == one_period.switches.size();
+      const double after =
+          last ? one_period.switches.front().time + period : one_period.switches[next].time;
       const double before =
-          next == 0 ? turn.switches.back().time - period : turn.switches[next - 1].time;
+          next == 0 ? one_period.switches.back().time - period : one_period.switches[next - 1].time;
       distance = std::min(after - time, time - before);
     }
     if (distance <= farthest) continue;
@@ -132,7 +133,7 @@ std::int64_t quiet_sample(const HybridTurn<States>& turn, ContactMode mode,
 /// Whether an orbit comes so near to grazing that rounding may decide how it switches.
 /// @param closure  z_N − z₀ of both sides of the gap
 template <int States>
-bool touches_surface(const HybridOrbitOf<States>& orbit, const Vector<double, 4>& closure) {
+bool touches_surface(const EventOrbitOf<States>& orbit, const Vector<double, 4>& closure) {
   const SurfaceRounding rounding = surface_rounding(orbit.extent, orbit.extent.share_of(closure));
   const SwitchingMargins& margins = orbit.margins;
   return margins.border_distance <= rounding.displacement ||
@@ -141,14 +142,14 @@ bool touches_surface(const HybridOrbitOf<States>& orbit, const Vector<double, 4>
 
 /// Solves for the orbit of N samples near a point and measures it.
 template <class Contact>
-class HybridOrbitSolver {
+class EventOrbitSolver {
  public:
-  using Motion = HybridMotion<Contact>;
+  using Motion = EventMotion<Contact>;
   using State = typename Motion::State;
-  using Extent = StateExtentOf<typename Motion::Plant>;
-  using Orbit = HybridOrbitOf<Motion::states>;
-  using Turn = HybridTurn<Motion::states>;
-  using Point = HybridPoint<Contact>;
+  using Extent = StateScaleOf<typename Motion::Plant>;
+  using Orbit = EventOrbitOf<Motion::states>;
+  using Period = OnePeriod<Motion::states>;
+  using Point = StroboscopicState<Contact>;
 
   struct Candidate {
     CandidateOutcome outcome;
@@ -156,23 +157,23 @@ class HybridOrbitSolver {
     std::optional<Point> point;
   };
 
-  HybridOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
+  EventOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
       : motion_(motion),
         readings_(motion.motion().readings()),
         ratio_(ratio),
         sampling_period_(motion.motion().loop().sampling.period) {}
 
-  /// @param near  at a coincidence
+  /// @param near  at a stroboscopic instant
   Candidate solve(const Point& near, std::int64_t samples) {
     motion_.go_to(near);
-    HybridMeasures<Contact> unused(motion_.motion());
-    const Turn turn = turn_of(motion_, samples, unused);
-    const Extent extent(readings_, turn.states);
-    const std::int64_t section = section_of(turn);
+    EventOrbitMeasures<Contact> unused(motion_.motion());
+    const Period one_period = one_period_of(motion_, samples, unused);
+    const Extent extent(readings_, one_period.states);
+    const std::int64_t section = section_of(one_period);
     if (section < 0) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
-    const bool gap_opens = !turn.switches.empty();
-    const auto units = return_units(motion_.motion(), extent, turn.forces);
-    HybridReturn<Contact> map(motion_, samples, units);
+    const bool gap_opens = !one_period.switches.empty();
+    const auto units = return_units(motion_.motion(), extent, one_period.forces);
+    ReturnMap<Contact> map(motion_, samples, units);
     const auto solution = map.fixed_point(moved(near, section), gap_opens);
     if (!solution) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
     const Point first = moved(*solution, samples - section);
@@ -186,9 +187,11 @@ class HybridOrbitSolver {
  private:
   /// Where a fixed point is sought: with the drive engaged if it ever is, since it has forgotten
   /// its gap then.
-  std::int64_t section_of(const Turn& turn) const {
-    const std::int64_t engaged = quiet_sample(turn, ContactMode::engaged, sampling_period_);
-    return engaged >= 0 ? engaged : quiet_sample(turn, ContactMode::gap, sampling_period_);
+  std::int64_t section_of(const Period& one_period) const {
+    const std::int64_t engaged =
+        sample_far_from_switches(one_period, ContactMode::engaged, sampling_period_);
+    return engaged >= 0 ? engaged
+                        : sample_far_from_switches(one_period, ContactMode::gap, sampling_period_);
   }
 
   Point moved(const Point& from, std::int64_t samples) {
@@ -204,37 +207,38 @@ class HybridOrbitSolver {
   /// @param extent  of the states among which the orbit was sought; its own may be rounding
   Candidate measured(const Point& first, std::int64_t samples, const Extent& extent) {
     motion_.go_to(first);
-    HybridMeasures<Contact> measures(motion_.motion());
-    Turn turn = turn_of(motion_, samples, measures);
-    const std::int64_t shortest = shortest_period(turn, extent);
+    EventOrbitMeasures<Contact> measures(motion_.motion());
+    Period one_period = one_period_of(motion_, samples, measures);
+    const std::int64_t shortest = shortest_period(one_period, extent);
     if (shortest < samples) return measured(first, shortest, extent);
     bool alike = !motion_.motion().counts().accumulates;
     const State end = motion_.motion().state();
     for (int more = 0; more < 2; ++more)
-      alike =
-          turn_of(motion_, samples, measures).switches_like(turn, 1e-6 * sampling_period_) && alike;
-    Orbit orbit = orbit_of(std::move(turn), measures);
+      alike = one_period_of(motion_, samples, measures)
+                  .switches_like(one_period, 1e-6 * sampling_period_) &&
+              alike;
+    Orbit orbit = orbit_of(std::move(one_period), measures);
     const State closure = end - orbit.states.front();
     orbit.closure_error = closure.norm();
     const auto outcome = touches_surface(orbit, readings_.both_sides(closure))
                              ? CandidateOutcome::on_surface
                          : alike ? CandidateOutcome::verified
-                                 : CandidateOutcome::other_contacts;
+                                 : CandidateOutcome::other_itinerary;
     return {outcome, std::move(orbit), first};
   }
 
-  Orbit orbit_of(Turn turn, const HybridMeasures<Contact>& measures) const {
+  Orbit orbit_of(Period one_period, const EventOrbitMeasures<Contact>& measures) const {
     Orbit orbit{};
-    orbit.extent = Extent(readings_, turn.states).sides();
-    for (const State& state : turn.states)
+    orbit.extent = Extent(readings_, one_period.states).sides();
+    for (const State& state : one_period.states)
       orbit.largest_sample =
           std::max(orbit.largest_sample, std::abs(readings_.displacement(state)));
     orbit.ratio = ratio_;
     orbit.sampling_period = sampling_period_;
-    orbit.states = std::move(turn.states);
-    orbit.modes = std::move(turn.modes);
-    orbit.forces = std::move(turn.forces);
-    orbit.switches = std::move(turn.switches);
+    orbit.states = std::move(one_period.states);
+    orbit.modes = std::move(one_period.modes);
+    orbit.forces = std::move(one_period.forces);
+    orbit.switches = std::move(one_period.switches);
     orbit.margins = measures.margins();
     orbit.time_share = measures.time_share();
     orbit.largest_displacement = measures.largest_displacement();
@@ -242,13 +246,15 @@ class HybridOrbitSolver {
   }
 
   /// The shortest period of which a turn is a whole number of repetitions.
-  std::int64_t shortest_period(const Turn& turn, const Extent& extent) const {
-    const auto samples = static_cast<std::int64_t>(turn.states.size());
+  std::int64_t shortest_period(const Period& one_period, const Extent& extent) const {
+    const auto samples = static_cast<std::int64_t>(one_period.states.size());
     for (std::int64_t period = ratio_.denominator; period < samples; period += ratio_.denominator) {
       if (samples % period != 0) continue;
-      const State apart = turn.states[static_cast<std::size_t>(period)] - turn.states.front();
+      const State apart =
+          one_period.states[static_cast<std::size_t>(period)] - one_period.states.front();
       if (extent.share_of(apart) > 1e-10) continue;
-      if (std::equal(turn.modes.begin() + period, turn.modes.end(), turn.modes.begin()))
+      if (std::equal(one_period.modes.begin() + period, one_period.modes.end(),
+                     one_period.modes.begin()))
         return period;
     }
     return samples;

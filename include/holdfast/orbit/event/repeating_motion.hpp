@@ -11,11 +11,11 @@
 
 namespace holdfast {
 
-/// All that the coming samples of a HybridMotion depend on, where sampling and forcing coincide
+/// All that the coming samples of an EventMotion depend on, where sampling and forcing coincide
 /// every q samples.
 template <class Contact>
-struct HybridPoint {
-  std::int64_t phase;  ///< samples since the last coincidence, 0 … q − 1
+struct StroboscopicState {
+  std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
   typename EventMotion<Contact>::State state;  ///< x_j, N × 1; of two masses z_j (m, m/s, m, m/s)
   double previous_command;                     ///< u_{j−1} (N)
   double previous_reading;                     ///< the displacement at t_{j−1} as read (m)
@@ -40,14 +40,14 @@ bool remembers_gap([[maybe_unused]] const Contact& contact) {
   }
 }
 
-/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] of HybridTangent.
+/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] of VariationalFlow.
 template <class Contact>
 using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
 
 /// to − from.
 template <class Contact>
-PointDeviation<Contact> difference(const HybridPoint<Contact>& from,
-                                   const HybridPoint<Contact>& to) {
+PointDeviation<Contact> difference(const StroboscopicState<Contact>& from,
+                                   const StroboscopicState<Contact>& to) {
   PointDeviation<Contact> apart(from.state.size() + 3);
   apart << to.state - from.state, to.previous_command - from.previous_command, 0.0,
       to.previous_reading - from.previous_reading;
@@ -59,7 +59,8 @@ PointDeviation<Contact> difference(const HybridPoint<Contact>& from,
 }
 
 template <class Contact>
-HybridPoint<Contact> shifted(HybridPoint<Contact> point, const PointDeviation<Contact>& by) {
+StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
+                                   const PointDeviation<Contact>& by) {
   const Eigen::Index order = point.state.size();
   point.state += by.head(order);
   point.previous_command += by[order];
@@ -72,14 +73,16 @@ HybridPoint<Contact> shifted(HybridPoint<Contact> point, const PointDeviation<Co
 
 }  // namespace detail
 
-/// A HybridMotion whose forcing repeats exactly every q samples: its index goes back to zero at
-/// each coincidence, so that no rounding of late instants lets sampling and forcing drift apart.
+/// An EventMotion whose forcing repeats exactly every q samples: its index goes back to zero at
+/// each stroboscopic instant, so that no rounding of late instants lets sampling and forcing drift
+/// apart.
 template <class Contact>
 class RepeatingMotion {
  public:
-  /// @param motion  at a coincidence of sampling and forcing where its index is a multiple of q
+  /// @param motion  at a stroboscopic instant (sampling and forcing in phase) where its index is a
+  ///                multiple of q
   /// @param period  q ≥ 1 of forcing_ratio()
-  RepeatingMotion(const HybridMotion<Contact>& motion, std::int64_t period)
+  RepeatingMotion(const EventMotion<Contact>& motion, std::int64_t period)
       : motion_(motion), period_(period) {
     turn_to(motion.index() % period);
   }
@@ -88,7 +91,7 @@ class RepeatingMotion {
   typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
   /// Moves to the next sample.
   void advance() { advance(IgnoreFlow()); }
-  /// The same past an observer as that of HybridMotion::advance.
+  /// The same past an observer as that of EventMotion::advance.
   template <class Observer>
   void advance(Observer&& observer) {
     motion_.advance(observer);
@@ -96,13 +99,13 @@ class RepeatingMotion {
   }
 
   /// Where the motion stands; ask before `sense()`.
-  HybridPoint<Contact> point() const {
+  StroboscopicState<Contact> point() const {
     return {motion_.index(), motion_.state(), motion_.previous_command(),
             motion_.controller().memory().previous_displacement, motion_.contact()};
   }
 
-  /// Goes on from a point, its counts begun anew.
-  void go_to(const HybridPoint<Contact>& point) {
+  /// Goes on from a point, its counts begun again.
+  void go_to(const StroboscopicState<Contact>& point) {
     if (motion_.loop().limits.velocity == VelocitySensing::difference)
       motion_.remember_reading(point.previous_reading);
     motion_.restore(point.phase, point.state, point.previous_command, point.contact);
@@ -110,7 +113,7 @@ class RepeatingMotion {
   }
 
   /// The motion itself; its index is the phase, 0 … q − 1.
-  const HybridMotion<Contact>& motion() const { return motion_; }
+  const EventMotion<Contact>& motion() const { return motion_; }
   /// q.
   std::int64_t period() const { return period_; }
 
@@ -119,7 +122,7 @@ class RepeatingMotion {
     motion_.restore(phase, motion_.state(), motion_.previous_command(), motion_.contact());
   }
 
-  HybridMotion<Contact> motion_;
+  EventMotion<Contact> motion_;
   std::int64_t period_;
 };
 

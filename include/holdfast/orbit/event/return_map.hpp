@@ -18,8 +18,8 @@
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 #include "holdfast/orbit/event/repeating_motion.hpp"
-#include "holdfast/orbit/scaling.hpp"
 #include "holdfast/orbit/state_scale.hpp"
+#include "holdfast/orbit/state_scaling.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
@@ -27,20 +27,20 @@ namespace holdfast {
 namespace detail {
 
 /// Units of X = [x; u_{j−1}; the gap; the displacement as last read] for what is solved on it,
-/// powers of two: of the two masses those of plant_units() and 1 m, of another plant the size of
+/// powers of two: of the two masses those of plant_scaling() and 1 m, of another plant the size of
 /// what a motion shows, or 1.
 /// @param seen    the states of the motion
 /// @param forces  of the drive (N)
 template <class Contact>
 PointDeviation<Contact> return_units(
     const EventMotion<Contact>& motion,
-    [[maybe_unused]] const StateExtentOf<typename EventMotion<Contact>::Plant>& seen,
+    [[maybe_unused]] const StateScaleOf<typename EventMotion<Contact>::Plant>& seen,
     [[maybe_unused]] const std::vector<double>& forces) {
   const Eigen::Index order = motion.state().size();
   PointDeviation<Contact> units(order + 3);
-  if constexpr (std::is_same_v<typename EventMotion<Contact>::Plant, TwoDof<double>>) {
+  if constexpr (std::is_same_v<typename EventMotion<Contact>::Plant, TwoMass<double>>) {
     const auto& dynamics = motion.dynamics(0);
-    units << plant_units(dynamics.state, dynamics.force), 1.0, 1.0;
+    units << plant_scaling(dynamics.state, dynamics.force), 1.0, 1.0;
   } else {
     double force = 0.0;
     for (const double one : forces) force = std::max(force, std::abs(one));
@@ -55,11 +55,11 @@ PointDeviation<Contact> return_units(
 }  // namespace detail
 
 /// The map X_0 → X_N of a motion, N a multiple of q, with its derivative, which includes the
-/// saltation at every switch; X as in HybridTangent.
+/// saltation at every switch; X as in VariationalFlow.
 /// @tparam Contact  of the motion
 /// @tparam Scalar   of X
 template <class Contact, class Scalar = double>
-class HybridReturn {
+class ReturnMap {
  public:
   /// The motion that returns.
   using Motion = EventMotion<Contact>;
@@ -69,19 +69,18 @@ class HybridReturn {
   using Deviation = Vector<Scalar, size>;
   using Map = Matrix<Scalar, size>;  ///< (N + 3) × (N + 3)
   /// X with the contact that goes with it.
-  using Point = HybridPoint<Contact>;
+  using Point = StroboscopicState<Contact>;
 
   /// @param motion   any motion of the loop
   /// @param samples  N
   /// @param units    of X, powers of two
-  HybridReturn(const RepeatingMotion<Contact>& motion, std::int64_t samples, const Deviation& units)
+  ReturnMap(const RepeatingMotion<Contact>& motion, std::int64_t samples, const Deviation& units)
       : motion_(motion), samples_(samples), units_(units) {}
 
   /// The same in units that know of no motion.
-  HybridReturn(const RepeatingMotion<Contact>& motion, std::int64_t samples)
-      : HybridReturn(
-            motion, samples,
-            detail::return_units(motion.motion(), Extent(motion.motion().readings()), {})) {}
+  ReturnMap(const RepeatingMotion<Contact>& motion, std::int64_t samples)
+      : ReturnMap(motion, samples,
+                  detail::return_units(motion.motion(), Extent(motion.motion().readings()), {})) {}
 
   /// A fixed point near a point, by Newton's method, (I − M) δX = X_N − X_0, until no more is
   /// gained.
@@ -151,7 +150,7 @@ class HybridReturn {
   }
 
  private:
-  using Extent = StateExtentOf<typename Motion::Plant>;
+  using Extent = StateScaleOf<typename Motion::Plant>;
 
   Eigen::Index order() const { return units_.size() - 3; }
   Eigen::Index gap_row() const { return order() + 1; }
@@ -166,7 +165,7 @@ class HybridReturn {
   template <class Visit>
   Point follow(const Point& point, Visit&& visit) {
     motion_.go_to(point);
-    HybridTangent<Contact> tangent(motion_.motion());
+    VariationalFlow<Contact> tangent(motion_.motion());
     for (std::int64_t j = 0; j < samples_; ++j) {
       motion_.sense();
       tangent.begin_sample(motion_.motion());
@@ -206,7 +205,7 @@ class HybridReturn {
   /// x by the plant alone; what is remembered beside x may be forgotten within a few samples.
   int most_maps_in_a_block(const std::vector<int>& counting) const {
     if (counting.size() > 4) return 1;
-    const HybridMotion<Contact>& motion = motion_.motion();
+    const EventMotion<Contact>& motion = motion_.motion();
     const double decay = std::abs(motion.dynamics(0).state.trace());
     const double maps = 4.0 / (decay * motion.loop().sampling.period);  // infinite without damping
     return static_cast<int>(std::clamp(maps, 1.0, 16.0));

@@ -30,7 +30,7 @@ class FeatureFinder {
   std::vector<BoundaryFeature<Scalar>> find() {
     add_tangents();
     mark_near_cusps();
-    for (const DoublePair<Scalar>& pair : double_pairs(pairs_)) {
+    for (const DoubleNeimarkSacker<Scalar>& pair : double_neimark_sacker_points(pairs_)) {
       add(BoundaryFeatureKind::crossing, pair_at(pair.lower_square, pair.gains),
           pair_at(pair.upper_square, pair.gains), pair.gains);
     }
@@ -178,7 +178,7 @@ class FeatureFinder {
 ///
 /// All are roots of polynomials of degree at most six, so none is missed however close the curves
 /// run: stationary P and D from n′ Δ = n Δ′, crossings of the curve of pairs with a line from a
-/// polynomial of degree four in Y, with itself from a cubic (`double_pairs`).
+/// polynomial of degree four in Y, with itself from a cubic (`double_neimark_sacker_points`).
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
 /// `characteristic_polynomial(plant)`, in s (degree 4)
 /// @param window      P (N/m) and D (N s/m), its edges included

@@ -17,7 +17,7 @@ namespace holdfast {
 
 /// Gains with two different root pairs on the imaginary axis: the curve of root pairs meets itself.
 template <class Scalar>
-struct DoublePair {
+struct DoubleNeimarkSacker {
   PdGains<Scalar> gains;  ///< P (N/m) and D (N s/m) that have both pairs
   Scalar lower_square;    ///< Y of the slower pair
   Scalar upper_square;    ///< Y of the faster pair
@@ -88,8 +88,8 @@ struct ParityPencil {
 /// size 1e−15, the third power). A first or last coefficient that is round-off of its terms puts
 /// one of them at 0 or ∞: that is an `end`, or no pair at all.
 template <class Scalar>
-std::optional<DoublePair<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
-                                               const PdGains<Scalar>& gains) {
+std::optional<DoubleNeimarkSacker<Scalar>> pair_squares(const RootPairCurve<Scalar>& curve,
+                                                        const PdGains<Scalar>& gains) {
   const auto at_gains = [&gains](const auto& base, const auto& p, const auto& d) {
     const Vector<Scalar, 3> first = gains.proportional * p, second = gains.differential * d;
     const Vector<Scalar, 3> terms = base.cwiseAbs() + first.cwiseAbs() + second.cwiseAbs();
@@ -114,7 +114,7 @@ std::optional<DoublePair<Scalar>> pair_squares(const RootPairCurve<Scalar>& curv
   if (!(first > Scalar(0) && second > Scalar(0) && std::isfinite(first + second))) {
     return std::nullopt;
   }
-  return DoublePair<Scalar>{gains, std::min(first, second), std::max(first, second)};
+  return DoubleNeimarkSacker<Scalar>{gains, std::min(first, second), std::max(first, second)};
 }
 
 }  // namespace detail
@@ -131,9 +131,10 @@ std::optional<DoublePair<Scalar>> pair_squares(const RootPairCurve<Scalar>& curv
 /// a cubic in ν, so that none can be missed. Where the curve is retraced as a whole (no damping:
 /// D = 0 twice, once for each pair) its points are not isolated, and there are none to give.
 template <class Scalar>
-std::vector<DoublePair<Scalar>> double_pairs(const RootPairCurve<Scalar>& curve) {
+std::vector<DoubleNeimarkSacker<Scalar>> double_neimark_sacker_points(
+    const RootPairCurve<Scalar>& curve) {
   const detail::ParityPencil<Scalar> pencil(curve);
-  std::vector<DoublePair<Scalar>> result;
+  std::vector<DoubleNeimarkSacker<Scalar>> result;
   for (const auto& ratio : roots(pencil.determinant())) {
     if (std::abs(ratio.imag()) > Scalar(1e-6) * std::abs(ratio.real())) continue;
     const auto pair = detail::pair_squares(curve, pencil.gains(ratio.real()));

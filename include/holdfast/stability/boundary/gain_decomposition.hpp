@@ -58,11 +58,11 @@ struct GainSlab {
 /// A curve of root pairs that is itself the line P = const would not be seen. No loop of a plant
 /// has one; the undamped continuous loop has with its two gains exchanged.
 template <class Scalar, int Degree>
-class GainSlabs {
+class GainDecomposition {
  public:
   /// @param curves  must outlive this object
   /// @param window  P (N/m) and D (N s/m), within its ranges (`validate`), not checked here
-  GainSlabs(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
+  GainDecomposition(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
       : curves_(curves), window_(window) {
     for (const auto& arc : curves_.pairs().arcs()) {
       branches_.emplace_back(ArcCrossing<Scalar>(curves_.pairs(), arc));
@@ -73,11 +73,11 @@ class GainSlabs {
     cut();
   }
   // Slabs point to the branches of their own object.
-  GainSlabs(const GainSlabs&) = delete;
-  GainSlabs(GainSlabs&&) = delete;
-  GainSlabs& operator=(const GainSlabs&) = delete;
-  GainSlabs& operator=(GainSlabs&&) = delete;
-  ~GainSlabs() = default;
+  GainDecomposition(const GainDecomposition&) = delete;
+  GainDecomposition(GainDecomposition&&) = delete;
+  GainDecomposition& operator=(const GainDecomposition&) = delete;
+  GainDecomposition& operator=(GainDecomposition&&) = delete;
+  ~GainDecomposition() = default;
 
   /// Ascending in P, without gaps.
   const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }

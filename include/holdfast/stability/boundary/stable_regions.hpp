@@ -38,7 +38,7 @@ class RegionBuilder {
  public:
   RegionBuilder(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
       : curves_(curves), window_(window) {
-    const GainSlabs<Scalar, Degree> slabs(curves, window);
+    const GainDecomposition<Scalar, Degree> slabs(curves, window);
     std::size_t previous = 0;
     for (const GainSlab<Scalar>& slab : slabs.slabs()) {
       const std::size_t first = cells_.size();
@@ -171,10 +171,10 @@ class RegionBuilder {
 /// The regions into which the boundary divides a window of gains, with their exact areas.
 ///
 /// The window is cut into slabs of P in which the crossings D₁(P) < D₂(P) < … of the boundary keep
-/// their number and order (`GainSlabs`). The gap between two crossings is a cell with one number of
-/// unstable roots, counted at its middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of neighbouring
-/// slabs that touch with no boundary between them are one region. Areas are good to 1e−10 of the
-/// window's; a neck narrower than 1e−9 of its height does not connect.
+/// their number and order (`GainDecomposition`). The gap between two crossings is a cell with one
+/// number of unstable roots, counted at its middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of
+/// neighbouring slabs that touch with no boundary between them are one region. Areas are good to
+/// 1e−10 of the window's; a neck narrower than 1e−9 of its height does not connect.
 /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
 /// `characteristic_polynomial(plant)`, in s (degree 4)
 /// @param window      P (N/m) and D (N s/m), its edges included

@@ -47,7 +47,7 @@ class ChartPolynomials {
 
   /// The polynomials of a row as a function of the fast gain.
   AffineLine<Degree> line(std::int64_t row) const {
-    const LoopPoint point = chart_.row(row);
+    const OperatingPoint point = chart_.row(row);
     return along(chart_.fast.parameter,
                  is_gain(chart_.slow.parameter) ? common_ : polynomial_of(point), point.gains);
   }
@@ -59,14 +59,14 @@ class ChartPolynomials {
     }
     Table result(columns(), Degree + 1);
     for (std::int64_t column = 0; column < columns(); ++column) {
-      const LoopPoint point = chart_.cell(row, column);
+      const OperatingPoint point = chart_.cell(row, column);
       result.row(column) = polynomial_of(point).at(point.gains);
     }
     return result;
   }
 
  private:
-  AffinePolynomial<double, Degree> polynomial_of(const LoopPoint& point) const {
+  AffinePolynomial<double, Degree> polynomial_of(const OperatingPoint& point) const {
     const auto p = characteristic_polynomial(point);
     return {map_(p.base), map_(p.proportional), map_(p.differential)};
   }
@@ -75,7 +75,7 @@ class ChartPolynomials {
     column_constants_.resize(columns(), Degree + 1);
     column_slopes_.resize(columns(), Degree + 1);
     for (std::int64_t column = 0; column < columns(); ++column) {
-      const LoopPoint point = chart_.cell(0, column);
+      const OperatingPoint point = chart_.cell(0, column);
       const auto line = along(chart_.slow.parameter, polynomial_of(point), point.gains);
       column_constants_.row(column) = line.constant;
       column_slopes_.row(column) = line.slope;

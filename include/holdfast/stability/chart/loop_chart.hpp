@@ -18,20 +18,20 @@ struct LoopAxis {
 struct LoopChart {
   /// The loop in which a cell replaces two values; where τ is replaced and δ is not, δ is scaled
   /// with it.
-  LoopPoint point;
+  OperatingPoint point;
   LoopAxis slow;  ///< one value a row
   LoopAxis fast;  ///< one value a column
 
   /// The loop of a row, with the fast parameter still that of the point.
-  LoopPoint row(std::int64_t index) const {
-    LoopPoint result = point;
+  OperatingPoint row(std::int64_t index) const {
+    OperatingPoint result = point;
     set(result, slow.parameter, slow.values.at(index));
     return result;
   }
 
   /// The loop of a cell.
-  LoopPoint cell(std::int64_t row_index, std::int64_t column) const {
-    LoopPoint result = row(row_index);
+  OperatingPoint cell(std::int64_t row_index, std::int64_t column) const {
+    OperatingPoint result = row(row_index);
     set(result, fast.parameter, fast.values.at(column));
     // A delay that the chart gives does not scale with the period that it gives as well.
     if (slow.parameter == LoopParameter::processing_delay)
@@ -48,7 +48,7 @@ inline void validate(const LoopChart& chart) {
   }
   for (const std::int64_t row : {std::int64_t{0}, chart.slow.values.count - 1}) {
     for (const std::int64_t column : {std::int64_t{0}, chart.fast.values.count - 1}) {
-      const LoopPoint corner = chart.cell(row, column);
+      const OperatingPoint corner = chart.cell(row, column);
       validate(corner.plant);
       validate(corner.sampling);
       validate(corner.gains);
@@ -76,12 +76,12 @@ AffineLine<Degree> along(LoopParameter gain, const AffinePolynomial<double, Degr
 
 /// The characteristic polynomial of a point's loop in powers of λ − 1, for any gains.
 template <class Scalar = double>
-AffinePolynomial<Scalar, 5> characteristic_polynomial(const LoopPoint& point) {
+AffinePolynomial<Scalar, 5> characteristic_polynomial(const OperatingPoint& point) {
   return characteristic_polynomial(sampled_loop(point.plant, point.sampling));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template AffinePolynomial<double, 5> characteristic_polynomial(const LoopPoint&);
+extern template AffinePolynomial<double, 5> characteristic_polynomial(const OperatingPoint&);
 #endif
 
 }  // namespace holdfast

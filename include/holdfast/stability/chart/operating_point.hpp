@@ -7,8 +7,8 @@
 namespace holdfast {
 
 /// Everything that decides the stability of a sampled loop.
-struct LoopPoint {
-  TwoDof<double> plant;       ///< m (kg), k (N/m) and c (N s/m) of both masses
+struct OperatingPoint {
+  TwoMass<double> plant;      ///< m (kg), k (N/m) and c (N s/m) of both masses
   Sampling<double> sampling;  ///< τ (s) and δ (s)
   PdGains<double> gains;      ///< P (N/m) and D (N s/m)
 };
@@ -35,7 +35,7 @@ constexpr bool is_gain(LoopParameter parameter) {
 }
 
 /// Gives a parameter a value.
-inline void set(LoopPoint& point, LoopParameter parameter, double value) {
+inline void set(OperatingPoint& point, LoopParameter parameter, double value) {
   switch (parameter) {
     case LoopParameter::proportional_gain:
       point.gains.proportional = value;

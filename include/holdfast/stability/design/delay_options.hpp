@@ -26,7 +26,7 @@ enum class DelayCriterion {
 };
 
 /// A question about the slowest computer that still serves, for one excitation frequency.
-struct MaxDelayQuestion {
+struct MaxDelayOptions {
   double frequency;          ///< f (Hz), > 0
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< what counts as feasible
@@ -43,14 +43,14 @@ struct MaxDelayQuestion {
   Sampling<double> sampling(double period) const { return {period, delay_fraction * period}; }
 };
 
-/// @throws InvalidParameter outside the ranges that the members of `MaxDelayQuestion` state
-inline void validate(const MaxDelayQuestion& question) {
-  require_positive("frequency", question.frequency, "Hz");
-  require_finite("proportional gain", question.proportional_gain, "N/m");
-  require_within("delay fraction", question.delay_fraction, "", 0.0, 1.0);
-  require_positive("shortest sampling period", question.shortest_period, "s");
-  require_positive("search span", question.longest_period - question.shortest_period, "s");
-  require_positive("search ratio minus one", question.search_ratio - 1.0, "");
+/// @throws InvalidParameter outside the ranges that the members of `MaxDelayOptions` state
+inline void validate(const MaxDelayOptions& options) {
+  require_positive("frequency", options.frequency, "Hz");
+  require_finite("proportional gain", options.proportional_gain, "N/m");
+  require_within("delay fraction", options.delay_fraction, "", 0.0, 1.0);
+  require_positive("shortest sampling period", options.shortest_period, "s");
+  require_positive("search span", options.longest_period - options.shortest_period, "s");
+  require_positive("search ratio minus one", options.search_ratio - 1.0, "");
 }
 
 namespace detail {
@@ -63,20 +63,20 @@ struct DelayOffer {
 };
 
 template <class Plant>
-DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayQuestion& question,
+DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayOptions& options,
                                double sampling_period) {
-  const auto loop = loop_of(plant, question.sampling(sampling_period));
+  const auto loop = loop_of(plant, options.sampling(sampling_period));
   DelayOffer<double> offer{
-      stable_gains(loop, FreeGain::differential, {question.proportional_gain, 0.0}), {}};
-  if (question.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
-  offer.response = response_of_loop(plant, loop, question.hold, question.angular_frequency());
+      stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0}), {}};
+  if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
+  offer.response = response_of_loop(plant, loop, options.hold, options.angular_frequency());
   return offer;
 }
 
 /// False where the criterion asks for samples that show the vibration and they do not.
-inline bool shows_vibration(const MaxDelayQuestion& question, double sampling_period) {
-  return question.criterion == DelayCriterion::stable ||
-         2.0 * question.frequency * sampling_period < 1.0;
+inline bool shows_vibration(const MaxDelayOptions& options, double sampling_period) {
+  return options.criterion == DelayCriterion::stable ||
+         2.0 * options.frequency * sampling_period < 1.0;
 }
 
 }  // namespace detail
@@ -86,52 +86,50 @@ inline bool shows_vibration(const MaxDelayQuestion& question, double sampling_pe
 /// control.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            within its ranges, which are not checked here
-/// @param question         within its ranges (`validate`), which are not checked here
+/// @param options          within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
 template <class Plant>
 std::vector<Interval<double>> feasible_differential_gains(const Plant& plant,
-                                                          const MaxDelayQuestion& question,
+                                                          const MaxDelayOptions& options,
                                                           double sampling_period) {
-  if (!detail::shows_vibration(question, sampling_period)) return {};
-  const auto offer = detail::delay_offer(plant, question, sampling_period);
+  if (!detail::shows_vibration(options, sampling_period)) return {};
+  const auto offer = detail::delay_offer(plant, options, sampling_period);
   if (!offer.response) return offer.stable;
   return intersection(offer.stable,
-                      offer.response->differential_gains_below(question.proportional_gain));
+                      offer.response->differential_gains_below(options.proportional_gain));
 }
 
-/// The differential gain that makes one sampling period feasible, if there is one: of least
-/// amplitude over the stabilising gains, or amid the first interval of these.
+/// The differential gain that makes one sampling period feasible, if there is one: of minimum
+/// amplitude over the stabilising gains, or inside the first interval of these.
 ///
-/// The stabilising gains are known as exact intervals (`stable_gains`) and the least
+/// The stabilising gains are known as exact intervals (`stable_gains`) and the minimum
 /// amplitude over them in closed form (`SteadyResponse`), so nothing is scanned over D.
 /// @tparam Plant           two masses, in closed form, or a plant of any order with ports
 /// @param plant            within its ranges, which are not checked here
-/// @param question         within its ranges (`validate`), which are not checked here
+/// @param options          within its ranges (`validate`), which are not checked here
 /// @param sampling_period  τ (s), > 0
 template <class Plant>
-std::optional<double> feasible_differential_gain(const Plant& plant,
-                                                 const MaxDelayQuestion& question,
+std::optional<double> feasible_differential_gain(const Plant& plant, const MaxDelayOptions& options,
                                                  double sampling_period) {
-  if (!detail::shows_vibration(question, sampling_period)) return std::nullopt;
-  const auto offer = detail::delay_offer(plant, question, sampling_period);
+  if (!detail::shows_vibration(options, sampling_period)) return std::nullopt;
+  const auto offer = detail::delay_offer(plant, options, sampling_period);
   if (offer.stable.empty()) return std::nullopt;
   if (!offer.response) return offer.stable.front().representative();
-  const auto best =
-      offer.response->best_differential_gain(question.proportional_gain, offer.stable);
+  const auto best = offer.response->best_differential_gain(options.proportional_gain, offer.stable);
   if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
   return best.differential_gain;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<Interval<double>> feasible_differential_gains(const TwoDof<double>&,
-                                                                          const MaxDelayQuestion&,
+extern template std::vector<Interval<double>> feasible_differential_gains(const TwoMass<double>&,
+                                                                          const MaxDelayOptions&,
                                                                           double);
-extern template std::optional<double> feasible_differential_gain(const TwoDof<double>&,
-                                                                 const MaxDelayQuestion&, double);
+extern template std::optional<double> feasible_differential_gain(const TwoMass<double>&,
+                                                                 const MaxDelayOptions&, double);
 extern template std::vector<Interval<double>> feasible_differential_gains(
-    const LinearPlant<double>&, const MaxDelayQuestion&, double);
+    const LinearPlant<double>&, const MaxDelayOptions&, double);
 extern template std::optional<double> feasible_differential_gain(const LinearPlant<double>&,
-                                                                 const MaxDelayQuestion&, double);
+                                                                 const MaxDelayOptions&, double);
 #endif
 
 }  // namespace holdfast

@@ -10,7 +10,7 @@
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
-#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -41,9 +41,9 @@ enum class MaxDelayLimit {
 struct MaxDelay {
   MaxDelayOutcome outcome;   ///< how the search ended
   double sampling_period;    ///< τ* (s)
-  double differential_gain;  ///< D (N s/m) at τ*: of least amplitude, or amid the stable interval;
-                             ///< a limit of gains that serve, not one to use without a margin;
-                             ///< NaN where the outcome is `never`
+  double differential_gain;  ///< D (N s/m) at τ*: of minimum amplitude, or inside the stable
+                             ///< interval; a limit of gains that serve, not one to use without a
+                             ///< margin; NaN where the outcome is `never`
   MaxDelayLimit limit;  ///< what is lacking beyond τ*, or at once where the outcome is `never`
 };
 
@@ -55,23 +55,23 @@ class DelaySearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
-  DelaySearch(const Plant& plant, const MaxDelayQuestion& question)
+  DelaySearch(const Plant& plant, const MaxDelayOptions& options)
       : plant_(plant),
-        question_(question),
-        path_(SamplingFamily<Plant>::of_period(plant, question.delay_fraction)) {}
+        options_(options),
+        family_(FamilyOfSamplings<Plant>::of_period(plant, options.delay_fraction)) {}
 
   MaxDelay answer() {
-    feasible_ = std::min(question_.shortest_period, 1e-3 / question_.frequency);
+    feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
     gains_ = gains_at(feasible_);
     if (gains_.empty()) return {MaxDelayOutcome::never, 0.0, no_gain, what_is_lacking(feasible_)};
     const double end = longest();
     double goal = end, boundary = end;
     while (const std::optional<double> infeasible = advance(goal)) {
       boundary = boundary_between(feasible_, *infeasible);
-      goal = std::max(feasible_, boundary / question_.search_ratio);
+      goal = std::max(feasible_, boundary / options_.search_ratio);
       if (goal == feasible_) break;
     }
-    if (boundary == end && end >= question_.longest_period) {
+    if (boundary == end && end >= options_.longest_period) {
       const double infinity = std::numeric_limits<double>::infinity();
       return {MaxDelayOutcome::unlimited, infinity, gain_at(end), MaxDelayLimit::none};
     }
@@ -83,18 +83,18 @@ class DelaySearch {
   static constexpr double longest_link_ = 8.0;  // as a ratio of its ends
 
   Intervals gains_at(double period) const {
-    return feasible_differential_gains(plant_, question_, period);
+    return feasible_differential_gains(plant_, options_, period);
   }
   double gain_at(double period) const {
-    return feasible_differential_gain(plant_, question_, period).value_or(no_gain);
+    return feasible_differential_gain(plant_, options_, period).value_or(no_gain);
   }
 
   /// The search limit, or the longest period whose samples show the vibration.
   double longest() const {
-    if (question_.criterion == DelayCriterion::stable) return question_.longest_period;
-    double nyquist = 0.5 / question_.frequency;
-    while (!shows_vibration(question_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
-    return std::min(question_.longest_period, nyquist);
+    if (options_.criterion == DelayCriterion::stable) return options_.longest_period;
+    double nyquist = 0.5 / options_.frequency;
+    while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+    return std::min(options_.longest_period, nyquist);
   }
 
   /// Moves `feasible_` to the goal by links; @return an infeasible period met on the way.
@@ -104,7 +104,7 @@ class DelaySearch {
       const double next = std::min(goal, feasible_ * ratio);
       Intervals gains = gains_at(next);
       if (gains.empty()) return next;
-      const bool short_enough = next <= feasible_ * question_.search_ratio;
+      const bool short_enough = next <= feasible_ * options_.search_ratio;
       if (short_enough || links(next, gains)) {
         feasible_ = next;
         gains_ = std::move(gains);
@@ -127,46 +127,46 @@ class DelaySearch {
   }
 
   bool serves(double differential_gain, double next) const {
-    const PdGains<double> gains{question_.proportional_gain, differential_gain};
+    const PdGains<double> gains{options_.proportional_gain, differential_gain};
     const auto watch = [&](double period) { return watched(gains, period); };
     const double first = 0.5 * (next - feasible_);
-    const double smallest = 0.1 * (question_.search_ratio - 1.0);
-    return first_exit(watch, feasible_, next, first, smallest).outcome == WalkOutcome::clear;
+    const double smallest = 0.1 * (options_.search_ratio - 1.0);
+    return first_crossing(watch, feasible_, next, first, smallest).outcome == WalkOutcome::clear;
   }
 
   /// The loop's roots and, to attenuate, the complex amplitude over that of no control.
-  WatchedPoints watched(const PdGains<double>& gains, double period) const {
-    const auto loop = path_.loop_at(period);
-    WatchedPoints points = path_.watched_at(loop, gains);
-    if (question_.criterion == DelayCriterion::stable) return points;
-    const double omega = question_.angular_frequency();
-    const auto input = harmonic_input(plant_, loop, question_.hold, omega);
-    const auto input_rate = input_rate_by_period(plant_, loop, question_.hold, input, omega);
+  TrackedPointSets watched(const PdGains<double>& gains, double period) const {
+    const auto loop = family_.loop_at(period);
+    TrackedPointSets points = family_.tracked_at(loop, gains);
+    if (options_.criterion == DelayCriterion::stable) return points;
+    const double omega = options_.angular_frequency();
+    const auto input = harmonic_input(plant_, loop, options_.hold, omega);
+    const auto input_rate = input_derivative_by_period(plant_, loop, options_.hold, input, omega);
     const auto ratio = moving_ratio(loop, input, input_rate, gains);
-    points.push_back({MovingPoint{ratio.value, ratio.rate}});
+    points.push_back({TrackedPoint{ratio.value, ratio.rate}});
     return points;
   }
 
   template <class Loop, class Input>
   AmplitudeRatio moving_ratio(const Loop& loop, const Input& input, const Input& input_rate,
                               const PdGains<double>& gains) const {
-    const double omega = question_.angular_frequency();
+    const double omega = options_.angular_frequency();
     if constexpr (has_closed_forms<Plant>) {
-      const ResponseRates response(loop, input, omega);
+      const ResponseDerivatives response(loop, input, omega);
       const std::complex<double> lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
-      const auto rates = response.along(path_.rate(loop), input_rate, lambda_rate);
+      const auto rates = response.along(family_.rate(loop), input_rate, lambda_rate);
       return amplitude_ratio(response.phasors(), rates, gains);
     } else {
       const AnyOrderResponse<double> response(loop, input, omega);
-      return amplitude_ratio(response.phasors(), response.along(path_.rate(loop), input_rate, 1.0),
-                             gains);
+      return amplitude_ratio(response.phasors(),
+                             response.along(family_.rate(loop), input_rate, 1.0), gains);
     }
   }
 
   /// Positive where some D stabilises: 1 − min ρ over D, to a ten-thousandth of itself.
   double stability_reserve(double period) {
-    const auto loop = loop_polynomial(sampled_loop(plant_, question_.sampling(period)));
-    const auto least = LeastRadiusSearch(loop, question_.proportional_gain, 1e-5).from(start_);
+    const auto loop = loop_polynomial(sampled_loop(plant_, options_.sampling(period)));
+    const auto least = MinimumRadiusSearch(loop, options_.proportional_gain, 1e-5).from(start_);
     start_ = least.differential_gain;
     return least.margin;
   }
@@ -174,9 +174,9 @@ class DelaySearch {
   /// Positive where some stabilising D attenuates: 1 less the least ratio; −1 where none
   /// stabilises.
   double attenuation_reserve(double period) const {
-    const auto offer = delay_offer(plant_, question_, period);
+    const auto offer = delay_offer(plant_, options_, period);
     if (!offer.response) return -1.0;
-    return 1.0 - offer.response->best_differential_gain(question_.proportional_gain, offer.stable)
+    return 1.0 - offer.response->best_differential_gain(options_.proportional_gain, offer.stable)
                      .ratio_to_uncontrolled;
   }
 
@@ -199,11 +199,11 @@ class DelaySearch {
   }
 
   double narrowed_between(double feasible, double infeasible) {
-    if (delay_offer(plant_, question_, infeasible).stable.empty()) {
+    if (delay_offer(plant_, options_, infeasible).stable.empty()) {
       const auto reserve = [this](double period) { return stability_reserve(period); };
       infeasible = narrowed(reserve, feasible, infeasible).upper;
     }
-    if (question_.criterion == DelayCriterion::attenuates) {
+    if (options_.criterion == DelayCriterion::attenuates) {
       const auto reserve = [this](double period) { return attenuation_reserve(period); };
       infeasible = narrowed(reserve, feasible, infeasible).upper;
     }
@@ -225,9 +225,9 @@ class DelaySearch {
   }
 
   MaxDelayLimit what_is_lacking(double period) const {
-    if (!shows_vibration(question_, period)) return MaxDelayLimit::nyquist;
-    return delay_offer(plant_, question_, period).stable.empty() ? MaxDelayLimit::stability
-                                                                 : MaxDelayLimit::attenuation;
+    if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
+    return delay_offer(plant_, options_, period).stable.empty() ? MaxDelayLimit::stability
+                                                                : MaxDelayLimit::attenuation;
   }
 
   /// Where the amplitude jumps past that of no control, the interval that served has vanished.
@@ -240,11 +240,11 @@ class DelaySearch {
   }
 
   Plant plant_;
-  MaxDelayQuestion question_;
-  SamplingFamily<Plant> path_;
+  MaxDelayOptions options_;
+  FamilyOfSamplings<Plant> family_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
-  double start_ = 0.0;     // D of least radius at a neighbouring period
+  double start_ = 0.0;     // D of minimum radius at a neighbouring period
 };
 
 }  // namespace detail
@@ -252,25 +252,25 @@ class DelaySearch {
 /// The largest sampling period, link by link.
 ///
 /// A longer period is joined to those known to be feasible by one D that serves at both and, its
-/// roots and its amplitude followed from one to the other in safe steps (`first_exit`), in between.
-/// Where no longer period joins, the boundary is found by a bracketing root finder on a function
-/// that changes its sign there: 1 − min ρ over D (`least_radius`), or 1 less the least amplitude
-/// ratio over the stabilising D; of a plant of another order than the two masses', by halving on
-/// whether there is a D at all. The last stretch, from τ*/search_ratio on, is feasible at its ends
-/// and taken to be so in between. Source: Kollár 2022, Fig. 5.
+/// roots and its amplitude followed from one to the other in safe steps (`first_crossing`), in
+/// between. Where no longer period joins, the boundary is found by a bracketing root finder on a
+/// function that changes its sign there: 1 − min ρ over D (`minimum_radius`), or 1 less the minimum
+/// amplitude ratio over the stabilising D; of a plant of another order than the two masses', by
+/// halving on whether there is a D at all. The last stretch, from τ*/search_ratio on, is feasible
+/// at its ends and taken to be so in between. Source: Kollár 2022, Fig. 5.
 /// @tparam Plant  two masses, in closed form, or a plant of any order with ports; `validate` checks
 ///                it
 /// @throws InvalidParameter for a plant or question outside the admissible ranges
 template <class Plant>
-MaxDelay max_sampling_period(const Plant& plant, const MaxDelayQuestion& question) {
+MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options) {
   validate(plant);
-  validate(question);
-  return detail::DelaySearch(plant, question).answer();
+  validate(options);
+  return detail::DelaySearch(plant, options).answer();
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template MaxDelay max_sampling_period(const TwoDof<double>&, const MaxDelayQuestion&);
-extern template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayQuestion&);
+extern template MaxDelay max_sampling_period(const TwoMass<double>&, const MaxDelayOptions&);
+extern template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayOptions&);
 #endif
 
 }  // namespace holdfast

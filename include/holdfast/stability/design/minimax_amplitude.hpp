@@ -15,20 +15,20 @@
 namespace holdfast {
 
 /// How the search for one D for a whole band of frequencies ended.
-enum class LeastWorstOutcome {
+enum class MinimaxOutcome {
   found,          ///< `worst_ratio` and `lower_bound` agree to 1e−8
   not_converged,  ///< they do not; the D is still one that gives `worst_ratio`
   none,           ///< no D is admissible: the numbers are NaN
 };
 
 /// One D, at a fixed P, for all frequencies of a band.
-struct LeastWorstAmplitude {
-  LeastWorstOutcome outcome;  ///< whether a D is admissible, and whether the two bounds agree
-  double differential_gain;   ///< D (N s/m); at the edge of the admissible ones a limit
-  double worst_ratio;         ///< the largest amplitude ratio to no control over the band at this D
-  double worst_frequency;     ///< Hz, where
-  double lower_bound;         ///< no admissible D has a smaller worst ratio than this
-  double attenuation;         ///< −20 log₁₀ of `worst_ratio` (dB)
+struct MinimaxAmplitude {
+  MinimaxOutcome outcome;    ///< whether a D is admissible, and whether the two bounds agree
+  double differential_gain;  ///< D (N s/m); at the edge of the admissible ones a limit
+  double worst_ratio;        ///< the largest amplitude ratio to no control over the band at this D
+  double worst_frequency;    ///< Hz, where
+  double lower_bound;        ///< no admissible D has a smaller worst ratio than this
+  double attenuation;        ///< −20 log₁₀ of `worst_ratio` (dB)
 };
 
 namespace detail {
@@ -103,31 +103,31 @@ class WorstOfFrequencies {
 /// @tparam Plant             anything with `state_matrix()`, `control_input()` and
 ///                           `excitation_input()` that `validate` checks
 /// @param plant              within its ranges
-/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
+/// @param options            τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param proportional_gain  P (N/m), finite
 /// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
 /// @throws InvalidParameter outside the admissible ranges
 template <class Plant>
-LeastWorstAmplitude least_worst_amplitude(const Plant& plant, const AmplitudeQuestion& question,
-                                          double proportional_gain, const FrequencyBand& band) {
+MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& options,
+                                   double proportional_gain, const FrequencyBand& band) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(plant);
-  validate(question);
+  validate(options);
   require_finite("proportional gain P", proportional_gain, "N/m");
-  validate(band, question.sampling.period);
-  const auto loop = sampled_loop(plant, question.sampling);
+  validate(band, options.sampling.period);
+  const auto loop = sampled_loop(plant, options.sampling);
   const auto admissible =
-      differential_gains_within_radius(loop, proportional_gain, question.largest_radius);
-  if (admissible.empty()) return {LeastWorstOutcome::none, none, none, none, none, none};
-  const AmplitudeBand amplitudes(plant, loop, question.hold, proportional_gain, band);
+      differential_gains_within_radius(loop, proportional_gain, options.largest_radius);
+  if (admissible.empty()) return {MinimaxOutcome::none, none, none, none, none, none};
+  const AmplitudeBand amplitudes(plant, loop, options.hold, proportional_gain, band);
   detail::WorstOfFrequencies<RatioAtFrequency> chosen(admissible);
   for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
-  LeastWorstAmplitude result{LeastWorstOutcome::not_converged,
-                             none,
-                             std::numeric_limits<double>::infinity(),
-                             none,
-                             0.0,
-                             none};
+  MinimaxAmplitude result{MinimaxOutcome::not_converged,
+                          none,
+                          std::numeric_limits<double>::infinity(),
+                          none,
+                          0.0,
+                          none};
   for (int exchange = 0; exchange < 60; ++exchange) {
     const auto model = chosen.least();
     const WorstFrequency worst = amplitudes.worst(model.differential_gain);
@@ -138,7 +138,7 @@ LeastWorstAmplitude least_worst_amplitude(const Plant& plant, const AmplitudeQue
       result.worst_frequency = worst.frequency;
     }
     if (std::abs(result.worst_ratio - result.lower_bound) <= 1e-8 * result.lower_bound) {
-      result.outcome = LeastWorstOutcome::found;
+      result.outcome = MinimaxOutcome::found;
       break;
     }
     chosen.add(amplitudes.at(worst.frequency));
@@ -148,9 +148,8 @@ LeastWorstAmplitude least_worst_amplitude(const Plant& plant, const AmplitudeQue
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LeastWorstAmplitude least_worst_amplitude(const TwoDof<double>&,
-                                                          const AmplitudeQuestion&, double,
-                                                          const FrequencyBand&);
+extern template MinimaxAmplitude minimax_amplitude(const TwoMass<double>&, const AmplitudeOptions&,
+                                                   double, const FrequencyBand&);
 #endif
 
 }  // namespace holdfast

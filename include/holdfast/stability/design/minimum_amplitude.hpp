@@ -21,16 +21,16 @@ namespace holdfast {
 /// −20 log₁₀ of an amplitude ratio (dB): 6 dB halve the amplitude, a negative number amplifies.
 inline double attenuation(double ratio) { return -20.0 * std::log10(ratio); }
 
-/// Where the least amplitude lies.
-enum class LeastAmplitudeOutcome {
-  stationary,  ///< at a D amid the admissible ones
+/// Where the minimum amplitude lies.
+enum class MinimumAmplitudeOutcome {
+  stationary,  ///< at a D inside the admissible ones
   edge,        ///< at the edge of the admissible D: a limit, approached by D that are admissible
   none,        ///< nowhere: no D is admissible; D and the ratio are NaN
   aliased,     ///< nowhere: 2fτ ≥ 1, so that the samples do not show the vibration; NaN likewise
 };
 
 /// The sampled loop in which an amplitude is to be least.
-struct AmplitudeQuestion {
+struct AmplitudeOptions {
   Sampling<double> sampling;            ///< τ (s) > 0, δ (s) 0 … τ
   ForceHold hold = ForceHold::sampled;  ///< how the excitation enters a sample
   /// A D is admissible if the spectral radius stays below this, 0 < … ≤ 1; 1 asks for stability,
@@ -39,18 +39,18 @@ struct AmplitudeQuestion {
 };
 
 /// The D of least steady amplitude at one frequency and one P.
-struct LeastAmplitude {
-  LeastAmplitudeOutcome outcome;  ///< where D lies, or why there is none
-  double differential_gain;       ///< D (N s/m)
-  double ratio_to_uncontrolled;   ///< the amplitude of z₁ it leaves over that without control
+struct MinimumAmplitude {
+  MinimumAmplitudeOutcome outcome;  ///< where D lies, or why there is none
+  double differential_gain;         ///< D (N s/m)
+  double ratio_to_uncontrolled;     ///< the amplitude of z₁ it leaves over that without control
   double attenuation;  ///< −20 log₁₀ of that ratio (dB), positive where control helps
 };
 
-/// @throws InvalidParameter outside the ranges that the members of `AmplitudeQuestion` state
-inline void validate(const AmplitudeQuestion& question) {
-  validate(question.sampling);
-  require_positive("largest spectral radius", question.largest_radius, "");
-  require_within("largest spectral radius", question.largest_radius, "", 0.0, 1.0);
+/// @throws InvalidParameter outside the ranges that the members of `AmplitudeOptions` state
+inline void validate(const AmplitudeOptions& options) {
+  validate(options.sampling);
+  require_positive("largest spectral radius", options.largest_radius, "");
+  require_within("largest spectral radius", options.largest_radius, "", 0.0, 1.0);
 }
 
 /// The D of least steady amplitude among the admissible ones.
@@ -60,42 +60,42 @@ inline void validate(const AmplitudeQuestion& question) {
 /// @tparam Plant             two masses, in closed form, or a plant of any order with ports;
 ///                           `validate` checks it
 /// @param plant              within its ranges
-/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
+/// @param options            τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param frequency          f (Hz), > 0
 /// @param proportional_gain  P (N/m), finite; Eq. (6) tunes it to f
 /// @throws InvalidParameter outside the admissible ranges
 template <class Plant>
-LeastAmplitude least_amplitude(const Plant& plant, const AmplitudeQuestion& question,
-                               double frequency, double proportional_gain) {
+MinimumAmplitude minimum_amplitude(const Plant& plant, const AmplitudeOptions& options,
+                                   double frequency, double proportional_gain) {
   validate(plant);
-  validate(question);
+  validate(options);
   require_positive("frequency", frequency, "Hz");
   require_finite("proportional gain P", proportional_gain, "N/m");
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!(2.0 * frequency * question.sampling.period < 1.0))
-    return {LeastAmplitudeOutcome::aliased, none, none, none};
-  const auto loop = detail::loop_of(plant, question.sampling);
+  if (!(2.0 * frequency * options.sampling.period < 1.0))
+    return {MinimumAmplitudeOutcome::aliased, none, none, none};
+  const auto loop = detail::loop_of(plant, options.sampling);
   const auto admissible =
-      differential_gains_within_radius(loop, proportional_gain, question.largest_radius);
-  if (admissible.empty()) return {LeastAmplitudeOutcome::none, none, none, none};
+      differential_gains_within_radius(loop, proportional_gain, options.largest_radius);
+  if (admissible.empty()) return {MinimumAmplitudeOutcome::none, none, none, none};
 
   const double omega = 2.0 * pi<double> * frequency;
   const SteadyResponse<double> response =
-      detail::response_of_loop(plant, loop, question.hold, omega);
+      detail::response_of_loop(plant, loop, options.hold, omega);
   const auto best = response.best_differential_gain(proportional_gain, admissible);
   if (!std::isfinite(best.differential_gain))
-    return {LeastAmplitudeOutcome::none, none, none, none};
+    return {MinimumAmplitudeOutcome::none, none, none, none};
   const bool inside = contains_any(admissible, best.differential_gain);
-  return {inside ? LeastAmplitudeOutcome::stationary : LeastAmplitudeOutcome::edge,
+  return {inside ? MinimumAmplitudeOutcome::stationary : MinimumAmplitudeOutcome::edge,
           best.differential_gain, best.ratio_to_uncontrolled,
           attenuation(best.ratio_to_uncontrolled)};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LeastAmplitude least_amplitude(const TwoDof<double>&, const AmplitudeQuestion&,
-                                               double, double);
-extern template LeastAmplitude least_amplitude(const LinearPlant<double>&, const AmplitudeQuestion&,
-                                               double, double);
+extern template MinimumAmplitude minimum_amplitude(const TwoMass<double>&, const AmplitudeOptions&,
+                                                   double, double);
+extern template MinimumAmplitude minimum_amplitude(const LinearPlant<double>&,
+                                                   const AmplitudeOptions&, double, double);
 #endif
 
 }  // namespace holdfast

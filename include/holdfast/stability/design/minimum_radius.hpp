@@ -14,23 +14,23 @@
 
 namespace holdfast {
 
-/// What kind of answer the D of least spectral radius is.
-enum class LeastRadiusOutcome {
-  point,       ///< one D has the least radius
+/// What kind of answer the D of minimum spectral radius is.
+enum class MinimumRadiusOutcome {
+  point,       ///< one D has the minimum radius
   plateau,     ///< a root that D does not move sets the radius over the whole `interval`
   idle,        ///< no D changes the radius; `interval` is the whole line and D is 0
-  unresolved,  ///< P is so large that round-off hides the least radius: D is the start, `radius` is
-               ///< that of the start and `lower_bound` is 0
+  unresolved,  ///< P is so large that round-off hides the minimum radius: D is the start, `radius`
+               ///< is that of the start and `lower_bound` is 0
 };
 
-/// The differential gain at which the sampled loop forgets fastest, at a fixed P.
-struct LeastRadius {
-  LeastRadiusOutcome outcome;  ///< whether one D has the radius, many, all, or none is known to
-  double differential_gain;    ///< D (N s/m), amid `interval`
-  double radius;               ///< the least ρ = max |λ|; stable ⇔ below 1
-  double margin;               ///< 1 − radius without cancellation
-  double lower_bound;          ///< no D whatever has a radius below this; ≤ radius
-  Interval<double> interval;   ///< the D (N s/m) with that radius to 1e−12
+/// The differential gain at which the sampled loop decays fastest, at a fixed P.
+struct MinimumRadius {
+  MinimumRadiusOutcome outcome;  ///< whether one D has the radius, many, all, or none is known to
+  double differential_gain;      ///< D (N s/m), inside `interval`
+  double radius;                 ///< the least ρ = max |λ|; stable ⇔ below 1
+  double margin;                 ///< 1 − radius without cancellation
+  double lower_bound;            ///< no D at all has a radius below this; ≤ radius
+  Interval<double> interval;     ///< the D (N s/m) with that radius to 1e−12
 };
 
 namespace detail {
@@ -43,19 +43,19 @@ namespace detail {
 /// are exact in the limit for a smooth minimum and for two branches that cross.
 /// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
 template <class Loop>
-class LeastRadiusSearch {
+class MinimumRadiusSearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
   /// @param accuracy  what the margin may err by as a share of itself; 0 for all digits
-  LeastRadiusSearch(const Loop& loop, double proportional_gain, double accuracy = 0.0)
+  MinimumRadiusSearch(const Loop& loop, double proportional_gain, double accuracy = 0.0)
       : loop_(loop), proportional_gain_(proportional_gain), accuracy_(accuracy) {}
 
   /// @param start  any D; the closer the quicker
-  LeastRadius from(double start) {
+  MinimumRadius from(double start) {
     if (!begin(loop_.radius_offset({proportional_gain_, start}))) {
-      return {LeastRadiusOutcome::unresolved, start, loop_.centre + upper_,
-              (1.0 - loop_.centre) - upper_,  0.0,   {start, start}};
+      return {MinimumRadiusOutcome::unresolved, start, loop_.centre + upper_,
+              (1.0 - loop_.centre) - upper_,    0.0,   {start, start}};
     }
     for (int round = 0; round < most_rounds_ && upper_ - lower_ > closing_step(); ++round) {
       const double trial = next_level();
@@ -128,15 +128,15 @@ class LeastRadiusSearch {
   /// The gains a trifle above the least level: where two roots meet, the radius answers to the
   /// square root of a change of D on one side, and the very D of the minimum would be a rounding
   /// error away from a much larger radius.
-  LeastRadius answer() const {
+  MinimumRadius answer() const {
     const Intervals close = within(upper_ + 1e-12 * std::max(loop_.scale(), std::abs(upper_)));
     const Interval<double> interval = close.empty() ? intervals_.front() : close.front();
     const bool idle = !std::isfinite(interval.lower) || !std::isfinite(interval.upper);
     const double size = std::max(std::abs(interval.lower), std::abs(interval.upper));
     const bool plateau = interval.upper - interval.lower > 1e-3 * size;
-    const auto outcome = idle      ? LeastRadiusOutcome::idle
-                         : plateau ? LeastRadiusOutcome::plateau
-                                   : LeastRadiusOutcome::point;
+    const auto outcome = idle      ? MinimumRadiusOutcome::idle
+                         : plateau ? MinimumRadiusOutcome::plateau
+                                   : MinimumRadiusOutcome::point;
     return {outcome,
             interval.representative(),
             loop_.centre + upper_,
@@ -156,24 +156,24 @@ class LeastRadiusSearch {
 /// min over D of ρ(S(P, D)): the global minimum, not by scanning.
 ///
 /// With λ = r λ′ the loop has all |λ| < r exactly if the polynomial in λ′ is stable, so that
-/// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`). The least radius
-/// is the r at which it becomes empty. The leading coefficient does not contain D, so ρ grows
-/// without bound as |D| does and the minimum exists unless no coefficient contains D.
+/// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`). The minimum
+/// radius is the r at which it becomes empty. The leading coefficient does not contain D, so ρ
+/// grows without bound as |D| does and the minimum exists unless no coefficient contains D.
 /// @tparam Loop              any in `double` that has a `loop_polynomial`
 /// @param loop               of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
 /// @param start              a D (N s/m) to begin from, finite; any will do
 /// @throws InvalidParameter for gains that are not finite
 template <class Loop>
-LeastRadius least_radius(const Loop& loop, double proportional_gain, double start = 0.0) {
+MinimumRadius minimum_radius(const Loop& loop, double proportional_gain, double start = 0.0) {
   require_finite("proportional gain P", proportional_gain, "N/m");
   require_finite("differential gain D", start, "N s/m");
-  return detail::LeastRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
+  return detail::MinimumRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
 }
 
 namespace detail {
 
-/// A loop of any order as `LeastRadiusSearch` asks for it, radii counted from 1.
+/// A loop of any order as `MinimumRadiusSearch` asks for it, radii counted from 1.
 template <class Scalar>
 struct RadiusLevels {
   LoopMap<Scalar> map;        ///< the loop
@@ -200,16 +200,17 @@ struct RadiusLevels {
 /// @param start              a D (N s/m) to begin from, finite; any will do
 /// @throws InvalidParameter for gains that are not finite
 template <class Scalar>
-LeastRadius least_radius(const LoopMap<Scalar>& map, double proportional_gain, double start = 0.0) {
+MinimumRadius minimum_radius(const LoopMap<Scalar>& map, double proportional_gain,
+                             double start = 0.0) {
   require_finite("proportional gain P", proportional_gain, "N/m");
   require_finite("differential gain D", start, "N s/m");
   const detail::RadiusLevels<Scalar> levels{map};
-  return detail::LeastRadiusSearch(levels, proportional_gain, 1e-9).from(start);
+  return detail::MinimumRadiusSearch(levels, proportional_gain, 1e-9).from(start);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LeastRadius least_radius(const LoopMap<double>&, double, double);
-extern template LeastRadius least_radius(const SampledLoop<double>&, double, double);
+extern template MinimumRadius minimum_radius(const LoopMap<double>&, double, double);
+extern template MinimumRadius minimum_radius(const SampledLoop<double>&, double, double);
 #endif
 
 }  // namespace holdfast

@@ -18,19 +18,19 @@
 namespace holdfast {
 
 /// How the search for the pair of gains ended.
-enum class LeastRadiusGainsOutcome {
+enum class MinimumRadiusGainsOutcome {
   found,  ///< `radius` and `lower_bound` agree to 1e−6 of the roots' distance from λ = 1
   open,   ///< they do not: better gains may exist, but none with a radius below `lower_bound`
   idle,   ///< the gains, or a combination of them, do not move the roots: P is 0, D the best for it
 };
 
-/// The pair of gains at which the sampled loop forgets fastest.
-struct LeastRadiusGains {
-  LeastRadiusGainsOutcome outcome;  ///< whether `radius` is known to be the least
-  PdGains<double> gains;            ///< P (N/m), D (N s/m)
-  double radius;                    ///< ρ = max |λ| there
-  double margin;                    ///< 1 − radius without cancellation
-  double lower_bound;               ///< no gains whatever have a radius below this; ≤ radius
+/// The pair of gains at which the sampled loop decays fastest.
+struct MinimumRadiusGains {
+  MinimumRadiusGainsOutcome outcome;  ///< whether `radius` is known to be the least
+  PdGains<double> gains;              ///< P (N/m), D (N s/m)
+  double radius;                      ///< ρ = max |λ| there
+  double margin;                      ///< 1 − radius without cancellation
+  double lower_bound;                 ///< no gains at all have a radius below this; ≤ radius
 };
 
 namespace detail {
@@ -74,17 +74,17 @@ GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of
 /// The shape of that set over P changes only at the special points of its boundary, which are known
 /// in closed form (`boundary_features`); between neighbouring ones a single P decides whether the
 /// set has gains there (`stable_intervals`). So each level tested is a bound from above or from
-/// below on the global minimum. Levels to test come from min ρ over D (`LeastRadiusSearch`) in the
-/// middle of the P intervals and where the secants of their ends meet.
+/// below on the global minimum. Levels to test come from min ρ over D (`MinimumRadiusSearch`) in
+/// the middle of the P intervals and where the secants of their ends meet.
 /// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
 template <class Loop>
-class LeastRadiusGainsSearch {
+class MinimumRadiusGainsSearch {
  public:
   using Intervals = std::vector<Interval<double>>;
 
-  explicit LeastRadiusGainsSearch(const Loop& loop) : loop_(loop) {}
+  explicit MinimumRadiusGainsSearch(const Loop& loop) : loop_(loop) {}
 
-  LeastRadiusGains run() {
+  MinimumRadiusGains run() {
     upper_ = loop_.radius_offset(best_);
     if (!is_bounded(upper_)) return answer_without_pair();
     lower_ = -loop_.centre;
@@ -96,7 +96,7 @@ class LeastRadiusGainsSearch {
       idle_rounds = upper_ - lower_ < gap ? 0 : idle_rounds + 1;
     }
     const bool closed = upper_ - lower_ <= 1000.0 * closing_step();
-    return {closed ? LeastRadiusGainsOutcome::found : LeastRadiusGainsOutcome::open, best_,
+    return {closed ? MinimumRadiusGainsOutcome::found : MinimumRadiusGainsOutcome::open, best_,
             loop_.centre + upper_, (1.0 - loop_.centre) - upper_,
             std::max(0.0, loop_.centre + lower_)};
   }
@@ -111,9 +111,9 @@ class LeastRadiusGainsSearch {
     return std::isfinite(window.width()) && std::isfinite(window.height());
   }
 
-  LeastRadiusGains answer_without_pair() const {
-    const auto least = LeastRadiusSearch(loop_, 0.0).from(0.0);
-    return {LeastRadiusGainsOutcome::idle,
+  MinimumRadiusGains answer_without_pair() const {
+    const auto least = MinimumRadiusSearch(loop_, 0.0).from(0.0);
+    return {MinimumRadiusGainsOutcome::idle,
             {0.0, least.differential_gain},
             least.radius,
             least.margin,
@@ -169,7 +169,7 @@ class LeastRadiusGainsSearch {
     return result;
   }
 
-  /// The least radius over D at promising P; keeps the gains if they are the best so far.
+  /// The minimum radius over D at promising P; keeps the gains if they are the best so far.
   double descend() {
     double best = upper_;
     for (const Interval<double>& interval : intervals_) {
@@ -186,7 +186,7 @@ class LeastRadiusGainsSearch {
 
   void consider(double proportional_gain, double& best) {
     const auto least =
-        LeastRadiusSearch(loop_, proportional_gain, accuracy_).from(best_.differential);
+        MinimumRadiusSearch(loop_, proportional_gain, accuracy_).from(best_.differential);
     const PdGains<double> gains{proportional_gain, least.differential_gain};
     const double offset = loop_.radius_offset(gains);
     if (!(offset < best)) return;
@@ -207,19 +207,20 @@ class LeastRadiusGainsSearch {
 ///
 /// {(P, D) : ρ < r} is bounded by the curves on which a root of the polynomial in λ′ = λ/r reaches
 /// the unit circle. Whether it is empty is decided in closed form for every r: its special points
-/// cut the P axis into ranges within which one P speaks for all. The least radius is the r at which
-/// it becomes empty. There two pairs often coincide; the roots then answer to the square root of a
-/// change of the gains, so that gains in `double` cannot hold the radius to better than about 1e−8.
-/// Where all roots of the plant have decayed to 1e−6 within a sample the outcome may be `open`.
+/// cut the P axis into ranges within which one P speaks for all. The minimum radius is the r at
+/// which it becomes empty. There two pairs often coincide; the roots then answer to the square root
+/// of a change of the gains, so that gains in `double` cannot hold the radius to better than about
+/// 1e−8. Where all roots of the plant have decayed to 1e−6 within a sample the outcome may be
+/// `open`.
 /// @tparam Loop  any in `double` that has a `loop_polynomial`
 /// @param loop   of `sampled_loop`
 template <class Loop>
-LeastRadiusGains least_radius_gains(const Loop& loop) {
-  return detail::LeastRadiusGainsSearch(loop_polynomial(loop)).run();
+MinimumRadiusGains minimum_radius_gains(const Loop& loop) {
+  return detail::MinimumRadiusGainsSearch(loop_polynomial(loop)).run();
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LeastRadiusGains least_radius_gains(const SampledLoop<double>&);
+extern template MinimumRadiusGains minimum_radius_gains(const SampledLoop<double>&);
 #endif
 
 }  // namespace holdfast

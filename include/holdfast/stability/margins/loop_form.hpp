@@ -66,8 +66,8 @@ namespace detail {
 
 /// The samplings of a plant, along τ or δ.
 template <class Plant>
-using SamplingFamily =
-    std::conditional_t<has_closed_forms<Plant>, SamplingPath<Plant>, MapFamily<Plant>>;
+using FamilyOfSamplings =
+    std::conditional_t<has_closed_forms<Plant>, SamplingFamily<Plant>, MapFamily<Plant>>;
 
 /// The sampled loop of a plant: `SampledLoop` of the two masses, `LoopMap` of any other.
 template <class Plant>

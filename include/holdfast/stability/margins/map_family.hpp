@@ -8,9 +8,9 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/linalg/eigenvalue_rate.hpp"
+#include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/stability/margins/moving_root.hpp"
 
@@ -42,33 +42,33 @@ Scalar loop_excess(const LoopMap<Scalar>& map, const PdGains<Scalar>& gains) {
 }
 
 /// What is watched of a loop of any order: its roots, and 1 − Π(1 + λ_i) = 1 − det(I + S), which
-/// leaves the inside where a real root passes −1 (`SamplingPath::watched_at`).
+/// leaves the inside where a real root passes −1 (`SamplingFamily::tracked_at`).
 /// @param rate          of S, per unit of what varies
 /// @param varies_period  whether that is τ
 template <class Scalar>
-WatchedPoints watched_roots(const LoopMap<Scalar>& map, const LoopMapRate<Scalar>& rate,
-                            const PdGains<Scalar>& gains, bool varies_period) {
+TrackedPointSets tracked_roots(const LoopMap<Scalar>& map, const LoopMapDerivative<Scalar>& rate,
+                               const PdGains<Scalar>& gains, bool varies_period) {
   using Square = Matrix<Scalar, Eigen::Dynamic>;
   const Square increment = map.closed_increment(gains), moved = rate.closed_map(map, gains);
-  MovingPoints points;
+  TrackedPoints points;
   for (const std::complex<Scalar>& mu : balanced_eigenvalues<Scalar, Eigen::Dynamic>(increment)) {
     const Scalar square = Scalar(2) * mu.real() + std::norm(mu);  // |λ|² − 1
     const std::complex<Scalar> value = Scalar(1) + mu;
     const Scalar logarithm =
         square > Scalar(-0.5) ? Scalar(0.5) * std::log1p(square) : std::log(std::abs(value));
-    points.push_back(moving_loop_root(value, eigenvalue_rate(increment, moved, mu), logarithm,
+    points.push_back(moving_loop_root(value, eigenvalue_derivative(increment, moved, mu), logarithm,
                                       excess_from_one(mu), varies_period, map.sampling.period));
   }
   const Square sum = increment + Scalar(2) * Square::Identity(map.size(), map.size());
   const Eigen::PartialPivLU<Square> factors(sum);
   const Scalar product = factors.determinant();
   const Scalar slope = product * factors.solve(moved).trace();
-  return {points, {MovingPoint{Scalar(1) - product, -slope, 0.0, false, -product}}};
+  return {points, {TrackedPoint{Scalar(1) - product, -slope, 0.0, false, -product}}};
 }
 
 }  // namespace detail
 
-/// A line through the samplings of a plant of any order, as `SamplingPath` of the two masses: the
+/// A line through the samplings of a plant of any order, as `SamplingFamily` of the two masses: the
 /// period τ, the delay keeping its share of it, or the delay δ at a fixed period, as long as the
 /// number of commands on their way stays.
 /// @tparam Plant  any order; its ports say what is measured
@@ -102,15 +102,15 @@ class MapFamily {
   }
 
   /// How the map moves along the path, per second of it.
-  LoopMapRate<double> rate(const LoopMap<double>& map) const {
-    return varies_period() ? loop_map_rate(plant_, map, 1.0, delay_fraction_)
-                           : loop_map_rate(plant_, map, 0.0, 1.0);
+  LoopMapDerivative<double> rate(const LoopMap<double>& map) const {
+    return varies_period() ? loop_map_derivative(plant_, map, 1.0, delay_fraction_)
+                           : loop_map_derivative(plant_, map, 0.0, 1.0);
   }
 
   /// The loop's roots λ and how they move along the path, and 1 − Π(1 + λ_i), which leaves the
   /// inside where a real root passes −1. Stable ⇔ all inside the unit circle.
-  WatchedPoints watched_at(const LoopMap<double>& map, const PdGains<double>& gains) const {
-    return detail::watched_roots<double>(map, rate(map), gains, varies_period());
+  TrackedPointSets tracked_at(const LoopMap<double>& map, const PdGains<double>& gains) const {
+    return detail::tracked_roots<double>(map, rate(map), gains, varies_period());
   }
 
   /// True on a path of τ, false on one of δ.
@@ -128,8 +128,9 @@ class MapFamily {
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 namespace detail {
-extern template WatchedPoints watched_roots(const LoopMap<double>&, const LoopMapRate<double>&,
-                                            const PdGains<double>&, bool);
+extern template TrackedPointSets tracked_roots(const LoopMap<double>&,
+                                               const LoopMapDerivative<double>&,
+                                               const PdGains<double>&, bool);
 extern template double loop_excess(const LoopMap<double>&, const PdGains<double>&);
 }  // namespace detail
 extern template class MapFamily<LinearPlant<double>>;

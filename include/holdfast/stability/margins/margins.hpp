@@ -11,7 +11,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
-#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
@@ -132,35 +132,35 @@ TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double 
 }
 
 /// Margins along a path through the samplings, the gains held.
-template <class Path>
-class PathMargin {
+template <class Family>
+class FamilyMargin {
  public:
-  PathMargin(const Path& path, const PdGains<double>& gains, double value,
-             const MarginSearch& search)
-      : path_(path), gains_(gains), value_(value), search_(search) {}
+  FamilyMargin(const Family& family, const PdGains<double>& gains, double value,
+               const MarginSearch& search)
+      : family_(family), gains_(gains), value_(value), search_(search) {}
 
   /// The first loss of stability between the value and `limit`; `otherwise` where there is none.
   /// @param first  length of the first step, > 0
   MarginEnd towards(double limit, double first, const MarginEnd& otherwise) const {
     const auto watch = [this](double position) {
-      return path_.watched_at(path_.loop_at(position), gains_);
+      return family_.tracked_at(family_.loop_at(position), gains_);
     };
-    const FirstExit walk = first_exit(watch, value_, limit, first, search_.smallest_step);
+    const FirstCrossing walk = first_crossing(watch, value_, limit, first, search_.smallest_step);
     if (walk.outcome == WalkOutcome::blocked) return {};
     if (walk.outcome == WalkOutcome::clear) return otherwise;
     const auto excess = [this](double position) {
-      return loop_excess(path_.loop_at(position), gains_);
+      return loop_excess(family_.loop_at(position), gains_);
     };
     const double lower = std::min(walk.last_inside, walk.first_outside);
     const double upper = std::max(walk.last_inside, walk.first_outside);
     const auto crossing = bracketing_root(
         excess, SignChange<double>{lower, upper, excess(lower), excess(upper)}, 0.0);
     const double position = limit < value_ ? crossing.upper : crossing.lower;
-    return boundary_end(path_.loop_at(position), gains_, position, value_);
+    return boundary_end(family_.loop_at(position), gains_, position, value_);
   }
 
  private:
-  Path path_;
+  Family family_;
   PdGains<double> gains_;
   double value_;
   MarginSearch search_;
@@ -205,7 +205,8 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
   const MarginEnd no_longer = certain <= longest
                                   ? no_boundary(std::numeric_limits<double>::infinity())
                                   : beyond_search(longest, period);
-  const PathMargin margin(SamplingFamily<Plant>::of_period(plant, fraction), gains, period, search);
+  const FamilyMargin margin(FamilyOfSamplings<Plant>::of_period(plant, fraction), gains, period,
+                            search);
   const double limit = std::max(period, std::min(certain, longest));
   return {margin.towards(shortest, 0.05 * period, no_shorter),
           margin.towards(limit, 0.05 * period, no_longer)};
@@ -225,8 +226,8 @@ TwoSidedMargin delay_margin_by_cells(const Plant& plant, const Sampling<double>&
     for (int k = held; k >= 1; k += direction) {
       const double seam = (direction < 0 ? k - 1 : k) * period;
       const double limit = std::min(seam, longest);
-      const PathMargin margin(MapFamily<Plant>::of_delay(plant, period, k), gains, position,
-                              search);
+      const FamilyMargin margin(MapFamily<Plant>::of_delay(plant, period, k), gains, position,
+                                search);
       MarginEnd end = margin.towards(limit, 0.05 * period, no_boundary(limit));
       end.distance = std::abs(end.position - delay);
       if (end.outcome == MarginEndOutcome::undefined && k != held)  // it crosses at the seam
@@ -246,8 +247,8 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
   if constexpr (!has_closed_forms<Plant>) {
     return delay_margin_by_cells(plant, sampling, gains, search);
   } else {
-    const PathMargin margin(SamplingPath<Plant>::of_delay(plant, sampling.period), gains,
-                            sampling.processing_delay, search);
+    const FamilyMargin margin(SamplingFamily<Plant>::of_delay(plant, sampling.period), gains,
+                              sampling.processing_delay, search);
     const auto to = [&](double limit) {
       return margin.towards(limit, 0.05 * sampling.period, no_boundary(limit));
     };
@@ -268,7 +269,7 @@ inline void validate(const MarginSearch& search) {
 ///
 /// D and P: the stable interval about the value, all crossings of the unit circle being known
 /// (`stable_gains`). τ and δ: the roots are followed from the value outwards in steps that their
-/// measured speed shows to be safe (`first_exit`), and the crossing of the unit circle is then
+/// measured speed shows to be safe (`first_crossing`), and the crossing of the unit circle is then
 /// found by a bracketing root finder on ρ − 1. Towards τ = 0 the continuous loop decides; towards τ
 /// = ∞ stability may be certain (`SlowSamplingBound`).
 /// @tparam Plant    two masses, of which all of this is in closed form, or a plant of any order
@@ -307,7 +308,7 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template StabilityMargins stability_margins(const TwoDof<double>&, const Sampling<double>&,
+extern template StabilityMargins stability_margins(const TwoMass<double>&, const Sampling<double>&,
                                                    const PdGains<double>&, const MarginSearch&);
 extern template StabilityMargins stability_margins(const LinearPlant<double>&,
                                                    const Sampling<double>&, const PdGains<double>&,

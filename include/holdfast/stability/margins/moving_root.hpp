@@ -4,12 +4,12 @@
 #include <complex>
 
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
 
 namespace holdfast::detail {
 
-/// A root λ of a sampled loop that moves with τ or δ, as `first_exit` watches it; on a spiral where
-/// τ varies and the root has not decayed within a sample.
+/// A root λ of a sampled loop that moves with τ or δ, as `first_crossing` watches it; on a spiral
+/// where τ varies and the root has not decayed within a sample.
 ///
 /// Roots e^{sτ} are expected on a spiral: with σ = ln λ/τ, of which a root of the plant itself does
 /// not move at all, σ is continued as a straight line,
@@ -22,12 +22,12 @@ namespace holdfast::detail {
 /// @param logarithm  ln |λ|
 /// @param excess     |λ| − 1
 /// @param spiral     whether τ varies
-inline MovingPoint moving_loop_root(const std::complex<double>& value,
-                                    const std::complex<double>& rate, double logarithm,
-                                    double excess, bool spiral, double period) {
+inline TrackedPoint moving_loop_root(const std::complex<double>& value,
+                                     const std::complex<double>& rate, double logarithm,
+                                     double excess, bool spiral, double period) {
   const bool finite = std::isfinite(rate.real()) && std::isfinite(rate.imag());
   spiral = spiral && std::abs(value) > 0.3;
-  MovingPoint point{value, finite ? rate : 0.0, 0.0, spiral, excess};
+  TrackedPoint point{value, finite ? rate : 0.0, 0.0, spiral, excess};
   if (spiral) {
     point.rate /= value;
     const double turns =

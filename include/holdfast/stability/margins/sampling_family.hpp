@@ -6,7 +6,7 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/math/roots/first_exit.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/margins/moving_root.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
@@ -19,19 +19,19 @@ namespace holdfast {
 /// delay keeping its share of it, or the delay δ at a fixed period.
 /// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
 template <class Plant>
-class SamplingPath {
+class SamplingFamily {
  public:
   /// τ varies, δ = delay_fraction · τ.
   /// @param plant           within its ranges, which are not checked here
   /// @param delay_fraction  0 … 1
-  static SamplingPath of_period(const Plant& plant, double delay_fraction) {
+  static SamplingFamily of_period(const Plant& plant, double delay_fraction) {
     return {plant, 0.0, delay_fraction};
   }
 
   /// δ varies from 0 to τ.
   /// @param plant   within its ranges, which are not checked here
   /// @param period  τ (s), > 0
-  static SamplingPath of_delay(const Plant& plant, double period) { return {plant, period, 0.0}; }
+  static SamplingFamily of_delay(const Plant& plant, double period) { return {plant, period, 0.0}; }
 
   /// The sampling at a position (s): τ, or δ at the fixed period.
   Sampling<double> at(double position) const {
@@ -43,24 +43,24 @@ class SamplingPath {
   SampledLoop<double> loop_at(double position) const { return sampled_loop(plant_, at(position)); }
 
   /// How the loop's matrices move along the path, per second of it.
-  LoopRate rate(const SampledLoop<double>& loop) const;
+  LoopDerivative rate(const SampledLoop<double>& loop) const;
 
   /// The loop's roots λ and how they move along the path, on spirals (`moving_loop_root`) where τ
   /// varies. Stable ⇔ all inside the unit circle.
-  MovingPoints roots_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
+  TrackedPoints roots_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
 
   /// The roots, and beside them what vanishes where a real root passes −1: Π (1 + λ_i) = −p(−1).
   ///
   /// A pair that meets on the real axis near −1, sends one root through −1 and takes it back leaves
   /// no trace in the roots' speeds before and after; that product is smooth all the way. It is
   /// watched as the point 1 − Π, which lies inside as long as the product is positive.
-  WatchedPoints watched_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
+  TrackedPointSets tracked_at(const SampledLoop<double>& loop, const PdGains<double>& gains) const;
 
   /// True on a path of τ, false on one of δ.
   bool varies_period() const { return !(fixed_period_ > 0.0); }
 
  private:
-  SamplingPath(const Plant& plant, double fixed_period, double delay_fraction)
+  SamplingFamily(const Plant& plant, double fixed_period, double delay_fraction)
       : plant_(plant), fixed_period_(fixed_period), delay_fraction_(delay_fraction) {}
 
   Plant plant_;
@@ -69,18 +69,18 @@ class SamplingPath {
 };
 
 template <class Plant>
-LoopRate SamplingPath<Plant>::rate(const SampledLoop<double>& loop) const {
-  const LoopRate by_delay = rate_by_delay(plant_, loop);
+LoopDerivative SamplingFamily<Plant>::rate(const SampledLoop<double>& loop) const {
+  const LoopDerivative by_delay = derivative_by_delay(plant_, loop);
   if (fixed_period_ > 0.0) return by_delay;
-  return rate_by_period(plant_, loop).plus(by_delay, delay_fraction_);
+  return derivative_by_period(plant_, loop).plus(by_delay, delay_fraction_);
 }
 
 template <class Plant>
-MovingPoints SamplingPath<Plant>::roots_at(const SampledLoop<double>& loop,
-                                           const PdGains<double>& gains) const {
-  const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}));
-  MovingPoints result;
-  for (const MovingRoot<1>& root : moving_roots<1>(polynomial, gains)) {
+TrackedPoints SamplingFamily<Plant>::roots_at(const SampledLoop<double>& loop,
+                                              const PdGains<double>& gains) const {
+  const auto polynomial = characteristic_polynomial(dual_loop<1>(loop, {rate(loop)}));
+  TrackedPoints result;
+  for (const RootSensitivity<1>& root : root_sensitivities<1>(polynomial, gains)) {
     result.push_back(detail::moving_loop_root(root.value(), root.rates[0], root.logarithm(),
                                               root.excess(), varies_period(),
                                               loop.sampling.period));
@@ -89,17 +89,18 @@ MovingPoints SamplingPath<Plant>::roots_at(const SampledLoop<double>& loop,
 }
 
 template <class Plant>
-WatchedPoints SamplingPath<Plant>::watched_at(const SampledLoop<double>& loop,
-                                              const PdGains<double>& gains) const {
-  const auto polynomial = characteristic_polynomial(rated_loop<1>(loop, {rate(loop)}))
-                              .at({Rated<1>(gains.proportional), Rated<1>(gains.differential)});
+TrackedPointSets SamplingFamily<Plant>::tracked_at(const SampledLoop<double>& loop,
+                                                   const PdGains<double>& gains) const {
+  const auto polynomial =
+      characteristic_polynomial(dual_loop<1>(loop, {rate(loop)}))
+          .at({DualNumber<1>(gains.proportional), DualNumber<1>(gains.differential)});
   const double product = -evaluate(values_of<1, 5>(polynomial), -2.0);
-  const double slope = -evaluate(rate_of<1, 5>(polynomial, 0), -2.0);
-  return {roots_at(loop, gains), {MovingPoint{1.0 - product, -slope, 0.0, false, -product}}};
+  const double slope = -evaluate(derivative_of<1, 5>(polynomial, 0), -2.0);
+  return {roots_at(loop, gains), {TrackedPoint{1.0 - product, -slope, 0.0, false, -product}}};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template class SamplingPath<TwoDof<double>>;
+extern template class SamplingFamily<TwoMass<double>>;
 #endif
 
 }  // namespace holdfast

@@ -10,7 +10,7 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/linalg/eigenvalue_rate.hpp"
+#include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
@@ -115,7 +115,7 @@ void SlowSamplingBound::take_modes(const Plant& plant, const PdGains<double>& ga
     decay_.push_back(decay_of(poles[i]));
     // The residue of K (sI − A)⁻¹ b is the speed of the pole in A + ε b K.
     weight_.push_back(
-        std::abs(eigenvalue_rate<double>(a, Square(b * feedback), poles[i]) / poles[i]));
+        std::abs(eigenvalue_derivative<double>(a, Square(b * feedback), poles[i]) / poles[i]));
     for (Eigen::Index k = 0; k < i; ++k) {
       if (std::abs(poles[i] - poles[k]) < 1e-6 * std::abs(poles[i])) decay_.back() = 0.0;
     }
@@ -124,7 +124,7 @@ void SlowSamplingBound::take_modes(const Plant& plant, const PdGains<double>& ga
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template SlowSamplingBound::SlowSamplingBound(const TwoDof<double>&, const PdGains<double>&,
+extern template SlowSamplingBound::SlowSamplingBound(const TwoMass<double>&, const PdGains<double>&,
                                                      double);
 extern template SlowSamplingBound::SlowSamplingBound(const LinearPlant<double>&,
                                                      const PdGains<double>&, double);

@@ -70,7 +70,7 @@ Vector<Scalar, Size> in_powers_of_lambda(Vector<Scalar, Size> in_powers_of_mu) {
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template AffinePolynomial<double, 4> characteristic_polynomial(const TwoDof<double>&);
+extern template AffinePolynomial<double, 4> characteristic_polynomial(const TwoMass<double>&);
 extern template AffinePolynomial<double, 5> characteristic_polynomial(const SampledLoop<double>&);
 #endif
 

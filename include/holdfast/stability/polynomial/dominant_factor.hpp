@@ -63,7 +63,7 @@ QuadraticFactor<Scalar> dominant_factor(const Vector<Scalar, Size>& in_powers_of
 ///
 /// quadratically convergent as long as the factor shares no root with its quotient. That the
 /// quotient has no root beyond the radius is then tested by Liénard and Chipart's conditions; a
-/// lane that fails either is found anew from all its roots. So the result does not rest on the
+/// lane that fails either is found again from all its roots. So the result does not rest on the
 /// path. The polynomial must have a root λ = 0 as a partner for a real dominant root: the sampled
 /// loop without processing delay has it, any other is multiplied by λ (`with_root_at_zero`).
 ///

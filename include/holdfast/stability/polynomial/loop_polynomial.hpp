@@ -22,8 +22,8 @@ namespace holdfast {
 /// where hardly anything is left of its motion from one sample to the next.
 ///
 /// In the first case the roots crowd at λ = 1, in the second at λ = 0; the polynomial must be
-/// written about the place where they crowd lest round-off move them by a root of its size. Radii
-/// are carried as their offset from the centre for the same reason.
+/// written about the place where they crowd so that round-off does not move them by a root of its
+/// size. Radii are carried as their offset from the centre for the same reason.
 template <class Scalar>
 struct LoopPolynomial {
   Scalar centre;                           ///< 1 or 0

@@ -19,14 +19,14 @@ namespace holdfast {
 ///
 /// At a multiple root the rates are infinite or not a number.
 template <int Directions>
-struct MovingRoot {
+struct RootSensitivity {
   using Complex = std::complex<double>;  ///< the type of a root
 
   Complex offset;                     ///< μ = λ − centre
   double centre = 1.0;                ///< 1, or 0 where the roots crowd there (`LoopPolynomial`)
   Vector<Complex, Directions> rates;  ///< ∂λ/∂x, per unit of each parameter
-  Complex rate_by_proportional_gain;  ///< ∂λ/∂P (m/N)
-  Complex rate_by_differential_gain;  ///< ∂λ/∂D (m/(N s))
+  Complex derivative_by_proportional_gain;  ///< ∂λ/∂P (m/N)
+  Complex derivative_by_differential_gain;  ///< ∂λ/∂D (m/(N s))
 
   /// λ; where sampling is fast `offset` holds it with more digits.
   Complex value() const { return centre + offset; }
@@ -48,50 +48,50 @@ struct MovingRoot {
   }
 
   /// ∂ ln|λ| belonging to ∂λ.
-  double logarithmic_rate(const Complex& rate) const { return (rate / value()).real(); }
+  double logarithmic_derivative(const Complex& rate) const { return (rate / value()).real(); }
 };
 
 /// The polynomial in powers of μ alone, without the derivatives that it carries.
 template <int Directions, int Degree>
-Polynomial<double, Degree> values_of(const Polynomial<Rated<Directions>, Degree>& rated) {
+Polynomial<double, Degree> values_of(const Polynomial<DualNumber<Directions>, Degree>& dual) {
   Polynomial<double, Degree> values;
-  for (int k = 0; k <= Degree; ++k) values[k] = rated[k].value();
+  for (int k = 0; k <= Degree; ++k) values[k] = dual[k].value();
   return values;
 }
 
 /// The derivative along direction number `direction`.
 template <int Directions, int Degree>
-Polynomial<double, Degree> rate_of(const Polynomial<Rated<Directions>, Degree>& rated,
-                                   int direction) {
+Polynomial<double, Degree> derivative_of(const Polynomial<DualNumber<Directions>, Degree>& dual,
+                                         int direction) {
   Polynomial<double, Degree> rates;
-  for (int k = 0; k <= Degree; ++k) rates[k] = rated[k].derivatives()[direction];
+  for (int k = 0; k <= Degree; ++k) rates[k] = dual[k].derivatives()[direction];
   return rates;
 }
 
 /// All roots with their rates.
-/// @param polynomial  of a `rated_loop`, in powers of μ = λ − centre
+/// @param polynomial  of a `dual_loop`, in powers of μ = λ − centre
 /// @param gains       P (N/m) and D (N s/m), finite
 /// @param centre      1, or 0 for a polynomial in powers of λ
 template <int Directions>
-std::vector<MovingRoot<Directions>> moving_roots(
-    const AffinePolynomial<Rated<Directions>, 5>& polynomial, const PdGains<double>& gains,
+std::vector<RootSensitivity<Directions>> root_sensitivities(
+    const AffinePolynomial<DualNumber<Directions>, 5>& polynomial, const PdGains<double>& gains,
     double centre = 1.0) {
-  const Polynomial<Rated<Directions>, 5> p = polynomial.at(PdGains<Rated<Directions>>{
-      Rated<Directions>(gains.proportional), Rated<Directions>(gains.differential)});
+  const Polynomial<DualNumber<Directions>, 5> p = polynomial.at(PdGains<DualNumber<Directions>>{
+      DualNumber<Directions>(gains.proportional), DualNumber<Directions>(gains.differential)});
   const Polynomial<double, 5> values = values_of<Directions, 5>(p);
   const Polynomial<double, 4> slope = derivative<double, 6>(values);
-  std::vector<MovingRoot<Directions>> result;
+  std::vector<RootSensitivity<Directions>> result;
   for (const std::complex<double>& mu : roots(values)) {
     const std::complex<double> inverse = -1.0 / evaluate(slope, mu);
-    MovingRoot<Directions> root;
+    RootSensitivity<Directions> root;
     root.offset = mu;
     root.centre = centre;
     for (int i = 0; i < Directions; ++i) {
-      root.rates[i] = evaluate(rate_of<Directions, 5>(p, i), mu) * inverse;
+      root.rates[i] = evaluate(derivative_of<Directions, 5>(p, i), mu) * inverse;
     }
-    root.rate_by_proportional_gain =
+    root.derivative_by_proportional_gain =
         evaluate(values_of<Directions, 5>(polynomial.proportional), mu) * inverse;
-    root.rate_by_differential_gain =
+    root.derivative_by_differential_gain =
         evaluate(values_of<Directions, 5>(polynomial.differential), mu) * inverse;
     result.push_back(root);
   }

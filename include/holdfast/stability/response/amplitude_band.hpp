@@ -193,7 +193,7 @@ WorstFrequency AmplitudeBand<Plant>::refined(double left, double middle, double 
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template class AmplitudeBand<TwoDof<double>>;
+extern template class AmplitudeBand<TwoMass<double>>;
 #endif
 
 }  // namespace holdfast

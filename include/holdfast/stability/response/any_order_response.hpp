@@ -42,7 +42,7 @@ class AnyOrderResponse {
   /// @param rate         of the loop's map, per unit of what varies
   /// @param input_rate   of the harmonic input, likewise
   /// @param period_rate  of τ, likewise: λ′ = iωλτ′
-  LoopPhasors<Scalar> along(const LoopMapRate<Scalar>& rate,
+  LoopPhasors<Scalar> along(const LoopMapDerivative<Scalar>& rate,
                             const HarmonicInput<Scalar, Eigen::Dynamic>& input_rate,
                             const Scalar& period_rate) const;
 
@@ -74,7 +74,7 @@ AnyOrderResponse<Scalar>::AnyOrderResponse(const LoopMap<Scalar>& map,
 
 template <class Scalar>
 LoopPhasors<Scalar> AnyOrderResponse<Scalar>::along(
-    const LoopMapRate<Scalar>& rate, const HarmonicInput<Scalar, Eigen::Dynamic>& input_rate,
+    const LoopMapDerivative<Scalar>& rate, const HarmonicInput<Scalar, Eigen::Dynamic>& input_rate,
     const Scalar& period_rate) const {
   const Complex lambda_rate = Complex(0, angular_frequency_ * period_rate) *
                               std::polar(Scalar(1), angular_frequency_ * map_.sampling.period);
@@ -106,7 +106,7 @@ LoopPhasors<Scalar> AnyOrderResponse<Scalar>::read(const Columns& response) cons
 /// How the harmonic input of a loop of any order moves with τ, per second: with c_d that of the
 /// held force, cosine′ = A_d c + ω sine and sine′ = −ω cosine that of the exact one.
 template <class Plant, class Scalar>
-HarmonicInput<Scalar, Eigen::Dynamic> input_rate_by_period(
+HarmonicInput<Scalar, Eigen::Dynamic> input_derivative_by_period(
     const Plant& plant, const LoopMap<Scalar>& map, ForceHold hold,
     const HarmonicInput<Scalar, Eigen::Dynamic>& input,
     const detail::Undeduced<Scalar>& angular_frequency) {
@@ -178,7 +178,7 @@ SteadyResponse<double> steady_response(const Plant& plant, const Sampling<double
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class AnyOrderResponse<double>;
-extern template SteadyResponse<double> steady_response(const TwoDof<double>&,
+extern template SteadyResponse<double> steady_response(const TwoMass<double>&,
                                                        const Sampling<double>&, ForceHold, double);
 extern template SteadyResponse<double> steady_response(const LinearPlant<double>&,
                                                        const Sampling<double>&, ForceHold, double);

@@ -22,9 +22,10 @@ namespace holdfast {
 ///
 /// @tparam Plant  anything with `excitation_input()`
 template <class Plant, class Scalar>
-HarmonicInput<Scalar> input_rate_by_period(const Plant& plant, const SampledLoop<Scalar>& loop,
-                                           ForceHold hold, const HarmonicInput<Scalar>& input,
-                                           const Scalar& angular_frequency) {
+HarmonicInput<Scalar> input_derivative_by_period(const Plant& plant,
+                                                 const SampledLoop<Scalar>& loop, ForceHold hold,
+                                                 const HarmonicInput<Scalar>& input,
+                                                 const Scalar& angular_frequency) {
   const Vector<Scalar, 4> late = loop.transition * plant.excitation_input();
   if (hold == ForceHold::sampled) return {late, Vector<Scalar, 4>::Zero()};
   return {late + angular_frequency * input.sine, -angular_frequency * input.cosine};
@@ -37,10 +38,10 @@ HarmonicInput<Scalar> input_rate_by_period(const Plant& plant, const SampledLoop
 /// @param sampling_period    τ (s), > 0
 /// @param angular_frequency  ω (rad/s)
 template <class Plant, class Scalar>
-HarmonicInput<Scalar> exact_input_rate_by_plant(const Plant& plant,
-                                                const BasicPlantRate<Scalar>& rate,
-                                                const Scalar& sampling_period,
-                                                const Scalar& angular_frequency) {
+HarmonicInput<Scalar> exact_input_derivative_by_plant(const Plant& plant,
+                                                      const BasicPlantDerivative<Scalar>& rate,
+                                                      const Scalar& sampling_period,
+                                                      const Scalar& angular_frequency) {
   Matrix<Scalar, 12> generator = Matrix<Scalar, 12>::Zero();
   for (const int corner : {0, 6}) {
     generator.template block<4, 4>(corner, corner) = plant.state_matrix();
@@ -61,15 +62,15 @@ HarmonicInput<Scalar> exact_input_rate_by_plant(const Plant& plant,
 ///
 /// for both columns Q = [Γ₀ + Γ₁/λ, g] and their responses Z.
 template <class Scalar>
-class BasicResponseRates {
+class BasicResponseDerivatives {
  public:
   using Complex = std::complex<Scalar>;  ///< the type of the phasors
 
   /// @param loop               of `sampled_loop`
   /// @param input              of the same loop and ω, held or exact
   /// @param angular_frequency  ω (rad/s), > 0
-  BasicResponseRates(const SampledLoop<Scalar>& loop, const HarmonicInput<Scalar>& input,
-                     const Scalar& angular_frequency);
+  BasicResponseDerivatives(const SampledLoop<Scalar>& loop, const HarmonicInput<Scalar>& input,
+                           const Scalar& angular_frequency);
 
   /// The responses themselves, those of `SteadyResponse`.
   ResponsePhasors<Scalar> phasors() const { return phasors_of(response_); }
@@ -78,7 +79,7 @@ class BasicResponseRates {
   /// @param rate         of the loop's matrices, per unit of the parameter
   /// @param input_rate   of the harmonic input, likewise
   /// @param lambda_rate  of λ = e^{iωτ}: iωλ by τ, 0 by the plant's parameters and by δ
-  ResponsePhasors<Scalar> along(const BasicLoopRate<Scalar>& rate,
+  ResponsePhasors<Scalar> along(const BasicLoopDerivative<Scalar>& rate,
                                 const HarmonicInput<Scalar>& input_rate,
                                 const Complex& lambda_rate) const;
 
@@ -101,12 +102,12 @@ class BasicResponseRates {
 };
 
 /// The derivatives of phasors in `double`.
-using ResponseRates = BasicResponseRates<double>;
+using ResponseDerivatives = BasicResponseDerivatives<double>;
 
 template <class Scalar>
-BasicResponseRates<Scalar>::BasicResponseRates(const SampledLoop<Scalar>& loop,
-                                               const HarmonicInput<Scalar>& input,
-                                               const Scalar& angular_frequency)
+BasicResponseDerivatives<Scalar>::BasicResponseDerivatives(const SampledLoop<Scalar>& loop,
+                                                           const HarmonicInput<Scalar>& input,
+                                                           const Scalar& angular_frequency)
     : loop_(loop), angle_(angular_frequency * loop.sampling.period) {
   lambda_ = std::polar(Scalar(1), angle_);
   const Scalar half_sine = std::sin(angle_ / Scalar(2));
@@ -118,9 +119,9 @@ BasicResponseRates<Scalar>::BasicResponseRates(const SampledLoop<Scalar>& loop,
 }
 
 template <class Scalar>
-ResponsePhasors<Scalar> BasicResponseRates<Scalar>::along(const BasicLoopRate<Scalar>& rate,
-                                                          const HarmonicInput<Scalar>& input_rate,
-                                                          const Complex& lambda_rate) const {
+ResponsePhasors<Scalar> BasicResponseDerivatives<Scalar>::along(
+    const BasicLoopDerivative<Scalar>& rate, const HarmonicInput<Scalar>& input_rate,
+    const Complex& lambda_rate) const {
   Matrix<Complex, 4, 2> right = sources(rate.present_force, rate.previous_force, input_rate);
   right.col(0) -=
       loop_.previous_force.template cast<Complex>() * (lambda_rate / (lambda_ * lambda_));
@@ -129,7 +130,7 @@ ResponsePhasors<Scalar> BasicResponseRates<Scalar>::along(const BasicLoopRate<Sc
 }
 
 template <class Scalar>
-Matrix<std::complex<Scalar>, 4, 2> BasicResponseRates<Scalar>::sources(
+Matrix<std::complex<Scalar>, 4, 2> BasicResponseDerivatives<Scalar>::sources(
     const Vector<Scalar, 4>& present, const Vector<Scalar, 4>& previous,
     const HarmonicInput<Scalar>& input) const {
   Matrix<Complex, 4, 2> result;
@@ -162,14 +163,15 @@ inline AmplitudeRatio amplitude_ratio(const ResponsePhasors<double>& phasors,
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template HarmonicInput<double> input_rate_by_period(const TwoDof<double>&,
-                                                           const SampledLoop<double>&, ForceHold,
-                                                           const HarmonicInput<double>&,
-                                                           const double&);
-extern template HarmonicInput<double> exact_input_rate_by_plant(const TwoDof<double>&,
-                                                                const PlantRate&, const double&,
-                                                                const double&);
-extern template class BasicResponseRates<double>;
+extern template HarmonicInput<double> input_derivative_by_period(const TwoMass<double>&,
+                                                                 const SampledLoop<double>&,
+                                                                 ForceHold,
+                                                                 const HarmonicInput<double>&,
+                                                                 const double&);
+extern template HarmonicInput<double> exact_input_derivative_by_plant(const TwoMass<double>&,
+                                                                      const PlantDerivative&,
+                                                                      const double&, const double&);
+extern template class BasicResponseDerivatives<double>;
 #endif
 
 }  // namespace holdfast

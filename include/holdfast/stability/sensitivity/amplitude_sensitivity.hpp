@@ -14,10 +14,10 @@
 
 namespace holdfast {
 
-/// How the least amplitude ratio over D at a fixed P, and its D, answer to the loop.
+/// How the minimum amplitude ratio over D at a fixed P, and its D, answer to the loop.
 struct AmplitudeSensitivity {
-  LeastAmplitudeOutcome outcome;      ///< of the least amplitude; NaN below where it has no D
-  LoopSensitivity ratio;              ///< of the least amplitude over that without control
+  MinimumAmplitudeOutcome outcome;    ///< of the minimum amplitude; NaN below where it has no D
+  LoopSensitivity ratio;              ///< of the minimum amplitude over that without control
   LoopSensitivity differential_gain;  ///< of the D (N s/m) that has it
 };
 
@@ -70,22 +70,22 @@ class MovingRatio {
 };
 
 /// The rates of the phasors by the carried parameters.
-/// @param response  `ResponseRates` of the loop, the input and ω
+/// @param response  `ResponseDerivatives` of the loop, the input and ω
 template <class Scalar, class Response>
-std::array<ResponsePhasors<Scalar>, carried_parameters> phasor_rates(
-    const TwoDof<Scalar>& plant, const SampledLoop<Scalar>& loop, ForceHold hold,
+std::array<ResponsePhasors<Scalar>, carried_parameters> phasor_derivatives(
+    const TwoMass<Scalar>& plant, const SampledLoop<Scalar>& loop, ForceHold hold,
     const HarmonicInput<Scalar>& input, const Response& response, const Scalar& omega) {
   std::array<ResponsePhasors<Scalar>, carried_parameters> result;
-  const auto rates = loop_rates(plant, loop);
-  const auto by_plant = plant_rates(plant);
+  const auto rates = loop_derivatives(plant, loop);
+  const auto by_plant = plant_derivatives(plant);
   for (std::size_t i = 0; i < result.size(); ++i) {
     HarmonicInput<Scalar> input_rate{rates[i].held_excitation, Vector<Scalar, 4>::Zero()};
     std::complex<Scalar> lambda_rate(0.0);
     if (i == 6) {
-      input_rate = input_rate_by_period(plant, loop, hold, input, omega);
+      input_rate = input_derivative_by_period(plant, loop, hold, input, omega);
       lambda_rate = std::complex<Scalar>(0.0, omega) * response.lambda();
     } else if (i < 6 && hold == ForceHold::exact) {
-      input_rate = exact_input_rate_by_plant(plant, by_plant[i], loop.sampling.period, omega);
+      input_rate = exact_input_derivative_by_plant(plant, by_plant[i], loop.sampling.period, omega);
     }
     result[i] = response.along(rates[i], input_rate, lambda_rate);
   }
@@ -127,39 +127,39 @@ RatioEntries<Scalar> ratio_entries(
 
 }  // namespace detail
 
-/// The sensitivity of `least_amplitude`: of the least amplitude ratio over the admissible D at a
-/// fixed P, and of its D; by D itself the entries are 0.
+/// The sensitivity of `minimum_amplitude`: of the minimum amplitude ratio over the admissible D at
+/// a fixed P, and of its D; by D itself the entries are 0.
 ///
 /// At a stationary D the ratio moves as at a held D (its slope by D is zero) and D follows the root
 /// of the slope's numerator, a quadratic in D. At the edge D follows the boundary
 /// (`boundary_gain_sensitivity`) and takes the ratio with it.
 /// @param plant              m, k and c of both masses, within their ranges
-/// @param question           τ, δ, the hold of the force and the largest spectral radius admitted
+/// @param options            τ, δ, the hold of the force and the largest spectral radius admitted
 /// @param frequency          f (Hz), > 0; held, so that a P tuned to it moves with k₂ and m₂ only
 ///                           (`with_tuned_gain`)
 /// @param proportional_gain  P (N/m), finite
 /// @throws InvalidParameter outside the admissible ranges
 template <class Scalar>
-AmplitudeSensitivity amplitude_sensitivity(const TwoDof<Scalar>& plant,
-                                           const AmplitudeQuestion& question, double frequency,
+AmplitudeSensitivity amplitude_sensitivity(const TwoMass<Scalar>& plant,
+                                           const AmplitudeOptions& options, double frequency,
                                            double proportional_gain) {
-  const auto least = least_amplitude(plant, question, frequency, proportional_gain);
+  const auto least = minimum_amplitude(plant, options, frequency, proportional_gain);
   if (!std::isfinite(least.differential_gain)) {
     const auto none = sensitivity_of(
         Vector<Scalar, loop_parameters>::Constant(std::numeric_limits<Scalar>::quiet_NaN()));
     return {least.outcome, none, none};
   }
   const double omega = 2.0 * pi<double> * frequency, d = least.differential_gain;
-  const auto loop = sampled_loop(plant, question.sampling);
-  const auto input = harmonic_input(plant, loop, question.hold, omega);
-  const ResponseRates response(loop, input, omega);
+  const auto loop = sampled_loop(plant, options.sampling);
+  const auto input = harmonic_input(plant, loop, options.hold, omega);
+  const ResponseDerivatives response(loop, input, omega);
   auto [ratio, gain] = detail::ratio_entries(
       detail::MovingRatio<Scalar>(response.phasors(), proportional_gain),
-      detail::phasor_rates(plant, loop, question.hold, input, response, omega), d);
-  if (least.outcome == LeastAmplitudeOutcome::edge) {
+      detail::phasor_derivatives(plant, loop, options.hold, input, response, omega), d);
+  if (least.outcome == MinimumAmplitudeOutcome::edge) {
     gain = entries_of<Scalar>(
-        boundary_gain_sensitivity(plant, question.sampling, {proportional_gain, d},
-                                  BoundaryGain::differential, question.largest_radius));
+        boundary_gain_sensitivity(plant, options.sampling, {proportional_gain, d},
+                                  BoundaryGain::differential, options.largest_radius));
     ratio += ratio[9] * gain;
   }
   ratio[9] = 0.0;
@@ -167,9 +167,8 @@ AmplitudeSensitivity amplitude_sensitivity(const TwoDof<Scalar>& plant,
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template AmplitudeSensitivity amplitude_sensitivity(const TwoDof<double>&,
-                                                           const AmplitudeQuestion&, double,
-                                                           double);
+extern template AmplitudeSensitivity amplitude_sensitivity(const TwoMass<double>&,
+                                                           const AmplitudeOptions&, double, double);
 #endif
 
 }  // namespace holdfast

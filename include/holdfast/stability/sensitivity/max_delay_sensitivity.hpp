@@ -20,18 +20,18 @@ struct MaxDelaySensitivity {
 
 namespace detail {
 
-/// The gradient of what is zero at τ*: 1 − min ρ where stability limits it, 1 less the least
+/// The gradient of what is zero at τ*: 1 − min ρ where stability limits it, 1 less the minimum
 /// amplitude ratio where attenuation does; NaN where it has none.
 template <class Scalar>
-Entries<> reserve_gradient(const TwoDof<Scalar>& plant, const MaxDelayQuestion& question,
+Entries<> reserve_gradient(const TwoMass<Scalar>& plant, const MaxDelayOptions& options,
                            const MaxDelay& answer) {
-  const auto sampling = question.sampling(answer.sampling_period);
-  const double p = question.proportional_gain;
+  const auto sampling = options.sampling(answer.sampling_period);
+  const double p = options.proportional_gain;
   if (answer.limit == MaxDelayLimit::attenuation)
     return entries_of<Scalar>(
-        amplitude_sensitivity(plant, {sampling, question.hold}, question.frequency, p).ratio);
-  const auto least = least_radius_sensitivity(plant, sampling, {p, answer.differential_gain});
-  if (least.kind == LeastRadiusKind::fixed)
+        amplitude_sensitivity(plant, {sampling, options.hold}, options.frequency, p).ratio);
+  const auto least = minimum_radius_sensitivity(plant, sampling, {p, answer.differential_gain});
+  if (least.kind == MinimumRadiusKind::fixed)
     return Vector<Scalar, loop_parameters>::Constant(std::numeric_limits<double>::quiet_NaN());
   return entries_of<Scalar>(least.radius);
 }
@@ -47,31 +47,31 @@ Entries<> reserve_gradient(const TwoDof<Scalar>& plant, const MaxDelayQuestion& 
 ///
 /// Where τ* = 1/(2f) no parameter moves it.
 /// @param plant     m, k and c of both masses, within their ranges
-/// @param question  the one that `answer` belongs to
+/// @param options   the one that `answer` belongs to
 /// @param answer    of `max_sampling_period` to the same question
-/// @return zeros where `answer` is not `found`; NaN where the least radius at τ* has no sensitivity
-/// (`LeastRadiusKind::fixed`)
+/// @return zeros where `answer` is not `found`; NaN where the minimum radius at τ* has no
+///         sensitivity
+/// (`MinimumRadiusKind::fixed`)
 /// @throws InvalidParameter outside the admissible ranges
 template <class Scalar>
-MaxDelaySensitivity max_delay_sensitivity(const TwoDof<Scalar>& plant,
-                                          const MaxDelayQuestion& question,
-                                          const MaxDelay& answer) {
+MaxDelaySensitivity max_delay_sensitivity(const TwoMass<Scalar>& plant,
+                                          const MaxDelayOptions& options, const MaxDelay& answer) {
   validate(plant);
-  validate(question);
+  validate(options);
   const bool moves = answer.outcome == MaxDelayOutcome::found &&
                      answer.limit != MaxDelayLimit::nyquist &&
                      std::isfinite(answer.differential_gain);
   if (!moves) return {{}, 0.0};
-  const auto g = detail::reserve_gradient(plant, question, answer);
-  const double along = g[6] + question.delay_fraction * g[7];
+  const auto g = detail::reserve_gradient(plant, options, answer);
+  const double along = g[6] + options.delay_fraction * g[7];
   auto result = (-g / along).eval();
   result[6] = result[7] = result[9] = 0.0;
   return {sensitivity_of(result), -answer.sampling_period * g[7] / along};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template MaxDelaySensitivity max_delay_sensitivity(const TwoDof<double>&,
-                                                          const MaxDelayQuestion&, const MaxDelay&);
+extern template MaxDelaySensitivity max_delay_sensitivity(const TwoMass<double>&,
+                                                          const MaxDelayOptions&, const MaxDelay&);
 #endif
 
 }  // namespace holdfast

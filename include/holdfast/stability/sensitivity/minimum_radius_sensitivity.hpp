@@ -16,29 +16,29 @@
 
 namespace holdfast {
 
-/// What holds the least spectral radius where it is.
-enum class LeastRadiusKind {
+/// What holds the minimum spectral radius where it is.
+enum class MinimumRadiusKind {
   balanced,     ///< two roots of equal modulus, of which D moves one in and the other out
   double_root,  ///< a double real root that D parts
   smooth,       ///< one root, or pair, whose modulus is stationary in D
   fixed,        ///< none of these: a root that D does not move, or gains that are not those of the
-                ///< least radius; D has no sensitivity (NaN)
+                ///< minimum radius; D has no sensitivity (NaN)
 };
 
-/// How the least radius over D and its D answer to the loop.
-struct LeastRadiusSensitivity {
-  LeastRadiusKind kind;               ///< what is active at the minimum
+/// How the minimum radius over D and its D answer to the loop.
+struct MinimumRadiusSensitivity {
+  MinimumRadiusKind kind;             ///< what is active at the minimum
   LoopSensitivity radius;             ///< of min ρ over D; of `fixed`, of ρ at the held D
   LoopSensitivity differential_gain;  ///< of the D (N s/m) that has it; of `fixed` NaN
 };
 
 namespace detail {
 
-/// Which roots are active at the D of least radius, and the two equations that they give.
+/// Which roots are active at the D of minimum radius, and the two equations that they give.
 template <int Carried>
 class ActiveRoots {
  public:
-  ActiveRoots(const RatedPolynomial<Carried>& loop, const PdGains<double>& gains)
+  ActiveRoots(const DualPolynomial<Carried>& loop, const PdGains<double>& gains)
       : polynomial_(loop.polynomial), centre_(loop.centre), gains_(gains) {
     // One of each pair, and both of a double real root, which round-off parts by its square root.
     for (const auto& root : roots_of(loop, gains)) {
@@ -48,7 +48,7 @@ class ActiveRoots {
               [](const auto& a, const auto& b) { return a.radius_offset() > b.radius_offset(); });
   }
 
-  LeastRadiusSensitivity sensitivity() const {
+  MinimumRadiusSensitivity sensitivity() const {
     const double size = std::abs(roots_.front().offset);
     if (const auto result = of_double_root(1e-3 * size)) return *result;
     if (const auto result = of_balanced_roots(1e-6 * size)) return *result;
@@ -62,27 +62,27 @@ class ActiveRoots {
 
   double modulus() const { return std::abs(roots_.front().value()); }
 
-  LeastRadiusSensitivity answer(LeastRadiusKind kind, Gradient logarithm, Gradient gain) const {
+  MinimumRadiusSensitivity answer(MinimumRadiusKind kind, Gradient logarithm, Gradient gain) const {
     logarithm[by_d_] = gain[by_d_] = 0.0;
     return {kind, sensitivity_of(logarithm * modulus()), sensitivity_of(gain)};
   }
 
   /// ln|λ₁| = ln|λ₂| gives ∂D, and with it either gives the radius.
-  std::optional<LeastRadiusSensitivity> of_balanced_roots(double closeness) const {
-    const Gradient first = pull(roots_.front());
+  std::optional<MinimumRadiusSensitivity> of_balanced_roots(double closeness) const {
+    const Gradient first = gradient_of(roots_.front());
     for (std::size_t k = 1; k < roots_.size(); ++k) {
-      const Gradient other = pull(roots_[k]);
+      const Gradient other = gradient_of(roots_[k]);
       if (roots_.front().radius_offset() - roots_[k].radius_offset() > closeness) break;
       if (!(first[by_d_] * other[by_d_] < 0.0)) continue;
-      const Gradient gain = follow(first - other, by_d_);
-      return answer(LeastRadiusKind::balanced, first + first[by_d_] * gain, gain);
+      const Gradient gain = implicit_derivative(first - other, by_d_);
+      return answer(MinimumRadiusKind::balanced, first + first[by_d_] * gain, gain);
     }
     return std::nullopt;
   }
 
   /// p = 0 and ∂p/∂λ = 0, two real equations for λ and D, solved by Newton's method and then
   /// differentiated.
-  std::optional<LeastRadiusSensitivity> of_double_root(double closeness) const {
+  std::optional<MinimumRadiusSensitivity> of_double_root(double closeness) const {
     double mu = 0.0;
     if (!near_double_root(closeness, mu)) return std::nullopt;
     PdGains<double> gains = gains_;
@@ -101,12 +101,12 @@ class ActiveRoots {
       logarithm[i] = change[0] / (centre_ + mu);
       gain[i] = change[1];
     }
-    return answer(LeastRadiusKind::double_root, logarithm, gain);
+    return answer(MinimumRadiusKind::double_root, logarithm, gain);
   }
 
   /// The middle of two real roots, or of a pair about to become real, at the largest modulus.
   bool near_double_root(double closeness, double& mu) const {
-    const MovingRoot<Carried>& lead = roots_.front();
+    const RootSensitivity<Carried>& lead = roots_.front();
     mu = lead.offset.real();
     if (lead.offset.imag() != 0.0) return lead.offset.imag() < closeness;
     for (std::size_t k = 1; k < roots_.size(); ++k) {
@@ -126,18 +126,18 @@ class ActiveRoots {
   }
 
   Polynomial<double, 5> values_at(const PdGains<double>& gains) const {
-    return values_of<Carried, 5>(rated_at(gains));
+    return values_of<Carried, 5>(dual_at(gains));
   }
 
-  Polynomial<Rated<Carried>, 5> rated_at(const PdGains<double>& gains) const {
-    using Number = Rated<Carried>;
+  Polynomial<DualNumber<Carried>, 5> dual_at(const PdGains<double>& gains) const {
+    using Number = DualNumber<Carried>;
     return polynomial_.at(PdGains<Number>{Number(gains.proportional), Number(gains.differential)});
   }
 
   /// ∂p/∂x as a polynomial; x = P is entry `by_p_`.
   Polynomial<double, 5> partial(const PdGains<double>& gains, int entry) const {
     if (entry == by_p_) return values_of<Carried, 5>(polynomial_.proportional);
-    return rate_of<Carried, 5>(rated_at(gains), entry);
+    return derivative_of<Carried, 5>(dual_at(gains), entry);
   }
 
   static Vector<double, 2> double_root_residual(const Polynomial<double, 5>& p, double mu) {
@@ -158,69 +158,70 @@ class ActiveRoots {
   ///     p_λ λ_Dx = −(p_λλ λ_D λ_x + p_λD λ_x + p_λx λ_D + p_Dx)
   ///
   /// @param shortfall  by how much ln|λ| may exceed that of the minimum nearby
-  std::optional<LeastRadiusSensitivity> of_smooth_minimum(double shortfall) const {
+  std::optional<MinimumRadiusSensitivity> of_smooth_minimum(double shortfall) const {
     using Complex = std::complex<double>;
-    const MovingRoot<Carried>& root = roots_.front();
-    const Complex mu = root.offset, lambda = root.value(), by_d = root.rate_by_differential_gain;
+    const RootSensitivity<Carried>& root = roots_.front();
+    const Complex mu = root.offset, lambda = root.value(),
+                  by_d = root.derivative_by_differential_gain;
     const Polynomial<double, 4> slope = derivative<double, 6>(values_at(gains_));
     const Complex p_l = evaluate(slope, mu), p_ll = evaluate(derivative<double, 5>(slope), mu);
-    const auto& rated_d = polynomial_.differential;
-    const Complex p_ld = evaluate(derivative<double, 6>(values_of<Carried, 5>(rated_d)), mu);
+    const auto& dual_d = polynomial_.differential;
+    const Complex p_ld = evaluate(derivative<double, 6>(values_of<Carried, 5>(dual_d)), mu);
     const auto mixed = [&](const Complex& by_x, const Complex& p_lx, const Complex& p_dx) {
       const Complex second = -(p_ll * by_d * by_x + p_ld * by_x + p_lx * by_d + p_dx) / p_l;
       return (second / lambda - by_d * by_x / (lambda * lambda)).real();
     };
-    const double slope_by_d = pull(root)[by_d_], curvature = mixed(by_d, p_ld, 0.0);
+    const double slope_by_d = gradient_of(root)[by_d_], curvature = mixed(by_d, p_ld, 0.0);
     if (!(curvature > 0.0) || slope_by_d * slope_by_d > 2.0 * shortfall * curvature)
       return std::nullopt;
     Gradient gain;
     for (int i = 0; i < by_d_; ++i) {
       const Complex p_lx = evaluate(derivative<double, 6>(partial(gains_, i)), mu);
       const Complex p_dx =
-          i < Carried ? Complex(evaluate(rate_of<Carried, 5>(rated_d, i), mu)) : Complex(0.0);
-      const Complex by_x = i < Carried ? root.rates[i] : root.rate_by_proportional_gain;
+          i < Carried ? Complex(evaluate(derivative_of<Carried, 5>(dual_d, i), mu)) : Complex(0.0);
+      const Complex by_x = i < Carried ? root.rates[i] : root.derivative_by_proportional_gain;
       gain[i] = -mixed(by_x, p_lx, p_dx) / curvature;
     }
-    return answer(LeastRadiusKind::smooth, pull(root), gain);
+    return answer(MinimumRadiusKind::smooth, gradient_of(root), gain);
   }
 
-  LeastRadiusSensitivity of_fixed() const {
+  MinimumRadiusSensitivity of_fixed() const {
     const Gradient none = Gradient::Constant(std::numeric_limits<double>::quiet_NaN());
-    return {LeastRadiusKind::fixed,
-            answer(LeastRadiusKind::fixed, pull(roots_.front()), none).radius,
+    return {MinimumRadiusKind::fixed,
+            answer(MinimumRadiusKind::fixed, gradient_of(roots_.front()), none).radius,
             sensitivity_of(none)};
   }
 
-  AffinePolynomial<Rated<Carried>, 5> polynomial_;
+  AffinePolynomial<DualNumber<Carried>, 5> polynomial_;
   double centre_;
   PdGains<double> gains_;
-  std::vector<MovingRoot<Carried>> roots_;
+  std::vector<RootSensitivity<Carried>> roots_;
 };
 
 }  // namespace detail
 
-/// The sensitivity of the least spectral radius over D at a fixed P, and of the D that has it.
+/// The sensitivity of the minimum spectral radius over D at a fixed P, and of the D that has it.
 ///
-/// Two equations hold at the minimum, by what is active there (`LeastRadiusKind`); differentiated,
-/// they give both. By D itself the entries are 0.
+/// Two equations hold at the minimum, by what is active there (`MinimumRadiusKind`);
+/// differentiated, they give both. By D itself the entries are 0.
 /// @param plant     m, k and c of both masses, within their ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ
-/// @param gains     P and the D of `least_radius`, finite
+/// @param gains     P and the D of `minimum_radius`, finite
 /// @throws InvalidParameter outside the admissible ranges
 template <class Scalar>
-LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<Scalar>& plant,
-                                                const Sampling<double>& sampling,
-                                                const PdGains<double>& gains) {
+MinimumRadiusSensitivity minimum_radius_sensitivity(const TwoMass<Scalar>& plant,
+                                                    const Sampling<double>& sampling,
+                                                    const PdGains<double>& gains) {
   validate(plant);
   validate(sampling);
   validate(gains);
-  return detail::ActiveRoots(detail::rated_polynomial(plant, sampling), gains).sensitivity();
+  return detail::ActiveRoots(detail::dual_polynomial(plant, sampling), gains).sensitivity();
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LeastRadiusSensitivity least_radius_sensitivity(const TwoDof<double>&,
-                                                                const Sampling<double>&,
-                                                                const PdGains<double>&);
+extern template MinimumRadiusSensitivity minimum_radius_sensitivity(const TwoMass<double>&,
+                                                                    const Sampling<double>&,
+                                                                    const PdGains<double>&);
 #endif
 
 }  // namespace holdfast

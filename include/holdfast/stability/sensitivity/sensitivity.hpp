@@ -64,7 +64,7 @@ LoopSensitivity sensitivity_of(const Eigen::MatrixBase<Derived>& entries) {
 /// @param gains        P (N/m) and D (N s/m) there
 /// @param value        y, not 0
 template <class Scalar>
-LoopSensitivity logarithmic(const LoopSensitivity& sensitivity, const TwoDof<Scalar>& plant,
+LoopSensitivity logarithmic(const LoopSensitivity& sensitivity, const TwoMass<Scalar>& plant,
                             const Sampling<double>& sampling, const PdGains<double>& gains,
                             double value) {
   const auto parameters = entries_of<Scalar>(
@@ -88,7 +88,7 @@ inline LoopSensitivity with_tuned_gain(LoopSensitivity sensitivity, double frequ
 namespace detail {
 
 inline constexpr int carried_parameters = 8;  // the plant's six, τ and δ; the gains come from p
-using LoopRates = std::array<LoopRate, carried_parameters>;
+using LoopDerivatives = std::array<LoopDerivative, carried_parameters>;
 
 /// The derivatives by the parameters that a polynomial carries, then by P and by D.
 template <int Carried = carried_parameters>
@@ -96,66 +96,68 @@ using Entries = Vector<double, Carried + 2>;
 
 /// The plant whose members carry their own derivatives, in the order of `LoopSensitivity`.
 template <class Scalar>
-TwoDof<Rated<6>> seeded(const TwoDof<Scalar>& plant) {
-  const auto seed = [](const Scalar& value, int index) { return Rated<6>(value, 6, index); };
+TwoMass<DualNumber<6>> seeded(const TwoMass<Scalar>& plant) {
+  const auto seed = [](const Scalar& value, int index) { return DualNumber<6>(value, 6, index); };
   return {seed(plant.conductor_mass, 0),     seed(plant.conductor_stiffness, 1),
           seed(plant.conductor_damping, 2),  seed(plant.absorber_mass, 3),
           seed(plant.absorber_stiffness, 4), seed(plant.absorber_damping, 5)};
 }
 
 template <class Scalar>
-std::array<PlantRate, 6> plant_rates(const TwoDof<Scalar>& plant) {
+std::array<PlantDerivative, 6> plant_derivatives(const TwoMass<Scalar>& plant) {
   const auto carrying = seeded(plant);
-  std::array<PlantRate, 6> rates;
-  for (int i = 0; i < 6; ++i) rates[static_cast<std::size_t>(i)] = plant_rate<6>(carrying, i);
+  std::array<PlantDerivative, 6> rates;
+  for (int i = 0; i < 6; ++i) rates[static_cast<std::size_t>(i)] = plant_derivative<6>(carrying, i);
   return rates;
 }
 
 template <class Scalar>
-LoopRates loop_rates(const TwoDof<Scalar>& plant, const SampledLoop<Scalar>& loop) {
-  LoopRates rates;
-  const auto by_plant = plant_rates(plant);
-  for (std::size_t i = 0; i < 6; ++i) rates[i] = rate_by_plant(plant, by_plant[i], loop.sampling);
-  rates[6] = rate_by_period(plant, loop);
-  rates[7] = rate_by_delay(plant, loop);
+LoopDerivatives loop_derivatives(const TwoMass<Scalar>& plant, const SampledLoop<Scalar>& loop) {
+  LoopDerivatives rates;
+  const auto by_plant = plant_derivatives(plant);
+  for (std::size_t i = 0; i < 6; ++i)
+    rates[i] = derivative_by_plant(plant, by_plant[i], loop.sampling);
+  rates[6] = derivative_by_period(plant, loop);
+  rates[7] = derivative_by_delay(plant, loop);
   return rates;
 }
 
 /// The loop's polynomial with its derivatives, in powers of λ − centre.
 template <int Carried = carried_parameters>
-struct RatedPolynomial {
+struct DualPolynomial {
   double centre;  ///< that of `loop_polynomial`
-  AffinePolynomial<Rated<Carried>, 5> polynomial;
+  AffinePolynomial<DualNumber<Carried>, 5> polynomial;
 };
 
 template <class Scalar>
-RatedPolynomial<> rated_polynomial(const TwoDof<Scalar>& plant, const Sampling<Scalar>& sampling) {
+DualPolynomial<> dual_polynomial(const TwoMass<Scalar>& plant, const Sampling<Scalar>& sampling) {
   const auto loop = sampled_loop(plant, sampling);
-  const auto rated = rated_loop<carried_parameters>(loop, loop_rates(plant, loop));
+  const auto dual = dual_loop<carried_parameters>(loop, loop_derivatives(plant, loop));
   const double centre = loop_polynomial(loop).centre;
-  return {centre, centre == 0.0 ? characteristic_polynomial_in_lambda(rated)
-                                : characteristic_polynomial(rated)};
+  return {centre, centre == 0.0 ? characteristic_polynomial_in_lambda(dual)
+                                : characteristic_polynomial(dual)};
 }
 
 template <int Carried>
-std::vector<MovingRoot<Carried>> roots_of(const RatedPolynomial<Carried>& loop,
-                                          const PdGains<double>& gains) {
-  return moving_roots<Carried>(loop.polynomial, gains, loop.centre);
+std::vector<RootSensitivity<Carried>> roots_of(const DualPolynomial<Carried>& loop,
+                                               const PdGains<double>& gains) {
+  return root_sensitivities<Carried>(loop.polynomial, gains, loop.centre);
 }
 
 /// ∂ ln|λ| by every parameter.
 template <int Carried>
-Entries<Carried> pull(const MovingRoot<Carried>& root) {
+Entries<Carried> gradient_of(const RootSensitivity<Carried>& root) {
   Entries<Carried> result;
-  for (int i = 0; i < Carried; ++i) result[i] = root.logarithmic_rate(root.rates[i]);
-  result[Carried] = root.logarithmic_rate(root.rate_by_proportional_gain);
-  result[Carried + 1] = root.logarithmic_rate(root.rate_by_differential_gain);
+  for (int i = 0; i < Carried; ++i) result[i] = root.logarithmic_derivative(root.rates[i]);
+  result[Carried] = root.logarithmic_derivative(root.derivative_by_proportional_gain);
+  result[Carried + 1] = root.logarithmic_derivative(root.derivative_by_differential_gain);
   return result;
 }
 
 /// The root whose modulus is nearest to a radius.
 template <int Carried>
-MovingRoot<Carried> root_at_radius(const std::vector<MovingRoot<Carried>>& roots, double radius) {
+RootSensitivity<Carried> root_at_radius(const std::vector<RootSensitivity<Carried>>& roots,
+                                        double radius) {
   const auto distance = [radius](const auto& root) {
     return std::abs(root.excess() - (radius - 1.0));
   };
@@ -166,7 +168,8 @@ MovingRoot<Carried> root_at_radius(const std::vector<MovingRoot<Carried>>& roots
 /// How entry number `own` must follow the others to keep the value of which this is the gradient,
 /// such as ln|λ| of a root: −∂_x / ∂_own, and 0 by itself.
 template <class Derived>
-typename Derived::PlainObject follow(const Eigen::MatrixBase<Derived>& gradient, int own) {
+typename Derived::PlainObject implicit_derivative(const Eigen::MatrixBase<Derived>& gradient,
+                                                  int own) {
   typename Derived::PlainObject result = -gradient / gradient[own];
   result[own] = 0.0;
   return result;
@@ -194,7 +197,7 @@ enum class BoundaryGain { proportional, differential };
 /// @param radius    of the boundary, > 0; 1 is that of stability
 /// @throws InvalidParameter outside the admissible ranges
 template <class Scalar>
-LoopSensitivity boundary_gain_sensitivity(const TwoDof<Scalar>& plant,
+LoopSensitivity boundary_gain_sensitivity(const TwoMass<Scalar>& plant,
                                           const Sampling<double>& sampling,
                                           const PdGains<double>& gains, BoundaryGain gain,
                                           double radius = 1.0) {
@@ -202,33 +205,34 @@ LoopSensitivity boundary_gain_sensitivity(const TwoDof<Scalar>& plant,
   validate(sampling);
   validate(gains);
   require_positive("radius", radius, "");
-  const auto roots = detail::roots_of(detail::rated_polynomial(plant, sampling), gains);
-  return sensitivity_of(detail::follow(detail::pull(detail::root_at_radius(roots, radius)),
-                                       gain == BoundaryGain::proportional ? 8 : 9));
+  const auto roots = detail::roots_of(detail::dual_polynomial(plant, sampling), gains);
+  return sensitivity_of(
+      detail::implicit_derivative(detail::gradient_of(detail::root_at_radius(roots, radius)),
+                                  gain == BoundaryGain::proportional ? 8 : 9));
 }
 
 /// The sensitivity of the spectral radius ρ = max |λ|. Where two roots share the largest modulus ρ
 /// has no derivative; that of one of them is returned.
 /// @throws InvalidParameter outside the admissible ranges
 template <class Scalar>
-LoopSensitivity radius_sensitivity(const TwoDof<Scalar>& plant, const Sampling<double>& sampling,
+LoopSensitivity radius_sensitivity(const TwoMass<Scalar>& plant, const Sampling<double>& sampling,
                                    const PdGains<double>& gains) {
   validate(plant);
   validate(sampling);
   validate(gains);
-  const auto roots = detail::roots_of(detail::rated_polynomial(plant, sampling), gains);
+  const auto roots = detail::roots_of(detail::dual_polynomial(plant, sampling), gains);
   const auto& dominant = *std::max_element(
       roots.begin(), roots.end(),
       [](const auto& a, const auto& b) { return a.radius_offset() < b.radius_offset(); });
-  return sensitivity_of(detail::pull(dominant) * std::abs(dominant.value()));
+  return sensitivity_of(detail::gradient_of(dominant) * std::abs(dominant.value()));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template LoopSensitivity boundary_gain_sensitivity(const TwoDof<double>&,
+extern template LoopSensitivity boundary_gain_sensitivity(const TwoMass<double>&,
                                                           const Sampling<double>&,
                                                           const PdGains<double>&, BoundaryGain,
                                                           double);
-extern template LoopSensitivity radius_sensitivity(const TwoDof<double>&, const Sampling<double>&,
+extern template LoopSensitivity radius_sensitivity(const TwoMass<double>&, const Sampling<double>&,
                                                    const PdGains<double>&);
 #endif
 

@@ -1,4 +1,4 @@
-#include "case/model/fit_question.hpp"
+#include "case/model/fit_options.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -32,27 +32,27 @@ const FitParameter& description_of(fit::PlantParameter parameter) {
   return known_parameters[static_cast<std::size_t>(parameter)];
 }
 
-fit::DecayQuestion fit_question(const std::string& parameters, const std::string& target) {
-  fit::DecayQuestion question;
-  question.free.clear();
+fit::DecayFitOptions fit_options(const std::string& parameters, const std::string& target) {
+  fit::DecayFitOptions options;
+  options.free.clear();
   for (const std::string_view name : split(parameters, ',')) {
     const fit::PlantParameter parameter = parameter_named(trimmed(name)).parameter;
-    if (std::count(question.free.begin(), question.free.end(), parameter) > 0)
+    if (std::count(options.free.begin(), options.free.end(), parameter) > 0)
       throw WrongInput("--parameters: " + one_line(trimmed(name)) + " stands there twice");
-    question.free.push_back(parameter);
+    options.free.push_back(parameter);
   }
-  question.target = target == "history" ? fit::DecayTarget::time_history
-                    : target == "peak"  ? fit::DecayTarget::first_peak_and_period
-                                        : fit::DecayTarget::first_peak_period_and_decrement;
+  options.target = target == "history" ? fit::DecayTarget::time_history
+                   : target == "peak"  ? fit::DecayTarget::first_peak_and_period
+                                       : fit::DecayTarget::first_peak_period_and_decrement;
   const std::size_t most = target == "peak" ? 1 : target == "measures" ? 2 : 5;
-  if (question.free.size() > most)
+  if (options.free.size() > most)
     throw WrongInput("--parameters: --target " + target + " determines " + std::to_string(most) +
                      " of them at most");
-  return question;
+  return options;
 }
 
-void require_starts(const fit::DecayQuestion& question, const TwoDof<double>& plant) {
-  for (const fit::PlantParameter parameter : question.free) {
+void require_starts(const fit::DecayFitOptions& options, const TwoMass<double>& plant) {
+  for (const fit::PlantParameter parameter : options.free) {
     if (parameter == fit::PlantParameter::absorber_damping || parameter_of(plant, parameter) > 0.0)
       continue;
     throw WrongInput(std::string("--parameters: the fit starts from plant.") +

@@ -9,17 +9,17 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
-/// A loop as it is built: any law of the backlash, switching at samples or when it happens, any
-/// excitation, the limits of its sensors, drive and clock.
-/// @tparam Plant  TwoDof<double> or a LinearPlant<double, N>
+/// A loop with the effects of its implementation: any law of the backlash, switching at samples or
+/// when it happens, any excitation, the limits of its sensors, drive and clock.
+/// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
 template <class Plant>
-struct RealLoopOf {
+struct ImplementedLoopOf {
   Plant plant;                               ///< conductor, absorber and what else has states
   DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
   BacklashParameters backlash = {};          ///< the law; by itself `kollar` with r₀ = 0
@@ -27,11 +27,11 @@ struct RealLoopOf {
 };
 
 /// That of the two masses.
-using RealLoop = RealLoopOf<TwoDof<double>>;
+using ImplementedLoop = ImplementedLoopOf<TwoMass<double>>;
 
 /// @throws InvalidParameter where any part is not admissible
 template <class Plant>
-void validate(const RealLoopOf<Plant>& loop) {
+void validate(const ImplementedLoopOf<Plant>& loop) {
   validate(loop.plant);
   validate(loop.digital);
   validate(loop.backlash);
@@ -39,9 +39,9 @@ void validate(const RealLoopOf<Plant>& loop) {
 
 /// The loop of the paper's model as one that is built.
 template <class Plant>
-RealLoopOf<Plant> real_loop(const ForcedLoop<double, Plant>& loop) {
+ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.plant,
-          {loop.sampling, loop.gains, composed_force(loop.excitation), loop.hold},
+          {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold},
           {ContactLaw::kollar, loop.backlash_width},
           Switching::sampled};
 }
@@ -49,7 +49,7 @@ RealLoopOf<Plant> real_loop(const ForcedLoop<double, Plant>& loop) {
 /// f τ = p/q of the first harmonic, with q the number of samples after which sampling and all
 /// harmonics coincide; 0/1 without excitation.
 /// @return nothing where they never do, or only after more than 10⁶ samples: incommensurate
-///         frequencies, a recorded force, or samples that stray
+///         frequencies, a recorded force, or samples that jitter
 inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
   constexpr std::int64_t most_samples = 1'000'000;
   if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;
@@ -72,7 +72,7 @@ inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
 /// The motion of the loop from [z₁, ż₁, z₂, ż₂].
 /// @throws InvalidParameter where the loop is not admissible
 template <class Plant>
-EventMotion<DriveContact<Plant>> event_motion(const RealLoopOf<Plant>& loop,
+EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const StateOf<Plant>& initial_state) {
   validate(loop);
   return {loop.digital,
@@ -83,7 +83,7 @@ EventMotion<DriveContact<Plant>> event_motion(const RealLoopOf<Plant>& loop,
 /// Calls `visit` with event_motion(loop, initial_state). @return what it returns
 /// @throws InvalidParameter where the loop is not admissible
 template <class Plant, class Visit>
-auto with_motion(const RealLoopOf<Plant>& loop, const StateOf<Plant>& initial_state,
+auto with_motion(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& initial_state,
                  Visit&& visit) {
   return visit(event_motion(loop, initial_state));
 }

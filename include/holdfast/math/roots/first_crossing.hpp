@@ -11,7 +11,7 @@ namespace holdfast {
 
 /// A point of the complex plane that moves with a real argument, and where it is expected to be a
 /// step further on: on a straight line, or on the spiral value · exp(rate · step + bend · step²).
-struct MovingPoint {
+struct TrackedPoint {
   using Complex = std::complex<double>;  ///< a place in the plane, or a rate of it
 
   Complex value;              ///< where the point is now
@@ -27,15 +27,15 @@ struct MovingPoint {
 };
 
 /// Points of one kind, in no particular order.
-using MovingPoints = std::vector<MovingPoint>;
+using TrackedPoints = std::vector<TrackedPoint>;
 
-/// The sets of points that are watched, at one argument; always the same sets in the same order.
-using WatchedPoints = std::vector<MovingPoints>;
+/// The sets of points that are tracked, at one argument; always the same sets in the same order.
+using TrackedPointSets = std::vector<TrackedPoints>;
 
 /// True where every point lies inside the unit circle; a NaN does not.
-inline bool all_inside(const WatchedPoints& sets) {
-  for (const MovingPoints& points : sets) {
-    for (const MovingPoint& point : points) {
+inline bool all_inside(const TrackedPointSets& sets) {
+  for (const TrackedPoints& points : sets) {
+    for (const TrackedPoint& point : points) {
       if (!(point.excess < 0.0)) return false;
     }
   }
@@ -50,7 +50,7 @@ enum class WalkOutcome {
 };
 
 /// Where a walk ended.
-struct FirstExit {
+struct FirstCrossing {
   WalkOutcome outcome;   ///< how; `first_outside` is a number for `exit` alone
   double last_inside;    ///< the last argument at which all points were inside; the start if none
   double first_outside;  ///< the first one seen at which they were not; NaN without an exit
@@ -61,12 +61,12 @@ namespace detail {
 
 /// How badly the points here foretell those a step further on, as a share of what a safe step may
 /// show: half the distance from the unit circle; or half the way, for a point that leaves.
-inline double surprise(const MovingPoints& here, const MovingPoints& there, double step) {
+inline double surprise(const TrackedPoints& here, const TrackedPoints& there, double step) {
   double worst = 0.0;
-  for (const MovingPoint& point : here) {
+  for (const TrackedPoint& point : here) {
     const std::complex<double> expected = point.expected(step);
     double error = std::numeric_limits<double>::infinity(), excess = 0.0;
-    for (const MovingPoint& other : there) {
+    for (const TrackedPoint& other : there) {
       const double distance = std::abs(other.value - expected);
       if (distance < error) {
         error = distance;
@@ -82,7 +82,8 @@ inline double surprise(const MovingPoints& here, const MovingPoints& there, doub
 }
 
 /// The same from both ends; above 1 something may have happened in between.
-inline double contradiction(const WatchedPoints& here, const WatchedPoints& there, double step) {
+inline double contradiction(const TrackedPointSets& here, const TrackedPointSets& there,
+                            double step) {
   double worst = 0.0;
   for (std::size_t k = 0; k < here.size(); ++k) {
     worst =
@@ -94,7 +95,7 @@ inline double contradiction(const WatchedPoints& here, const WatchedPoints& ther
 }  // namespace detail
 
 /// The first argument on the way from `from` to `to` (which may lie below) at which one of the
-/// watched points leaves the unit circle, as a bracket.
+/// tracked points leaves the unit circle, as a bracket.
 ///
 /// A step is taken only if what the points' speeds foretell at either end is what is found at the
 /// other, up to half of each point's distance from the circle; otherwise it is shortened. Both ends
@@ -103,17 +104,17 @@ inline double contradiction(const WatchedPoints& here, const WatchedPoints& ther
 /// steadily and shrink as one nears the circle, but never below `smallest` times the argument: an
 /// excursion narrower than that may be passed over, and so may one that is over within a step and
 /// of which neither end shows anything.
-/// @param evaluate  argument → WatchedPoints
+/// @param evaluate  argument → TrackedPointSets
 /// @param from      argument at which the walk begins
 /// @param to        argument at which it ends, at the latest
 /// @param first     length of the first step, > 0
 /// @param smallest  shortest step as a share of |argument| or, if that is larger, of `first`, > 0
 template <class Evaluate>
-FirstExit first_exit(const Evaluate& evaluate, double from, double to, double first,
-                     double smallest) {
+FirstCrossing first_crossing(const Evaluate& evaluate, double from, double to, double first,
+                             double smallest) {
   const double direction = to < from ? -1.0 : 1.0;
-  WatchedPoints here = evaluate(from);
-  FirstExit result{WalkOutcome::blocked, from, std::numeric_limits<double>::quiet_NaN(), 1};
+  TrackedPointSets here = evaluate(from);
+  FirstCrossing result{WalkOutcome::blocked, from, std::numeric_limits<double>::quiet_NaN(), 1};
   if (!all_inside(here)) return result;
   double length = first, longest_growth = 3.0;
   while (direction * (to - result.last_inside) > 0.0) {
@@ -123,7 +124,7 @@ FirstExit first_exit(const Evaluate& evaluate, double from, double to, double fi
     if (direction * (to - next) <= 0.0) next = to;
     if (next == result.last_inside) break;
     const double step = next - result.last_inside;
-    WatchedPoints there = evaluate(next);
+    TrackedPointSets there = evaluate(next);
     ++result.evaluations;
     const double share = detail::contradiction(here, there, step);
     // What is missed grows with the square of the step, or faster where roots meet.

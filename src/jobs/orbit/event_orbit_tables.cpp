@@ -1,9 +1,9 @@
-#include "jobs/orbit/hybrid_orbit_tables.hpp"
+#include "jobs/orbit/event_orbit_tables.hpp"
 
 #include <optional>
 
 #include "case/model/loop_of_case.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "io/text/table.hpp"
 #include "jobs/charts/conditioning.hpp"
@@ -18,7 +18,7 @@ namespace holdfast::program {
 namespace {
 
 /// f τ of the first harmonic.
-double cycles_per_sample(const RealLoop& loop) {
+double cycles_per_sample(const ImplementedLoop& loop) {
   return loop.digital.force.harmonics.front().frequency * loop.digital.sampling.period;
 }
 
@@ -30,7 +30,7 @@ void write_margins(QuantityRows& rows, const SwitchingMargins& margins) {
   rows.row("stick_acceleration", margins.stick_acceleration, "m/s2");
 }
 
-void write_modes(QuantityRows& rows, const HybridOrbit& orbit) {
+void write_modes(QuantityRows& rows, const EventOrbit& orbit) {
   for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
     const std::string name = word_for(mode);
     rows.row(name + "_time_share", orbit.time_share[static_cast<std::size_t>(mode)]);
@@ -40,12 +40,12 @@ void write_modes(QuantityRows& rows, const HybridOrbit& orbit) {
 
 }  // namespace
 
-HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
-                            std::int64_t largest_period) {
+EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
+                           std::int64_t largest_period) {
   const std::optional<Rational> ratio = forcing_ratio(loop.digital);
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
   return with_motion(loop, initial_state_of(context.case_data), [&](const auto& motion) {
-    auto found = find_hybrid_orbit(motion, limits);
+    auto found = find_event_orbit(motion, limits);
     if (found.outcome != OrbitOutcome::certified) {
       throw NoAnswer(reason_for(failure_of(found, ratio, cycles_per_sample(loop), largest_period)));
     }
@@ -54,19 +54,20 @@ HybridOrbit certified_orbit(const JobContext& context, const RealLoop& loop,
   });
 }
 
-void write_orbit(const JobContext& context, const RealLoop& loop, std::int64_t largest_period) {
+void write_orbit(const JobContext& context, const ImplementedLoop& loop,
+                 std::int64_t largest_period) {
   Table table(context, orbit_columns());
-  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const EventOrbit orbit = certified_orbit(context, loop, largest_period);
   table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
             orbit.largest_multiplier(), orbit.closure_error, orbit.margins.border_distance,
             orbit.engaged_fraction());
   table.commit();
 }
 
-void write_certificate(const JobContext& context, const RealLoop& loop,
+void write_certificate(const JobContext& context, const ImplementedLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, certificate_columns());
-  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const EventOrbit orbit = certified_orbit(context, loop, largest_period);
   QuantityRows rows(table);
   write_orbit_rows(rows, orbit, orbit.largest_displacement);
   write_margins(rows, orbit.margins);
@@ -75,10 +76,10 @@ void write_certificate(const JobContext& context, const RealLoop& loop,
   table.commit();
 }
 
-void write_orbit_trace(const JobContext& context, const RealLoop& loop,
+void write_orbit_trace(const JobContext& context, const ImplementedLoop& loop,
                        std::int64_t largest_period) {
   Table table(context, motion_columns(loop.switching));
-  const HybridOrbit orbit = certified_orbit(context, loop, largest_period);
+  const EventOrbit orbit = certified_orbit(context, loop, largest_period);
   const std::size_t samples = orbit.states.size();
   for (std::size_t k = 0; k <= samples; ++k) {
     const std::size_t j = k % samples;

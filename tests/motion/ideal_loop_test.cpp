@@ -1,4 +1,4 @@
-#include "holdfast/motion/forced_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,20 +11,20 @@
 namespace holdfast {
 namespace {
 
-ForcedLoop<double> loop_with_gap(double period, double fraction) {
+IdealLoop<double> loop_with_gap(double period, double fraction) {
   test::KollarCase which;
   which.sampling_period = period;
   which.processing_delay = fraction * period;
   which.width = 0.002;
-  return which.forced_loop();
+  return which.ideal_loop();
 }
 
 const Vector<double, 4> some_state(0.003, -0.05, 0.001, 0.2);
 
-TEST(ForcedLoop, ThePeriodicMotionIsTheHarmonicOne) {
+TEST(IdealLoop, ThePeriodicMotionIsTheHarmonicOne) {
   for (const double period : {0.001, 0.01}) {
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-      ForcedLoop<double> loop = loop_with_gap(period, 0.25);
+      IdealLoop<double> loop = loop_with_gap(period, 0.25);
       loop.hold = hold;
       const Rational ratio = forcing_ratio(loop).value();
       auto periodic = periodically_forced_motion(loop, ratio, some_state);
@@ -44,11 +44,11 @@ TEST(ForcedLoop, ThePeriodicMotionIsTheHarmonicOne) {
   }
 }
 
-TEST(ForcedLoop, TheHarmonicMotionIsTheOneOfItsParts) {
+TEST(IdealLoop, TheHarmonicMotionIsTheOneOfItsParts) {
   test::KollarCase which;
   which.initial_state = some_state;
   auto parts = which.motion();
-  auto whole = harmonically_forced_motion(which.forced_loop(), some_state);
+  auto whole = harmonically_forced_motion(which.ideal_loop(), some_state);
   for (int j = 0; j < 3000; ++j) {
     ASSERT_EQ(parts.sense().control_force, whole.sense().control_force);
     parts.advance();
@@ -58,12 +58,12 @@ TEST(ForcedLoop, TheHarmonicMotionIsTheOneOfItsParts) {
 }
 
 TEST(MotionMemory, AMotionGoesOnFromItToTheLastBit) {
-  const ForcedLoop<double> loop = loop_with_gap(0.01, 0.4);
+  const IdealLoop<double> loop = loop_with_gap(0.01, 0.4);
   const Rational ratio = forcing_ratio(loop).value();
   ASSERT_EQ(ratio.denominator, 10);
   auto motion = periodically_forced_motion(loop, ratio, some_state);
   int stored_inside = 0;
-  for (int coincidence = 0; coincidence < 50; ++coincidence) {
+  for (int common_period = 0; common_period < 50; ++common_period) {
     const auto memory = motion.memory();
     stored_inside += memory.backlash.inside ? 1 : 0;
     auto other = periodically_forced_motion(loop, ratio, Vector<double, 4>::Ones().eval());
@@ -99,7 +99,7 @@ TEST(BacklashMemory, ADriveGoesOnFromItToTheLastBit) {
 }
 
 TEST(ForcingRatio, IsWhatTheDecimalsMean) {
-  ForcedLoop<double> loop = loop_with_gap(0.011, 0.0);
+  IdealLoop<double> loop = loop_with_gap(0.011, 0.0);
   const Rational ratio = forcing_ratio(loop).value();
   EXPECT_EQ(ratio.numerator, 11);
   EXPECT_EQ(ratio.denominator, 100);
@@ -114,8 +114,8 @@ TEST(ForcingRatio, IsWhatTheDecimalsMean) {
   EXPECT_EQ(forcing_ratio(loop).value().denominator, 1);
 }
 
-TEST(ForcedLoop, ConvertedThereAndBackIsTheSame) {
-  ForcedLoop<double> loop = loop_with_gap(0.003, 0.3);
+TEST(IdealLoop, ConvertedThereAndBackIsTheSame) {
+  IdealLoop<double> loop = loop_with_gap(0.003, 0.3);
   loop.hold = ForceHold::exact;
   const auto back = converted<double>(converted<long double>(loop));
   EXPECT_EQ(back.plant.state_matrix(), loop.plant.state_matrix());
@@ -129,11 +129,11 @@ TEST(ForcedLoop, ConvertedThereAndBackIsTheSame) {
   EXPECT_EQ(back.hold, loop.hold);
 }
 
-TEST(ForcedLoop, EveryPartIsValidated) {
-  const ForcedLoop<double> loop = loop_with_gap(0.003, 0.3);
+TEST(IdealLoop, EveryPartIsValidated) {
+  const IdealLoop<double> loop = loop_with_gap(0.003, 0.3);
   EXPECT_NO_THROW(validate(loop));
   const auto refused = [&loop](auto&& spoil) {
-    ForcedLoop<double> spoiled = loop;
+    IdealLoop<double> spoiled = loop;
     spoil(spoiled);
     EXPECT_THROW(validate(spoiled), InvalidParameter);
   };
@@ -144,10 +144,10 @@ TEST(ForcedLoop, EveryPartIsValidated) {
   refused([](auto& bad) { bad.backlash_width = -1e-9; });
 }
 
-TEST(ForcedLoop, NoMotionBeginsInOneThatIsNotAdmissible) {
-  const ForcedLoop<double> good = test::KollarCase().forced_loop();
+TEST(IdealLoop, NoMotionBeginsInOneThatIsNotAdmissible) {
+  const IdealLoop<double> good = test::KollarCase().ideal_loop();
   const Vector<double, 4> rest = Vector<double, 4>::Zero();
-  const auto refuses = [](const ForcedLoop<double>& loop, const Vector<double, 4>& state) {
+  const auto refuses = [](const IdealLoop<double>& loop, const Vector<double, 4>& state) {
     EXPECT_THROW(harmonically_forced_motion(loop, state), InvalidParameter);
     EXPECT_THROW(periodically_forced_motion(loop, Rational{1, 100}, state), InvalidParameter);
     const auto extended = converted<long double>(loop);
@@ -155,7 +155,7 @@ TEST(ForcedLoop, NoMotionBeginsInOneThatIsNotAdmissible) {
     EXPECT_THROW(harmonically_forced_motion(extended, extended_state), InvalidParameter);
   };
   EXPECT_NO_THROW(harmonically_forced_motion(good, rest));
-  ForcedLoop<double> loop = good;
+  IdealLoop<double> loop = good;
   loop.plant.conductor_mass = -0.1;
   refuses(loop, rest);
   loop = good;

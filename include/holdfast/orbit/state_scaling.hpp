@@ -19,8 +19,8 @@ Scalar power_of_two_below(const Scalar& size) {
 
 }  // namespace detail
 
-/// Units of z̃ = [z; u_{j−1}] that belong to a plant: 1 m, ω · 1 m and k · 1 m, where a displacement
-/// z₁ of 1 m is pulled back with the acceleration ω² and the force k.
+/// Units of z̃ = [z; u_{j−1}] that belong to a plant: 1 m, ω · 1 m and k · 1 m, where a
+/// displacement z₁ of 1 m is pulled back with the acceleration ω² and the force k.
 ///
 /// What is solved for in them is the same whatever units of mass and time the plant is given in,
 /// and no coordinate is larger than another for its unit alone. They are rounded down to powers of
@@ -29,8 +29,8 @@ Scalar power_of_two_below(const Scalar& size) {
 /// @param excitation_input  c, 4 × 1
 /// @return of [z₁, ż₁, z₂, ż₂, u]; 1 where the plant does not tell
 template <class Scalar>
-Vector<Scalar, 5> plant_units(const Matrix<Scalar, 4>& state_matrix,
-                              const Vector<Scalar, 4>& excitation_input) {
+Vector<Scalar, 5> plant_scaling(const Matrix<Scalar, 4>& state_matrix,
+                                const Vector<Scalar, 4>& excitation_input) {
   using std::abs;
   using std::sqrt;
   const Scalar acceleration = abs(state_matrix(1, 0));

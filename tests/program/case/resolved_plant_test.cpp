@@ -1,4 +1,4 @@
-#include "case/model/settled_plant.hpp"
+#include "case/model/resolved_plant.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,18 +31,18 @@ std::string plant_with(double conductor_stiffness) {
          format_number(conductor_stiffness) + "\n";
 }
 
-TEST(SettledPlant, SaysNothingOfTheBuiltInCaseOrAPlantAlone) {
+TEST(ResolvedPlant, SaysNothingOfTheBuiltInCaseOrAPlantAlone) {
   EXPECT_EQ(said_of(""), "");
   EXPECT_EQ(said_of(plant_with(70.0)), "");
 }
 
-TEST(SettledPlant, SaysWhatIsGivenAndWhatIsReduced) {
+TEST(ResolvedPlant, SaysWhatIsGivenAndWhatIsReduced) {
   const std::string said = said_of(conductor_and("[excitation]\nfrequency = 3\n"));
   EXPECT_EQ(said,
             "plant.absorber_damping given; the rest of the plant is reduced from the conductor");
 }
 
-TEST(SettledPlant, WarnsOfAForceFarFromTheFrequenciesOfTheReduction) {
+TEST(ResolvedPlant, WarnsOfAForceFarFromTheFrequenciesOfTheReduction) {
   const auto said = [](const std::string& frequency) {
     return said_of(conductor_and("[excitation]\nfrequency = " + frequency +
                                  "\n[reduction]\nfirst_frequency = 2\nsecond_frequency = 7\n"));
@@ -53,7 +53,7 @@ TEST(SettledPlant, WarnsOfAForceFarFromTheFrequenciesOfTheReduction) {
   EXPECT_FALSE(holds(said("1.01"), "far from"));
 }
 
-TEST(SettledPlant, WarnsWhereTheConductorWouldGiveAnotherPlantThanTheOneGiven) {
+TEST(ResolvedPlant, WarnsWhereTheConductorWouldGiveAnotherPlantThanTheOneGiven) {
   const std::string conductor = "[conductor]\nsag = 0.29\n";
   EXPECT_EQ(said_of(conductor + plant_with(50.3)), "") << "Table 1 of the paper belongs together";
   const std::string said = said_of(conductor + plant_with(80.0));
@@ -61,7 +61,7 @@ TEST(SettledPlant, WarnsWhereTheConductorWouldGiveAnotherPlantThanTheOneGiven) {
   EXPECT_TRUE(holds(said, "the conductor would give m1 = ")) << said;
 }
 
-TEST(SettledPlant, AConductorThatHasNoPlantIsNoFaultWhereThePlantIsGiven) {
+TEST(ResolvedPlant, AConductorThatHasNoPlantIsNoFaultWhereThePlantIsGiven) {
   const std::string heavy = "[absorber]\nmass = 50\n";
   EXPECT_EQ(said_of(heavy + plant_with(80.0)), "");
 }

@@ -9,8 +9,8 @@
 #include <functional>
 #include <vector>
 
-#include "holdfast/motion/forced_loop.hpp"
-#include "holdfast/motion/real_loop.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "medians.hpp"
 #ifdef HOLDFAST_HAS_SUNDIALS
@@ -29,8 +29,8 @@ volatile double sink = 0.0;
 
 const Vector<double, 4> rest = Vector<double, 4>::Zero();
 
-HybridMotion<ExactBacklash> exact_motion(const ForcedLoop<double>& loop, double width) {
-  return {real_loop(loop).digital, ExactBacklash(loop.plant, width), rest};
+EventMotion<ExactBacklash> exact_motion(const IdealLoop<double>& loop, double width) {
+  return {implemented_loop(loop).digital, ExactBacklash(loop.plant, width), rest};
 }
 
 template <class Motion>
@@ -43,7 +43,7 @@ void run(Motion motion, std::int64_t count) {
   sink = sum;
 }
 
-double changes_per_sample(const ForcedLoop<double>& loop) {
+double changes_per_sample(const IdealLoop<double>& loop) {
   auto motion = exact_motion(loop, loop.backlash_width);
   for (std::int64_t taken = 0; taken < samples; ++taken) {
     motion.sense();
@@ -56,8 +56,8 @@ double changes_per_sample(const ForcedLoop<double>& loop) {
 }
 
 void measure(double period, double width, ForceHold hold) {
-  const ForcedLoop<double> loop{kollar2022_plant(), {period, 0.0}, {-557.0, -13.0},
-                                {0.5, 10.0},        width,         hold};
+  const IdealLoop<double> loop{kollar2022_plant(), {period, 0.0}, {-557.0, -13.0},
+                               {0.5, 10.0},        width,         hold};
   const double changes = changes_per_sample(loop);
   std::vector<std::function<void()>> sides{
       [&] { run(harmonically_forced_motion(loop, rest), samples_of_sampled); },

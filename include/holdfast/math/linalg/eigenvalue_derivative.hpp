@@ -18,9 +18,9 @@ namespace holdfast {
 /// @return        λ′; NaN or infinite for λ = 0, where no ν lies next to it
 /// Work: the inverse of one complex matrix.
 template <class Scalar>
-std::complex<Scalar> eigenvalue_rate(const Matrix<Scalar, Eigen::Dynamic>& matrix,
-                                     const Matrix<Scalar, Eigen::Dynamic>& rate,
-                                     const std::complex<Scalar>& value) {
+std::complex<Scalar> eigenvalue_derivative(const Matrix<Scalar, Eigen::Dynamic>& matrix,
+                                           const Matrix<Scalar, Eigen::Dynamic>& rate,
+                                           const std::complex<Scalar>& value) {
   using Complex = std::complex<Scalar>;
   Matrix<Complex, Eigen::Dynamic> shifted = -matrix.template cast<Complex>();
   shifted.diagonal().array() +=
@@ -31,9 +31,9 @@ std::complex<Scalar> eigenvalue_rate(const Matrix<Scalar, Eigen::Dynamic>& matri
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::complex<double> eigenvalue_rate(const Matrix<double, Eigen::Dynamic>&,
-                                                     const Matrix<double, Eigen::Dynamic>&,
-                                                     const std::complex<double>&);
+extern template std::complex<double> eigenvalue_derivative(const Matrix<double, Eigen::Dynamic>&,
+                                                           const Matrix<double, Eigen::Dynamic>&,
+                                                           const std::complex<double>&);
 #endif
 
 }  // namespace holdfast

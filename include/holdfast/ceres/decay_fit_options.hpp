@@ -16,8 +16,8 @@ enum class PlantParameter {
   absorber_damping,     ///< c₂ (N s/m)
 };
 
-/// The value of that parameter, in its unit of TwoDof.
-inline double parameter_of(const TwoDof<double>& plant, PlantParameter parameter) {
+/// The value of that parameter, in its unit of TwoMass.
+inline double parameter_of(const TwoMass<double>& plant, PlantParameter parameter) {
   switch (parameter) {
     case PlantParameter::conductor_mass:
       return plant.conductor_mass;
@@ -44,7 +44,7 @@ enum class DecayTarget {
 inline bool is_measured(DecayTarget target) { return target != DecayTarget::time_history; }
 
 /// What is asked of a fit.
-struct DecayQuestion {
+struct DecayFitOptions {
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};  ///< none twice
   DecayTarget target = DecayTarget::time_history;  ///< what the misfit is measured in
   /// Huber's loss at 1.345 standard deviations, those taken from the median residual of the deepest
@@ -58,7 +58,7 @@ struct DecayQuestion {
 
 /// One local minimum.
 struct DecayMinimum {
-  TwoDof<double> plant;         ///< the given plant with the free parameters as fitted
+  TwoMass<double> plant;        ///< the given plant with the free parameters as fitted
   double initial_displacement;  ///< z₀ (m)
   /// Standard errors of the free parameters in the order of the question; NaN where the record does
   /// not determine them. Time history: from the residuals' scatter, with a robust loss by Huber's

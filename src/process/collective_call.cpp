@@ -1,4 +1,4 @@
-#include "process/shared_step.hpp"
+#include "process/collective_call.hpp"
 
 #include <exception>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace holdfast::program {
 
-void take_shared_step(ProcessGroup& group, const std::function<void()>& step) {
+void make_collective_call(ProcessGroup& group, const std::function<void()>& step) {
   std::exception_ptr fault;
   try {
     step();

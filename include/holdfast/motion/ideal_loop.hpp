@@ -21,9 +21,9 @@ namespace holdfast {
 
 /// The sampled loop with its excitation and its backlash: all that a motion depends on beside its
 /// initial state.
-/// @tparam Plant  TwoDof<Scalar> or a LinearPlant<Scalar, N>
-template <class Scalar, class Plant = TwoDof<Scalar>>
-struct ForcedLoop {
+/// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
+template <class Scalar, class Plant = TwoMass<Scalar>>
+struct IdealLoop {
   Plant plant;                            ///< conductor, absorber and what else has states
   Sampling<Scalar> sampling;              ///< τ and δ
   PdGains<Scalar> gains;                  ///< P and D
@@ -34,7 +34,7 @@ struct ForcedLoop {
 
 /// @throws InvalidParameter where any part is not admissible
 template <class Plant>
-void validate(const ForcedLoop<double, Plant>& loop) {
+void validate(const IdealLoop<double, Plant>& loop) {
   validate(loop.plant);
   validate(loop.sampling);
   validate(loop.gains);
@@ -44,9 +44,9 @@ void validate(const ForcedLoop<double, Plant>& loop) {
 
 /// The same numbers in another number type, for instance `long double`.
 template <class To, class From, class Plant>
-auto converted(const ForcedLoop<From, Plant>& loop) {
+auto converted(const IdealLoop<From, Plant>& loop) {
   const auto plant = converted<To>(loop.plant);
-  return ForcedLoop<To, std::decay_t<decltype(plant)>>{
+  return IdealLoop<To, std::decay_t<decltype(plant)>>{
       plant,
       {To(loop.sampling.period), To(loop.sampling.processing_delay)},
       {To(loop.gains.proportional), To(loop.gains.differential)},
@@ -63,7 +63,7 @@ auto converted(const ForcedLoop<From, Plant>& loop) {
 /// @return nothing where f τ is no fraction with q ≤ largest_samples: then the two count as
 ///         incommensurate
 template <class Plant>
-std::optional<Rational> forcing_ratio(const ForcedLoop<double, Plant>& loop,
+std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop,
                                       std::int64_t largest_samples = 1'000'000) {
   if (loop.excitation.amplitude == 0.0) return Rational{0, 1};
   const double ratio = loop.excitation.frequency * loop.sampling.period;
@@ -74,7 +74,7 @@ std::optional<Rational> forcing_ratio(const ForcedLoop<double, Plant>& loop,
 namespace detail {
 
 template <class Scalar, class Plant, class State>
-void validate_motion(const ForcedLoop<Scalar, Plant>& loop, const State& initial_state) {
+void validate_motion(const IdealLoop<Scalar, Plant>& loop, const State& initial_state) {
   validate(converted<double>(loop));
   require_finite("initial state", static_cast<double>(initial_state.sum()), "");
 }
@@ -82,12 +82,12 @@ void validate_motion(const ForcedLoop<Scalar, Plant>& loop, const State& initial
 }  // namespace detail
 
 /// The motion of a sampled loop whose forcing repeats every q samples.
-template <class Scalar, class Plant = TwoDof<Scalar>>
+template <class Scalar, class Plant = TwoMass<Scalar>>
 using PeriodicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<Scalar, states_of<Plant>>, Plant>;
 
 /// The motion of a sampled loop under a harmonic force.
-template <class Scalar, class Plant = TwoDof<Scalar>>
+template <class Scalar, class Plant = TwoMass<Scalar>>
 using HarmonicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, HarmonicForcing<Scalar, states_of<Plant>>, Plant>;
 
@@ -98,7 +98,7 @@ using HarmonicallyForcedMotion =
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
-    const ForcedLoop<Scalar, Plant>& loop, const Rational& ratio,
+    const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
     const StateOf<Plant>& initial_state) {
   detail::validate_motion(loop, initial_state);
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
@@ -113,12 +113,12 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
           PortReadings<Plant>(loop.plant)};
 }
 
-/// The motion from an initial state, whatever the ratio of the frequencies.
+/// The motion from an initial state, for any ratio of the frequencies.
 /// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
-    const ForcedLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state) {
+    const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state) {
   detail::validate_motion(loop, initial_state);
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
   const auto input =
@@ -134,9 +134,9 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template HarmonicallyForcedMotion<double> harmonically_forced_motion(
-    const ForcedLoop<double>&, const StateOf<TwoDof<double>>&);
+    const IdealLoop<double>&, const StateOf<TwoMass<double>>&);
 extern template PeriodicallyForcedMotion<double> periodically_forced_motion(
-    const ForcedLoop<double>&, const Rational&, const StateOf<TwoDof<double>>&);
+    const IdealLoop<double>&, const Rational&, const StateOf<TwoMass<double>>&);
 #endif
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-#include "case/model/settled_plant.hpp"
+#include "case/model/resolved_plant.hpp"
 
 #include <cmath>
 #include <optional>
@@ -24,7 +24,7 @@ std::vector<const CaseKey*> given_of_plant(const Case& the_case) {
   return given;
 }
 
-void take_plant(Case& the_case, const TwoDof<double>& reduced) {
+void take_plant(Case& the_case, const TwoMass<double>& reduced) {
   the_case.plant = {reduced.conductor_mass, reduced.conductor_stiffness, reduced.conductor_damping,
                     reduced.absorber_mass,  reduced.absorber_stiffness,  reduced.absorber_damping};
 }
@@ -50,7 +50,7 @@ std::string distant_force_text(const Case& the_case) {
 }
 
 /// The plant of the conductor, c2 apart; none where it has none.
-std::optional<TwoDof<double>> plant_of_conductor(const Case& the_case) {
+std::optional<TwoMass<double>> plant_of_conductor(const Case& the_case) {
   try {
     return plant_without_absorber_damping(the_case);
   } catch (const WrongInput&) {
@@ -63,10 +63,10 @@ std::optional<TwoDof<double>> plant_of_conductor(const Case& the_case) {
 /// What the conductor makes of the plant where every key of [plant] is given all the same.
 std::string overruled_conductor_text(const Case& the_case) {
   if (!the_case.conductor_given || !the_case.plant_given) return "";
-  const std::optional<TwoDof<double>> conductors = plant_of_conductor(the_case);
+  const std::optional<TwoMass<double>> conductors = plant_of_conductor(the_case);
   if (!conductors) return "";
-  const TwoDof<double>& reduced = *conductors;
-  const TwoDof<double> given = plant_of(the_case);
+  const TwoMass<double>& reduced = *conductors;
+  const TwoMass<double> given = plant_of(the_case);
   constexpr double tolerance = 0.1;
   const auto differ = [](double a, double b) { return std::abs(a - b) > tolerance * std::abs(b); };
   const bool same = !differ(given.conductor_mass, reduced.conductor_mass) &&
