@@ -194,6 +194,7 @@ typename BasicCableElements<Real>::Start BasicCableElements<Real>::held_by(Real 
   return start;
 }
 
+/// @cond  documented where it is declared
 template <class Real>
 template <class Scalar>
 typename BasicCableElements<Real>::template NodeMotion<Scalar> BasicCableElements<Real>::motion_of(
@@ -206,6 +207,7 @@ typename BasicCableElements<Real>::template NodeMotion<Scalar> BasicCableElement
   const Scalar* own = state + first_state(node);
   return {{own[0], own[1]}, {own[2], own[3]}};
 }
+/// @endcond
 
 template <class Real>
 template <class Scalar>

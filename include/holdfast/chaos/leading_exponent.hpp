@@ -33,8 +33,8 @@ namespace holdfast {
 template <int Size>
 class LeadingExponent {
  public:
-  /// @param expected_steps  how many maps will be pushed after settling, ≥ 64
-  /// @param size            of the maps, where that is known at run time alone
+  /// Begins without a map. The first argument is how many maps will be pushed after settling, ≥ 64;
+  /// the second their size, where that is known at run time alone.
   /// @throws InvalidParameter for fewer
   explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
       : basis_(Matrix<double, Size>::Identity(size, size)),

@@ -65,6 +65,7 @@ inline constexpr std::size_t fewest_batches = 32;
 
 /// Whether a spectrum is known as well as a run asks for.
 /// @param standard_errors  of λ₁ … λ₅
+/// @param run              which of them count, and how well
 template <class Scalar>
 bool accurate_enough(const Vector<Scalar, 5>& standard_errors, const LyapunovRun& run) {
   const bool all = run.classified == LyapunovScope::all && run.scope == LyapunovScope::all;

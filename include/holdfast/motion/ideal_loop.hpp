@@ -114,6 +114,7 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
 }
 
 /// The motion from an initial state, for any ratio of the frequencies.
+/// @param loop           with its excitation and backlash
 /// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>

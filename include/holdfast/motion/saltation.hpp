@@ -9,12 +9,13 @@ namespace holdfast {
 /// @tparam Size  of the state x
 template <int Size>
 struct SurfaceCrossing {
-  Vector<double, Size> before;                                  ///< f⁻ = ẋ just before
-  Vector<double, Size> after;                                   ///< f⁺ = ẋ just after
-  RowVector<double, Size> gradient;                             ///< ∂h/∂x, 1 × Size
-  double gradient_rate = 0.0;                                   ///< ∂h/∂t
-  Matrix<double, Size> reset = Matrix<double, Size>::Identity(  ///< ∂R/∂x; 1 unless given
-      Size < 0 ? 0 : Size, Size < 0 ? 0 : Size);
+  Vector<double, Size> before;       ///< f⁻ = ẋ just before
+  Vector<double, Size> after;        ///< f⁺ = ẋ just after
+  RowVector<double, Size> gradient;  ///< ∂h/∂x, 1 × Size
+  double gradient_rate = 0.0;        ///< ∂h/∂t
+  /// ∂R/∂x, Size × Size; 1 unless given.
+  Matrix<double, Size> reset =
+      Matrix<double, Size>::Identity(Size < 0 ? 0 : Size, Size < 0 ? 0 : Size);
   Vector<double, Size> reset_rate = Vector<double, Size>::Zero(Size < 0 ? 0 : Size);  ///< ∂R/∂t
 };
 

@@ -54,7 +54,7 @@ using ScalarOf = std::decay_t<decltype(std::declval<const Loop&>().sampling.peri
 /// @tparam Loop  IdealLoop, or a loop with its members
 template <class Loop>
 struct DeviationScale {
-  using Scalar = detail::ScalarOf<Loop>;
+  using Scalar = detail::ScalarOf<Loop>;  ///< the number type of the loop
 
   Scalar angular_frequency;  ///< ω (rad/s)
   Scalar stiffness;          ///< k₁ (N/m)

@@ -172,7 +172,11 @@ class BasinSearch {
 }  // namespace detail
 
 /// find_basins() with another way to move the motions on.
-/// @param travel  travel(loop, ratio) gives what has MotionBatch's run() and can be copied
+/// @param travel          travel(loop, ratio) gives what has MotionBatch's run() and can be copied
+/// @param loop            of all motions
+/// @param initial_states  where they begin
+/// @param limits          of the search for periodic orbits
+/// @param for_tiles       deals tiles of states out, as in find_basins()
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Travel, class Tiles>
 BasinMap find_basins_by(const Travel& travel, const IdealLoop<double>& loop,

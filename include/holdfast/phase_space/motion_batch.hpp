@@ -119,6 +119,7 @@ class MotionBatch {
 
   /// @param motion  of the loop, at a stroboscopic instant; its state does not matter
   /// @param gains   of the loop
+  /// @param ratio   of forcing_ratio(loop)
   MotionBatch(const PeriodicallyForcedMotion<double>& motion, const PdGains<double>& gains,
               const Rational& ratio)
       : ratio_(ratio), motion_(detail::broadcast<Scalar>(motion, gains)) {}

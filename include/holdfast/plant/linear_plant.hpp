@@ -88,7 +88,9 @@ LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar
 ///
 ///     ż_f = ω_f (z − z_f);   the computer reads z_f and ż_f
 ///
-/// One state more. @param cutoff  ω_f / 2π (Hz), > 0
+/// One state more.
+/// @param plant   whose readings are filtered
+/// @param cutoff  ω_f / 2π (Hz), > 0
 /// @throws InvalidParameter for another cutoff
 template <class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, 1)> with_measurement_filter(

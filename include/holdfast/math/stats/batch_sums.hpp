@@ -29,8 +29,8 @@ class BatchSums {
  public:
   using Sums = Vector<Number, Series>;  ///< one number for each series
 
-  /// @param first_length  steps of a batch before the first merging, ≥ 1
-  /// @param series        how many, where that is known at run time alone
+  /// Begins without a step. The first argument is the steps of a batch before the first merging, ≥
+  /// 1; the second how many series, where that is known at run time alone.
   explicit BatchSums(std::int64_t first_length = 1, Eigen::Index series = Series < 0 ? 0 : Series)
       : open_(Sums::Constant(series, Number(0))), length_(first_length) {
     sums_.fill(open_);

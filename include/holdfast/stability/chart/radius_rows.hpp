@@ -72,7 +72,8 @@ class RadiusBatch {
   }
 
   /// Writes ρ of rows constant + x slope.
-  /// @param lines   of `count` rows, 1 … most_rows()
+  /// @param lines   of the rows
+  /// @param count   of rows, 1 … most_rows()
   /// @param values  x of each cell
   /// @param radius  count × values.count
   void fill(const AffineLine<Degree>* lines, std::int64_t count, const Axis& values,
@@ -98,7 +99,9 @@ class RadiusBatch {
   }
 
   /// Writes ρ of rows of polynomials.
-  /// @param tables  of `count` rows, 1 … most_rows(), equally long
+  /// @param tables  of the rows, equally long
+  /// @param count   of rows, 1 … most_rows()
+  /// @param radius  row after row
   void fill(const Table* tables, std::int64_t count, double* radius) {
     rows_.fill(
         static_cast<std::size_t>(count), tables->rows(),

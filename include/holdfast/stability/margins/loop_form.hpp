@@ -35,6 +35,7 @@ std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, Free
 }
 
 /// The loop whose roots are those of another divided by r: stable where all of those have |λ| < r.
+/// @param map     the loop, of any order
 /// @param offset  r − 1, above −1
 template <class Scalar>
 LoopMap<Scalar> at_radius(LoopMap<Scalar> map, const detail::Undeduced<Scalar>& offset) {
