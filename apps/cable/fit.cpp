@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "case/model/cable_of_case.hpp"
-#include "case/model/fit_options.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
 #include "io/file/input.hpp"
@@ -13,6 +12,7 @@
 #include "io/text/text.hpp"
 #include "job.hpp"
 #include "jobs/cable/damping_fit.hpp"
+#include "jobs/cable/fit_options.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 

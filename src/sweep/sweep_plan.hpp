@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "case/case_keys.hpp"
-#include "case/model/reduced_cases.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "jobs/cable/reduced_cases.hpp"
 #include "process/job_context.hpp"
 #include "sweep/sweep_metric.hpp"
 #include "sweep/sweep_output.hpp"

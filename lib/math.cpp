@@ -1,6 +1,7 @@
-// Explicit instantiations of math/poly for double.
+// Explicit instantiations of math/poly and math/signal for double.
 
 #include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/math/signal/spectrum.hpp"
 
 namespace holdfast {
 
@@ -10,5 +11,7 @@ template std::vector<std::complex<double>> roots(const Eigen::MatrixBase<Polynom
                                                  double);
 template std::vector<std::complex<double>> roots(const Eigen::MatrixBase<Polynomial<double, 5>>&,
                                                  double);
+
+template std::vector<SpectralLine> amplitude_spectrum(std::vector<double>, double, SpectralWindow);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-#include "case/model/reduced_cases.hpp"
+#include "jobs/cable/reduced_cases.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "case/model/fit_options.hpp"
+#include "jobs/cable/fit_options.hpp"
 
 #include <algorithm>
 #include <cstddef>
