@@ -14,8 +14,3 @@ target_compile_options(holdfast_compiled PRIVATE
 # faults. Beyond it GCC takes twice the time for the same speed.
 target_compile_options(holdfast_compiled PRIVATE
   $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<NOT:$<CONFIG:Debug>>>:-O2>)
-if(HOLDFAST_ARCHITECTURE)
-  holdfast_compile_for(holdfast_compiled ${HOLDFAST_ARCHITECTURE})
-  # How Eigen aligns its matrices hangs on the instruction set, so who links this must share it.
-  target_compile_options(holdfast_compiled INTERFACE -march=${HOLDFAST_ARCHITECTURE})
-endif()
