@@ -93,8 +93,9 @@ TEST(Instructions, AnUnavailableSetIsWrongInputThatNamesTheAvailableOnes) {
     const bool has = std::count(available.begin(), available.end(), set) > 0;
     const Outcome outcome = run_holdfast("stability --p 0:1:2 --d 0:1:2" + with(set));
     EXPECT_EQ(outcome.exit_code, has ? 0 : 2) << name_of(set) << outcome.errors;
-    if (!has)
+    if (!has) {
       EXPECT_NE(outcome.errors.find("it has baseline"), std::string::npos) << outcome.errors;
+    }
   }
 }
 

@@ -75,7 +75,9 @@ TEST(Deviation, OfADriveWithStatesOfItsOwnIsThatOfTheConductor) {
   second.displace_conductor(1e-5);
   std::int64_t seen = 0;
   run_deviation(first, second, 1000, [&](const Deviation& deviation) {
-    if (seen++ == 0) EXPECT_NEAR(deviation.displacement, 1e-5, 1e-20);
+    if (seen++ == 0) {
+      EXPECT_NEAR(deviation.displacement, 1e-5, 1e-20);
+    }
     EXPECT_EQ(deviation.displacement, second.state()[0] - first.state()[0]);
     EXPECT_EQ(deviation.state, (second.state() - first.state()).norm());
   });

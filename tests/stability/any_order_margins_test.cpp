@@ -130,7 +130,9 @@ void expect_first_loss(const MarginEnd& end, double value,
   const double far = std::isfinite(end.position) ? end.position : value + 30.0 * std::abs(value);
   for (int k = 0; k < 500; ++k) {
     const double at = value + (far - value) * k / 500.0;
-    if (at > 0.0 || value <= 0.0) EXPECT_LT(radius_at(at), 1.0) << at;
+    if (at > 0.0 || value <= 0.0) {
+      EXPECT_LT(radius_at(at), 1.0) << at;
+    }
   }
   if (!boundary) return;
   EXPECT_NEAR(radius_at(end.position), 1.0, 1e-9);

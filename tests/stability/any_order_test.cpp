@@ -52,8 +52,9 @@ TEST(AnyOrder, IntervalsOfTwoMassesAreTheClosedForms) {
       // Only an interval that round-off can hardly see may make a difference.
       for (const auto& intervals : {closed, general})
         for (const auto& interval : intervals)
-          if (intervals.size() > std::min(closed.size(), general.size()))
+          if (intervals.size() > std::min(closed.size(), general.size())) {
             EXPECT_LT(interval.upper - interval.lower, 1e-6 * std::abs(interval.lower)) << draw;
+          }
       continue;
     }
     for (std::size_t k = 0; k < closed.size(); ++k) {
@@ -123,7 +124,9 @@ TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
         const double excess = radius(map, grid.at(i, j)) - 1.0;
         const bool inside = chart[static_cast<std::size_t>(i * grid.differential.count + j)] == 1;
         stable += inside ? 1 : 0;
-        if (std::abs(excess) > 1e-9) EXPECT_EQ(inside, excess < 0.0) << i << ' ' << j;
+        if (std::abs(excess) > 1e-9) {
+          EXPECT_EQ(inside, excess < 0.0) << i << ' ' << j;
+        }
       }
     }
     EXPECT_GT(stable, 50);

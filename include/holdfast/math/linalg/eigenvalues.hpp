@@ -56,7 +56,7 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues(
   if (scale < std::numeric_limits<Scalar>::min()) return Values::Zero(size);
   const Eigen::HessenbergDecomposition<Square> hessenberg(Square(matrix / scale));
   Eigen::RealSchur<Square> schur(size);
-  schur.computeFromHessenberg(hessenberg.matrixH(), Square(size, size), false);
+  schur.computeFromHessenberg(hessenberg.matrixH(), Square::Zero(size, size), false);
   if (schur.info() != Eigen::Success)
     return Values::Constant(size, std::numeric_limits<Scalar>::quiet_NaN());
   return detail::eigenvalues_of_schur_form(Square(schur.matrixT() * scale));
