@@ -1,6 +1,7 @@
 #include "sweep/tiles/work_folder_plan.hpp"
 
 #include <cerrno>
+#include <new>
 #include <optional>
 #include <system_error>
 
@@ -16,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse_to_read(const fs::path& path, int error) {
+  // A machine without memory is not a wrong input.
+  if (error == ENOMEM) throw std::bad_alloc();
   throw WrongInput("cannot read " + path.string() + ": " + system_words(error));
 }
 
