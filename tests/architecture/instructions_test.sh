@@ -10,7 +10,10 @@ export LC_ALL=C
 objdump=$1 nm=$2 program=$3
 shift 3
 baseline=()
-while [[ $1 != -- ]]; do baseline+=("$1") && shift; done
+while [[ $1 != -- ]]; do
+  [[ $1 == *.gch ]] || baseline+=("$1")  # a precompiled header holds no code
+  shift
+done
 shift
 
 work=$(mktemp -d)
