@@ -41,8 +41,15 @@ class SweepMatrices {
   }
 
  private:
+  /// Of no loop yet, but copied with the rest.
+  static Matrices of_no_loop() {
+    const Matrix<double, 4> square = Matrix<double, 4>::Zero();
+    const Vector<double, 4> column = Vector<double, 4>::Zero();
+    return {{{}, square, square, column, column, column}, {column, column}};
+  }
+
   std::optional<IdealLoop<double>> known_;
-  Matrices matrices_{};
+  Matrices matrices_ = of_no_loop();
 };
 
 /// One number of every lane. @param number  (lane) → double
