@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "holdfast/core/types.hpp"
 
@@ -18,6 +19,8 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
   using std::exp2;
   using std::log2;
   using std::round;
+  // Entries at the end of the range of numbers would carry the factors beyond it.
+  const Scalar most = exp2(Scalar(std::numeric_limits<Scalar>::max_exponent) / Scalar(5));
   const auto size = static_cast<int>(matrix.rows());
   Vector<Scalar, Size> factors = Vector<Scalar, Size>::Ones(size);
   for (int sweep = 0; sweep < 4; ++sweep) {
@@ -28,11 +31,13 @@ Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
         row += abs(matrix(i, j)) * factors[j] / factors[i];
         column += abs(matrix(j, i)) * factors[i] / factors[j];
       }
+      Scalar factor = factors[i];
       if (row > Scalar(0) && column > Scalar(0)) {
-        factors[i] *= exp2(round(log2(row / column) / Scalar(2)));
+        factor *= exp2(round(log2(row / column) / Scalar(2)));
       } else if (row > Scalar(0)) {
-        factors[i] *= exp2(round(log2(row)));  // nothing depends on i: its unit is free
+        factor *= exp2(round(log2(row)));  // nothing depends on i: its unit is free
       }
+      if (factor <= most && factor >= Scalar(1) / most) factors[i] = factor;
     }
   }
   return factors;
