@@ -71,8 +71,8 @@ class CopiedKernel {
   ~CopiedKernel() = default;
   CopiedKernel(const CopiedKernel& other) : kernel_(other.kernel_->copy()) {}
   CopiedKernel& operator=(const CopiedKernel&) = delete;
-  CopiedKernel(CopiedKernel&&) = default;
-  CopiedKernel& operator=(CopiedKernel&&) = default;
+  CopiedKernel(CopiedKernel&&) noexcept = default;
+  CopiedKernel& operator=(CopiedKernel&&) noexcept = default;
 
  protected:
   Kernel& kernel() { return *kernel_; }
