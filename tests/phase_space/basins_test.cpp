@@ -3,16 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "holdfast/phase_space/event_basins.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
 namespace {
+
+const OrbitLimits basin_limits{20000, 0};
 
 constexpr auto one_after_the_other = [](std::size_t count, std::size_t tile, const auto& job) {
   for (std::size_t first = 0; first < count; first += tile)
@@ -37,31 +46,191 @@ std::vector<Vector<double, 4>> basin_states(std::size_t count) {
   return states;
 }
 
-BasinMap scalar_basins(const IdealLoop<double>& loop, const std::vector<Vector<double, 4>>& states,
-                       const OrbitLimits& limits = {20000, 0}) {
-  return find_basins<double>(loop, states, limits, one_after_the_other);
-}
+template <class Orbit>
+struct AloneFound {
+  OrbitOutcome outcome;
+  std::optional<Orbit> orbit;
+};
 
-TEST(Basins, EveryStateHasTheLabelThatItHasAlone) {
-  for (const auto& loop : {basin_loop(0.003, 0.002), basin_loop(0.01, 0.002),
-                           basin_loop(0.01, 0.002, 0.5), basin_loop(0.011, 0.002)}) {
+/// The sampled map.
+struct PaperModel {
+  using Orbit = PeriodicOrbit;
+  static IdealLoop<double> loop(double period, double width, double delay_fraction = 0.0) {
+    return basin_loop(period, width, delay_fraction);
+  }
+  template <class Tiles>
+  static BasinMap basins(const IdealLoop<double>& loop,
+                         const std::vector<Vector<double, 4>>& states, const OrbitLimits& limits,
+                         const Tiles& tiles) {
+    return find_basins<double>(loop, states, limits, tiles);
+  }
+  static AloneFound<Orbit> alone(const IdealLoop<double>& loop, const Vector<double, 4>& state) {
+    OrbitResult found = find_periodic_orbit(loop, state, basin_limits);
+    return {found.outcome, std::move(found.orbit)};
+  }
+  static HarmonicExcitation<double>& harmonic(IdealLoop<double>& loop) { return loop.excitation; }
+  static constexpr double widest_growing = 0.002;
+};
+
+/// The event-driven flow.
+template <Switching switching>
+struct EventModel {
+  using Orbit = EventOrbit;
+  static ImplementedLoop loop(double period, double width, double delay_fraction = 0.0) {
+    ImplementedLoop loop = implemented_loop(basin_loop(period, width, delay_fraction));
+    loop.switching = switching;
+    return loop;
+  }
+  template <class Tiles>
+  static BasinsOf<EventOrbit> basins(const ImplementedLoop& loop,
+                                     const std::vector<Vector<double, 4>>& states,
+                                     const OrbitLimits& limits, const Tiles& tiles) {
+    return find_basins(loop, states, limits, tiles);
+  }
+  static AloneFound<Orbit> alone(const ImplementedLoop& loop, const Vector<double, 4>& state) {
+    return with_motion(loop, state, [](const auto& motion) {
+      auto found = find_event_orbit(motion, basin_limits);
+      return AloneFound<Orbit>{found.outcome, std::move(found.orbit)};
+    });
+  }
+  static Harmonic& harmonic(ImplementedLoop& loop) { return loop.digital.force.harmonics.front(); }
+  // With exact switching the stick phases of any backlash would hold the motion.
+  static constexpr double widest_growing = switching == Switching::sampled ? 0.002 : 0.0;
+};
+
+template <class Model>
+class Basins : public testing::Test {
+ protected:
+  template <class Loop>
+  static auto basins(const Loop& loop, const std::vector<Vector<double, 4>>& states,
+                     const OrbitLimits& limits = basin_limits) {
+    return Model::basins(loop, states, limits, one_after_the_other);
+  }
+};
+
+using BasinModels =
+    testing::Types<PaperModel, EventModel<Switching::sampled>, EventModel<Switching::exact>>;
+TYPED_TEST_SUITE(Basins, BasinModels, );
+
+TYPED_TEST(Basins, EveryStateHasTheLabelThatItHasAlone) {
+  auto loops = std::vector{TypeParam::loop(0.003, 0.002), TypeParam::loop(0.01, 0.002)};
+  if (std::is_same_v<TypeParam, PaperModel>) {
+    loops.push_back(TypeParam::loop(0.01, 0.002, 0.5));
+    loops.push_back(TypeParam::loop(0.011, 0.002));
+  }
+  for (std::size_t which = 0; which < loops.size(); ++which) {
     const auto states = basin_states(40);
-    const BasinMap map = scalar_basins(loop, states);
+    const auto map = this->basins(loops[which], states);
     ASSERT_EQ(map.labels.size(), states.size());
     for (std::size_t k = 0; k < states.size(); ++k) {
-      const OrbitResult alone = find_periodic_orbit(loop, states[k], {20000, 0});
-      ASSERT_EQ(map.labels[k].outcome, alone.outcome) << loop.sampling.period << ' ' << k;
+      const auto alone = TypeParam::alone(loops[which], states[k]);
+      ASSERT_EQ(map.labels[k].outcome, alone.outcome) << which << ' ' << k;
       if (alone.outcome != OrbitOutcome::certified) continue;
       const auto number = static_cast<std::size_t>(map.labels[k].attractor);
       EXPECT_TRUE(is_phase_shifted_copy(map.attractors.at(number).orbit, *alone.orbit))
-          << loop.sampling.period << ' ' << k;
+          << which << ' ' << k;
     }
   }
 }
 
-TEST(Basins, FractionsAndErrorsAreThoseOfTheCounts) {
+TYPED_TEST(Basins, DoNotDependOnTheOrderOfTheTilesOrOnThreads) {
+  const auto loop = TypeParam::loop(0.003, 0.002);
+  const auto states = basin_states(150);
+  const auto backwards = [](std::size_t count, std::size_t tile, const auto& job) {
+    const std::size_t tiles = (count + tile - 1) / tile;
+    for (std::size_t k = tiles; k-- > 0;) job(k * tile, std::min(tile, count - k * tile));
+  };
+  const auto threaded = [](std::size_t count, std::size_t tile, const auto& job) {
+    std::atomic<std::size_t> next{0};
+    std::vector<std::thread> threads;
+    for (int k = 0; k < 3; ++k)
+      threads.emplace_back([&] {
+        for (std::size_t first = tile * next++; first < count; first = tile * next++)
+          job(first, std::min(tile, count - first));
+      });
+    for (std::thread& thread : threads) thread.join();
+  };
+  const auto map = this->basins(loop, states);
+  for (const auto& other : {TypeParam::basins(loop, states, basin_limits, backwards),
+                            TypeParam::basins(loop, states, basin_limits, threaded)}) {
+    ASSERT_EQ(map.attractors.size(), other.attractors.size());
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      EXPECT_EQ(map.labels[k].outcome, other.labels[k].outcome);
+      EXPECT_EQ(map.labels[k].attractor, other.labels[k].attractor);
+    }
+    for (std::size_t k = 0; k < map.attractors.size(); ++k)
+      EXPECT_EQ(map.attractors[k].orbit.states, other.attractors[k].orbit.states);
+  }
+}
+
+TYPED_TEST(Basins, OfAGrowingLoopAreEmpty) {
+  for (const double width : {0.0, TypeParam::widest_growing}) {
+    const auto map = this->basins(TypeParam::loop(0.011, width, 1.0), basin_states(30));
+    EXPECT_TRUE(map.attractors.empty());
+    for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::diverges);
+  }
+}
+
+TYPED_TEST(Basins, WithoutACommonPeriodThereAreNone) {
+  auto loops = std::vector{TypeParam::loop(0.01, 0.002)};
+  TypeParam::harmonic(loops[0]).frequency = 10.0 * std::sqrt(0.5);
+  if constexpr (!std::is_same_v<TypeParam, PaperModel>) {
+    loops.push_back(TypeParam::loop(0.01, 0.002));
+    loops[1].digital.jitter = {1e-4, 3};
+  }
+  for (const auto& loop : loops) {
+    const auto map = this->basins(loop, basin_states(5));
+    EXPECT_TRUE(map.attractors.empty());
+    ASSERT_EQ(map.labels.size(), 5U);
+    for (const BasinLabel& label : map.labels)
+      EXPECT_EQ(label.outcome, OrbitOutcome::incommensurate);
+  }
+}
+
+TYPED_TEST(Basins, WithoutBacklashOneOrbitTakesAll) {
+  const auto map = this->basins(TypeParam::loop(0.01, 0.0), basin_states(100));
+  ASSERT_EQ(map.attractors.size(), 1U);
+  EXPECT_EQ(map.attractors[0].states, 100U);
+  EXPECT_EQ(map.attractors[0].fraction, 1.0);
+  EXPECT_EQ(map.attractors[0].standard_error, 0.0);
+  EXPECT_FALSE(map.attractors[0].mirror_image.has_value());
+}
+
+TYPED_TEST(Basins, OfACommonPeriodBeyondTheLargestAreNotFound) {
+  const auto map = this->basins(TypeParam::loop(0.011, 0.002), basin_states(3), {99, 0});
+  ASSERT_EQ(map.labels.size(), 3U);
+  for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::none_found);
+}
+
+TYPED_TEST(Basins, OfNoStatesAreEmpty) {
+  const auto map = this->basins(TypeParam::loop(0.01, 0.002), {});
+  EXPECT_TRUE(map.labels.empty());
+  EXPECT_TRUE(map.attractors.empty());
+}
+
+TYPED_TEST(Basins, MayBeEndedByTheWatch) {
+  OrbitLimits limits = basin_limits;
+  limits.watch = [] { throw std::runtime_error("enough"); };
+  EXPECT_THROW(this->basins(TypeParam::loop(0.01, 0.002), basin_states(3), limits),
+               std::runtime_error);
+}
+
+TYPED_TEST(Basins, WhatIsOutOfRangeIsRefused) {
+  auto states = basin_states(3);
+  EXPECT_THROW(this->basins(TypeParam::loop(0.01, -0.002), states), InvalidParameter);
+  EXPECT_THROW(this->basins(TypeParam::loop(0.01, 0.002), states, {0, 0}), InvalidParameter);
+  states[1][3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(this->basins(TypeParam::loop(0.01, 0.002), states), InvalidParameter);
+}
+
+BasinMap paper_basins(const IdealLoop<double>& loop, const std::vector<Vector<double, 4>>& states,
+                      const OrbitLimits& limits = basin_limits) {
+  return PaperModel::basins(loop, states, limits, one_after_the_other);
+}
+
+TEST(BasinMap, FractionsAndErrorsAreThoseOfTheCounts) {
   const auto states = basin_states(200);
-  const BasinMap map = scalar_basins(basin_loop(0.003, 0.002), states);
+  const BasinMap map = paper_basins(basin_loop(0.003, 0.002), states);
   EXPECT_GE(map.attractors.size(), 2U);
   std::size_t counted = 0;
   int highest = -1;
@@ -73,7 +242,7 @@ TEST(Basins, FractionsAndErrorsAreThoseOfTheCounts) {
   EXPECT_EQ(highest + 1, static_cast<int>(map.attractors.size()));
   double fractions = 0.0;
   for (std::size_t number = 0; number < map.attractors.size(); ++number) {
-    const BasinAttractor& attractor = map.attractors[number];
+    const auto& attractor = map.attractors[number];
     const auto members = std::count_if(
         map.labels.begin(), map.labels.end(),
         [&](const BasinLabel& label) { return label.attractor == static_cast<int>(number); });
@@ -95,48 +264,28 @@ TEST(Basins, FractionsAndErrorsAreThoseOfTheCounts) {
   EXPECT_NEAR(fractions, 1.0, 1e-12);
 }
 
-TEST(Basins, DoNotDependOnTheOrderOfTheTiles) {
-  const auto loop = basin_loop(0.003, 0.002);
-  const auto states = basin_states(150);
-  const auto backwards = [](std::size_t count, std::size_t tile, const auto& job) {
-    const std::size_t tiles = (count + tile - 1) / tile;
-    for (std::size_t k = tiles; k-- > 0;) job(k * tile, std::min(tile, count - k * tile));
-  };
-  const BasinMap map = scalar_basins(loop, states);
-  const BasinMap other = find_basins<double>(loop, states, {20000, 0}, backwards);
-  ASSERT_EQ(map.attractors.size(), other.attractors.size());
-  for (std::size_t k = 0; k < states.size(); ++k)
-    EXPECT_EQ(map.labels[k].attractor, other.labels[k].attractor);
-}
-
-TEST(Basins, OfAGrowingLoopAreEmpty) {
-  for (const double width : {0.0, 0.002}) {
-    const BasinMap map = scalar_basins(basin_loop(0.011, width, 1.0), basin_states(30));
-    EXPECT_TRUE(map.attractors.empty());
-    for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::diverges);
+TEST(BasinMap, OfSampledSwitchingIsThatOfTheModelOfThePaper) {
+  const auto forced = basin_loop(0.003, 0.002);
+  const auto states = basin_states(60);
+  const BasinMap paper = paper_basins(forced, states);
+  const auto map = find_basins(implemented_loop(forced), states, basin_limits, one_after_the_other);
+  ASSERT_GE(paper.attractors.size(), 2U);
+  ASSERT_EQ(map.attractors.size(), paper.attractors.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_EQ(map.labels[k].outcome, paper.labels[k].outcome) << k;
+    EXPECT_EQ(map.labels[k].attractor, paper.labels[k].attractor) << k;
+  }
+  for (std::size_t k = 0; k < map.attractors.size(); ++k) {
+    EXPECT_EQ(map.attractors[k].orbit.period_samples(), paper.attractors[k].orbit.period_samples());
+    EXPECT_EQ(map.attractors[k].fraction, paper.attractors[k].fraction);
+    EXPECT_EQ(map.attractors[k].standard_error, paper.attractors[k].standard_error);
+    EXPECT_EQ(map.attractors[k].mirror_image, paper.attractors[k].mirror_image);
   }
 }
 
-TEST(Basins, WithoutACommonPeriodThereAreNone) {
-  IdealLoop<double> loop = basin_loop(0.01, 0.002);
-  loop.excitation.frequency = 10.0 * std::sqrt(0.5);
-  const BasinMap map = scalar_basins(loop, basin_states(5));
-  EXPECT_TRUE(map.attractors.empty());
-  ASSERT_EQ(map.labels.size(), 5U);
-  for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::incommensurate);
-}
-
-TEST(Basins, WithoutBacklashOneOrbitTakesAll) {
-  const BasinMap map = scalar_basins(basin_loop(0.01, 0.0), basin_states(100));
-  ASSERT_EQ(map.attractors.size(), 1U);
-  EXPECT_EQ(map.attractors[0].states, 100U);
-  EXPECT_EQ(map.attractors[0].fraction, 1.0);
-  EXPECT_EQ(map.attractors[0].standard_error, 0.0);
-}
-
-TEST(Basins, WhatIsNotFoundInTimeIsSaidToBe) {
+TEST(BasinMap, SaysWhatIsNotFoundInTime) {
   // One common period is no time for motions of 2100 samples.
-  const BasinMap map = scalar_basins(basin_loop(0.011, 0.002), basin_states(40), {100, 100});
+  const BasinMap map = paper_basins(basin_loop(0.011, 0.002), basin_states(40), {100, 100});
   int none_found = 0;
   for (const BasinLabel& label : map.labels) {
     if (label.outcome == OrbitOutcome::none_found) {
@@ -149,20 +298,12 @@ TEST(Basins, WhatIsNotFoundInTimeIsSaidToBe) {
     EXPECT_EQ(map.attractors.at(number).orbit.period_samples(), 100);
   }
   EXPECT_GE(none_found, 8) << "those that are searched first";
-}
-
-TEST(Basins, OfNoStatesAreEmpty) {
-  const BasinMap map = scalar_basins(basin_loop(0.01, 0.002), {});
-  EXPECT_TRUE(map.labels.empty());
-  EXPECT_TRUE(map.attractors.empty());
-}
-
-TEST(Basins, WhatIsOutOfRangeIsRefused) {
-  auto states = basin_states(3);
-  EXPECT_THROW(scalar_basins(basin_loop(0.01, -0.002), states), InvalidParameter);
-  EXPECT_THROW(scalar_basins(basin_loop(0.01, 0.002), states, {0, 0}), InvalidParameter);
-  states[1][3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(scalar_basins(basin_loop(0.01, 0.002), states), InvalidParameter);
+  const auto built = implemented_loop(basin_loop(0.011, 0.002));
+  for (const BasinLabel& label :
+       find_basins(built, basin_states(12), {100, 200}, one_after_the_other).labels) {
+    EXPECT_NE(label.outcome, OrbitOutcome::certified) << "200 samples are too few to come anywhere";
+    EXPECT_EQ(label.attractor, -1);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/phase_space/attractor_set.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -18,6 +19,12 @@ IdealLoop<double> batch_loop(double delay_fraction = 0.0) {
   which.width = 0.002;
   which.processing_delay = delay_fraction * which.sampling_period;
   return which.ideal_loop();
+}
+
+MotionBatch<double> batch_of(const IdealLoop<double>& loop) {
+  const Rational ratio = forcing_ratio(loop).value();
+  return {periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()), loop.gains,
+          ratio};
 }
 
 std::vector<ActiveTrajectory> random_motions(std::size_t count) {
@@ -33,7 +40,7 @@ TEST(MotionBatch, WithoutOrbitsMovesEveryMotionAsIfAlone) {
   const Rational ratio = forcing_ratio(loop).value();
   auto motions = random_motions(7);
   const auto starts = motions;
-  MotionBatch<double>(loop, ratio).run(motions.data(), motions.size(), 1000, AttractorSet(loop));
+  batch_of(loop).run(motions.data(), motions.size(), 1000, AttractorSet(loop));
   for (std::size_t k = 0; k < motions.size(); ++k) {
     auto alone = periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval());
     alone.restore(starts[k].memory);
@@ -60,8 +67,7 @@ TEST(MotionBatch, MarksAttractedMotions) {
   AttractorSet attractor_set(loop);
   attractor_set.add(find_periodic_orbit(loop, Vector<double, 4>::Zero(), {3000, 0}).orbit.value());
   auto motions = random_motions(50);
-  MotionBatch<double>(loop, forcing_ratio(loop).value())
-      .run(motions.data(), motions.size(), 20000, attractor_set);
+  batch_of(loop).run(motions.data(), motions.size(), 20000, attractor_set);
   int captured = 0;
   for (const auto& motion : motions) {
     if (motion.orbit < 0) continue;
@@ -76,8 +82,7 @@ TEST(MotionBatch, MarksDivergedMotions) {
   IdealLoop<double> growing = loop;
   growing.gains.differential *= 3.0;
   auto motions = random_motions(5);
-  MotionBatch<double>(growing, forcing_ratio(growing).value())
-      .run(motions.data(), motions.size(), 5000, AttractorSet(growing));
+  batch_of(growing).run(motions.data(), motions.size(), 5000, AttractorSet(growing));
   for (const auto& motion : motions) EXPECT_TRUE(motion.diverged);
 }
 

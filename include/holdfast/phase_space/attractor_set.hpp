@@ -1,13 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 
@@ -15,18 +14,24 @@ namespace holdfast {
 
 namespace detail {
 
-/// Whether `other`, begun `shift` samples later and its states multiplied by `sign`, is `orbit`.
+/// Whether `other` with its states multiplied by `sign`, begun at one of the stroboscopic instants
+/// from the sample `shift` on, is `orbit`.
 template <class Orbit>
-bool same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign,
-                 const StateScale& extent) {
+bool is_same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, double sign) {
   const std::size_t samples = orbit.states.size();
+  if (other.states.size() != samples) return false;
+  const StateScale extent(orbit.states);
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
-  for (std::size_t j = 0; j < samples; j += step) {
-    const Vector<double, 4> apart = orbit.states[j].template head<4>() -
-                                    sign * other.states[(j + shift) % samples].template head<4>();
-    if (!(extent.share_of(apart) <= 1e-9)) return false;
+  for (; shift < samples; shift += step) {
+    bool same = true;
+    for (std::size_t j = 0; same && j < samples; j += step) {
+      const Vector<double, 4> apart = orbit.states[j].template head<4>() -
+                                      sign * other.states[(j + shift) % samples].template head<4>();
+      same = extent.share_of(apart) <= 1e-9;
+    }
+    if (same) return true;
   }
-  return true;
+  return false;
 }
 
 }  // namespace detail
@@ -36,13 +41,7 @@ bool same_course(const Orbit& orbit, const Orbit& other, std::size_t shift, doub
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
 bool is_phase_shifted_copy(const Orbit& orbit, const Orbit& other) {
-  if (orbit.states.size() != other.states.size()) return false;
-  const StateScale extent(orbit.states);
-  const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
-  for (std::size_t shift = 0; shift < orbit.states.size(); shift += step) {
-    if (detail::same_course(orbit, other, shift, 1.0, extent)) return true;
-  }
-  return false;
+  return detail::is_same_course(orbit, other, 0, 1.0);
 }
 
 /// Whether one orbit is the other with all signs changed, half a forcing period later: the loop is
@@ -53,31 +52,68 @@ template <class Orbit>
 bool is_mirror_image(const Orbit& orbit, const Orbit& other) {
   const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
   const bool forced = orbit.ratio.numerator != 0;
-  if (orbit.states.size() != other.states.size() || (forced && step % 2 != 0)) return false;
-  const StateScale extent(orbit.states);
-  for (std::size_t shift = forced ? step / 2 : 0; shift < orbit.states.size(); shift += step) {
-    if (detail::same_course(orbit, other, shift, -1.0, extent)) return true;
-  }
-  return false;
+  if (forced && step % 2 != 0) return false;
+  return detail::is_same_course(orbit, other, forced ? step / 2 : 0, -1.0);
 }
 
-/// The different orbits of one loop, and the neighbourhoods from which motions tend to them.
-/// @tparam Loop  IdealLoop<double>
+namespace detail {
+
+/// The neighbourhoods of the orbits of a loop: Orbit, Point, points_of(orbit), reach(point) in z₁
+/// (m) and holds(point, motion).
+/// @tparam Loop  IdealLoop<double>; ImplementedLoop in event_basins.hpp
+template <class Loop>
+struct Neighbourhoods;
+
+/// Those from which a motion surely tends to the orbit.
+template <>
+struct Neighbourhoods<IdealLoop<double>> {
+  using Orbit = PeriodicOrbit;
+  using Point = AttractionBall;
+
+  IdealLoop<double> loop;
+  Vector<double, 6> weights = DeviationScale(loop).weights();
+
+  std::vector<Point> points_of(const Orbit& orbit) const { return attraction_balls(loop, orbit); }
+  /// Inside a gap at most half the gap's width.
+  double reach(const Point& point) const {
+    return point.stays_inside ? point.radius * loop.backlash_width : point.radius;
+  }
+  template <class Memory>
+  bool holds(const Point& point, const Memory& motion) const {
+    return attracts(point, motion, weights);
+  }
+};
+
+}  // namespace detail
+
+/// The different orbits of one loop, and the neighbourhoods of their points at the stroboscopic
+/// instants: those from which a motion tends to the orbit (AttractionBall), of an ImplementedLoop
+/// those within a millionth of the orbit's extent.
+/// @tparam Loop  IdealLoop<double> or ImplementedLoop
 template <class Loop>
 class AttractorSet {
+  using Neighbourhoods = detail::Neighbourhoods<Loop>;
+
  public:
+  /// PeriodicOrbit or EventOrbit.
+  using Orbit = typename Neighbourhoods::Orbit;
+
+  /// A point of an orbit.
+  struct Entry {
+    int orbit;                             ///< its number
+    typename Neighbourhoods::Point point;  ///< its neighbourhood
+  };
+
   /// @param loop  of all orbits that will be added
-  explicit AttractorSet(const Loop& loop) : loop_(loop), weights_(DeviationScale(loop).weights()) {}
+  explicit AttractorSet(const Loop& loop) : neighbourhoods_{loop} {}
 
   /// @return the orbit's number, that of an earlier one of which it is a copy
-  int add(PeriodicOrbit orbit) {
+  int add(Orbit orbit) {
     for (std::size_t k = 0; k < orbits_.size(); ++k)
       if (is_phase_shifted_copy(orbits_[k], orbit)) return static_cast<int>(k);
     const int number = static_cast<int>(orbits_.size());
-    for (AttractionBall& point : attraction_balls(loop_, orbit)) {
-      // A reach in z₁ alone is enough to sort by; inside a gap it is at most half the gap's width.
-      const double reach = point.stays_inside ? point.radius * loop_.backlash_width : point.radius;
-      largest_reach_ = std::max(largest_reach_, reach);
+    for (auto& point : neighbourhoods_.points_of(orbit)) {
+      largest_reach_ = std::max(largest_reach_, neighbourhoods_.reach(point));
       entries_.push_back({number, std::move(point)});
     }
     std::sort(entries_.begin(), entries_.end(),
@@ -86,31 +122,33 @@ class AttractorSet {
     return number;
   }
 
-  /// The orbit that a motion surely tends to; −1 where none is known. Ask at a stroboscopic instant
-  /// (sampling and forcing in phase), before the sample.
+  /// The point in whose neighbourhood a motion is; null where it is in none. Ask at a stroboscopic
+  /// instant (sampling and forcing in phase), before the sample.
+  /// @param motion  its memory(), or the point() of a RepeatingMotion
   template <class Memory>
-  int attracted_by(const Memory& motion) const {
+  const Entry* near(const Memory& motion) const {
     const double position = motion.state[0];
     auto entry = std::lower_bound(
         entries_.begin(), entries_.end(), position - largest_reach_,
         [](const Entry& candidate, double value) { return candidate.point.state[0] < value; });
     for (; entry != entries_.end() && entry->point.state[0] <= position + largest_reach_; ++entry)
-      if (attracts(entry->point, motion, weights_)) return entry->orbit;
-    return -1;
+      if (neighbourhoods_.holds(entry->point, motion)) return &*entry;
+    return nullptr;
+  }
+
+  /// The number of the orbit in one of whose neighbourhoods a motion is; −1 where there is none.
+  template <class Memory>
+  int attracted_by(const Memory& motion) const {
+    const Entry* const entry = near(motion);
+    return entry != nullptr ? entry->orbit : -1;
   }
 
   /// Each at the index that is its number.
-  const std::vector<PeriodicOrbit>& orbits() const { return orbits_; }
+  const std::vector<Orbit>& orbits() const { return orbits_; }
 
  private:
-  struct Entry {
-    int orbit;
-    AttractionBall point;
-  };
-
-  Loop loop_;
-  Vector<double, 6> weights_;
-  std::vector<PeriodicOrbit> orbits_;
+  Neighbourhoods neighbourhoods_;
+  std::vector<Orbit> orbits_;
   std::vector<Entry> entries_;  // by z₁
   double largest_reach_ = 0.0;
 };

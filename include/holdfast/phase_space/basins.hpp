@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
@@ -40,9 +42,7 @@ struct BasinsOf {
   std::vector<AttractorOf<Orbit>> attractors;  ///< in the order in which the states first meet them
 };
 
-/// One attractor of an IdealLoop.
-using BasinAttractor = AttractorOf<PeriodicOrbit>;
-/// Which attractor each of many initial states of an IdealLoop comes to.
+/// That of an IdealLoop.
 using BasinMap = BasinsOf<PeriodicOrbit>;
 
 namespace detail {
@@ -76,116 +76,146 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
   return basins;
 }
 
-/// Finds the labels of many initial states of one loop, in rounds: some of the states that are left
-/// are searched for their own orbits, one by one; then all that are left move on together past the
-/// orbits known by now. Each round takes twice as many of both. Nothing depends on the order in
-/// which the parts of a round are done.
-/// @tparam Travel  travel(loop, ratio) gives what moves motions on, as MotionBatch does
-/// @tparam Tiles   for_tiles(count, tile, job): job(first, number) for tiles of 0 … count − 1
-template <class Travel, class Tiles>
-class BasinSearch {
- public:
-  BasinSearch(const IdealLoop<double>& loop, const OrbitLimits& limits, const Travel& travel,
-              const Tiles& for_tiles)
-      : loop_(loop),
-        limits_(limits),
-        travel_(travel),
-        for_tiles_(for_tiles),
-        attractor_set_(loop) {}
+/// What a search for the orbit of one motion found.
+template <class Orbit>
+struct FoundOrbit {
+  BasinLabel label;            ///< its attractor is the number of an orbit that was known
+  std::optional<Orbit> orbit;  ///< certified, and not known yet
+};
 
-  BasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
+/// Finds the labels of many initial states of one loop, in rounds: some of the states that are left
+/// are searched for their own orbits, one by one; then all that are left may move on together past
+/// the orbits known by now. Each round takes twice as many. Nothing depends on the order in which
+/// the parts of a round are done.
+/// @tparam Model  has search(motion, set), a FoundOrbit, and advance(motions, set, for_tiles),
+/// which
+///                marks those that are attracted or diverge
+/// @tparam Tiles  for_tiles(count, tile, job): job(first, number) for tiles of 0 … count − 1
+template <class Model, class Tiles>
+class BasinSearch {
+  using Attractors = AttractorSet<typename Model::Loop>;
+  using Orbit = typename Attractors::Orbit;
+
+ public:
+  BasinSearch(const Model& model, const Tiles& for_tiles)
+      : model_(model), attractor_set_(model.loop), for_tiles_(for_tiles) {}
+
+  BasinsOf<Orbit> run(const std::vector<Vector<double, 4>>& initial_states) {
     labels_.resize(initial_states.size());
-    const auto ratio = forcing_ratio(loop_);
-    if (!ratio || ratio->denominator > limits_.largest_period) {
-      const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
-      for (BasinLabel& label : labels_) label.outcome = outcome;
-      return {std::move(labels_), {}};
-    }
     for (std::size_t k = 0; k < initial_states.size(); ++k)
       left_.push_back({k, memory_of_start(initial_states[k])});
-    std::size_t probes = 8;
-    std::int64_t samples = std::max<std::int64_t>(4096, 4 * ratio->denominator);
-    while (!left_.empty()) {
-      probe(*ratio, probes);
-      travel(*ratio, samples);
-      probes *= 2;
-      samples *= 2;
+    constexpr std::size_t largest_round = std::size_t{1} << 16U;
+    for (std::size_t most = 8; !left_.empty(); most = std::min(2 * most, largest_round)) {
+      search(taken_out(most));
+      model_.advance(left_, attractor_set_, for_tiles_);
+      const auto ended = [this](const ActiveTrajectory& motion) {
+        if (motion.diverged) labels_[motion.number] = {OrbitOutcome::diverges, -1};
+        if (motion.orbit >= 0) labels_[motion.number] = {OrbitOutcome::certified, motion.orbit};
+        return motion.diverged || motion.orbit >= 0;
+      };
+      left_.erase(std::remove_if(left_.begin(), left_.end(), ended), left_.end());
     }
     return numbered_basins(std::move(labels_), attractor_set_.orbits());
   }
 
  private:
-  /// Searches some of the motions that are left, evenly spread.
-  void probe(const Rational& ratio, std::size_t most) {
-    const std::size_t count = std::min(most, left_.size());
-    std::vector<OrbitResult> results(count, {OrbitOutcome::none_found, std::nullopt, 0, 0});
-    for_tiles_(count, 1, [&](std::size_t first, std::size_t number) {
-      for (std::size_t k = first; k < first + number; ++k) {
-        auto motion = periodically_forced_motion(loop_, ratio, Vector<double, 4>::Zero().eval());
-        motion.restore(left_[place_of(k, count)].memory);
-        results[k] = OrbitSearch<double>(loop_, ratio, limits_, motion).run();
-      }
-    });
-    for (std::size_t k = 0; k < count; ++k) {
-      ActiveTrajectory& motion = left_[place_of(k, count)];
-      BasinLabel& label = labels_[motion.number];
-      label.outcome = results[k].outcome;
-      if (label.outcome == OrbitOutcome::certified)
-        label.attractor = attractor_set_.add(std::move(*results[k].orbit));
-      motion.searched = true;
+  /// Some of the motions that are left, evenly spread.
+  std::vector<ActiveTrajectory> taken_out(std::size_t most) {
+    const std::size_t all = left_.size(), count = std::min(most, all);
+    std::vector<ActiveTrajectory> chosen, rest;
+    for (std::size_t k = 0; k < all; ++k) {
+      const bool next = chosen.size() < count && k == chosen.size() * all / count;
+      (next ? chosen : rest).push_back(left_[k]);
     }
-    drop([](const ActiveTrajectory& motion) { return motion.searched; });
+    left_ = std::move(rest);
+    return chosen;
   }
 
-  std::size_t place_of(std::size_t probe, std::size_t probes) const {
-    return probe * left_.size() / probes;
-  }
-
-  void travel(const Rational& ratio, std::int64_t samples) {
-    const auto batch = travel_(loop_, ratio);
-    constexpr std::size_t tile = 64;
-    for_tiles_(left_.size(), tile, [&](std::size_t first, std::size_t number) {
-      auto own = batch;
-      own.run(left_.data() + first, number, samples, attractor_set_);
+  void search(const std::vector<ActiveTrajectory>& chosen) {
+    std::vector<FoundOrbit<Orbit>> found(chosen.size());
+    for_tiles_(chosen.size(), 1, [&](std::size_t first, std::size_t number) {
+      for (std::size_t k = first; k < first + number; ++k)
+        found[k] = model_.search(chosen[k], attractor_set_);
     });
-    for (const ActiveTrajectory& motion : left_) {
-      if (motion.diverged) labels_[motion.number] = {OrbitOutcome::diverges, -1};
-      if (motion.orbit >= 0) labels_[motion.number] = {OrbitOutcome::certified, motion.orbit};
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      BasinLabel& label = labels_[chosen[k].number] = found[k].label;
+      if (found[k].orbit) label.attractor = attractor_set_.add(std::move(*found[k].orbit));
     }
-    drop([](const ActiveTrajectory& motion) { return motion.diverged || motion.orbit >= 0; });
   }
 
-  template <class Ended>
-  void drop(const Ended& ended) {
-    left_.erase(std::remove_if(left_.begin(), left_.end(), ended), left_.end());
-  }
-
-  IdealLoop<double> loop_;
-  OrbitLimits limits_;
-  const Travel& travel_;
+  Model model_;
+  Attractors attractor_set_;
   const Tiles& for_tiles_;
-  AttractorSet<IdealLoop<double>> attractor_set_;
   std::vector<ActiveTrajectory> left_;
   std::vector<BasinLabel> labels_;
 };
 
+/// The basins of a loop, on the model {loop, ratio, limits, …} of its motions.
+template <class Model, class Tiles, class... More>
+auto basins_by(const typename Model::Loop& loop,
+               const std::vector<Vector<double, 4>>& initial_states, const OrbitLimits& limits,
+               const Tiles& for_tiles, const More&... more) {
+  validate(loop);
+  validate(limits);
+  for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
+  const std::optional<Rational> ratio = Model::ratio_of(loop);
+  if (ratio && ratio->denominator <= limits.largest_period)
+    return BasinSearch<Model, Tiles>({loop, *ratio, limits, more...}, for_tiles)
+        .run(initial_states);
+  const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
+  return BasinsOf<typename AttractorSet<typename Model::Loop>::Orbit>{
+      std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
+}
+
+/// Motions of an IdealLoop, which move on in batches; from where it stands, each may be searched
+/// for its own orbit.
+template <class Travel>
+struct BatchedMotions {
+  using Loop = IdealLoop<double>;
+
+  Loop loop;
+  Rational ratio;
+  OrbitLimits limits;
+  const Travel& travel;
+  PeriodicallyForcedMotion<double> start =
+      periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval());
+  std::int64_t samples = std::max<std::int64_t>(4096, 4 * ratio.denominator);  // of a round
+
+  static std::optional<Rational> ratio_of(const Loop& loop) { return forcing_ratio(loop); }
+
+  FoundOrbit<PeriodicOrbit> search(const ActiveTrajectory& motion,
+                                   const AttractorSet<Loop>& /*known*/) const {
+    auto alone = start;
+    alone.restore(motion.memory);
+    OrbitResult found = OrbitSearch<double>(loop, ratio, limits, alone).run();
+    if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
+    return {{found.outcome, -1}, std::move(found.orbit)};
+  }
+
+  template <class Tiles>
+  void advance(std::vector<ActiveTrajectory>& motions, const AttractorSet<Loop>& known,
+               const Tiles& for_tiles) {
+    const auto batch = travel(start, loop.gains, ratio);
+    constexpr std::size_t tile = 64;
+    for_tiles(motions.size(), tile, [&](std::size_t first, std::size_t number) {
+      auto own = batch;
+      own.run(motions.data() + first, number, samples, known);
+    });
+    samples *= 2;
+  }
+};
+
 }  // namespace detail
 
-/// find_basins() with another way to move the motions on.
-/// @param travel          travel(loop, ratio) gives what has MotionBatch's run() and can be copied
-/// @param loop            of all motions
-/// @param initial_states  where they begin
-/// @param limits          of the search for periodic orbits
-/// @param for_tiles       deals tiles of states out, as in find_basins()
+/// find_basins() of an IdealLoop with another way to move the motions on.
+/// @param travel  travel(motion, gains, ratio) gives what has MotionBatch's run() and can be copied
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Travel, class Tiles>
 BasinMap find_basins_by(const Travel& travel, const IdealLoop<double>& loop,
                         const std::vector<Vector<double, 4>>& initial_states,
                         const OrbitLimits& limits, const Tiles& for_tiles) {
-  validate(loop);
-  validate(limits);
-  for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
-  return detail::BasinSearch<Travel, Tiles>(loop, limits, travel, for_tiles).run(initial_states);
+  return detail::basins_by<detail::BatchedMotions<Travel>>(loop, initial_states, limits, for_tiles,
+                                                           travel);
 }
 
 /// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂].
@@ -206,8 +236,8 @@ template <class Scalar, class Tiles>
 BasinMap find_basins(const IdealLoop<double>& loop,
                      const std::vector<Vector<double, 4>>& initial_states,
                      const OrbitLimits& limits, const Tiles& for_tiles) {
-  const auto travel = [](const IdealLoop<double>& of, const Rational& ratio) {
-    return MotionBatch<Scalar>(of, ratio);
+  const auto travel = [](const auto& motion, const PdGains<double>& gains, const Rational& ratio) {
+    return MotionBatch<Scalar>(motion, gains, ratio);
   };
   return find_basins_by(travel, loop, initial_states, limits, for_tiles);
 }

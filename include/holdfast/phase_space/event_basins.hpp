@@ -9,109 +9,64 @@
 #include <vector>
 
 #include "holdfast/contact/contact_mode.hpp"
-#include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
-#include "holdfast/orbit/event/return_map.hpp"
+#include "holdfast/orbit/event/repeating_motion.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
+#include "holdfast/phase_space/motion_batch.hpp"
 
 namespace holdfast {
 
-/// Which attractor each of many initial states of an ImplementedLoop comes to.
-using EventBasinMap = BasinsOf<EventOrbit>;
-
 namespace detail {
 
-/// The different orbits of one ImplementedLoop, by their points at the stroboscopic instants,
-/// sampling and forcing in phase.
-/// @tparam Orbit  EventOrbit
-template <class Orbit>
-class EventAttractorSet {
- public:
-  /// A point of an orbit.
-  struct Place {
-    int orbit;
-    std::size_t sample;
+/// Those within a millionth of an orbit's extent, coordinate by coordinate.
+template <>
+struct Neighbourhoods<ImplementedLoop> {
+  using Orbit = EventOrbit;
+
+  struct Point {
+    std::size_t sample;        ///< of the orbit
+    Vector<double, 4> state;   ///< there
+    Vector<double, 4> extent;  ///< max |z_i| of the orbit
+
+    /// max_i |z_i − z_i of the orbit| / max |z_i of the orbit|.
+    double distance(const Vector<double, 4>& other) const {
+      return (other - state).cwiseAbs().cwiseQuotient(extent).maxCoeff();
+    }
   };
 
-  /// @return the orbit's number, that of an earlier one of which it is a copy
-  int add(Orbit orbit) {
-    for (std::size_t k = 0; k < orbits_.size(); ++k)
-      if (is_phase_shifted_copy(orbits_[k], orbit)) return static_cast<int>(k);
-    const int number = static_cast<int>(orbits_.size());
+  explicit Neighbourhoods(const ImplementedLoop& /*loop*/) {}
+
+  std::vector<Point> points_of(const Orbit& orbit) const {
     Vector<double, 4> extent = Vector<double, 4>::Zero();
     for (const auto& state : orbit.states) extent = extent.cwiseMax(state.cwiseAbs());
+    std::vector<Point> points;
     // A state of rest has no extent to tell what is near.
-    if (extent.minCoeff() > 0.0) add_places(orbit, number, extent[0]);
-    patience_ = std::max(patience_, samples_to_come(orbit));
-    extents_.push_back(extent);
-    orbits_.push_back(std::move(orbit));
-    return number;
-  }
-
-  const std::vector<Orbit>& orbits() const { return orbits_; }
-
-  /// Within so many samples most motions that come to one of the orbits are near it.
-  double patience() const { return patience_; }
-
-  /// Where a motion is that has come within a millionth of an orbit's extent; nothing where it has
-  /// not. Ask at a stroboscopic instant.
-  std::optional<Place> near(const Vector<double, 4>& state) const {
-    auto entry = std::lower_bound(
-        entries_.begin(), entries_.end(), state[0] - largest_reach_,
-        [](const Entry& candidate, double value) { return candidate.displacement < value; });
-    for (; entry != entries_.end() && entry->displacement <= state[0] + largest_reach_; ++entry)
-      if (distance(state, entry->place) <= nearness) return entry->place;
-    return std::nullopt;
-  }
-
-  /// max_i |z_i − z_i of the orbit| / max |z_i of the orbit|.
-  double distance(const Vector<double, 4>& state, const Place& place) const {
-    const auto orbit = static_cast<std::size_t>(place.orbit);
-    const Vector<double, 4> apart = state - orbits_[orbit].states[place.sample];
-    return apart.cwiseAbs().cwiseQuotient(extents_[orbit]).maxCoeff();
-  }
-
- private:
-  static constexpr double nearness = 1e-6;
-
-  struct Entry {
-    double displacement;  // z₁
-    Place place;
-  };
-
-  void add_places(const Orbit& orbit, int number, double extent) {
+    if (!(extent.minCoeff() > 0.0)) return points;
     const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
     for (std::size_t sample = 0; sample < orbit.states.size(); sample += step)
-      entries_.push_back({orbit.states[sample][0], {number, sample}});
-    std::sort(entries_.begin(), entries_.end(),
-              [](const Entry& a, const Entry& b) { return a.displacement < b.displacement; });
-    largest_reach_ = std::max(largest_reach_, nearness * extent);
+      points.push_back({sample, orbit.states[sample], extent});
+    return points;
+  }
+  double reach(const Point& point) const { return nearness * point.extent[0]; }
+  template <class Memory>
+  bool holds(const Point& point, const Memory& motion) const {
+    return point.distance(motion.state) <= nearness;
   }
 
-  /// Samples in which a deviation shrinks by 10⁸, and a few periods.
-  static double samples_to_come(const Orbit& orbit) {
-    const double periods = std::log(1e8) / -orbit.multipliers.front().log_modulus;
-    return static_cast<double>(orbit.period_samples()) * (8.0 + std::ceil(periods));
-  }
-
-  std::vector<Orbit> orbits_;
-  std::vector<Vector<double, 4>> extents_;  // of each orbit
-  std::vector<Entry> entries_;              // by displacement
-  double largest_reach_ = 0.0;
-  double patience_ = 0.0;
+  static constexpr double nearness = 1e-6;
 };
 
 /// A motion that may come to an orbit of a set.
 template <class Contact>
 class ApproachingMotion {
-  using Attractors = EventAttractorSet<EventOrbit>;
+  using Attractors = AttractorSet<ImplementedLoop>;
 
  public:
   /// @param start  at a stroboscopic instant (sampling and forcing in phase)
@@ -123,16 +78,14 @@ class ApproachingMotion {
   int run(const OrbitLimits& limits, std::int64_t samples) {
     while (taken_ < samples && is_followed()) {
       if (limits.watch) limits.watch();
-      const auto place = attractor_set_.near(state());
-      if (place && comes_to(*place)) return place->orbit;
+      const auto* const entry = attractor_set_.near(motion_.point());
+      if (entry != nullptr && comes_to(*entry)) return entry->orbit;
       for (std::int64_t j = 0; j < motion_.period(); ++j) take();
     }
     return -1;
   }
 
  private:
-  using Place = Attractors::Place;
-
   const Vector<double, 4>& state() const { return motion_.motion().state(); }
 
   bool is_followed() const {
@@ -148,13 +101,13 @@ class ApproachingMotion {
 
   /// Whether the motion keeps to the orbit's modes and comes nearer over two of its periods, in the
   /// second one as its largest multiplier asks.
-  bool comes_to(const Place& place) {
-    const EventOrbit& orbit = attractor_set_.orbits()[static_cast<std::size_t>(place.orbit)];
-    const double before = attractor_set_.distance(state(), place);
-    if (!keeps_to(orbit, place.sample)) return false;
-    const double between = attractor_set_.distance(state(), place);
-    if (!keeps_to(orbit, place.sample)) return false;
-    const double after = attractor_set_.distance(state(), place);
+  bool comes_to(const Attractors::Entry& entry) {
+    const EventOrbit& orbit = attractor_set_.orbits()[static_cast<std::size_t>(entry.orbit)];
+    const double before = entry.point.distance(state());
+    if (!keeps_to(orbit, entry.point.sample)) return false;
+    const double between = entry.point.distance(state());
+    if (!keeps_to(orbit, entry.point.sample)) return false;
+    const double after = entry.point.distance(state());
     // μ itself is the factor in the long run only: a deviation turns while it shrinks.
     constexpr double share = 0.9, rounding = 1e-11;
     const double factor = std::exp(share * orbit.multipliers.front().log_modulus);
@@ -174,109 +127,63 @@ class ApproachingMotion {
   std::int64_t taken_ = 0;
 };
 
-/// Finds the labels of many initial states, in rounds of ever more of them. A motion first goes
-/// past the orbits that the rounds before have found, and is searched for its own where it comes to
-/// none of them. Nothing depends on the order in which the states of a round are done.
-/// @tparam Tiles   as in BasinSearch
-template <class Tiles>
-class EventBasinSearch {
- public:
-  EventBasinSearch(const ImplementedLoop& loop, const Rational& ratio, const OrbitLimits& limits,
-                   const Tiles& for_tiles)
-      : loop_(loop), ratio_(ratio), limits_(limits), for_tiles_(for_tiles) {}
+/// Motions of an ImplementedLoop: each goes past the orbits that the rounds before have found, and
+/// is searched for its own where it comes to none of them.
+struct SingleMotions {
+  using Loop = ImplementedLoop;
 
-  EventBasinMap run(const std::vector<Vector<double, 4>>& initial_states) {
-    std::vector<BasinLabel> labels(initial_states.size());
-    std::vector<std::size_t> left(initial_states.size());
-    for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
-    std::size_t most = 8;
-    while (!left.empty()) {
-      const std::vector<std::size_t> chosen = taken_out(left, most);
-      std::vector<Found> found(chosen.size());
-      for_tiles_(chosen.size(), 1, [&](std::size_t first, std::size_t number) {
-        for (std::size_t k = first; k < first + number; ++k)
-          found[k] = searched(initial_states[chosen[k]]);
-      });
-      for (std::size_t k = 0; k < chosen.size(); ++k) labels[chosen[k]] = noted(found[k]);
-      most = std::min(2 * most, largest_round);
-    }
-    return numbered_basins(std::move(labels), attractor_set_.orbits());
-  }
+  Loop loop;
+  Rational ratio;
+  OrbitLimits limits;
 
- private:
-  static constexpr std::size_t largest_round = std::size_t{1} << 16U;
+  static std::optional<Rational> ratio_of(const Loop& loop) { return forcing_ratio(loop.digital); }
 
-  struct Found {
-    BasinLabel label;
-    std::optional<EventOrbit> orbit;  // where it is not of the set
-  };
-
-  /// Some of the states that are left, evenly spread.
-  static std::vector<std::size_t> taken_out(std::vector<std::size_t>& left, std::size_t most) {
-    const std::size_t count = std::min(most, left.size());
-    std::vector<std::size_t> chosen, rest;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const bool next = chosen.size() < count && k == chosen.size() * left.size() / count;
-      (next ? chosen : rest).push_back(left[k]);
-    }
-    left = std::move(rest);
-    return chosen;
-  }
-
-  Found searched(const Vector<double, 4>& initial_state) const {
-    return with_motion(loop_, initial_state, [this](const auto& motion) {
-      const std::int64_t most =
-          limits_.most_samples > 0 ? limits_.most_samples : 8 * limits_.largest_period;
-      const double samples = std::min(attractor_set_.patience(), static_cast<double>(most));
-      const int known = ApproachingMotion(motion, ratio_, attractor_set_)
-                            .run(limits_, static_cast<std::int64_t>(samples));
-      if (known >= 0) return Found{{OrbitOutcome::certified, known}, std::nullopt};
-      auto search = find_event_orbit(motion, ratio_, limits_);
-      if (search.outcome != OrbitOutcome::certified) search.orbit.reset();
-      return Found{{search.outcome, -1}, std::move(search.orbit)};
+  FoundOrbit<EventOrbit> search(const ActiveTrajectory& from,
+                                const AttractorSet<Loop>& known) const {
+    return with_motion(loop, from.memory.state, [&](const auto& motion) {
+      const int number =
+          ApproachingMotion(motion, ratio, known).run(limits, patience(known.orbits()));
+      if (number >= 0) return FoundOrbit<EventOrbit>{{OrbitOutcome::certified, number}, {}};
+      auto found = find_event_orbit(motion, ratio, limits);
+      if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
+      return FoundOrbit<EventOrbit>{{found.outcome, -1}, std::move(found.orbit)};
     });
   }
 
-  BasinLabel noted(Found& found) {
-    if (found.orbit) found.label.attractor = attractor_set_.add(std::move(*found.orbit));
-    return found.label;
-  }
+  /// They move on in their searches alone.
+  template <class Tiles>
+  void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 
-  ImplementedLoop loop_;
-  Rational ratio_;
-  OrbitLimits limits_;
-  const Tiles& for_tiles_;
-  EventAttractorSet<EventOrbit> attractor_set_;
+  /// Within so many samples most motions that come to one of the orbits are near it: those in which
+  /// a deviation shrinks by 10⁸, and a few periods.
+  std::int64_t patience(const std::vector<EventOrbit>& orbits) const {
+    double samples = 0.0;
+    for (const EventOrbit& orbit : orbits) {
+      const double periods = std::log(1e8) / -orbit.multipliers.front().log_modulus;
+      samples = std::max(samples,
+                         static_cast<double>(orbit.period_samples()) * (8.0 + std::ceil(periods)));
+    }
+    const std::int64_t most =
+        limits.most_samples > 0 ? limits.most_samples : 8 * limits.largest_period;
+    return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
+  }
 };
 
 }  // namespace detail
 
-/// The attractor of each of many initial states [z₁, ż₁, z₂, ż₂] of an implemented loop.
+/// find_basins() of an implemented loop.
 ///
-/// Distinct attractors are told apart by their orbits; copies of one that run some common periods
-/// of sampling and forcing later are the same attractor. A motion is an attractor's where its own
-/// search certifies that orbit, or where it comes within a millionth of the extent of an orbit that
-/// another search has certified, keeps to its modes for two periods and comes nearer over both,
-/// over the second by 0.9 of the decay (in logarithms) that the largest multiplier asks.
-/// @param loop            as it is built
-/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
-/// @param limits          of each search for one motion's own orbit
-/// @param for_tiles       for_tiles(count, tile, job) calls job(first, number) for tiles that cover
-///                        0 … count − 1, on as many threads as it likes; the result does not depend
-///                        on it
+/// A motion is an attractor's where its own search certifies that orbit, or where it comes within a
+/// millionth of the extent of an orbit that another search has certified, keeps to its modes for
+/// two periods and comes nearer over both, over the second by 0.9 of the decay (in logarithms) that
+/// the largest multiplier asks.
+/// @param loop  as it is built
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Tiles>
-EventBasinMap find_event_basins(const ImplementedLoop& loop,
-                                const std::vector<Vector<double, 4>>& initial_states,
-                                const OrbitLimits& limits, const Tiles& for_tiles) {
-  validate(loop);
-  validate(limits);
-  for (const auto& state : initial_states) require_finite("initial state", state.sum(), "");
-  const auto ratio = forcing_ratio(loop.digital);
-  if (ratio && ratio->denominator <= limits.largest_period)
-    return detail::EventBasinSearch<Tiles>(loop, *ratio, limits, for_tiles).run(initial_states);
-  const auto outcome = ratio ? OrbitOutcome::none_found : OrbitOutcome::incommensurate;
-  return {std::vector<BasinLabel>(initial_states.size(), {outcome, -1}), {}};
+BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
+                                 const std::vector<Vector<double, 4>>& initial_states,
+                                 const OrbitLimits& limits, const Tiles& for_tiles) {
+  return detail::basins_by<detail::SingleMotions>(loop, initial_states, limits, for_tiles);
 }
 
 }  // namespace holdfast

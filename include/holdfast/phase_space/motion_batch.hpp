@@ -16,7 +16,6 @@
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
-#include "holdfast/phase_space/attractor_set.hpp"
 
 namespace holdfast {
 
@@ -35,7 +34,6 @@ struct ActiveTrajectory {
   ForcedMotionMemory<double> memory;  ///< at a stroboscopic instant (sampling and forcing in phase)
   int orbit = -1;                     ///< of the set, once attracted
   bool diverged = false;  ///< an entry of its state has reached 10¹⁰⁰, or is no number
-  bool searched = false;  ///< its own orbit has been looked for
 };
 
 namespace detail {
@@ -85,22 +83,6 @@ class MemoryLanes {
   std::array<std::array<double, Lane::count>, 9> numbers_{};
 };
 
-/// The motion of a loop in as many lanes as `Scalar` has.
-template <class Scalar>
-using BatchMotion =
-    SampledMotion<Scalar, Backlash<Scalar>, SharedForcing<Scalar, PeriodicForcing<double>>>;
-
-/// The same motion in every lane, from rest.
-template <class Scalar>
-BatchMotion<Scalar> broadcast(const PeriodicallyForcedMotion<double>& motion,
-                              const PdGains<double>& gains) {
-  return {converted<Scalar>(motion.loop()),
-          {Scalar(gains.proportional), Scalar(gains.differential)},
-          SharedForcing<Scalar, PeriodicForcing<double>>(motion.forcing()),
-          Backlash<Scalar>(Scalar(motion.law().width())),
-          Vector<Scalar, 4>::Constant(Scalar(0))};
-}
-
 }  // namespace detail
 
 /// Moves many motions of one loop on until each is attracted by an orbit of a set, diverges,
@@ -109,26 +91,26 @@ BatchMotion<Scalar> broadcast(const PeriodicallyForcedMotion<double>& motion,
 template <class Scalar>
 class MotionBatch {
   using Lane = Lanes<Scalar>;
+  using Forcing = SharedForcing<Scalar, PeriodicForcing<double>>;
 
  public:
-  /// @param loop   of all motions
-  /// @param ratio  of forcing_ratio(loop)
-  MotionBatch(const IdealLoop<double>& loop, const Rational& ratio)
-      : MotionBatch(periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()),
-                    loop.gains, ratio) {}
-
   /// @param motion  of the loop, at a stroboscopic instant; its state does not matter
   /// @param gains   of the loop
   /// @param ratio   of forcing_ratio(loop)
   MotionBatch(const PeriodicallyForcedMotion<double>& motion, const PdGains<double>& gains,
               const Rational& ratio)
-      : ratio_(ratio), motion_(detail::broadcast<Scalar>(motion, gains)) {}
+      : ratio_(ratio),
+        motion_(converted<Scalar>(motion.loop()),
+                {Scalar(gains.proportional), Scalar(gains.differential)}, Forcing(motion.forcing()),
+                Backlash<Scalar>(Scalar(motion.law().width())),
+                Vector<Scalar, 4>::Constant(Scalar(0))) {}
 
   /// @param motions        attracted and diverged ones are marked, the others have moved on by at
   ///                       least `samples` samples, a whole number of common periods
   /// @param count          number of motions, ≥ 0
   /// @param samples        ≥ 1
-  /// @param attractor_set  of orbits of the same loop; or what else has an attracted_by(memory)
+  /// @param attractor_set  of orbits of the same loop: AttractorSet, or what else has an
+  ///                       attracted_by(memory)
   /// @throws InvalidParameter for less than one sample
   template <class Attractors>
   void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
@@ -181,7 +163,7 @@ class MotionBatch {
   }
 
   Rational ratio_;
-  detail::BatchMotion<Scalar> motion_;
+  SampledMotion<Scalar, Backlash<Scalar>, Forcing> motion_;
   detail::MemoryLanes<Scalar> lanes_;
   std::array<Place, Lane::count> places_;
 };

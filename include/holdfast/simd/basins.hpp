@@ -13,7 +13,7 @@ namespace holdfast::simd {
 /// find_basins() on SIMD packs and threads.
 ///
 ///     const BasinMap map = simd::find_basins(loop, states);
-///     for (const BasinAttractor& attractor : map.attractors) use(attractor.orbit.period());
+///     for (const auto& attractor : map.attractors) use(attractor.orbit.period());
 ///
 /// @param loop            the loop with its excitation and backlash
 /// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none

@@ -10,7 +10,6 @@
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/event_basins.hpp"
@@ -66,9 +65,8 @@ class TravelOnPacks : public CopiedKernel<TravelKernel> {
 BasinMap basins_on_packs(const IdealLoop<double>& loop,
                          const std::vector<Vector<double, 4>>& states, const OrbitLimits& limits,
                          InstructionSet set, const ThreadedTiles& tiles) {
-  const auto travel = [&](const IdealLoop<double>& of, const Rational& ratio) {
-    return TravelOnPacks(pack_kernels(set).travel(
-        periodically_forced_motion(of, ratio, Vector<double, 4>::Zero().eval()), of.gains, ratio));
+  const auto travel = [set](const auto& motion, const auto& gains, const Rational& ratio) {
+    return TravelOnPacks(pack_kernels(set).travel(motion, gains, ratio));
   };
   return find_basins_by(travel, loop, states, limits, tiles);
 }
@@ -213,7 +211,7 @@ void write_basins(const JobContext& context, const BasinOptions& options) {
   } else {
     const ImplementedLoop loop = implemented_loop_of(context.case_data, options.switching);
     require_attractors(forcing_ratio(loop.digital), options.largest_period);
-    write_map(context, options, grid, find_event_basins(loop, states, limits, tiles));
+    write_map(context, options, grid, find_basins(loop, states, limits, tiles));
   }
 }
 
