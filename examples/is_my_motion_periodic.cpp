@@ -1,8 +1,7 @@
 // The motion looks irregular. Is it?
 #include <cstdio>
 
-#include "holdfast/chaos/event_classification.hpp"
-#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 using namespace holdfast;

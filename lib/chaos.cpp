@@ -1,11 +1,10 @@
 // Explicit instantiations of chaos for double.
 
 #include "holdfast/chaos/block_spectrum.hpp"
-#include "holdfast/chaos/event_classification.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
-#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/chaos/zero_one_test.hpp"
 

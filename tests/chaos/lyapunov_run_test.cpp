@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 
-#include "holdfast/chaos/lyapunov.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {

@@ -1,4 +1,4 @@
-#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <iostream>
 
-#include "holdfast/chaos/event_classification.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "support/lagging_loop.hpp"
 

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/stability/response/response.hpp"
 #include "support/kollar_case.hpp"

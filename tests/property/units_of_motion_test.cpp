@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/contact/contact_law.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "property/units_case.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {

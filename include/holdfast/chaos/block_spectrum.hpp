@@ -103,17 +103,12 @@ class BlockSpectrum {
     return result;
   }
 
-  static double lane_of(const Number& number, std::size_t lane) {
-    typename Lanes<Number>::Value values[Lanes<Number>::count];
-    Lanes<Number>::store(number, values);
-    return static_cast<double>(values[lane]);
+  static auto lanes_of(const Number& number) {
+    std::array<typename Lanes<Number>::Value, Lanes<Number>::count> values;
+    Lanes<Number>::store(number, values.data());
+    return values;
   }
-
-  static double largest_lane(const Number& number) {
-    typename Lanes<Number>::Value values[Lanes<Number>::count];
-    Lanes<Number>::store(number, values);
-    return static_cast<double>(*std::max_element(values, values + Lanes<Number>::count));
-  }
+  static double lane_of(const Number& number, std::size_t lane) { return lanes_of(number)[lane]; }
 
   void close_with(const Blocks& open) {
     const int samples = samples_of(open[0]);
@@ -129,9 +124,8 @@ class BlockSpectrum {
                                                       Vector<double, 5>::Zero(), 0};
     Vector<double, 5> open;
     for (int i = 0; i < 5; ++i) {
-      const Number one(1), zero(0);
-      const Number alive = select(alive_[static_cast<std::size_t>(i)], one, zero);
-      if (lane_of(alive, lane) > 0) state.finite = i + 1;
+      const auto& alive = alive_[static_cast<std::size_t>(i)];
+      if (lane_of(select(alive, Number(1), Number(0)), lane) > 0) state.finite = i + 1;
       open[i] = lane_of(logarithms_[i], lane);
       state.remainder[i] = lane_of(remainder[i], lane);
       for (int row = 0; row < 5; ++row)
@@ -172,7 +166,8 @@ class BlockSpectrum {
                           within_range<Columns>(stretches.squares);
     if (accurate || (count == 1 && samples_of(blocks[0][0]) == 1)) {
       commit<Columns>(basis, alive, stretches.squares);
-      learn(accurate ? largest_lane(squared) : 0.0, count);
+      const auto values = lanes_of(squared);
+      learn(accurate ? *std::max_element(values.begin(), values.end()) : 0.0, count);
     } else {
       halve<Reach, Columns>(blocks, count);
       allowed_ = std::max(1.0, 0.5 * count);
@@ -293,9 +288,7 @@ BlockSpectrum<Number>::BlockSpectrum(std::shared_ptr<const ItineraryBlocks> bloc
   const Number one(1), zero(0);
   for (int i = 0; i < 5; ++i)
     alive_[static_cast<std::size_t>(i)] = i < columns_ ? one > zero : one < zero;
-  const Vector<Number, 5> logarithms =
-      blocks_->scale().array().log().matrix().template cast<Number>();
-  remainder_ = -logarithms;
+  remainder_ = -blocks_->scale().array().log().matrix().template cast<Number>();
 }
 
 template <class Number>

@@ -130,141 +130,175 @@ inline constexpr double steady_growth = 2.0;
 
 namespace detail {
 
-/// The indicators in words, number by number.
-class IndicatorText {
+inline std::string number_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// Weighs indicators by the rules of classify(), in words.
+class Classifier {
  public:
-  explicit IndicatorText(const ChaosIndicators& indicators) : indicators_(indicators) {}
+  explicit Classifier(const ChaosIndicators& indicators) : indicators_(indicators) {}
 
-  std::string exponent() const {
-    if (!indicators_.largest_exponent) return "no exponent is known";
-    const ExponentEstimate& found = *indicators_.largest_exponent;
-    std::ostringstream text;
-    text << "largest exponent " << found.value << " +- " << found.half_width << " per " << found.per
-         << " (95 %)";
-    return text.str();
-  }
-  std::string zero_one() const {
-    if (!indicators_.zero_one) return "no 0-1 test was made";
-    return "0-1 test K = " + number(*indicators_.zero_one);
-  }
-  std::string repeat() const {
-    if (!indicators_.repeat) return "no repetition was looked for";
-    const RepetitionIndicators& found = *indicators_.repeat;
-    if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
-    return "no repetition to " + number(found.tolerance) + " of the extent within " +
-           std::to_string(found.largest_lag) + " samples";
-  }
-  std::string lines() const {
-    if (!indicators_.lines) return "no spectrum was looked at";
-    const SpectralIndicators& found = *indicators_.lines;
-    std::string text = number(100.0 * found.continuous) + " % of the power between the lines, " +
-                       std::to_string(found.lines_holding) + " lines hold 99 %";
-    if (found.division > 0) {
-      text += ", multiples of f/" + std::to_string(found.division) + " hold " +
-              number(100.0 * found.share) + " %";
+  Classification classify() const {
+    if (indicators_.diverged_at) {
+      return {AttractorType::diverges, 0,
+              "The motion has left all bounds by sample " +
+                  std::to_string(*indicators_.diverged_at) + "."};
     }
-    return text;
-  }
-  std::string growth() const {
-    return "the extent of the last quarter is " + number(*indicators_.extent_growth) +
-           " times that of the first";
-  }
-  std::string switching() const {
-    if (!indicators_.switching) return "";
-    return "; contacts carry " + number(indicators_.switching->entropy) + " bit per sample";
-  }
-  std::string all() const {
-    return exponent() + "; " + zero_one() + "; " + repeat() + "; " + lines();
+    if (indicators_.certified_period) {
+      return {AttractorType::periodic, *indicators_.certified_period,
+              "Certified orbit of " + std::to_string(*indicators_.certified_period) + " samples."};
+    }
+    if (is_short()) {
+      return undecided("The record covers only " + number_text(*indicators_.forcing_periods) +
+                       " periods of the forcing");
+    }
+    if (indicators_.repeat && indicators_.repeat->lag > 0) return repeating();
+    if (!indicators_.largest_exponent) return undecided("No exponent is known");
+    if (!is_steady()) {
+      return undecided("The motion is not steady, the extent of the last quarter is " +
+                       number_text(*indicators_.extent_growth) + " times that of the first");
+    }
+    if (indicators_.largest_exponent->positive()) return separating();
+    return comes_together() ? contracting() : neutral();
   }
 
-  static std::string number(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
+  /// The same under a recorded force, or with samples that jitter.
+  ///
+  /// The spectrum of such a motion, its 0–1 test and its repetitions are those of the forcing as
+  /// much as its own, and a forcing that does not repeat is no sum of incommensurate harmonics. So
+  /// nothing is called quasi-periodic. Divergence stands, and so does chaos, by an exponent above
+  /// zero. Where the samples jitter nothing is called periodic but rest; a recurrence under a
+  /// recorded force is one of the series. Else an exponent below zero decides, whatever the rest:
+  /// neighbours come together under one and the same forcing, so that the motion follows it.
+  Classification classify_irregularly_forced(bool samples_jitter) const {
+    const Classification regular = classify();
+    const bool repeats = regular.kind == AttractorType::periodic;
+    const bool stands = regular.kind == AttractorType::diverges ||
+                        regular.kind == AttractorType::chaotic ||
+                        (repeats && (!samples_jitter || regular.period == 1));
+    if (stands || is_short()) return regular;
+    if (comes_together())
+      return irregular(
+          "Neighbours come together and follow a forcing or samples that do not repeat");
+    if (regular.kind == AttractorType::undecided) return regular;
+    return undecided("The forcing or the samples do not repeat, and the exponent does not decide");
   }
 
  private:
+  Classification repeating() const {
+    if (indicators_.largest_exponent && indicators_.largest_exponent->positive())
+      return undecided("The motion repeats although its neighbours leave it");
+    return {AttractorType::periodic, indicators_.repeat->lag,
+            "Recurrence, no certificate: the second half of the series " + repeat_text() +
+                ", three times and more, to " + number_text(indicators_.repeat->tolerance) +
+                " of its extent."};
+  }
+
+  Classification separating() const {
+    if (!(indicators_.zero_one && *indicators_.zero_one >= zero_one_high))
+      return undecided("Neighbours separate, but the 0-1 test does not show chaos");
+    if (has_lines_alone() || has_one_base())
+      return undecided("Neighbours separate, but the spectrum is one of lines");
+    return weighed(AttractorType::chaotic, "Neighbours separate exponentially in a bounded motion");
+  }
+
+  Classification neutral() const {
+    if (!is_regular() || !searched_in_vain())
+      return undecided("The exponent is not told from zero, and the rest does not decide");
+    if (!has_lines_alone() || has_one_base())
+      return undecided(
+          "The exponent is not told from zero, and the lines show no second frequency");
+    return weighed(AttractorType::quasi_periodic,
+                   "The exponent is zero within its error and the spectrum has lines without a "
+                   "common base");
+  }
+
+  Classification contracting() const {
+    const bool floor = indicators_.lines && !has_lines_alone();
+    if (indicators_.forcing_incommensurate && is_regular() && !floor) {
+      return weighed(AttractorType::quasi_periodic,
+                     "The state follows its forcing, whose period and the sampling period have no "
+                     "common multiple");
+    }
+    if (!searched_in_vain())
+      return undecided("Neighbours come together, but no repetition was looked for");
+    if (has_one_base() || (is_regular() && has_lines_alone()))
+      return undecided(
+          "A regular series that does not repeat, slowly settling or of a long period");
+    return irregular(
+        "Neighbours come together, yet the motion does not repeat; its period may be longer, or "
+        "the contacts never settle");
+  }
+
+  Classification weighed(AttractorType kind, const std::string& why,
+                         const std::string& more = "") const {
+    return {kind, 0,
+            why + ": " + exponent_text() + "; " + zero_one_text() + "; " + repeat_text() + "; " +
+                lines_text() + more + "."};
+  }
+  Classification undecided(const std::string& why) const {
+    return weighed(AttractorType::undecided, why);
+  }
+  Classification irregular(const std::string& why) const {
+    const std::string switching =
+        indicators_.switching
+            ? "; contacts carry " + number_text(indicators_.switching->entropy) + " bit per sample"
+            : "";
+    return weighed(AttractorType::irregular_contracting, why, switching);
+  }
+
+  std::string exponent_text() const {
+    if (!indicators_.largest_exponent) return "no exponent is known";
+    const ExponentEstimate& found = *indicators_.largest_exponent;
+    return "largest exponent " + number_text(found.value) + " +- " + number_text(found.half_width) +
+           " per " + found.per + " (95 %)";
+  }
+  std::string zero_one_text() const {
+    if (!indicators_.zero_one) return "no 0-1 test was made";
+    return "0-1 test K = " + number_text(*indicators_.zero_one);
+  }
+  std::string repeat_text() const {
+    if (!indicators_.repeat) return "no repetition was looked for";
+    const RepetitionIndicators& found = *indicators_.repeat;
+    if (found.lag > 0) return "repeats after " + std::to_string(found.lag) + " samples";
+    return "no repetition to " + number_text(found.tolerance) + " of the extent within " +
+           std::to_string(found.largest_lag) + " samples";
+  }
+  std::string lines_text() const {
+    if (!indicators_.lines) return "no spectrum was looked at";
+    const SpectralIndicators& found = *indicators_.lines;
+    const std::string text = number_text(100.0 * found.continuous) +
+                             " % of the power between the lines, " +
+                             std::to_string(found.lines_holding) + " lines hold 99 %";
+    if (found.division == 0) return text;
+    return text + ", multiples of f/" + std::to_string(found.division) + " hold " +
+           number_text(100.0 * found.share) + " %";
+  }
+
+  bool is_short() const {
+    return indicators_.forcing_periods && *indicators_.forcing_periods < fewest_forcing_periods;
+  }
+  bool is_steady() const {
+    return !indicators_.extent_growth || (*indicators_.extent_growth <= steady_growth &&
+                                          *indicators_.extent_growth * steady_growth >= 1.0);
+  }
+  bool comes_together() const {
+    return indicators_.largest_exponent && indicators_.largest_exponent->negative();
+  }
+  bool is_regular() const { return indicators_.zero_one && *indicators_.zero_one <= zero_one_low; }
+  bool searched_in_vain() const { return indicators_.repeat && indicators_.repeat->lag == 0; }
+  /// Nothing but separate lines; false where no spectrum is known.
+  bool has_lines_alone() const {
+    return indicators_.lines && indicators_.lines->continuous <= lines_only_share;
+  }
+  /// The power lies on the multiples of one frequency; false where no spectrum is known.
+  bool has_one_base() const { return indicators_.lines && indicators_.lines->division > 0; }
+
   const ChaosIndicators& indicators_;
 };
-
-inline bool is_low(const std::optional<double>& zero_one) {
-  return zero_one && *zero_one <= zero_one_low;
-}
-inline bool is_high(const std::optional<double>& zero_one) {
-  return zero_one && *zero_one >= zero_one_high;
-}
-inline bool is_steady(const ChaosIndicators& indicators) {
-  return !indicators.extent_growth || (*indicators.extent_growth <= steady_growth &&
-                                       *indicators.extent_growth * steady_growth >= 1.0);
-}
-inline bool searched_in_vain(const ChaosIndicators& indicators) {
-  return indicators.repeat && indicators.repeat->lag == 0;
-}
-/// Nothing but separate lines; false where no spectrum is known.
-inline bool lines_alone(const ChaosIndicators& indicators) {
-  return indicators.lines && indicators.lines->continuous <= lines_only_share;
-}
-/// The power lies on the multiples of one frequency; false where no spectrum is known.
-inline bool one_base(const ChaosIndicators& indicators) {
-  return indicators.lines && indicators.lines->division > 0;
-}
-
-inline Classification undecided(const std::string& why, const IndicatorText& words) {
-  return {AttractorType::undecided, 0, why + ": " + words.all() + "."};
-}
-
-inline Classification classify_repeating(const ChaosIndicators& indicators,
-                                         const IndicatorText& words) {
-  if (indicators.largest_exponent && indicators.largest_exponent->positive())
-    return undecided("The motion repeats although its neighbours leave it", words);
-  return {AttractorType::periodic, indicators.repeat->lag,
-          "Recurrence, no certificate: the second half of the series " + words.repeat() +
-              ", three times and more, to " + IndicatorText::number(indicators.repeat->tolerance) +
-              " of its extent."};
-}
-
-inline Classification classify_separating(const ChaosIndicators& indicators,
-                                          const IndicatorText& words) {
-  if (!is_high(indicators.zero_one))
-    return undecided("Neighbours separate, but the 0-1 test does not show chaos", words);
-  if (lines_alone(indicators) || one_base(indicators))
-    return undecided("Neighbours separate, but the spectrum is one of lines", words);
-  return {AttractorType::chaotic, 0,
-          "Neighbours separate exponentially in a bounded motion: " + words.all() + "."};
-}
-
-inline Classification classify_neutral(const ChaosIndicators& indicators,
-                                       const IndicatorText& words) {
-  if (!is_low(indicators.zero_one) || !searched_in_vain(indicators))
-    return undecided("The exponent is not told from zero, and the rest does not decide", words);
-  if (!lines_alone(indicators) || one_base(indicators))
-    return undecided("The exponent is not told from zero, and the lines show no second frequency",
-                     words);
-  return {
-      AttractorType::quasi_periodic, 0,
-      "The exponent is zero within its error and the spectrum has lines without a common base: " +
-          words.all() + "."};
-}
-
-inline Classification classify_contracting(const ChaosIndicators& indicators,
-                                           const IndicatorText& words) {
-  const bool floor = indicators.lines && !lines_alone(indicators);
-  if (indicators.forcing_incommensurate && is_low(indicators.zero_one) && !floor) {
-    return {AttractorType::quasi_periodic, 0,
-            "The state follows its forcing, whose period and the sampling period have no common "
-            "multiple: " +
-                words.all() + "."};
-  }
-  if (!searched_in_vain(indicators))
-    return undecided("Neighbours come together, but no repetition was looked for", words);
-  if (one_base(indicators) || (is_low(indicators.zero_one) && lines_alone(indicators)))
-    return undecided("A regular series that does not repeat, slowly settling or of a long period",
-                     words);
-  return {AttractorType::irregular_contracting, 0,
-          "Neighbours come together, yet the motion does not repeat; its period may be longer, or "
-          "the contacts never settle: " +
-              words.all() + words.switching() + "."};
-}
 
 }  // namespace detail
 
@@ -290,64 +324,7 @@ inline Classification classify_contracting(const ChaosIndicators& indicators,
 /// No statistic claims chaos alone: it takes a positive exponent and a high K that nothing
 /// contradicts. The classification is of the series that the indicators are of.
 inline Classification classify(const ChaosIndicators& indicators) {
-  const detail::IndicatorText words(indicators);
-  if (indicators.diverged_at) {
-    return {AttractorType::diverges, 0,
-            "The motion has left all bounds by sample " + std::to_string(*indicators.diverged_at) +
-                "."};
-  }
-  if (indicators.certified_period) {
-    return {AttractorType::periodic, *indicators.certified_period,
-            "Certified orbit of " + std::to_string(*indicators.certified_period) + " samples."};
-  }
-  if (indicators.forcing_periods && *indicators.forcing_periods < fewest_forcing_periods) {
-    return detail::undecided("The record covers only " +
-                                 detail::IndicatorText::number(*indicators.forcing_periods) +
-                                 " periods of the forcing",
-                             words);
-  }
-  if (indicators.repeat && indicators.repeat->lag > 0)
-    return detail::classify_repeating(indicators, words);
-  if (!indicators.largest_exponent) return detail::undecided("No exponent is known", words);
-  if (!detail::is_steady(indicators))
-    return detail::undecided("The motion is not steady, " + words.growth(), words);
-  if (indicators.largest_exponent->positive())
-    return detail::classify_separating(indicators, words);
-  if (indicators.largest_exponent->negative())
-    return detail::classify_contracting(indicators, words);
-  return detail::classify_neutral(indicators, words);
+  return detail::Classifier(indicators).classify();
 }
 
-namespace detail {
-
-/// Classifies a motion under a recorded force, or with samples that jitter.
-///
-/// Its spectrum, its 0–1 test and its repetitions are those of the forcing as much as its own, and
-/// a forcing that does not repeat is no sum of incommensurate harmonics. So nothing is called
-/// quasi-periodic. Divergence stands, and so does chaos, by an exponent above zero. Where the
-/// samples jitter nothing is called periodic but rest; a recurrence under a recorded force is one
-/// of the series. Else an exponent below zero decides, whatever the rest: neighbours come together
-/// under one and the same forcing, so that the motion follows it.
-inline Classification classify_irregularly_forced(const ChaosIndicators& indicators,
-                                                  bool samples_jitter) {
-  Classification classification = classify(indicators);
-  const bool repeats = classification.kind == AttractorType::periodic;
-  if (classification.kind == AttractorType::diverges ||
-      classification.kind == AttractorType::chaotic)
-    return classification;
-  if (repeats && (!samples_jitter || classification.period == 1)) return classification;
-  if (indicators.forcing_periods && *indicators.forcing_periods < fewest_forcing_periods)
-    return classification;
-  const IndicatorText words(indicators);
-  if (indicators.largest_exponent && indicators.largest_exponent->negative()) {
-    return {AttractorType::irregular_contracting, 0,
-            "Neighbours come together and follow a forcing or samples that do not repeat: " +
-                words.all() + words.switching() + "."};
-  }
-  if (classification.kind == AttractorType::undecided) return classification;
-  return undecided("The forcing or the samples do not repeat, and the exponent does not decide",
-                   words);
-}
-
-}  // namespace detail
 }  // namespace holdfast

@@ -93,6 +93,8 @@ class EventLyapunov {
 
   /// Natural logarithm per sample, over the samples since the last restart.
   const LyapunovSpectrum<double, size>& spectrum() const { return spectrum_; }
+  /// Number of batches complete, for the standard errors.
+  std::size_t complete_batches() const { return spectrum_.complete_batches(); }
   /// Forgets all but the tangent vectors.
   void restart() { spectrum_.restart(); }
 
@@ -101,41 +103,6 @@ class EventLyapunov {
   VariationalFlow<Contact> tangent_;
   LyapunovSpectrum<double, size> spectrum_;
 };
-
-namespace detail {
-
-/// The average of run_average() over the tangents of a motion.
-/// @tparam Lyapunov  EventLyapunov of the motion
-template <class Lyapunov>
-class TangentAverage {
- public:
-  /// @param pause  called every 2¹² samples
-  TangentAverage(Lyapunov& lyapunov, const std::function<void()>& pause)
-      : lyapunov_(lyapunov), pause_(pause) {}
-
-  template <class Ends>
-  bool take(std::int64_t samples, const Ends& ends) {
-    constexpr std::int64_t samples_between_pauses = 1 << 12;
-    for (std::int64_t taken = 0; taken < samples; ++taken) {
-      if (pause_ && taken % samples_between_pauses == 0) pause_();
-      lyapunov_.sense();
-      if (!std::isfinite(lyapunov_.state().sum())) return false;
-      lyapunov_.advance();
-      if (ends()) break;
-    }
-    return true;
-  }
-
-  void restart() { lyapunov_.restart(); }
-  const auto& spectrum() const { return lyapunov_.spectrum(); }
-  std::size_t complete_batches() const { return spectrum().complete_batches(); }
-
- private:
-  Lyapunov& lyapunov_;
-  const std::function<void()>& pause_;
-};
-
-}  // namespace detail
 
 /// The five leading Lyapunov exponents of a motion that may switch between its samples, from where
 /// it stands, natural logarithm per sample.
@@ -154,8 +121,7 @@ LyapunovResult run_event_lyapunov(EventMotion<Contact>& motion, const LyapunovRu
                                   const std::function<void()>& pause = {}) {
   validate(run);
   EventLyapunov<Contact> lyapunov(motion);
-  detail::TangentAverage<EventLyapunov<Contact>> average(lyapunov, pause);
-  return detail::run_average(average, run);
+  return detail::run_average(lyapunov, run, pause);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

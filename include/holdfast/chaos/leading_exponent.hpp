@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "holdfast/chaos/classification.hpp"
-#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 

@@ -1,18 +1,22 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "holdfast/chaos/block_spectrum.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast {
 
@@ -109,91 +113,109 @@ class JudgingTimes {
 
 /// Averages exponents over a run: leaves out the first samples, then goes on until the mean is
 /// accurate enough, the samples are at an end or the motion diverges.
-/// @param average  take(samples, ends) takes up to so many samples, fewer where `ends()` says so at
-///                 one of them, and tells whether the motion kept within the range of numbers;
-///                 restart(), spectrum() and complete_batches() are those of the exponents
-template <class Average>
-LyapunovResult run_average(Average& average, const LyapunovRun& run) {
-  const bool settled = average.take(run.discard, [] { return false; });
-  average.restart();
-  if (!settled) return lyapunov_result(LyapunovOutcome::diverged, average.spectrum(), run);
+/// @param motion  with its exponents: sense(), advance() and state() are those of the motion,
+///                restart(), spectrum() and complete_batches() those of the exponents
+/// @param pause   called every 2¹² samples
+template <class Lyapunov>
+LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
+                           const std::function<void()>& pause) {
+  // Up to so many samples; whether the motion has kept within the range of numbers.
+  const auto take = [&](std::int64_t samples, const auto& ends) {
+    constexpr std::int64_t samples_between_pauses = 1 << 12;
+    for (std::int64_t taken = 0; taken < samples; ++taken) {
+      if (pause && taken % samples_between_pauses == 0) pause();
+      motion.sense();
+      if (!std::isfinite(motion.state().sum())) return false;
+      motion.advance();
+      if (ends()) break;
+    }
+    return true;
+  };
+  const bool settled = take(run.discard, [] { return false; });
+  motion.restart();
+  if (!settled) return lyapunov_result(LyapunovOutcome::diverged, motion.spectrum(), run);
   JudgingTimes judging(run);
   bool accurate = false;
-  const bool stayed = average.take(run.most_samples, [&] {
-    if (!judging.have_come(average.complete_batches())) return false;
+  const bool stayed = take(run.most_samples, [&] {
+    if (!judging.have_come(motion.complete_batches())) return false;
     const Vector<double, 5> errors =
-        average.spectrum().cautious_standard_errors().template head<5>();
+        motion.spectrum().cautious_standard_errors().template head<5>();
     accurate = accurate_enough(errors, run);
     return accurate;
   });
   const auto outcome = !stayed    ? LyapunovOutcome::diverged
                        : accurate ? LyapunovOutcome::accurate
                                   : LyapunovOutcome::sample_limit;
-  return lyapunov_result(outcome, average.spectrum(), run);
+  return lyapunov_result(outcome, motion.spectrum(), run);
 }
 
-/// The contacts of the next `samples` samples of a motion; fewer if it diverges.
-template <class Motion>
-LaneBlocks<double> next_blocks(Motion& motion, std::int64_t samples) {
-  ItineraryBlock block = 1;
-  for (std::int64_t taken = 0; taken < samples; ++taken) {
-    const bool engaged = motion.sense().engaged;
-    if (!std::isfinite(motion.state().sum())) break;
-    block = followed_by(block, engaged);
-    motion.advance();
+}  // namespace detail
+
+/// Observer of a trajectory that accumulates its Lyapunov spectrum: S where the force is
+/// transmitted, S* in the backlash.
+///
+/// The consistent tangent comes from the loop of the motion itself. Kollár 2022 prints S and S*
+/// with δ = τ beside a trajectory with δ = 0; passing the loop of δ = τ here gives the exponents of
+/// Table 2.
+/// @tparam Scalar  `double`, that of the loop
+template <class Scalar>
+class LyapunovObserver {
+ public:
+  /// @param tangent_loop  whose S and S* are the tangents
+  /// @param gains         P (N/m) and D (N s/m) of the motion
+  LyapunovObserver(const SampledLoop<Scalar>& tangent_loop, const PdGains<Scalar>& gains)
+      : LyapunovObserver(std::make_shared<const ItineraryBlocks>(tangent_loop, gains)) {}
+
+  /// @param blocks  of the loop whose S and S* are the tangents
+  /// @param scope   what is computed
+  explicit LyapunovObserver(std::shared_ptr<const ItineraryBlocks> blocks,
+                            LyapunovScope scope = LyapunovScope::all)
+      : engine_(std::move(blocks), scope) {}
+
+  /// Takes the contact of the next sample, and nothing else of it.
+  void operator()(const MotionSample<Scalar>& sample) {
+    open_[0] = followed_by(open_[0], sample.engaged);
+    if (!is_whole(open_[0])) return;
+    engine_.push(open_);
+    open_ = empty_blocks<Scalar>();
   }
-  return {block};
-}
 
-/// How a series of blocks ended.
-struct OpenBlock {
-  LaneBlocks<double> block;  ///< the last one, incomplete
-  bool diverged;             ///< whether the motion did, after that block
+  /// The spectrum over the samples seen so far, as of QR at every one of them. Reading it, however
+  /// often, changes nothing.
+  LyapunovSpectrum<Scalar, 5> spectrum() const { return engine_.spectrum(open_); }
+  /// Number of batches complete, for the standard errors.
+  std::size_t complete_batches() const { return engine_.complete_batches(); }
+  /// Forgets all but the directions of the tangent vectors.
+  void restart() {
+    engine_.restart(open_);
+    open_ = empty_blocks<Scalar>();
+  }
+
+ private:
+  BlockSpectrum<Scalar> engine_;
+  LaneBlocks<Scalar> open_ = empty_blocks<Scalar>();
 };
 
-/// Goes through `samples` samples of a motion: whole blocks to `take`, which may end it by
-/// returning false.
-template <class Motion, class Take>
-OpenBlock run_blocks(Motion& motion, std::int64_t samples, const Take& take) {
-  while (samples > 0) {
-    const std::int64_t wanted = std::min<std::int64_t>(samples, ItineraryBlocks::length);
-    const LaneBlocks<double> block = next_blocks(motion, wanted);
-    if (!is_whole(block[0])) return {block, samples_of(block[0]) < wanted};
-    samples -= ItineraryBlocks::length;
-    if (!take(block)) break;
-  }
-  return {empty_blocks<double>(), false};
-}
+namespace detail {
 
-/// The average of run_average() over the contacts of a motion.
+/// A motion of the sampled loop with its exponents.
 template <class Motion>
-class BlockAverage {
+class SampledLyapunov : public LyapunovObserver<double> {
  public:
-  BlockAverage(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
-               LyapunovScope scope)
-      : motion_(motion), spectrum_(blocks, scope) {}
+  SampledLyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
+                  LyapunovScope scope)
+      : LyapunovObserver(blocks, scope), motion_(motion) {}
 
-  template <class Ends>
-  bool take(std::int64_t samples, const Ends& ends) {
-    const OpenBlock open = run_blocks(motion_, samples, [&](const auto& block) {
-      spectrum_.push(block);
-      return !ends();
-    });
-    open_ = open.block;
-    return !open.diverged;
+  void sense() { sample_ = motion_.sense(); }
+  void advance() {
+    (*this)(sample_);
+    motion_.advance();
   }
-
-  void restart() {
-    spectrum_.restart(open_);
-    open_ = empty_blocks<double>();
-  }
-  auto spectrum() const { return spectrum_.spectrum(open_); }
-  std::size_t complete_batches() const { return spectrum_.complete_batches(); }
+  const auto& state() const { return motion_.state(); }
 
  private:
   Motion& motion_;
-  BlockSpectrum<double> spectrum_;
-  LaneBlocks<double> open_ = empty_blocks<double>();
+  MotionSample<double> sample_{};
 };
 
 }  // namespace detail
@@ -211,8 +233,8 @@ template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
                             const LyapunovRun& run) {
   validate(run);
-  detail::BlockAverage<Motion> average(motion, blocks, run.scope);
-  return detail::run_average(average, run);
+  detail::SampledLyapunov<Motion> lyapunov(motion, blocks, run.scope);
+  return detail::run_average(lyapunov, run, {});
 }
 
 }  // namespace holdfast

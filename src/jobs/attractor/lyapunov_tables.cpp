@@ -5,7 +5,6 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
-#include "holdfast/chaos/lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "io/text/table.hpp"

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "case/model/loop_of_case.hpp"
-#include "holdfast/chaos/event_classification.hpp"
-#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "jobs/charts/conditioning.hpp"

@@ -6,10 +6,9 @@
 #include <memory>
 
 #include "case/model/loop_of_case.hpp"
-#include "holdfast/chaos/event_classification.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
-#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "jobs/motion/motion_run.hpp"

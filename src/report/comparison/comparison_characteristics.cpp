@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "holdfast/chaos/lyapunov.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/signal/spectrum.hpp"

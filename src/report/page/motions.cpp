@@ -8,8 +8,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "holdfast/chaos/event_classification.hpp"
-#include "holdfast/chaos/sampled_classification.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "io/text/text.hpp"
 #include "jobs/orbit/orbit_certificate.hpp"

@@ -1,4 +1,4 @@
-#include "holdfast/chaos/event_classification.hpp"
+#include "holdfast/chaos/motion_classification.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/chaos/sampled_classification.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
@@ -37,9 +36,10 @@ ImplementedLoop classified_implemented_loop(double sampling_period, double width
   return loop;
 }
 
-EventClassification classified_from_rest(const ImplementedLoop& loop,
-                                         const OrbitLimits& limits = {}) {
-  return classify_motion(loop, Vector<double, 4>::Zero(), limits);
+/// @tparam Loop  IdealLoop<double> or ImplementedLoop
+template <class Loop>
+auto classified_from_rest(const Loop& loop) {
+  return classify_motion(loop, Vector<double, 4>::Zero());
 }
 
 /// ln ρ(S), the exponent per sample of a loop without backlash.
@@ -73,7 +73,7 @@ std::shared_ptr<const RecordedForce> random_record(double duration, double sampl
   return std::make_shared<const RecordedForce>(times, forces, RecordInterpolation::held);
 }
 
-TEST(EventClassification, OfSampledSwitchingIsThatOfTheModelOfThePaper) {
+TEST(MotionClassification, OfSampledSwitchingIsThatOfTheModelOfThePaper) {
   for (const ClassifiedCase& which : {ClassifiedCase{0.001, 0.0005, 0.0},
                                       {0.01, 0.002, 0.0},
                                       {0.003, 0.002, 0.0},
@@ -95,7 +95,7 @@ TEST(EventClassification, OfSampledSwitchingIsThatOfTheModelOfThePaper) {
   }
 }
 
-TEST(EventClassification, OfExactSwitchingIsPeriodicByCertificate) {
+TEST(MotionClassification, OfExactSwitchingIsPeriodicByCertificate) {
   for (const ClassifiedCase& which :
        {ClassifiedCase{0.001, 0.0005, 0.0}, {0.005, 0.001, 0.0}, {0.01, 0.002, 0.0}}) {
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
@@ -114,7 +114,15 @@ TEST(EventClassification, OfExactSwitchingIsPeriodicByCertificate) {
   }
 }
 
-TEST(EventClassification, WithoutBacklashBothSwitchingsFollowTheForcing) {
+TEST(MotionClassification, TheIrregularMotionOfThePaperIsPeriodic) {
+  const SampledClassification found = classified_from_rest(classified_ideal_loop(0.011, 0.002));
+  EXPECT_EQ(found.classification.kind, AttractorType::periodic);
+  EXPECT_EQ(found.classification.period, 2100);
+  EXPECT_TRUE(found.indicators.certified_period.has_value());
+  EXPECT_NE(found.classification.rests_on.find("Certified"), std::string::npos);
+}
+
+TEST(MotionClassification, WithoutBacklashBothSwitchingsFollowTheForcing) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const ImplementedLoop loop = classified_implemented_loop(0.01, 0.0, switching);
     const EventClassification found = classified_from_rest(loop);
@@ -125,7 +133,10 @@ TEST(EventClassification, WithoutBacklashBothSwitchingsFollowTheForcing) {
   }
 }
 
-TEST(EventClassification, ADelayOfAWholePeriodDiverges) {
+TEST(MotionClassification, ADelayOfAWholePeriodDiverges) {
+  IdealLoop<double> paper = classified_ideal_loop(0.011, 0.002);
+  paper.sampling.processing_delay = 0.011;
+  EXPECT_EQ(classified_from_rest(paper).classification.kind, AttractorType::diverges);
   // With exact switching the stick phases of any backlash would hold the motion.
   for (const auto& [switching, width] :
        {std::pair{Switching::sampled, 0.002}, std::pair{Switching::exact, 0.0}}) {
@@ -137,7 +148,7 @@ TEST(EventClassification, ADelayOfAWholePeriodDiverges) {
   }
 }
 
-TEST(EventClassification, IncommensurateHarmonicsOfAStableLinearLoopAreQuasiPeriodic) {
+TEST(MotionClassification, IncommensurateHarmonicsOfAStableLinearLoopAreQuasiPeriodic) {
   ImplementedLoop loop = classified_implemented_loop(0.01, 0.0);
   loop.digital.force.harmonics = {{0.3, 10.0}, {0.2, 10.0 * std::sqrt(0.5), 1.0}};
   const EventClassification found = classified_from_rest(loop);
@@ -147,7 +158,21 @@ TEST(EventClassification, IncommensurateHarmonicsOfAStableLinearLoopAreQuasiPeri
   expect_exponent(found, exponent_without_backlash(loop));
 }
 
-TEST(EventClassification, AGapThatIsNeverLeftLeavesThePlantAlone) {
+TEST(MotionClassification, UnderAnIncommensurateForcingThePapersLoopIsNeverPeriodicByCertificate) {
+  for (const double width : {0.0, 0.002}) {
+    IdealLoop<double> loop = classified_ideal_loop(0.011, width);
+    loop.excitation.frequency = 9.8765432101;
+    const SampledClassification found = classified_from_rest(loop);
+    EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);
+    EXPECT_FALSE(found.indicators.certified_period.has_value());
+    if (width == 0.0) EXPECT_EQ(found.classification.kind, AttractorType::quasi_periodic);
+    EXPECT_NE(found.classification.kind, AttractorType::chaotic);
+    ASSERT_TRUE(found.indicators.largest_exponent.has_value());
+    EXPECT_TRUE(found.indicators.largest_exponent->negative());
+  }
+}
+
+TEST(MotionClassification, AGapThatIsNeverLeftLeavesThePlantAlone) {
   ImplementedLoop loop = classified_implemented_loop(0.01, 0.02);
   loop.digital.force.harmonics = {{0.5, 10.0 * std::sqrt(0.5)}};
   const EventClassification found = classified_from_rest(loop);
@@ -156,7 +181,7 @@ TEST(EventClassification, AGapThatIsNeverLeftLeavesThePlantAlone) {
   expect_exponent(found, exponent_of_plant(loop));
 }
 
-TEST(EventClassification, AJitteringClockGivesNoPeriodicClaim) {
+TEST(MotionClassification, AJitteringClockGivesNoPeriodicClaim) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const double width : {0.0, 0.001}) {
       for (const double half_width : {1e-11, 1e-3}) {
@@ -175,7 +200,7 @@ TEST(EventClassification, AJitteringClockGivesNoPeriodicClaim) {
   }
 }
 
-TEST(EventClassification, RestIsRestAlsoWhereTheClockJitters) {
+TEST(MotionClassification, RestIsRestAlsoWhereTheClockJitters) {
   ImplementedLoop loop = classified_implemented_loop(0.01, 0.0);
   loop.digital.jitter = {1e-3, 5};
   loop.digital.force = {};
@@ -185,7 +210,7 @@ TEST(EventClassification, RestIsRestAlsoWhereTheClockJitters) {
   EXPECT_FALSE(found.indicators.certified_period.has_value());
 }
 
-TEST(EventClassification, AMotionUnderARandomRecordFollowsIt) {
+TEST(MotionClassification, AMotionUnderARandomRecordFollowsIt) {
   const double period = 0.01, duration = 120.0;
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     for (const double width : {0.0, 0.001}) {
@@ -205,7 +230,7 @@ TEST(EventClassification, AMotionUnderARandomRecordFollowsIt) {
   }
 }
 
-TEST(EventClassification, AShortRecordDecidesNothing) {
+TEST(MotionClassification, AShortRecordDecidesNothing) {
   ImplementedLoop loop = classified_implemented_loop(0.01, 0.001);
   loop.digital.force = {{}, random_record(41.0, 0.01)};
   const EventClassification found = classified_from_rest(loop);
@@ -214,7 +239,7 @@ TEST(EventClassification, AShortRecordDecidesNothing) {
   EXPECT_FALSE(found.indicators.largest_exponent.has_value());
 }
 
-TEST(EventClassification, NoiseWithoutACommonPeriodIsNeverCalledPeriodic) {
+TEST(MotionClassification, NoiseWithoutACommonPeriodIsNeverCalledPeriodic) {
   ImplementedLoop loop = classified_implemented_loop(0.01, 0.001);
   loop.digital.force.harmonics = band_limited_noise({0.35, 1.0, 10.0 * pi<double>, 40, 7});
   const EventClassification found = classified_from_rest(loop);
@@ -226,7 +251,7 @@ TEST(EventClassification, NoiseWithoutACommonPeriodIsNeverCalledPeriodic) {
   EXPECT_TRUE(found.indicators.largest_exponent->negative());
 }
 
-TEST(EventClassification, IrregularForcingClaimsNoSecondFrequency) {
+TEST(MotionClassification, IrregularForcingClaimsNoSecondFrequency) {
   ChaosIndicators indicators;
   indicators.repeat = RepetitionIndicators{0, 1000, 1e-9};
   indicators.zero_one = 0.0;
@@ -234,24 +259,25 @@ TEST(EventClassification, IrregularForcingClaimsNoSecondFrequency) {
   indicators.extent_growth = 1.0;
   indicators.largest_exponent = ExponentEstimate{0.0, 1e-6};
   ASSERT_EQ(classify(indicators).kind, AttractorType::quasi_periodic);
-  EXPECT_EQ(detail::classify_irregularly_forced(indicators, true).kind, AttractorType::undecided);
+  const auto kind = [&indicators](bool samples_jitter) {
+    return detail::Classifier(indicators).classify_irregularly_forced(samples_jitter).kind;
+  };
+  EXPECT_EQ(kind(true), AttractorType::undecided);
   indicators.largest_exponent = ExponentEstimate{-0.1, 1e-6};
   indicators.forcing_incommensurate = true;
   ASSERT_EQ(classify(indicators).kind, AttractorType::quasi_periodic);
-  EXPECT_EQ(detail::classify_irregularly_forced(indicators, true).kind,
-            AttractorType::irregular_contracting);
+  EXPECT_EQ(kind(true), AttractorType::irregular_contracting);
   indicators.repeat->lag = 7;
   ASSERT_EQ(classify(indicators).kind, AttractorType::periodic);
-  EXPECT_EQ(detail::classify_irregularly_forced(indicators, false).kind, AttractorType::periodic);
-  EXPECT_EQ(detail::classify_irregularly_forced(indicators, true).kind,
-            AttractorType::irregular_contracting);
+  EXPECT_EQ(kind(false), AttractorType::periodic);
+  EXPECT_EQ(kind(true), AttractorType::irregular_contracting);
   indicators.forcing_periods = 3.0;
-  EXPECT_EQ(detail::classify_irregularly_forced(indicators, true).kind, AttractorType::undecided);
+  EXPECT_EQ(kind(true), AttractorType::undecided);
   indicators.diverged_at = 9;
-  EXPECT_EQ(detail::classify_irregularly_forced(indicators, true).kind, AttractorType::diverges);
+  EXPECT_EQ(kind(true), AttractorType::diverges);
 }
 
-TEST(EventClassification, WhatIsOutOfRangeIsRefused) {
+TEST(MotionClassification, WhatIsOutOfRangeIsRefused) {
   const Vector<double, 4> start = Vector<double, 4>::Zero();
   EXPECT_THROW(classify_motion(classified_implemented_loop(0.01, -0.002), start), InvalidParameter);
   EXPECT_THROW(classify_motion(classified_implemented_loop(0.01, 0.002), start, {0, 0}),

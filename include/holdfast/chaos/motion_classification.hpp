@@ -1,0 +1,339 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "holdfast/chaos/chaos_indicators.hpp"
+#include "holdfast/chaos/classification.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/variational_flow.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/natural_modes.hpp"
+#include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// What a search for the periodic orbit of an ImplementedLoop's motion found, for any contact.
+/// @tparam States  N, the order of the plant
+template <int States>
+struct EventSearchResultOf {
+  /// How the search ended; `incommensurate` also under a recorded force or where samples jitter.
+  OrbitOutcome outcome = OrbitOutcome::none_found;
+  std::optional<EventOrbitOf<States>> orbit;  ///< as in EventOrbitResult
+  std::int64_t samples = 0;                   ///< of the motion that was looked at
+  int candidates = 0;                         ///< returns that were solved for
+};
+
+/// That of the two masses.
+using EventSearchResult = EventSearchResultOf<4>;
+
+/// What a motion of a loop with backlash is, with its certificate or the indicators.
+/// @tparam Search  OrbitResult or EventSearchResultOf the plant's order
+template <class Search>
+struct ClassifiedMotion {
+  Classification classification;  ///< what the motion is, and what that rests on
+  Search search;                  ///< the orbit, where there is one
+  ChaosIndicators indicators;     ///< of a certified orbit its period and its exponent alone
+};
+
+/// That of an IdealLoop.
+using SampledClassification = ClassifiedMotion<OrbitResult>;
+/// That of an ImplementedLoop. @tparam States  N, the order of the plant
+template <int States>
+using EventClassificationOf = ClassifiedMotion<EventSearchResultOf<States>>;
+/// That of the two masses.
+using EventClassification = EventClassificationOf<4>;
+
+namespace detail {
+
+/// @param shown  what it shows of the orbit's contacts
+template <class Orbit>
+std::string certificate_text(const Orbit& orbit, const std::string& shown) {
+  const auto counted = [](std::int64_t count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  std::string text = "Certified orbit of " + counted(orbit.period_samples(), "sample");
+  if (orbit.forcing_periods() > 0)
+    text += ", " + counted(orbit.forcing_periods(), "forcing period");
+  const double modulus = orbit.largest_multiplier();
+  return text + ": " + shown + ", its largest multiplier is " +
+         (modulus > 0.0 ? number_text(modulus)
+                        : "e^" + number_text(orbit.multipliers.front().log_modulus)) +
+         ", and it closes to " + number_text(orbit.closure_error) + " in m and m/s.";
+}
+
+/// Takes the classification from the search where that has certified an orbit or seen the motion
+/// diverge.
+/// @param shown   what a certificate shows of the orbit's contacts
+/// @return whether it has
+template <class Search>
+bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& shown) {
+  const bool certified = found.search.outcome == OrbitOutcome::certified;
+  if (!certified && found.search.outcome != OrbitOutcome::diverges) return false;
+  if (certified) {
+    const auto& orbit = *found.search.orbit;
+    const auto samples = static_cast<double>(orbit.period_samples());
+    found.indicators.certified_period = orbit.period_samples();
+    found.indicators.largest_exponent =
+        ExponentEstimate{orbit.multipliers.front().log_modulus / samples, 0.0, "sample"};
+  } else {
+    found.indicators.diverged_at = found.search.samples;
+  }
+  found.classification = classify(found.indicators);
+  if (certified) found.classification.rests_on = certificate_text(*found.search.orbit, shown);
+  return true;
+}
+
+/// How a loop is looked at: as many samples as the 0–1 test wants forcing periods for.
+/// @param cycles  f τ, periods of the forcing in a sample, > 0
+inline IndicatorOptions indicator_options(double cycles) {
+  IndicatorOptions options;
+  const double samples_of_period = std::clamp(std::round(1.0 / cycles), 1.0, 200.0);
+  options.zero_one_stride = static_cast<std::int64_t>(samples_of_period);
+  options.samples = std::clamp<std::int64_t>(1008 * options.zero_one_stride, 20160, 100000);
+  options.transient = options.samples;
+  options.base_frequency = cycles;
+  return options;
+}
+
+/// The indicators of a motion of an IdealLoop from its samples.
+template <class Scalar>
+ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
+                                     const Vector<double, 4>& initial_state,
+                                     const IndicatorOptions& options) {
+  auto motion = harmonically_forced_motion(loop, initial_state);
+  const Matrix<double, 5> maps[] = {motion.loop().backlash_map(),
+                                    motion.loop().engaged_map(loop.gains)};
+  bool engaged = true;
+  const auto advance = [&](Vector<double, 5>& state) {
+    engaged = motion.sense().engaged;
+    motion.advance();
+    state << motion.state(), motion.memory().previous_force;
+  };
+  const auto displacement = [](const Vector<double, 5>& state) { return state[0]; };
+  const auto tangent = [&](const Vector<double, 5>&) { return maps[engaged ? 1 : 0]; };
+  const auto contact = [&] { return engaged; };
+  Vector<double, 5> first;
+  first << initial_state, 0.0;
+  return chaos_indicators<5>(first, advance, displacement, options, tangent, contact);
+}
+
+/// The same of an EventMotion, whose states [x; u_{j−1}; 0; 0] have room for the tangent of
+/// VariationalFlow.
+/// @param gap_counts  whether a deviation of the gap is one of the motion
+/// @return nothing where its changes of contact accumulate
+template <class Contact>
+std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& start,
+                                                    const IndicatorOptions& options,
+                                                    bool gap_counts = true) {
+  constexpr int size = VariationalFlow<Contact>::size;
+  using State = Vector<double, size>;
+  EventMotion<Contact> motion = start;
+  VariationalFlow<Contact> flow(motion);
+  bool engaged = true;
+  std::int64_t last_engaged = 0;  // since then the drive has not left its gap
+  const auto times_engaged = [&motion] {
+    return motion.counts().entered[static_cast<std::size_t>(ContactMode::engaged)];
+  };
+  const auto state = [&motion] {
+    State now(motion.state().size() + 3);
+    now << motion.state(), motion.previous_command(), 0.0, 0.0;
+    return now;
+  };
+  // The types of the callables are the same for every contact, so that chaos_indicators() is
+  // compiled once.
+  const std::function<void(State&)> advance = [&](State& after) {
+    const std::int64_t before = times_engaged();
+    engaged = motion.sense().engaged;
+    flow.begin_sample(motion);
+    motion.advance(flow);
+    if (motion.contact().word() != ContactMode::gap || times_engaged() != before)
+      last_engaged = motion.index();
+    after = state();
+  };
+  const std::function<double(const State&)> displacement = [&motion](const State& at) {
+    return motion.readings().displacement(at.head(motion.state().size()));
+  };
+  const std::function<Matrix<double, size>(const State&)> tangent = [&](const State&) {
+    Matrix<double, size> map = flow.map();
+    if (gap_counts) return map;
+    map.row(motion.state().size() + 1).setZero();
+    map.col(motion.state().size() + 1).setZero();
+    return map;
+  };
+  const std::function<bool()> contact = [&engaged] { return engaged; };
+  const ChaosIndicators indicators =
+      chaos_indicators<size>(state(), advance, displacement, options, tangent, contact);
+  if (!gap_counts) return indicators;
+  if (motion.counts().accumulates) return std::nullopt;
+  if (indicators.diverged_at || last_engaged > options.transient) return indicators;
+  // Where a gap lies that is never left is without effect: no direction of the motion, but a
+  // neutral one of the tangent.
+  return indicators_of_motion(start, options, false);
+}
+
+/// Whether neither forcing nor samples follow a rule that is known to repeat.
+inline bool is_irregularly_forced(const DigitalLoop& loop) {
+  return loop.force.record != nullptr || loop.jitter.half_width > 0.0;
+}
+
+/// The harmonic that motions are measured by; null without one.
+inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
+  const auto first =
+      std::find_if(force.harmonics.begin(), force.harmonics.end(),
+                   [](const Harmonic& harmonic) { return harmonic.amplitude > 0.0; });
+  return first == force.harmonics.end() ? nullptr : &*first;
+}
+
+/// The frequency (Hz) at which a plant swings by itself: the conductor's own of the two masses,
+/// that of the slowest mode of another one; without any, its fastest rate.
+inline double own_frequency(const TwoMass<double>& plant) {
+  const double own = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
+  return own / (2.0 * pi<double>);
+}
+template <class Plant>
+double own_frequency(const Plant& plant) {
+  const auto modes = natural_modes(plant);
+  if (!modes.empty()) return modes.front().frequency();
+  return balanced_norm(plant.state_matrix()) / (2.0 * pi<double>);
+}
+
+/// The plan for a loop, by its first harmonic or else by its own frequency. A recorded force is not
+/// outlived by it.
+/// @return nothing where the record ends before enough samples
+template <class Plant>
+std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>& loop) {
+  const Harmonic* const harmonic = first_harmonic(loop.digital.force);
+  const double frequency = harmonic != nullptr ? harmonic->frequency : own_frequency(loop.plant);
+  IndicatorOptions options = indicator_options(frequency * loop.digital.sampling.period);
+  if (loop.digital.force.record == nullptr) return options;
+  constexpr double fewest = 2100.0, parts = 210.0;  // whole parts: see IndicatorOptions::samples
+  const double recorded = loop.digital.force.record->last_time() / loop.digital.sampling.period;
+  if (!(recorded >= 2.0 * fewest)) return std::nullopt;
+  const double half = parts * std::floor(recorded / (2.0 * parts));
+  if (half >= static_cast<double>(options.samples)) return options;
+  options.samples = options.transient = static_cast<std::int64_t>(half);
+  options.zero_one_stride =
+      std::clamp<std::int64_t>(options.zero_one_stride, 1, options.samples / 500);
+  return options;
+}
+
+/// The classification of a motion by its samples.
+/// @param is_forced  by a harmonic, whose periods are counted
+template <class Search>
+void weigh(ClassifiedMotion<Search>& found, const ChaosIndicators& indicators,
+           const IndicatorOptions& options, bool is_forced) {
+  found.indicators = indicators;
+  if (is_forced)
+    found.indicators.forcing_periods =
+        options.base_frequency * static_cast<double>(options.samples);
+  found.classification = classify(found.indicators);
+}
+
+template <class Plant, class Contact>
+void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Contact>& start,
+                   EventClassificationOf<states_of<Plant>>& found) {
+  const DigitalLoop& digital = loop.digital;
+  std::optional<IndicatorOptions> options = indicator_options(loop);
+  if (!options) {
+    found.classification.rests_on =
+        "The recorded force ends before the samples that a verdict needs.";
+    return;
+  }
+  const bool irregular = is_irregularly_forced(digital);
+  options->forcing_incommensurate =
+      found.search.outcome == OrbitOutcome::incommensurate && !irregular;
+  const std::optional<ChaosIndicators> indicators = indicators_of_motion(start, *options);
+  if (!indicators) {
+    found.classification.rests_on =
+        "Changes of contact accumulate: the motion cannot be followed further.";
+    return;
+  }
+  weigh(found, *indicators, *options, first_harmonic(digital.force) != nullptr);
+  if (irregular)
+    found.classification =
+        Classifier(found.indicators).classify_irregularly_forced(digital.jitter.half_width > 0.0);
+}
+
+}  // namespace detail
+
+/// Says what a motion is: by the orbit that it comes to, or, where none is found, by the indicators
+/// of its samples.
+///
+///     classify_motion(loop, Vector<double, 4>::Zero()).classification.kind;   //
+///     AttractorType::periodic
+///
+/// @param loop           the loop with its excitation and backlash
+/// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
+/// @param limits         of the search for an orbit
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples.
+/// @throws InvalidParameter where one of them is not admissible
+template <class Scalar>
+SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
+                                      const Vector<double, 4>& initial_state,
+                                      const OrbitLimits& limits = {}) {
+  SampledClassification found{{}, find_periodic_orbit(loop, initial_state, limits), {}};
+  if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
+  IndicatorOptions options =
+      detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
+  options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
+  detail::weigh(found, detail::indicators_of_motion(loop, initial_state, options), options,
+                loop.excitation.amplitude > 0.0);
+  return found;
+}
+
+/// The same of an implemented loop, with the saltation at every change of contact in the tangent.
+///
+/// The rules are those of `classify`. Three things are beyond an IdealLoop:
+///  - a recorded force or a clock that jitters: no orbit is looked for, and nothing is called
+///    quasi-periodic or, with such a clock, periodic, rest apart. An exponent below zero is
+///    `irregular_contracting`: neighbours come together under one and the same forcing. The
+///    evidence is of the samples before the record ends; undecided where those are fewer than 4200;
+///  - a quantised measurement has no tangent at its steps: exponents and multipliers are those
+///    between them;
+///  - where changes of contact accumulate the classification is undecided.
+/// @param loop           as it is built
+/// @param initial_state  x₀, N × 1, finite; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s)
+/// @param limits         of the search for an orbit
+/// Work: that of find_event_orbit() and of chaos_indicators() for up to 10⁵ samples.
+/// @throws InvalidParameter where one of them is not admissible
+/// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
+template <class Plant>
+EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<Plant>& loop,
+                                                        const StateOf<Plant>& initial_state,
+                                                        const OrbitLimits& limits = {}) {
+  validate(loop);
+  validate(limits);
+  require_finite("initial state", initial_state.sum(), "");
+  return with_motion(loop, initial_state, [&](const auto& motion) {
+    auto search = find_event_orbit(motion, limits);
+    EventClassificationOf<states_of<Plant>> found{
+        {}, {search.outcome, std::move(search.orbit), search.samples, search.candidates}, {}};
+    if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
+      detail::weigh_samples(loop, motion, found);
+    return found;
+  });
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SampledClassification classify_motion(const IdealLoop<double>&,
+                                                      const Vector<double, 4>&, const OrbitLimits&);
+extern template EventClassification classify_motion(const ImplementedLoop&,
+                                                    const Vector<double, 4>&, const OrbitLimits&);
+#endif
+
+}  // namespace holdfast
