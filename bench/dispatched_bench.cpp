@@ -4,15 +4,14 @@
 // prints nanoseconds of processor time of four computations, medians; tools/bench_dispatch runs the
 // two in turn and prints their ratios.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <vector>
 
-#include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
+#include "sweep_cells.hpp"
 #ifdef HOLDFAST_BENCH_KERNELS
 #include "kernels/kernels_of_units.hpp"
 #include "kernels/rows_on_packs.hpp"
@@ -109,22 +108,6 @@ void radii(const LoopChart& chart) {
   }
 }
 
-/// τ = 1 ms, as in sweep_bench.
-std::vector<SweepMotion> sweep() {
-  constexpr std::size_t cells = 256;
-  std::vector<SweepMotion> motions;
-  for (std::size_t k = 0; k < cells; ++k) {
-    const double x = static_cast<double>(k) / cells, y = std::sin(7.0 * static_cast<double>(k));
-    motions.push_back({{kollar2022_plant(),
-                        {0.001, 0.0},
-                        {-557.0 + 20.0 * y, -13.0 + 2.0 * x},
-                        {0.5 + 0.1 * y, 9.5 + x},
-                        0.0005 * (1.0 + 0.5 * y)},
-                       Vector<double, 4>(0.001 * y, 0.0, 0.0, 0.0)});
-  }
-  return motions;
-}
-
 double processor_time() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -153,7 +136,7 @@ int main() {
   line("chart_of_gains", cells, [&] { flags(gains); });
   line("chart_cell_by_cell", cells, [&] { flags(periods); });
   line("radius", cells, [&] { radii(gains); });
-  const auto motions = sweep();
+  const auto motions = bench::sweep_cells();
   std::vector<MotionMetrics> results(motions.size());
   constexpr double duration = 10.0;
   line("trajectory_sample", static_cast<double>(motions.size()) * 10001.0, [&] {

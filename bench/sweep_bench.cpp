@@ -19,6 +19,7 @@
 #include "holdfast/simd/parallel_rows.hpp"
 #include "medians.hpp"
 #include "processor.hpp"
+#include "sweep_cells.hpp"
 #if __has_include(<boost/numeric/odeint.hpp>)
 #include <array>
 #include <boost/numeric/odeint.hpp>
@@ -33,21 +34,6 @@ constexpr double duration = 20.0;
 constexpr std::size_t cells = 256;
 
 volatile double sink = 0.0;
-
-/// τ = 1 ms, r₀ about 0.5 mm; gains, gap, force and start differ from cell to cell.
-std::vector<SweepMotion> sweep() {
-  std::vector<SweepMotion> motions;
-  for (std::size_t k = 0; k < cells; ++k) {
-    const double x = static_cast<double>(k) / cells, y = std::sin(7.0 * static_cast<double>(k));
-    motions.push_back({{kollar2022_plant(),
-                        {0.001, 0.0},
-                        {-557.0 + 20.0 * y, -13.0 + 2.0 * x},
-                        {0.5 + 0.1 * y, 9.5 + x},
-                        0.0005 * (1.0 + 0.5 * y)},
-                       Vector<double, 4>(0.001 * y, 0.0, 0.0, 0.0)});
-  }
-  return motions;
-}
 
 double samples_of(const std::vector<SweepMotion>& motions, std::size_t stride) {
   double sum = 0.0;
@@ -194,7 +180,7 @@ void on_threads(const std::vector<SweepMotion>& motions, int threads) {
 }
 
 void measure() {
-  const auto motions = sweep();
+  const auto motions = bench::sweep_cells(cells);
   constexpr std::size_t stride = 8;
   std::vector<MotionMetrics> results(motions.size());
   std::vector<std::function<void()>> sides{

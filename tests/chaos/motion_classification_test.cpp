@@ -165,7 +165,9 @@ TEST(MotionClassification, UnderAnIncommensurateForcingThePapersLoopIsNeverPerio
     const SampledClassification found = classified_from_rest(loop);
     EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);
     EXPECT_FALSE(found.indicators.certified_period.has_value());
-    if (width == 0.0) EXPECT_EQ(found.classification.kind, AttractorType::quasi_periodic);
+    if (width == 0.0) {
+      EXPECT_EQ(found.classification.kind, AttractorType::quasi_periodic);
+    }
     EXPECT_NE(found.classification.kind, AttractorType::chaotic);
     ASSERT_TRUE(found.indicators.largest_exponent.has_value());
     EXPECT_TRUE(found.indicators.largest_exponent->negative());

@@ -18,6 +18,7 @@
 #include "holdfast/plant/decaying_norm.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 
@@ -32,21 +33,7 @@ struct Extras {
 };
 
 Order7 order_seven(const TwoMass<double>& plant, const Extras& extras) {
-  return with_drive_lag(with_measurement_filter(linear_plant(plant), extras.filter),
-                        extras.bandwidth, extras.damping);
-}
-
-LinearPlant<double> of_dynamic_order(const Order7& plant) {
-  const Ports<double, 7>& ports = plant.connections;
-  return {plant.released_matrix,
-          plant.force_input,
-          plant.command_input,
-          plant.excitation,
-          plant.drive_force,
-          plant.direct_transmission,
-          {ports.displacement, ports.velocity, ports.measured_displacement, ports.measured_velocity,
-           ports.relative_displacement, ports.relative_velocity, ports.displacement_lift,
-           ports.velocity_lift}};
+  return test::filtered_and_lagging_plant(extras.filter, extras.bandwidth, plant, extras.damping);
 }
 
 /// A loop whose drive lags: far from the edge of stability, with many changes of contact.
@@ -301,7 +288,7 @@ TEST(PlantOrder, KnownAtRunTimeAloneIsTheSame) {
   for (const ContactLaw law : {ContactLaw::play, ContactLaw::dead_zone}) {
     for (const Switching switching : {Switching::sampled, Switching::exact}) {
       auto first = event_motion(loop_of(setting, fixed, law, switching), State7::Zero());
-      auto second = event_motion(loop_of(setting, of_dynamic_order(fixed), law, switching),
+      auto second = event_motion(loop_of(setting, test::of_dynamic_order(fixed), law, switching),
                                  Vector<double, Eigen::Dynamic>(State7::Zero()));
       EXPECT_LE(largest_difference(first, second, 500), 1e-12);
     }

@@ -13,14 +13,10 @@
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
+#include "support/lagging_plant.hpp"
 
 namespace holdfast::test {
 namespace {
-
-LinearPlant<double, 7> filtered_and_lagging(double filter, double drive) {
-  return with_drive_lag(with_measurement_filter(linear_plant(kollar2022_plant()), filter), drive,
-                        0.7);
-}
 
 MaxDelayOptions tuned_to(double frequency, DelayCriterion criterion, double fraction = 0.0) {
   MaxDelayOptions options;
@@ -63,7 +59,7 @@ bool feasible_in_a_scan(const Plant& plant, const MaxDelayOptions& options, doub
 }
 
 TEST(AnyOrderDelay, OfSevenStatesJustBelowIsFeasibleAndJustAboveIsNot) {
-  const auto plant = filtered_and_lagging(100.0, 150.0);
+  const auto plant = filtered_and_lagging_plant(100.0, 150.0);
   for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
     const auto options = tuned_to(10.0, criterion, 0.3);
     const MaxDelay answer = max_sampling_period(plant, options);
@@ -97,7 +93,7 @@ TEST(AnyOrderAmplitude, OfTwoMassesIsThatOfTheClosedForms) {
 }
 
 TEST(AnyOrderAmplitude, OfSevenStatesIsTheLeastOfAScan) {
-  const auto plant = filtered_and_lagging(100.0, 150.0);
+  const auto plant = filtered_and_lagging_plant(100.0, 150.0);
   const AmplitudeOptions options{{0.002, 0.001}, ForceHold::sampled, 1.0};
   const MinimumAmplitude least = minimum_amplitude(plant, options, 9.0, -50.0);
   ASSERT_NE(least.outcome, MinimumAmplitudeOutcome::none);
@@ -127,7 +123,7 @@ TEST(AnyOrderRadius, OfTwoMassesIsThatOfTheClosedForms) {
 }
 
 TEST(AnyOrderRadius, OfSevenStatesIsTheLeastOfAScan) {
-  const auto plant = filtered_and_lagging(100.0, 150.0);
+  const auto plant = filtered_and_lagging_plant(100.0, 150.0);
   for (const double delay : {0.001, 0.005}) {
     const LoopMap<double> map = loop_map(plant, {0.002, delay});
     const MinimumRadius least = minimum_radius(map, -50.0);

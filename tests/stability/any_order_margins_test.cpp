@@ -15,6 +15,7 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/response/any_order_response.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 
@@ -22,22 +23,6 @@ namespace holdfast::test {
 namespace {
 
 using Complex = std::complex<double>;
-
-/// Seven states: two masses, a filter of the readings, a drive that lags; frequencies in Hz.
-LinearPlant<double> filtered_lag_of_any_order(double filter, double drive) {
-  const auto plant =
-      with_drive_lag(with_measurement_filter(linear_plant(kollar2022_plant()), filter), drive, 0.7);
-  const Ports<double, 7>& ports = plant.connections;
-  return {plant.released_matrix,
-          plant.force_input,
-          plant.command_input,
-          plant.excitation,
-          plant.drive_force,
-          plant.direct_transmission,
-          {ports.displacement, ports.velocity, ports.measured_displacement, ports.measured_velocity,
-           ports.relative_displacement, ports.relative_velocity, ports.displacement_lift,
-           ports.velocity_lift}};
-}
 
 template <class Plant>
 double radius(const Plant& plant, const Sampling<double>& sampling, const PdGains<double>& gains) {
@@ -143,7 +128,8 @@ TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
   int late = 0;
   for (const MarginCase& c : margin_cases()) {
     SCOPED_TRACE(c.sampling.processing_delay / c.sampling.period);
-    const LinearPlant<double> plant = filtered_lag_of_any_order(c.filter, c.drive);
+    const LinearPlant<double> plant =
+        of_dynamic_order(filtered_and_lagging_plant(c.filter, c.drive));
     const StabilityMargins margins = stability_margins(plant, c.sampling, c.gains);
     ASSERT_EQ(margins.outcome, MarginOutcome::stable);
     EXPECT_NEAR(margins.unit_circle, 1.0 - radius(plant, c.sampling, c.gains), 1e-10);
@@ -176,11 +162,12 @@ TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
 }
 
 TEST(AnyOrderMargins, AnUnstableLoopHasNone) {
-  const auto margins =
-      stability_margins(filtered_lag_of_any_order(20.0, 20.0), {0.01, 0.03}, {-300.0, 40.0});
+  const auto margins = stability_margins(of_dynamic_order(filtered_and_lagging_plant(20.0, 20.0)),
+                                         {0.01, 0.03}, {-300.0, 40.0});
   EXPECT_EQ(margins.outcome, MarginOutcome::not_stable);
   EXPECT_LE(margins.unit_circle, 0.0);
-  EXPECT_THROW(stability_margins(filtered_lag_of_any_order(20.0, 20.0), {0.0, 0.0}, {0.0, 0.0}),
+  EXPECT_THROW(stability_margins(of_dynamic_order(filtered_and_lagging_plant(20.0, 20.0)),
+                                 {0.0, 0.0}, {0.0, 0.0}),
                InvalidParameter);
 }
 
@@ -213,7 +200,8 @@ double dense_amplitude(const Plant& plant, const Sampling<double>& sampling,
 
 TEST(AnyOrderResponse, AmplitudeIsThatOfTheClosedMap) {
   for (const MarginCase& c : margin_cases()) {
-    const LinearPlant<double> plant = filtered_lag_of_any_order(c.filter, c.drive);
+    const LinearPlant<double> plant =
+        of_dynamic_order(filtered_and_lagging_plant(c.filter, c.drive));
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
       for (const double frequency : {0.5, 8.0, 30.0}) {
         const double omega = 2.0 * pi<double> * frequency;
@@ -256,7 +244,7 @@ TEST(AnyOrderResponse, ADelayOfTwoMassesBeyondASampleIsThatOfTheirMap) {
 }
 
 TEST(AnyOrderResponse, RatesAreDifferenceQuotients) {
-  const LinearPlant<double> plant = filtered_lag_of_any_order(40.0, 60.0);
+  const LinearPlant<double> plant = of_dynamic_order(filtered_and_lagging_plant(40.0, 60.0));
   const PdGains<double> gains{-50.0, -3.0};
   const double omega = 2.0 * pi<double> * 9.0, period = 0.003;
   for (const double fraction : {0.4, 2.3}) {
@@ -288,7 +276,7 @@ TEST(AnyOrderResponse, RatesAreDifferenceQuotients) {
 }
 
 TEST(MapFamily, RatesOfTheMapAndOfItsRootsAreDifferenceQuotients) {
-  const LinearPlant<double> plant = filtered_lag_of_any_order(40.0, 60.0);
+  const LinearPlant<double> plant = of_dynamic_order(filtered_and_lagging_plant(40.0, 60.0));
   const PdGains<double> gains{-50.0, -3.0};
   const double period = 0.003;
   using Family = MapFamily<LinearPlant<double>>;

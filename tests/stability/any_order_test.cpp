@@ -19,6 +19,7 @@
 #include "holdfast/stability/chart/loop_map_chart.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 
@@ -26,12 +27,6 @@ namespace holdfast::test {
 namespace {
 
 using Complex = std::complex<double>;
-
-/// Seven states: two masses, a filter of the readings, a drive that lags.
-LinearPlant<double, 7> filtered_and_lagging(const TwoMass<double>& masses, double scale) {
-  return with_drive_lag(with_measurement_filter(linear_plant(masses), 5.0 * scale), 8.0 * scale,
-                        0.7);
-}
 
 double radius(const LoopMap<double>& map, const PdGains<double>& gains) {
   return spectral_radius(map.closed_map(gains));
@@ -90,7 +85,8 @@ TEST(AnyOrder, EndsOfIntervalsLieOnTheCircleAndTheirInsideWithin) {
     const TwoMass<double> masses = random_plant(random);
     Sampling<double> sampling = random_sampling(masses, random);
     if (draw % 3 == 2) sampling.processing_delay = sampling.period * random.uniform(1.0, 4.0);
-    const auto plant = filtered_and_lagging(masses, 0.2 / sampling.period);
+    const auto plant = filtered_and_lagging_plant(5.0 * (0.2 / sampling.period),
+                                                  8.0 * (0.2 / sampling.period), masses);
     const LoopMap<double> map = loop_map(plant, sampling);
     const PdGains<double> gains = random_gains(masses, sampling.period, random);
     const PdGains<double> held{0.1 * gains.proportional, 0.0};
@@ -113,7 +109,7 @@ TEST(AnyOrder, EndsOfIntervalsLieOnTheCircleAndTheirInsideWithin) {
 }
 
 TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
-  const auto plant = filtered_and_lagging(kollar2022_plant(), 8.0);
+  const auto plant = filtered_and_lagging_plant(40.0, 64.0);
   for (const double delay : {0.0, 0.0004, 0.0027}) {
     const LoopMap<double> map = loop_map(plant, {0.001, delay});
     const GainGrid grid{{-600.0, 100.0, 36}, {-30.0, 10.0, 41}};
@@ -145,7 +141,7 @@ TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
 }
 
 TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {
-  const auto plant = filtered_and_lagging(kollar2022_plant(), 10.0);
+  const auto plant = filtered_and_lagging_plant(50.0, 80.0);
   const LoopMap<double> map = loop_map(plant, {0.002, 0.0051});
   EXPECT_EQ(map.held_commands, 3);
   const LoopResponse<double> response(map);
@@ -164,7 +160,7 @@ TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {
 }
 
 TEST(AnyOrder, BoundaryPointsHaveARootOnTheCircle) {
-  const auto plant = filtered_and_lagging(kollar2022_plant(), 8.0);
+  const auto plant = filtered_and_lagging_plant(40.0, 64.0);
   const LoopMap<double> map = loop_map(plant, {0.002, 0.003});
   const auto points = stability_boundary(map, {-1000.0, 200.0});
   int pairs = 0;
