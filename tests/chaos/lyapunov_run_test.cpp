@@ -6,6 +6,9 @@
 #include <limits>
 #include <memory>
 
+#include "holdfast/chaos/event_lyapunov.hpp"
+#include "holdfast/contact/exact_backlash.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {
@@ -18,16 +21,112 @@ test::KollarCase flickering(double period) {
   return which;
 }
 
+/// The sampled map, by the products of its contacts.
+struct SampledRun {
+  static auto motion(const test::KollarCase& which) { return which.motion(); }
+  template <class Motion>
+  static LyapunovResult run(Motion& motion, const test::KollarCase& which, const LyapunovRun& run) {
+    return run_lyapunov(motion, std::make_shared<const ItineraryBlocks>(which.loop(), which.gains),
+                        run);
+  }
+};
+
+/// The event-driven flow, by its tangents.
+struct EventRun {
+  static auto motion(const test::KollarCase& which) {
+    const ImplementedLoop loop = implemented_loop(which.ideal_loop());
+    return EventMotion<ExactBacklash>(loop.digital, ExactBacklash(loop.plant, loop.backlash.width),
+                                      which.initial_state);
+  }
+  template <class Motion>
+  static LyapunovResult run(Motion& motion, const test::KollarCase&, const LyapunovRun& run) {
+    return run_event_lyapunov(motion, run);
+  }
+};
+
+template <class Model>
+class LyapunovRunOf : public testing::Test {
+ protected:
+  static LyapunovResult run_of(const test::KollarCase& which, const LyapunovRun& run) {
+    auto motion = Model::motion(which);
+    return Model::run(motion, which, run);
+  }
+};
+
+using RunModels = testing::Types<SampledRun, EventRun>;
+TYPED_TEST_SUITE(LyapunovRunOf, RunModels, );
+
 LyapunovResult run_of(const test::KollarCase& which, const LyapunovRun& run) {
   auto motion = which.motion();
-  return run_lyapunov(motion, std::make_shared<const ItineraryBlocks>(which.loop(), which.gains),
-                      run);
+  return SampledRun::run(motion, which, run);
 }
 
 LyapunovRun until(double standard_error, LyapunovScope classified) {
   LyapunovRun run{2000000, 500, standard_error};
   run.classified = classified;
   return run;
+}
+
+TYPED_TEST(LyapunovRunOf, LeavesTheMotionAfterTheLastSample) {
+  const auto which = flickering(0.011);
+  auto motion = TypeParam::motion(which);
+  const auto result = TypeParam::run(motion, which, {100, 33});
+  EXPECT_EQ(motion.index(), 133);
+  EXPECT_EQ(result.samples, 100);
+  EXPECT_EQ(result.outcome, LyapunovOutcome::sample_limit);
+}
+
+TYPED_TEST(LyapunovRunOf, LeavesOutTheSamplesToBeDiscarded) {
+  for (const double period : {0.001, 0.011}) {
+    const auto sum_over = [period](const LyapunovRun& run) {
+      const auto result = LyapunovRunOf<TypeParam>::run_of(flickering(period), run);
+      EXPECT_EQ(result.samples, run.most_samples);
+      return Vector<double, 3>(result.exponents.template head<3>() *
+                               static_cast<double>(result.samples));
+    };
+    const Vector<double, 3> all = sum_over({2000}), first = sum_over({701});
+    EXPECT_LT((sum_over({1299, 701}) - (all - first)).norm(), 1e-9);
+  }
+}
+
+TYPED_TEST(LyapunovRunOf, EndsWhenAllExponentsAreAccurate) {
+  const auto which = flickering(0.011);
+  LyapunovRun run{200000, 2000, 1e-3};
+  run.classified = LyapunovScope::all;
+  const auto result = this->run_of(which, run);
+  EXPECT_EQ(result.outcome, LyapunovOutcome::accurate);
+  EXPECT_LT(result.samples, run.most_samples);
+  EXPECT_LE(result.standard_errors.maxCoeff(), 1e-3);
+  EXPECT_EQ(result.standard_errors[4], 0.0);
+  const auto longer = this->run_of(which, {20 * result.samples, run.discard});
+  EXPECT_EQ(longer.outcome, LyapunovOutcome::sample_limit);
+  EXPECT_NEAR(result.exponents[0], longer.exponents[0], 5e-3);
+  run.scope = LyapunovScope::largest;
+  const auto largest = this->run_of(which, run);
+  EXPECT_TRUE(std::isfinite(largest.exponents[0]));
+  EXPECT_TRUE(std::isnan(largest.exponents[1]) && std::isnan(largest.standard_errors[4]));
+}
+
+TYPED_TEST(LyapunovRunOf, ADivergingMotionHasTheExponentsOfTheSamplesBeforeItLeft) {
+  test::KollarCase which = flickering(0.011);
+  which.width = 0.0;
+  which.processing_delay = 0.011;  // S has an eigenvalue outside the unit circle
+  const auto result = this->run_of(which, {100000});
+  EXPECT_EQ(result.outcome, LyapunovOutcome::diverged);
+  EXPECT_LT(result.samples, 100000);
+  EXPECT_GT(result.exponents[0], 0.1);
+  const auto early = this->run_of(which, {10, 99999});
+  EXPECT_EQ(early.outcome, LyapunovOutcome::diverged);
+  EXPECT_EQ(early.samples, 0);
+  EXPECT_TRUE(std::isnan(early.exponents[0]));
+}
+
+TYPED_TEST(LyapunovRunOf, RefusesWhatIsNoRun) {
+  const auto which = flickering(0.011);
+  EXPECT_THROW(this->run_of(which, {0}), InvalidParameter);
+  EXPECT_THROW(this->run_of(which, {10, -1}), InvalidParameter);
+  EXPECT_THROW(this->run_of(which, {10, 0, -1e-3}), InvalidParameter);
+  EXPECT_THROW(this->run_of(which, {10, 0, std::nan("")}), InvalidParameter);
 }
 
 TEST(LyapunovRun, TakesAllSamplesWhereNothingElseIsAskedFor) {
@@ -43,23 +142,6 @@ TEST(LyapunovRun, TakesAllSamplesWhereNothingElseIsAskedFor) {
       EXPECT_EQ(result.exponents, observer.spectrum().exponents());
     }
   }
-}
-
-TEST(LyapunovRun, LeavesTheMotionAfterTheLastSample) {
-  const auto which = flickering(0.011);
-  auto motion = which.motion();
-  const auto words = std::make_shared<const ItineraryBlocks>(which.loop(), which.gains);
-  run_lyapunov(motion, words, {100, 33});
-  EXPECT_EQ(motion.index(), 133);
-}
-
-TEST(LyapunovRun, LeavesOutTheSamplesToBeDiscarded) {
-  const auto which = flickering(0.011);
-  const double all = run_of(which, {1500}).exponents[2] * 1500;
-  const double first = run_of(which, {401}).exponents[2] * 401;
-  const auto rest = run_of(which, {1099, 401});
-  EXPECT_EQ(rest.samples, 1099);
-  EXPECT_NEAR(rest.exponents[2], (all - first) / 1099, 1e-10);
 }
 
 TEST(LyapunovRun, EndsWhenTheLargestExponentIsAccurate) {
@@ -141,19 +223,6 @@ TEST(LyapunovRun, ADivergingMotionCountsTheSamplesBeforeItLeft) {
   EXPECT_EQ(result.samples, observer.spectrum().steps());
   EXPECT_EQ(result.exponents, observer.spectrum().exponents());
   EXPECT_GT(result.exponents[0], 0.1);
-
-  const auto early = run_of(which, {10, 99999});
-  EXPECT_EQ(early.outcome, LyapunovOutcome::diverged);
-  EXPECT_EQ(early.samples, 0);
-  EXPECT_TRUE(std::isnan(early.exponents[0]));
-}
-
-TEST(LyapunovRun, RefusesWhatIsNoRun) {
-  const auto which = flickering(0.011);
-  EXPECT_THROW(run_of(which, {0}), InvalidParameter);
-  EXPECT_THROW(run_of(which, {10, -1}), InvalidParameter);
-  EXPECT_THROW(run_of(which, {10, 0, -1e-3}), InvalidParameter);
-  EXPECT_THROW(run_of(which, {10, 0, std::nan("")}), InvalidParameter);
 }
 
 }  // namespace

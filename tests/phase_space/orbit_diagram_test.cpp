@@ -32,13 +32,24 @@ std::set<long> levels(const std::vector<StrobePoint>& points, std::size_t index,
   return result;
 }
 
+/// The diagram of one loop for each width.
+template <class Change>
 std::vector<StrobePoint> diagram_of(double period, const std::vector<double>& widths,
-                                    const DiagramOptions& options) {
+                                    const DiagramOptions& options, const Change& change) {
   std::vector<StrobePoint> points;
-  run_orbit_diagram([&](double width) { return diagram_loop(period, width); }, widths,
-                    Vector<double, 4>::Zero(), options,
+  const auto path = [&](double width) {
+    ImplementedLoop loop = implemented_loop(diagram_loop(period, width));
+    change(loop);
+    return loop;
+  };
+  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
                     [&](const StrobePoint& point) { points.push_back(point); });
   return points;
+}
+
+std::vector<StrobePoint> diagram_of(double period, const std::vector<double>& widths,
+                                    const DiagramOptions& options) {
+  return diagram_of(period, widths, options, [](ImplementedLoop&) {});
 }
 
 TEST(OrbitDiagram, ShowsAsManyLevelsAsTheOrbitHasForcingPeriods) {
@@ -65,27 +76,14 @@ TEST(OrbitDiagram, StrobesBetweenTheSamplesAreThoseOfTheLinearResponse) {
 TEST(OrbitDiagram, AMotionThatDivergesShowsNothingAndTheNextBeginsAnew) {
   std::vector<StrobePoint> points;
   const auto path = [](double delay) {
-    return IdealLoop<double>{kollar2022_plant(), {0.011, delay}, {-557.0, -13.0}, {0.5, 10.0}, 0.0};
+    ImplementedLoop loop = implemented_loop(diagram_loop(0.011, 0.0));
+    loop.digital.sampling.processing_delay = delay;
+    return loop;
   };
   run_orbit_diagram(path, {0.011, 0.0}, Vector<double, 4>::Zero(), {60.0, 5},
                     [&](const StrobePoint& point) { points.push_back(point); });
   EXPECT_EQ(points.size(), 10U);
   for (const StrobePoint& point : points) EXPECT_EQ(point.index, 1U);
-}
-
-/// The diagram of loops as they are built, one for each width.
-template <class Change>
-std::vector<StrobePoint> built_diagram_of(double period, const std::vector<double>& widths,
-                                          const DiagramOptions& options, const Change& change) {
-  std::vector<StrobePoint> points;
-  const auto path = [&](double width) {
-    ImplementedLoop loop = implemented_loop(diagram_loop(period, width));
-    change(loop);
-    return loop;
-  };
-  run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
-                    [&](const StrobePoint& point) { points.push_back(point); });
-  return points;
 }
 
 /// The strobes of one motion by the sampled map and matrix exponentials between its samples.
@@ -148,7 +146,7 @@ TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
 
 TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {
   const auto exactly = [](ImplementedLoop& loop) { loop.switching = Switching::exact; };
-  const auto points = built_diagram_of(0.001, {0.0, 0.0005}, {40.0, 30}, exactly);
+  const auto points = diagram_of(0.001, {0.0, 0.0005}, {40.0, 30}, exactly);
   EXPECT_EQ(points.size(), 2U * 2U * 30U);
   for (const bool upward : {true, false})
     for (const std::size_t index : {std::size_t{0}, std::size_t{1}})
@@ -158,7 +156,7 @@ TEST(OrbitDiagram, TellsItsLevelsOfExactSwitchingToo) {
 TEST(OrbitDiagram, StrobesBetweenJitteringSamplesAreThoseOfTheResponse) {
   // Without control the samples are of no effect, wherever they fall: the strobes of the steady
   // response to an exactly integrated force are all one.
-  const auto points = built_diagram_of(0.009, {0.0}, {60.0, 30}, [](ImplementedLoop& loop) {
+  const auto points = diagram_of(0.009, {0.0}, {60.0, 30}, [](ImplementedLoop& loop) {
     loop.digital.gains = {0.0, 0.0};
     loop.digital.hold = ForceHold::exact;
     loop.digital.jitter = {0.004, 7};
@@ -174,7 +172,7 @@ TEST(OrbitDiagram, StrobesAreAtThePeriodsOfTheFirstHarmonic) {
   // 10 Hz and 5 Hz: once every period of the second the motion repeats, so that strobes at those
   // of the first come in two levels, and the other way round in one.
   for (const bool slower_first : {false, true}) {
-    const auto points = built_diagram_of(0.001, {0.0}, {60.0, 20}, [&](ImplementedLoop& loop) {
+    const auto points = diagram_of(0.001, {0.0}, {60.0, 20}, [&](ImplementedLoop& loop) {
       const Harmonic slower{0.3, 5.0, 1.0};
       auto& harmonics = loop.digital.force.harmonics;
       harmonics.insert(slower_first ? harmonics.begin() : harmonics.end(), slower);
@@ -185,7 +183,7 @@ TEST(OrbitDiagram, StrobesAreAtThePeriodsOfTheFirstHarmonic) {
 
 TEST(OrbitDiagram, ABuiltLoopThatDivergesShowsNothing) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const auto points = built_diagram_of(0.011, {0.0}, {60.0, 5}, [&](ImplementedLoop& loop) {
+    const auto points = diagram_of(0.011, {0.0}, {60.0, 5}, [&](ImplementedLoop& loop) {
       loop.digital.sampling.processing_delay = 0.011;
       loop.switching = switching;
     });
@@ -197,14 +195,14 @@ TEST(OrbitDiagram, WatchesABuiltLoop) {
   int looks = 0;
   DiagramOptions options{40.0, 1};
   options.watch = [&] { ++looks; };
-  built_diagram_of(0.001, {0.0}, options, [](ImplementedLoop&) {});
+  diagram_of(0.001, {0.0}, options);
   EXPECT_EQ(looks, 2 * 3) << "at samples 0, 16384 and 32768 of each way";
 }
 
 TEST(OrbitDiagram, RefusesALoopWithoutAHarmonic) {
   const auto built = [] {
-    built_diagram_of(0.001, {0.0}, {1.0, 1},
-                     [](ImplementedLoop& loop) { loop.digital.force.harmonics.clear(); });
+    diagram_of(0.001, {0.0}, {1.0, 1},
+               [](ImplementedLoop& loop) { loop.digital.force.harmonics.clear(); });
   };
   EXPECT_NE(tests::message_of<InvalidParameter>(built).find("number of harmonics"),
             std::string::npos);

@@ -16,7 +16,6 @@
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
@@ -51,16 +50,6 @@ using StrobePoint = StrobePointOf<4>;
 
 namespace detail {
 
-/// The loop as one that is built.
-template <class Plant>
-ImplementedLoopOf<Plant> as_built(const IdealLoop<double, Plant>& loop) {
-  return implemented_loop(loop);
-}
-template <class Plant>
-const ImplementedLoopOf<Plant>& as_built(const ImplementedLoopOf<Plant>& loop) {
-  return loop;
-}
-
 /// The plant of the loops on a path.
 template <class Family>
 using PlantOfFamily = std::decay_t<decltype(std::declval<const Family&>()(0.0).plant)>;
@@ -93,14 +82,20 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
 
 /// Shows the states of a motion once every forcing period after the transient; leaves the last of
 /// them in `state`. @return false where it leaves the range of numbers
-/// @param forcing_period  s
-/// @param bound           of the state's entries
-template <class Contact, class Observer>
-bool show_strobes(EventMotion<Contact>& motion, const DiagramOptions& options,
-                  double forcing_period, double bound, typename EventMotion<Contact>::State& state,
-                  Observer&& observer) {
+/// @param state  the initial one
+/// @throws InvalidParameter where the force has no harmonic
+template <class Plant, class Observer>
+bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& options,
+                  StateOf<Plant>& state, Observer&& observer) {
+  const std::vector<Harmonic>& harmonics = loop.digital.force.harmonics;
+  if (harmonics.empty())
+    throw InvalidParameter("number of harmonics", 0.0, "",
+                           ">= 1: the strobes are at whole periods of the first one");
+  const double forcing_period = 1.0 / harmonics.front().frequency;
+  const double bound = divergence_bound(loop, state);
   constexpr std::int64_t samples_between_looks = 1 << 14;
-  DenseOutput<Contact> between(motion);
+  auto motion = event_motion(loop, state);
+  DenseOutput between(motion);
   auto strobe = std::ceil(options.transient / forcing_period);
   for (int shown = 0; shown < options.strobes;) {
     const auto sample = motion.sense();
@@ -126,20 +121,6 @@ bool show_strobes(EventMotion<Contact>& motion, const DiagramOptions& options,
   return true;
 }
 
-/// The same of the motion of a loop, from `state`.
-/// @throws InvalidParameter where the force has no harmonic
-template <class Plant, class Observer>
-bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& options,
-                  StateOf<Plant>& state, Observer&& observer) {
-  const std::vector<Harmonic>& harmonics = loop.digital.force.harmonics;
-  if (harmonics.empty())
-    throw InvalidParameter("number of harmonics", 0.0, "",
-                           ">= 1: the strobes are at whole periods of the first one");
-  auto motion = event_motion(loop, state);
-  return show_strobes(motion, options, 1.0 / harmonics.front().frequency,
-                      divergence_bound(loop, state), state, observer);
-}
-
 }  // namespace detail
 
 /// An orbit diagram (bifurcation diagram): stroboscopic states against a parameter, the parameter
@@ -154,8 +135,7 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
 /// The drive begins outside its backlash at each value (a dead zone where the state is), the
 /// computer without a memory of the past. A motion that diverges shows no more of itself, and
 /// the next one begins at the initial state.
-/// @param family         parameter ↦ IdealLoop<double, Plant> or ImplementedLoopOf<Plant>, each of
-///                       which runs as the event-driven flow
+/// @param family         parameter ↦ ImplementedLoopOf<Plant>
 /// @param values         of the parameter, in their order
 /// @param initial_state  of the first motion
 /// @param options        how much is left out and shown at each value
@@ -175,10 +155,9 @@ std::size_t run_orbit_diagram(const Family& family, const std::vector<double>& v
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::size_t index = upward ? k : values.size() - 1 - k;
       const auto loop = family(values[index]);
-      const bool bounded =
-          detail::show_strobes(detail::as_built(loop), options, state, [&](const State& strobe) {
-            observer(StrobePointOf<State::RowsAtCompileTime>{index, upward, strobe});
-          });
+      const bool bounded = detail::show_strobes(loop, options, state, [&](const State& strobe) {
+        observer(StrobePointOf<State::RowsAtCompileTime>{index, upward, strobe});
+      });
       if (bounded) continue;
       state = initial_state;
       ++diverged;
