@@ -31,11 +31,18 @@ constexpr const char* gnuplot_style =
     "set style line 4 lw 1.6 lc rgb '#777777'\n"
     "set key outside top center horizontal samplen 3\n";
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
+/// The commands with blanks in the labels of x and y that do not break, as those beside a change of
+/// font are lost in SVG. Inside the braces the blank belongs to gnuplot's syntax.
+std::string with_unbroken_labels(const std::string& plot) {
+  std::string text;
+  for (const std::string_view line : split(plot, '\n')) {
+    const std::string beginning(line.substr(0, 12)), label(line.substr(beginning.size()));
+    const bool is_label = beginning == "set xlabel \"" || beginning == "set ylabel \"";
+    text += (text.empty() ? "" : "\n") + beginning;
+    text += is_label ? replaced(replaced(label, " ", "\u00a0"), "{/:Italic\u00a0", "{/:Italic ")
+                     : label;
   }
+  return text;
 }
 
 /// Runs gnuplot in a folder: commands, then a script or an option. Its messages go to a file. Gives
@@ -97,12 +104,12 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 bool gnuplot_available() { return run_gnuplot(".", "", "--version", "/dev/null") == 0; }
 
 std::string gnuplot_script(const Figure& figure) {
-  std::string plot = figure.plot;
-  for (const TableRequest& table : figure.tables) {
-    replace_all(plot, "@" + table.name + "@", "'data/" + table.name + ".csv' skip 1");
-  }
-  replace_all(plot, "@unit@", figure.length_unit.name);
-  replace_all(plot, "@length@", format_number(figure.length_unit.per_metre));
+  std::string plot = with_unbroken_labels(figure.plot);
+  for (const TableRequest& table : figure.tables)
+    plot = replaced(plot, "@" + table.name.substr(figure.name.size()) + "@",
+                    "'data/" + table.name + ".csv' skip 1");
+  plot = filled(plot, {{"unit", figure.length_unit.name},
+                       {"length", format_number(figure.length_unit.per_metre)}});
   return "set terminal svg size 640," + format_number(figure.height) +
          " dynamic enhanced standalone font 'Helvetica,Arial,sans-serif,13' background rgb "
          "'white'\n" +

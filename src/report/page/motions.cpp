@@ -14,7 +14,6 @@
 #include "jobs/orbit/orbit_certificate.hpp"
 #include "report/comparison/comparison_tools.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/figure_text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -113,35 +112,20 @@ std::string meeting_text(const KnownMotion& reference, const KnownMotion& other)
          " later, of " + std::to_string(copies);
 }
 
-/// The command that shows all that is known of a motion.
-std::vector<std::string> arguments_for(const KnownMotion& motion,
-                                       const std::vector<std::string>& settings) {
-  return joined(motion.orbit() != nullptr ? std::vector<std::string>{"orbit", "--certificate"}
-                                          : std::vector<std::string>{"verdict"},
-                settings);
-}
-
+/// @param settings  of the command that shows all that is known of the motion
 MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
-                 const std::vector<std::string>& settings) {
+                 const std::string& settings) {
   const Classification& classification = motion.found.classification;
-  MotionRow row{place,
-                text,
-                attractor_type_text(classification),
-                period_text(motion),
-                none,
-                none,
-                none,
-                none,
-                classification.rests_on,
-                "",
-                arguments_for(motion, settings)};
-  if (const PeriodicOrbit* orbit = motion.orbit()) {
-    row.multiplier = rounded(orbit->largest_multiplier(), 3);
-    row.border = border_text(orbit->borders);
-    const OrbitCertificate certificate = certificate_of(motion.loop, *orbit);
-    row.capture = capture_text(certificate);
-    row.precision = precision_text(certificate.verification);
-  }
+  const PeriodicOrbit* orbit = motion.orbit();
+  MotionRow row{place, text, attractor_type_text(classification), period_text(motion)};
+  row.rests_on = classification.rests_on;
+  row.arguments = words_of((orbit != nullptr ? "orbit --certificate " : "verdict ") + settings);
+  if (orbit == nullptr) return row;
+  row.multiplier = rounded(orbit->largest_multiplier(), 3);
+  row.border = border_text(orbit->borders);
+  const OrbitCertificate certificate = certificate_of(motion.loop, *orbit);
+  row.capture = capture_text(certificate);
+  row.precision = precision_text(certificate.verification);
   return row;
 }
 
@@ -183,17 +167,21 @@ std::string loop_text(const Case& the_case) {
 }
 
 void add_rows(std::vector<MotionRow>& rows, Case the_case, const PaperMotion& motion) {
-  const auto settings = loop_settings(motion.sampling_period, motion.backlash_width);
-  set_case_value(the_case, "control.sampling_period", *parse_number(motion.sampling_period));
-  set_case_value(the_case, "backlash.width", *parse_number(motion.backlash_width));
-  const std::string loop = loop_text(the_case);
+  std::string settings;
+  const auto set = [&](const std::string& key, const std::string& value) {
+    set_case_value(the_case, key, *parse_number(value));
+    settings += " --set " + key + "=" + value;
+  };
+  set("control.sampling_period", motion.sampling_period);
+  set("backlash.width", motion.backlash_width);
+  const std::string loop = loop_text(the_case), of_loop = settings;
   const KnownMotion from_rest = known_motion(the_case);
   rows.push_back(row_of(motion.place, loop + "rest", from_rest, settings));
   for (const Neighbour& neighbour : motion.neighbours) {
-    set_case_value(the_case, "initial.z1", *parse_number(neighbour.displacement));
+    settings = of_loop;
+    set("initial.z1", neighbour.displacement);
     const KnownMotion other = known_motion(the_case);
-    rows.push_back(row_of(neighbour.place, loop + neighbour.text, other,
-                          joined(settings, {"--set", "initial.z1=" + neighbour.displacement})));
+    rows.push_back(row_of(neighbour.place, loop + neighbour.text, other, settings));
     rows.back().neighbour = meeting_text(from_rest, other);
   }
 }
@@ -208,7 +196,7 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
 
 MotionRow motion_of_the_case(const Case& the_case) {
   const std::string text = loop_text(the_case) + "its initial state";
-  return row_of("this case", text, known_motion(the_case), {});
+  return row_of("this case", text, known_motion(the_case), "");
 }
 
 }  // namespace holdfast::program

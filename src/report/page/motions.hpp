@@ -9,16 +9,16 @@ namespace holdfast::program {
 
 /// What one motion is, in the words of the page; a number that there is not is "–".
 struct MotionRow {
-  std::string place;       ///< of the motion in the paper, or whose it is
-  std::string motion;      ///< sampling period, backlash and start
-  std::string verdict;     ///< attractor_type_text()
-  std::string period;      ///< s, samples, forcing periods
-  std::string multiplier;  ///< largest modulus, of one period
-  std::string border;      ///< nearest change of contact (mm; mm/s)
-  std::string capture;     ///< radius of the neighbourhoods from which motions tend to it (mm)
-  std::string precision;   ///< how the same orbit comes out in extended precision
-  std::string rests_on;    ///< what the verdict rests on
-  std::string neighbour;   ///< how it ends beside the motion from rest; empty where not compared
+  std::string place;             ///< of the motion in the paper, or whose it is
+  std::string motion;            ///< sampling period, backlash and start
+  std::string verdict;           ///< attractor_type_text()
+  std::string period;            ///< s, samples, forcing periods
+  std::string multiplier = "–";  ///< largest modulus, of one period
+  std::string border = "–";      ///< nearest change of contact (mm; mm/s)
+  std::string capture = "–";    ///< radius of the neighbourhoods from which motions tend to it (mm)
+  std::string precision = "–";  ///< how the same orbit comes out in extended precision
+  std::string rests_on;         ///< what the verdict rests on
+  std::string neighbour;  ///< how it ends beside the motion from rest; empty where not compared
   std::vector<std::string> arguments;  ///< of the command that shows all of it, without the case's
 };
 
