@@ -53,16 +53,15 @@ std::string comparison_table(const std::vector<Comparison>& comparisons) {
   if (comparisons.empty()) return "";
   const auto agreeing = std::count_if(comparisons.begin(), comparisons.end(),
                                       [](const Comparison& row) { return row.agrees; });
-  std::string html =
+  const std::string html =
       "<h2 id=\"comparison\">The paper and this program</h2>\n<p>" + std::to_string(agreeing) +
       " of " + std::to_string(comparisons.size()) +
       " comparisons agree within what the paper's print allows. Every value in the column "
       "<em>ours</em> was computed for this page; the reading says how the paper was "
-      "understood.</p>\n"
-      "<div class=\"scroll\"><table>\n<thead><tr><th>quantity</th><th>paper</th><th>ours</th>"
-      "<th>reading</th><th>verdict</th></tr></thead>\n<tbody>\n";
-  for (const Comparison& row : comparisons) html += comparison_row(row);
-  return html + "</tbody></table></div>\n";
+      "understood.</p>\n";
+  std::string rows;
+  for (const Comparison& row : comparisons) rows += comparison_row(row);
+  return html + html_table({"quantity", "paper", "ours", "reading", "verdict"}, rows);
 }
 
 /// Two rows of the table: the numbers, and below them what they rest on.
@@ -94,13 +93,12 @@ constexpr const char* motions_text =
 
 std::string motions_table(const std::vector<ShownMotion>& motions) {
   if (motions.empty()) return "";
-  std::string html = std::string("<h2 id=\"motions\">What the motion is</h2>\n") + motions_text +
-                     "<div class=\"scroll\"><table>\n<thead><tr><th>figure</th><th>case</th>"
-                     "<th>verdict</th><th>period</th><th>largest multiplier</th>"
-                     "<th>nearest change of contact</th><th>radius of capture</th>"
-                     "<th>extended precision</th></tr></thead>\n<tbody>\n";
-  for (const ShownMotion& motion : motions) html += motion_rows(motion);
-  return html + "</tbody></table></div>\n";
+  std::string rows;
+  for (const ShownMotion& motion : motions) rows += motion_rows(motion);
+  return std::string("<h2 id=\"motions\">What the motion is</h2>\n") + motions_text +
+         html_table({"figure", "case", "verdict", "period", "largest multiplier",
+                     "nearest change of contact", "radius of capture", "extended precision"},
+                    rows);
 }
 
 std::string contents_of(const Page& page) {
@@ -133,29 +131,17 @@ std::string figure_html(const DrawnFigure& drawn) {
   return html + "</pre></details>\n</figure>\n";
 }
 
+std::string html_table(const std::vector<std::string>& headings, const std::string& rows) {
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (const std::string& heading : headings) html += "<th>" + escaped(heading) + "</th>";
+  return html + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
 std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += character;
-    }
-  }
+  std::string result = replaced(text, "&", "&amp;");
+  for (const auto& [character, entity] :
+       {std::pair{"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}})
+    result = replaced(result, character, entity);
   return result;
 }
 

@@ -41,6 +41,10 @@ std::string html_of(const Page& page);
 /// A figure with its caption, its tables and the commands that make them.
 std::string figure_html(const DrawnFigure& drawn);
 
+/// A table that scrolls by itself where it is wider than the page.
+/// @param rows  HTML, a <tr> each
+std::string html_table(const std::vector<std::string>& headings, const std::string& rows);
+
 /// Text with &, <, > and quotes escaped.
 std::string escaped(const std::string& text);
 

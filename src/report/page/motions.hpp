@@ -17,9 +17,11 @@ struct MotionRow {
   std::string border = "–";      ///< nearest change of contact (mm; mm/s)
   std::string capture = "–";    ///< radius of the neighbourhoods from which motions tend to it (mm)
   std::string precision = "–";  ///< how the same orbit comes out in extended precision
-  std::string rests_on;         ///< what the verdict rests on
-  std::string neighbour;  ///< how it ends beside the motion from rest; empty where not compared
-  std::vector<std::string> arguments;  ///< of the command that shows all of it, without the case's
+  std::string rests_on = {};    ///< what the verdict rests on
+  std::string neighbour =
+      {};  ///< how it ends beside the motion from rest; empty where not compared
+  std::vector<std::string> arguments =
+      {};  ///< of the command that shows all of it, without the case's
 };
 
 /// The motions of Kollár's Figs. 6–13 with their neighbours, and some beyond them.

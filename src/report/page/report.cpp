@@ -22,7 +22,6 @@
 #include "report/page/html.hpp"
 #include "report/switching/switching_page.hpp"
 #include "report/switching/switching_study.hpp"
-#include "report/switching/switching_words.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -68,10 +67,9 @@ class ReportWriter {
   }
 
   /// A figure whose tables the report has written itself, unless there is a reason not to.
-  DrawnFigure make_of_own_tables(const SwitchingFigure& own) const {
-    const std::string command = shell_text(command_of({"report"}, case_arguments_));
-    DrawnFigure drawn{own.figure, {command + " --output ."}, "", own.reason};
-    return own.reason.empty() ? with_picture(std::move(drawn)) : drawn;
+  DrawnFigure drawn(DrawnFigure own) const {
+    own.commands = {shell_text(command_of({"report"}, case_arguments_)) + " --output ."};
+    return own.reason.empty() ? with_picture(std::move(own)) : own;
   }
 
  private:
@@ -156,11 +154,9 @@ std::string answers_part(const JobContext& context, const Arguments& case_argume
 }
 
 std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {
-  const SwitchingPage page = make_switching_page(context, builtin);
-  std::vector<DrawnFigure> drawn;
-  for (const SwitchingFigure& figure : page.figures)
-    drawn.push_back(writer.make_of_own_tables(figure));
-  return html_of(page, drawn);
+  SwitchingPage page = make_switching_page(context, builtin);
+  for (DrawnFigure& figure : page.figures) figure = writer.drawn(std::move(figure));
+  return html_of(page);
 }
 
 void say_where(const fs::path& page) {

@@ -12,7 +12,6 @@
 #include "process/errors.hpp"
 #include "report/comparison/comparison_tools.hpp"
 #include "report/switching/switching_figures.hpp"
-#include "report/switching/switching_tables.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -87,40 +86,31 @@ Loops loops_over(const Case& the_case, const std::string& key, const std::vector
 
 std::string milli(double value) { return rounded(1e3 * value, 4); }
 
-/// What the charts have in common, in words.
-std::string meaning_of_chart(const Case& the_case) {
-  return " Above: largest |z₁| at all times in the second half of " +
-         rounded(studied_duration(the_case), 4) +
-         " s or more; curves leave the picture at the top where the motion "
-         "grows or diverges. Below: certified period over the "
-         "shortest one, after which sampling and forcing coincide again; \"none\": no certified "
-         "orbit was found. Dotted upright: the case itself.";
-}
-
-Figure delay_chart(const Case& the_case, const std::vector<double>& periods,
-                   const ShownAmplitudes& amplitudes) {
-  return switching_chart(
-      "switching-delay", "Amplitude and period over the sampling period",
-      "The backlash is r₀ = " + milli(the_case.backlash.width) +
-          " mm. At samples the drive enters and leaves its backlash only when the computer looks; "
-          "exactly, when it happens. As τ becomes short the two come together." +
-          meaning_of_chart(the_case),
-      {MotionColumn::sampling_period, "sampling period τ (ms)", 1e3, periods.front(),
-       periods.back(), the_case.control.sampling_period},
-      amplitudes);
-}
-
-Figure backlash_chart(const Case& the_case, const std::vector<double>& widths,
-                      const ShownAmplitudes& amplitudes) {
-  return switching_chart(
-      "switching-backlash", "Amplitude and period over the backlash",
-      "The sampling period is τ = " + milli(the_case.control.sampling_period) +
-          " ms. At r₀ = 0 there is no switching, and what is left between the curves is the hold "
-          "of the force; at the right end the backlash swallows the motion without control." +
-          meaning_of_chart(the_case),
-      {MotionColumn::backlash_width, "backlash {/:Italic r}_0 (mm)", 1e3, widths.front(),
-       widths.back(), the_case.backlash.width},
-      amplitudes);
+/// @param shown  false: without the values along the abscissa, which take motions to find
+std::vector<SwitchingChart> charts_of(const Case& the_case, bool shown) {
+  const std::string meaning =
+      " Above: largest |z₁| at all times in the second half of " +
+      rounded(studied_duration(the_case), 4) +
+      " s or more; curves leave the picture at the top where the motion grows or diverges. Below: "
+      "certified period over the shortest one, after which sampling and forcing coincide again; "
+      "\"none\": no certified orbit was found. Dotted upright: the case itself.";
+  const double period = the_case.control.sampling_period, width = the_case.backlash.width;
+  const auto none = std::vector<double>();
+  return {
+      {"switching-delay", "Amplitude and period over the sampling period",
+       "The backlash is r₀ = " + milli(width) +
+           " mm. At samples the drive enters and leaves its backlash only when the computer looks; "
+           "exactly, when it happens. As τ becomes short the two come together." +
+           meaning,
+       "control.sampling_period", "$2", "sampling period τ (ms)",
+       shown ? shown_sampling_periods(the_case) : none, period},
+      {"switching-backlash", "Amplitude and period over the backlash",
+       "The sampling period is τ = " + milli(period) +
+           " ms. At r₀ = 0 there is no switching, and what is left between the curves is the hold "
+           "of the force; at the right end the backlash swallows the motion without control." +
+           meaning,
+       "backlash.width", "$3", "backlash {/:Italic r}_0 (mm)",
+       shown ? shown_widths(the_case) : none, width}};
 }
 
 /// The window of Fig. 8, 9.05 s to 9.11 s, in periods of the excitation; earlier where the force
@@ -151,12 +141,7 @@ std::string phases_caption(const Case& the_case, const Reading& sampled, bool bu
          "z₂ − z₁, which stands still meanwhile. Tints: the phases of the exact motion.";
 }
 
-SwitchingFigure without_tables(Figure figure, const std::string& reason) {
-  figure.tables.clear();
-  return {figure, reason};
-}
-
-SwitchingFigure write_phases(const JobContext& context, bool builtin) {
+DrawnFigure write_phases(const JobContext& context, bool builtin) {
   const Case& the_case = context.case_data;
   constexpr int instants = 601;
   const bool held = force_hold_of(the_case) == ForceHold::sampled;
@@ -165,17 +150,16 @@ SwitchingFigure write_phases(const JobContext& context, bool builtin) {
   const std::string title = builtin ? "Fig. 8 with its stick phase, τ = 1 ms, r₀ = 0.5 mm"
                                     : "What the drive does between the samples";
   const std::string caption = phases_caption(the_case, reading, builtin);
-  ContactStrip sampled{"at samples", "", {}}, exact{"exact", "", {}};
   try {
-    sampled = strip_of("at samples", {the_case, reading, 0.0}, instants);
-    exact = strip_of("exact", {the_case, readings[exact_switching], 0.0}, instants);
+    const ContactStrip sampled = strip_of("at samples", {the_case, reading, 0.0}, instants);
+    const ContactStrip exact =
+        strip_of("exact", {the_case, readings[exact_switching], 0.0}, instants);
+    write_strips(context, name, {sampled, exact});
+    write_window(context, name + "-motion", exact.window, sampled.window);
+    return {contact_window_figure(name, title, caption, sampled, exact), {}, "", ""};
   } catch (const NoAnswer& reason) {
-    return without_tables(contact_window_figure(name, title, caption, sampled, exact),
-                          reason.what());
+    return {{name, title, caption, {}, ""}, {}, "", reason.what()};
   }
-  write_strips(context, name, {sampled, exact});
-  write_window(context, name + "-motion", exact.window, sampled.window);
-  return {contact_window_figure(name, title, caption, sampled, exact), ""};
 }
 
 struct NamedLaw {
@@ -246,7 +230,7 @@ std::vector<ContactStrip> strips_of_laws(const std::vector<StudiedLaw>& studied)
 
 constexpr const char* nowhere = "the motion diverges in all of them";
 
-SwitchingFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>& studied) {
+DrawnFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>& studied) {
   const std::vector<ContactStrip> strips = strips_of_laws(studied);
   const bool empty = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
     return strip.window.phases.empty();
@@ -259,7 +243,7 @@ SwitchingFigure write_laws(const JobContext& context, const std::vector<StudiedL
       "all; at the right the largest |z₁| of the steady motion. Exactly taken, kollar, immediate "
       "and play are one law. The gap of the dead zone lies about z₂ − z₁ = 0 and does not move.",
       strips);
-  return {figure, empty ? nowhere : ""};
+  return {figure, {}, "", empty ? nowhere : ""};
 }
 
 /// What the charts show: half as much again as without control, and the case's own motions.
@@ -271,32 +255,34 @@ ShownAmplitudes shown_amplitudes(const Case& the_case, const Motions& of_case) {
   return {free, largest};
 }
 
-SwitchingFigure write_chart(const JobContext& context, const Figure& figure, const Loops& loops) {
-  const Motions motions = study(loops, context.threads);
-  write_motions(context, figure.name, motions);
+DrawnFigure write_chart(const JobContext& context, const SwitchingChart& chart,
+                        const ShownAmplitudes& amplitudes) {
+  const Motions motions =
+      study(loops_over(context.case_data, chart.key, chart.values), context.threads);
+  write_motions(context, chart.name, motions);
   const bool empty = std::none_of(motions.begin(), motions.end(), [](const StudiedMotion& motion) {
     return std::isfinite(motion.steady.largest_displacement);
   });
-  return {figure, empty ? nowhere : ""};
+  return {switching_chart(chart, amplitudes), {}, "", empty ? nowhere : ""};
 }
 
-/// The charts without their pictures: they take two hundred motions, whose work grows with the
-/// harmonics of the force.
-std::vector<SwitchingFigure> charts_left_out(const Case& the_case, std::size_t harmonics) {
-  const std::string reason = "the force has " + std::to_string(harmonics) +
-                             " harmonics, too many to follow hundreds of motions";
-  return {without_tables(delay_chart(the_case, {the_case.control.sampling_period}, {}), reason),
-          without_tables(backlash_chart(the_case, {the_case.backlash.width}, {}), reason)};
-}
-
-std::vector<SwitchingFigure> write_charts(const JobContext& context, const Motions& of_case) {
+/// The charts; without their pictures where the force has many harmonics: they take two hundred
+/// motions, whose work grows with these.
+void add_charts(std::vector<DrawnFigure>& figures, const JobContext& context,
+                const Motions& of_case) {
   const Case& the_case = context.case_data;
+  constexpr std::size_t most_harmonics = 20;
+  const std::size_t harmonics = harmonics_of(the_case);
+  if (harmonics > most_harmonics) {
+    const std::string reason = "the force has " + std::to_string(harmonics) +
+                               " harmonics, too many to follow hundreds of motions";
+    for (const SwitchingChart& chart : charts_of(the_case, false))
+      figures.push_back({{chart.name, chart.title, chart.caption, {}, ""}, {}, "", reason});
+    return;
+  }
   const ShownAmplitudes amplitudes = shown_amplitudes(the_case, of_case);
-  const auto periods = shown_sampling_periods(the_case), widths = shown_widths(the_case);
-  return {write_chart(context, delay_chart(the_case, periods, amplitudes),
-                      loops_over(the_case, "control.sampling_period", periods)),
-          write_chart(context, backlash_chart(the_case, widths, amplitudes),
-                      loops_over(the_case, "backlash.width", widths))};
+  for (const SwitchingChart& chart : charts_of(the_case, true))
+    figures.push_back(write_chart(context, chart, amplitudes));
 }
 
 }  // namespace
@@ -333,11 +319,7 @@ SwitchingPage make_switching_page(const JobContext& context, bool builtin) {
   }
   page.laws = study_laws(context);
   page.figures = {write_phases(context, builtin), write_laws(context, page.laws)};
-  constexpr std::size_t most_harmonics = 20;
-  const std::size_t harmonics = harmonics_of(the_case);
-  for (SwitchingFigure& chart : harmonics > most_harmonics ? charts_left_out(the_case, harmonics)
-                                                           : write_charts(context, page.of_case))
-    page.figures.push_back(std::move(chart));
+  add_charts(page.figures, context, page.of_case);
   return page;
 }
 

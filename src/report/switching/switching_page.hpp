@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "process/job_context.hpp"
-#include "report/figures/figure.hpp"
+#include "report/page/html.hpp"
 #include "report/switching/switching_study.hpp"
 
 namespace holdfast::program {
@@ -15,18 +15,12 @@ struct StudiedLaw {
   StudiedMotion sampled, exact;
 };
 
-/// A figure whose tables are written, or the reason why it has none.
-struct SwitchingFigure {
-  Figure figure;
-  std::string reason;
-};
-
 /// How much it matters for a case that its drive switches at samples alone.
 struct SwitchingPage {
   std::vector<StudiedMotion> of_case;   ///< in the order of `readings`
   std::vector<StudiedMotion> of_paper;  ///< of each loop of the paper, in that order; may be empty
   std::vector<StudiedLaw> laws;
-  std::vector<SwitchingFigure> figures;
+  std::vector<DrawnFigure> figures;  ///< whose tables are written, but no pictures
 };
 
 /// The loops of Kollár's figures and two beside them, from rest: largest |z₁| in the second half of
@@ -44,5 +38,18 @@ std::vector<StudiedLoop> loops_of_case(const Case& the_case);
 /// @param builtin  the case is the paper's: its loops and its Fig. 8 are shown
 /// Throws Interrupted, and what Table throws.
 SwitchingPage make_switching_page(const JobContext& context, bool builtin);
+
+/// The page in two sentences: by how much switching at samples changes the steady amplitude, and
+/// what it does to the period; then the same with the force held over each sample.
+/// @param of_case  in the order of `readings`
+std::string switching_lead(const std::vector<StudiedMotion>& of_case);
+
+/// How many of the motions have the shortest period that sampling and forcing allow, in each
+/// reading, as a sentence.
+/// @param motions  the readings of one loop after the other
+std::string subharmonics_text(const std::vector<StudiedMotion>& motions);
+
+/// The page "How much the sampled switching matters" as a part of the report's HTML.
+std::string html_of(const SwitchingPage& page);
 
 }  // namespace holdfast::program

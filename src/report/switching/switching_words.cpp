@@ -1,11 +1,11 @@
-#include "report/switching/switching_words.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "report/comparison/comparison_tools.hpp"
+#include "report/page/html.hpp"
+#include "report/switching/switching_page.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -41,8 +41,6 @@ std::string change_text(const StudiedMotion& motion, const StudiedMotion& refere
   return (change > 0.0 ? "+" : "") + rounded(100.0 * change, 2) + " %";
 }
 
-bool have_same_period(const FoundPeriod& a, const FoundPeriod& b) { return a.samples == b.samples; }
-
 std::string period_sentence(const FoundPeriod& sampled, const FoundPeriod& exact) {
   if (sampled.samples == 0 && exact.samples == 0)
     return "No certified periodic orbit is found with either.";
@@ -52,7 +50,7 @@ std::string period_sentence(const FoundPeriod& sampled, const FoundPeriod& exact
   if (exact.samples == 0)
     return "At samples the period is " + periods_text(sampled) +
            "; with exact switching no certified periodic orbit is found.";
-  if (have_same_period(sampled, exact))
+  if (sampled.samples == exact.samples)
     return "It leaves the period as it is, " + periods_text(exact) + ".";
   return "It makes the period " + periods_text(sampled) + " where it is " + periods_text(exact) +
          " with exact switching.";
@@ -105,36 +103,27 @@ std::string multiplier_text(const FoundPeriod& period) {
   return period.samples > 0 ? rounded(period.largest_multiplier, 3) : no_number;
 }
 
-std::string table_cell(const std::string& text) { return "<td>" + escaped(text) + "</td>"; }
-
-std::string table_of(const std::vector<std::string>& headings, const std::string& rows) {
-  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
-  for (const std::string& heading : headings) html += "<th>" + escaped(heading) + "</th>";
-  return html + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
-}
-
-std::string switching_text(const Reading& reading) {
-  return reading.switching == Switching::exact ? "exact" : "at samples";
-}
-
-std::string hold_text(const Reading& reading) {
-  return reading.hold == ForceHold::exact ? "exact" : "held";
+/// @param cells  HTML
+std::string row_of(const std::vector<std::string>& cells) {
+  std::string html = "<tr>";
+  for (const std::string& cell : cells) html += "<td>" + cell + "</td>";
+  return html + "</tr>\n";
 }
 
 std::string table_of_case(const Motions& of_case) {
   std::string rows;
   for (const StudiedMotion& motion : of_case) {
-    rows += "<tr>" + table_cell(switching_text(motion.loop.reading)) +
-            table_cell(hold_text(motion.loop.reading)) + table_cell(amplitude_text(motion)) +
-            table_cell(change_text(motion, of_case[exact_switching])) +
-            table_cell(no_period_text(motion.period)) +
-            table_cell(motion.period.samples > 0 ? periods_text(motion.period) : no_number) +
-            table_cell(multiplier_text(motion.period)) +
-            table_cell(is_followed(motion) ? phases_text(motion.steady) : no_number) + "</tr>\n";
+    const auto& [studied, steady, period] = motion;
+    rows += row_of(
+        {studied.reading.switching == Switching::exact ? "exact" : "at samples",
+         studied.reading.hold == ForceHold::exact ? "exact" : "held",
+         escaped(amplitude_text(motion)), escaped(change_text(motion, of_case[exact_switching])),
+         escaped(no_period_text(period)), period.samples > 0 ? periods_text(period) : no_number,
+         multiplier_text(period), is_followed(motion) ? phases_text(steady) : no_number});
   }
-  return table_of({"switching", "force", "largest |z₁|", "against exact switching", "verdict",
-                   "period", "largest multiplier", "phases per half cycle"},
-                  rows);
+  return html_table({"switching", "force", "largest |z₁|", "against exact switching", "verdict",
+                     "period", "largest multiplier", "phases per half cycle"},
+                    rows);
 }
 
 std::string loop_text(const StudiedLoop& studied) {
@@ -151,27 +140,24 @@ std::string case_part(const Motions& of_case) {
 
 /// A motion of the paper: amplitude at the samples, how far it goes between them, period.
 std::string paper_cell(const StudiedMotion& motion) {
-  if (!is_followed(motion)) return table_cell(amplitude_text(motion));
+  if (!is_followed(motion)) return escaped(amplitude_text(motion));
   const SteadyMotion& steady = motion.steady;
-  std::string html = "<td><strong>" + in_millimetres(steady.largest_of_samples) + "</strong>";
+  std::string html = "<strong>" + in_millimetres(steady.largest_of_samples) + "</strong>";
   if (steady.largest_displacement > 1.005 * steady.largest_of_samples)
     html += ", between them up to " + in_millimetres(steady.largest_displacement);
   html += "<br>period: " + escaped(period_or_reason(motion.period));
   if (motion.period.samples > 0) html += ", multiplier " + multiplier_text(motion.period);
-  return html + "<br>" + phases_text(steady) + "</td>";
+  return html + "<br>" + phases_text(steady);
 }
 
 std::string table_of_paper(const Motions& of_paper) {
   std::string rows;
-  for (std::size_t first = 0; first + readings.size() <= of_paper.size();
-       first += readings.size()) {
-    rows += "<tr>" + table_cell(loop_text(of_paper[first].loop));
-    for (std::size_t k = 0; k < readings.size(); ++k) rows += paper_cell(of_paper[first + k]);
-    rows += "</tr>\n";
-  }
-  return table_of({"loop", "switching at samples, force held (the paper)",
-                   "switching at samples, exact force", "exact switching, exact force"},
-                  rows);
+  for (auto first = of_paper.begin(); first != of_paper.end(); first += readings.size())
+    rows += row_of({escaped(loop_text(first->loop)), paper_cell(first[0]), paper_cell(first[1]),
+                    paper_cell(first[2])});
+  return html_table({"loop", "switching at samples, force held (the paper)",
+                     "switching at samples, exact force", "exact switching, exact force"},
+                    rows);
 }
 
 std::string paper_part(const Motions& of_paper) {
@@ -184,27 +170,25 @@ std::string paper_part(const Motions& of_paper) {
 }
 
 std::string law_cell(const StudiedMotion& motion) {
-  return "<td><strong>" + escaped(amplitude_text(motion)) + "</strong><br>" +
-         escaped(period_or_reason(motion.period)) + "</td>";
+  return "<strong>" + escaped(amplitude_text(motion)) + "</strong><br>" +
+         escaped(period_or_reason(motion.period));
 }
 
 std::string laws_part(const std::vector<StudiedLaw>& laws) {
   std::string rows;
   for (const StudiedLaw& law : laws)
-    rows +=
-        "<tr>" + table_cell(law.words) + law_cell(law.sampled) + law_cell(law.exact) + "</tr>\n";
+    rows += row_of({escaped(law.words), law_cell(law.sampled), law_cell(law.exact)});
   return "<h3>Every law of the backlash</h3>\n<p>Largest |z₁| of the steady motion of this case, "
          "and its period, the force exact in all.</p>\n" +
-         table_of({"law", "switching at samples", "exact switching"}, rows);
+         html_table({"law", "switching at samples", "exact switching"}, rows);
 }
 
-std::string tables_part(const SwitchingPage& page) {
-  std::vector<std::string> names = {"switching-case"};
-  if (!page.of_paper.empty()) names.emplace_back("switching-paper");
-  names.emplace_back("switching-law-motions");
+std::string tables_part(bool of_paper) {
   std::string html = "<p>As tables:";
-  for (const std::string& name : names)
-    html += " <a href=\"data/" + name + ".csv\">data/" + name + ".csv</a>";
+  for (const std::string name : {"case", "paper", "law-motions"}) {
+    const std::string file = "data/switching-" + name + ".csv";
+    if (of_paper || name != "paper") html += " <a href=\"" + file + "\">" + file + "</a>";
+  }
   return html + "</p>\n";
 }
 
@@ -256,13 +240,13 @@ std::string subharmonics_text(const std::vector<StudiedMotion>& motions) {
          period_or_reason(motions[longest + exact_switching].period) + ".";
 }
 
-std::string html_of(const SwitchingPage& page, const std::vector<DrawnFigure>& drawn) {
+std::string html_of(const SwitchingPage& page) {
   std::string html =
       "<h2 id=\"switching\">How much the sampled switching matters</h2>\n<p><strong>" +
       escaped(switching_lead(page.of_case)) + "</strong></p>\n" + explanation +
       case_part(page.of_case) + paper_part(page.of_paper) + laws_part(page.laws) +
-      tables_part(page);
-  for (const DrawnFigure& figure : drawn) html += figure_html(figure);
+      tables_part(!page.of_paper.empty());
+  for (const DrawnFigure& figure : page.figures) html += figure_html(figure);
   return html;
 }
 

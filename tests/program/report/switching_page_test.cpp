@@ -14,7 +14,6 @@
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "process/errors.hpp"
-#include "report/switching/switching_words.hpp"
 #include "support/state_between_samples.hpp"
 
 namespace holdfast::tests {
@@ -258,7 +257,7 @@ TEST(SwitchingPage, NamesBothSwitchings) {
                   made_motion(program::sampled_switching, 1.1e-3, 2),
                   made_motion(program::exact_switching, 1e-3, 1)};
   page.laws = {{"play", page.of_case[1], page.of_case[2]}};
-  const std::string html = program::html_of(page, {});
+  const std::string html = program::html_of(page);
   expect_in(html,
             {"id=\"switching\"", "How much the sampled switching matters",
              "<td>at samples</td><td>held</td>", "<td>at samples</td><td>exact</td>",
