@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/text/text.hpp"
 
@@ -24,6 +25,11 @@ std::vector<std::string> words_of(const std::string& command) {
   for (const std::string_view word : split(command, ' '))
     if (!word.empty()) words.emplace_back(word);
   return words;
+}
+
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)));
+  return std::ceil(1.02 * value / unit) * unit;
 }
 
 LengthUnit length_unit_for(double length) {

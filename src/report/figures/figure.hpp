@@ -43,6 +43,9 @@ std::string filled(std::string text, const Values& values);
 /// The arguments of a command line without quotes.
 std::vector<std::string> words_of(const std::string& command);
 
+/// A little above the value, with one digit: where an axis ends.
+double rounded_up(double value);
+
 /// The unit in which a length (m) is between 0.1 and 100 or so: mm, µm or nm.
 LengthUnit length_unit_for(double length);
 

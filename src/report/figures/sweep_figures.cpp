@@ -171,12 +171,6 @@ double swing_without_control(const Case& the_case) {
   return 2.0 * effective_excitation(the_case).amplitude * std::abs(relative);
 }
 
-/// A little above the value, with one digit.
-double rounded_up(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)));
-  return std::ceil(1.02 * value / unit) * unit;
-}
-
 MapAxis backlash_axis(const Case& the_case) {
   const double swing = swing_without_control(the_case);
   const double widest = swing > 0.0 ? rounded_up(swing) : 1e-3;  // at rest any width does

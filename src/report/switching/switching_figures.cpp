@@ -226,12 +226,14 @@ JobContext context_of(const JobContext& context, const std::string& table) {
 
 }  // namespace
 
-Figure switching_chart(const SwitchingChart& chart, const ShownAmplitudes& amplitudes) {
+void draw_chart(SwitchingChart& chart, const ShownAmplitudes& amplitudes) {
   const double first = chart.values.front(), last = chart.values.back();
   const double margin = 0.02 * (last - first);
   const std::string largest =
       amplitudes.largest > 0.0 ? format_number(amplitudes.largest) + "*@length@" : "*";
-  const std::string plot =
+  chart.figure.tables = {{chart.figure.name, {"report"}}};
+  chart.figure.height = 500.0;
+  chart.figure.plot =
       filled(chart_plot, {{"first", format_number(1e3 * (first - margin))},
                           {"last", format_number(1e3 * (last + margin))},
                           {"own", format_number(1e3 * chart.own_value)},
@@ -240,33 +242,29 @@ Figure switching_chart(const SwitchingChart& chart, const ShownAmplitudes& ampli
                           {"free", format_number(amplitudes.without_control)},
                           {"label", chart.label},
                           {"periods", curves(chart.column, "$13 > 0 ? $13/$16 : 0.5", "points")}});
-  return {chart.name, chart.title, chart.caption, {{chart.name, {"report"}}}, plot, 500.0};
 }
 
-Figure contact_window_figure(const std::string& name, const std::string& title,
-                             const std::string& caption, const ContactStrip& sampled,
-                             const ContactStrip& exact) {
-  const std::string drawn =
-      strip_names({sampled, exact}) + instants_of_changes(sampled.window, 2.0) +
-      mode_words(sampled.window, 2.0) + mode_words(exact.window, 1.0) + strips(2);
-  const std::string plot = filled(window_plot, {{"range", time_range(exact.window)},
-                                                {"strips", drawn},
-                                                {"tints", tinted(exact.window)},
-                                                {"sampled", sampled.name}});
-  return {name, title, caption, {{name, {"report"}}, {name + "-motion", {"report"}}}, plot, 620.0};
+void draw_window(Figure& figure, const ContactStrip& sampled, const ContactStrip& exact) {
+  figure.tables = {{figure.name, {"report"}}, {figure.name + "-motion", {"report"}}};
+  figure.height = 620.0;
+  figure.plot = filled(
+      window_plot,
+      {{"range", time_range(exact.window)},
+       {"strips", strip_names({sampled, exact}) + instants_of_changes(sampled.window, 2.0) +
+                      mode_words(sampled.window, 2.0) + mode_words(exact.window, 1.0) + strips(2)},
+       {"tints", tinted(exact.window)},
+       {"sampled", sampled.name}});
 }
 
-Figure contact_strips_figure(const std::string& name, const std::string& title,
-                             const std::string& caption, const std::vector<ContactStrip>& all) {
-  const std::string plot =
+void draw_strips(Figure& figure, const std::vector<ContactStrip>& all) {
+  figure.tables = {{figure.name, {"report"}}};
+  figure.height = 120.0 + 30.0 * static_cast<double>(all.size());
+  figure.plot =
       "set lmargin at screen 0.33\nset rmargin at screen 0.84\nset key vertical maxrows 1\n"
       "set xrange [" +
       time_range(all.front().window) + "]\nset yrange [0.5:" + std::to_string(all.size()) +
       ".5]\n" + strip_names(all) + "set xlabel \"time {/:Italic t} (s)\"\nset ylabel \"\"\n" +
       strips(all.size());
-  return {name,    title,
-          caption, {{name, {"report"}}},
-          plot,    120.0 + 30.0 * static_cast<double>(all.size())};
 }
 
 void write_motions(const JobContext& context, const std::string& name,

@@ -11,12 +11,12 @@ namespace holdfast::program {
 
 /// A chart of steady amplitude and, below it, period of every reading over one key of the case.
 struct SwitchingChart {
-  std::string name, title, caption;
+  Figure figure;  ///< without tables and plot
   std::string key;
   std::string column;  ///< of the key in the table of motions, for gnuplot
   std::string label;   ///< in thousandths of the key's unit
-  std::vector<double> values = {};
-  double own_value = 0.0;  ///< of the case, which is marked
+  std::vector<double> values;
+  double own_value;  ///< of the case, which is marked
 };
 
 /// The amplitudes (m) that a chart shows.
@@ -25,8 +25,9 @@ struct ShownAmplitudes {
   double largest;          ///< where the picture ends; 0: at the largest that there is
 };
 
-/// @param chart  with values; the table NAME is of write_motions(), one reading after the other
-Figure switching_chart(const SwitchingChart& chart, const ShownAmplitudes& amplitudes);
+/// Gives the chart's figure, which has a name and words, its plot and its table: NAME of
+/// write_motions(), one reading after the other.
+void draw_chart(SwitchingChart& chart, const ShownAmplitudes& amplitudes);
 
 /// The contact of one motion in a window.
 struct ContactStrip {
@@ -35,17 +36,14 @@ struct ContactStrip {
   MotionWindow window;
 };
 
-/// What a drive does in a window when it switches at samples and when it does so exactly: the
-/// contacts as strips, what is transmitted, and Δz. The tables are NAME of write_strips() and
-/// NAME-motion of write_window().
+/// The same for what a drive does in a window when it switches at samples and when it does so
+/// exactly: the contacts as strips, what is transmitted, and Δz. The tables are NAME of
+/// write_strips() and NAME-motion of write_window().
 /// @param sampled  with the instants at which it enters and leaves its gap, as labels
-Figure contact_window_figure(const std::string& name, const std::string& title,
-                             const std::string& caption, const ContactStrip& sampled,
-                             const ContactStrip& exact);
+void draw_window(Figure& figure, const ContactStrip& sampled, const ContactStrip& exact);
 
-/// The contacts of many motions as strips over the same window, of write_strips().
-Figure contact_strips_figure(const std::string& name, const std::string& title,
-                             const std::string& caption, const std::vector<ContactStrip>& all);
+/// The same for the contacts of many motions as strips over one window, of write_strips().
+void draw_strips(Figure& figure, const std::vector<ContactStrip>& all);
 
 /// Tables of the figures, FOLDER/data/NAME.csv with metadata: a row a motion; a row a phase, the
 /// strips one after the other; a row an instant. All throw what Table throws.

@@ -27,6 +27,9 @@ std::size_t harmonics_of(const Case& the_case) {
   return implemented_loop_of(the_case, Switching::exact).digital.force.harmonics.size();
 }
 
+/// Of the case's own motions (s): 20, or 200 periods of the excitation where these are longer, but
+/// no more than 500 000 samples (fewer for a force of many harmonics), nor after the end of a
+/// recorded force.
 double studied_duration(const Case& the_case) {
   const double most_samples = std::min(5e5, 1e7 / static_cast<double>(harmonics_of(the_case)));
   return std::min({std::max(20.0, 200.0 * forcing_period(the_case)),
@@ -57,15 +60,9 @@ std::vector<double> shown_sampling_periods(const Case& the_case) {
   return with_own(periods, the_case.control.sampling_period);
 }
 
-/// A little above a length, with one digit.
-double rounded_up_length(double length) {
-  const double unit = std::pow(10.0, std::floor(std::log10(length)));
-  return std::ceil(1.02 * length / unit) * unit;
-}
-
 std::vector<double> shown_widths(const Case& the_case) {
   const double swing = swing_without_control(the_case, studied_duration(the_case));
-  const double widest = swing > 0.0 ? rounded_up_length(swing) : 1e-3;
+  const double widest = swing > 0.0 ? rounded_up(swing) : 1e-3;
   std::vector<double> widths;
   for (int part = 0; part <= 30; ++part) widths.push_back(widest * part / 30.0);
   return with_own(widths, the_case.backlash.width);
@@ -97,20 +94,33 @@ std::vector<SwitchingChart> charts_of(const Case& the_case, bool shown) {
   const double period = the_case.control.sampling_period, width = the_case.backlash.width;
   const auto none = std::vector<double>();
   return {
-      {"switching-delay", "Amplitude and period over the sampling period",
-       "The backlash is r₀ = " + milli(width) +
-           " mm. At samples the drive enters and leaves its backlash only when the computer looks; "
-           "exactly, when it happens. As τ becomes short the two come together." +
-           meaning,
-       "control.sampling_period", "$2", "sampling period τ (ms)",
-       shown ? shown_sampling_periods(the_case) : none, period},
-      {"switching-backlash", "Amplitude and period over the backlash",
-       "The sampling period is τ = " + milli(period) +
-           " ms. At r₀ = 0 there is no switching, and what is left between the curves is the hold "
-           "of the force; at the right end the backlash swallows the motion without control." +
-           meaning,
-       "backlash.width", "$3", "backlash {/:Italic r}_0 (mm)",
-       shown ? shown_widths(the_case) : none, width}};
+      {{"switching-delay",
+        "Amplitude and period over the sampling period",
+        "The backlash is r₀ = " + milli(width) +
+            " mm. At samples the drive enters and leaves its backlash only when the computer "
+            "looks; "
+            "exactly, when it happens. As τ becomes short the two come together." +
+            meaning,
+        {},
+        ""},
+       "control.sampling_period",
+       "$2",
+       "sampling period τ (ms)",
+       shown ? shown_sampling_periods(the_case) : none,
+       period},
+      {{"switching-backlash",
+        "Amplitude and period over the backlash",
+        "The sampling period is τ = " + milli(period) +
+            " ms. At r₀ = 0 there is no switching, and what is left between the curves is the hold "
+            "of the force; at the right end the backlash swallows the motion without control." +
+            meaning,
+        {},
+        ""},
+       "backlash.width",
+       "$3",
+       "backlash {/:Italic r}_0 (mm)",
+       shown ? shown_widths(the_case) : none,
+       width}};
 }
 
 /// The window of Fig. 8, 9.05 s to 9.11 s, in periods of the excitation; earlier where the force
@@ -146,59 +156,45 @@ DrawnFigure write_phases(const JobContext& context, bool builtin) {
   constexpr int instants = 601;
   const bool held = force_hold_of(the_case) == ForceHold::sampled;
   const Reading& reading = readings[held ? sampled_and_held : sampled_switching];
-  const std::string name = "switching-phases";
-  const std::string title = builtin ? "Fig. 8 with its stick phase, τ = 1 ms, r₀ = 0.5 mm"
-                                    : "What the drive does between the samples";
-  const std::string caption = phases_caption(the_case, reading, builtin);
+  DrawnFigure drawn;
+  drawn.figure.name = "switching-phases";
+  drawn.figure.title = builtin ? "Fig. 8 with its stick phase, τ = 1 ms, r₀ = 0.5 mm"
+                               : "What the drive does between the samples";
+  drawn.figure.caption = phases_caption(the_case, reading, builtin);
   try {
     const ContactStrip sampled = strip_of("at samples", {the_case, reading, 0.0}, instants);
     const ContactStrip exact =
         strip_of("exact", {the_case, readings[exact_switching], 0.0}, instants);
-    write_strips(context, name, {sampled, exact});
-    write_window(context, name + "-motion", exact.window, sampled.window);
-    return {contact_window_figure(name, title, caption, sampled, exact), {}, "", ""};
+    write_strips(context, drawn.figure.name, {sampled, exact});
+    write_window(context, drawn.figure.name + "-motion", exact.window, sampled.window);
+    draw_window(drawn.figure, sampled, exact);
   } catch (const NoAnswer& reason) {
-    return {{name, title, caption, {}, ""}, {}, "", reason.what()};
+    drawn.reason = reason.what();
   }
+  return drawn;
 }
 
-struct NamedLaw {
-  const char* key;    // backlash.law
-  const char* words;  // gnuplot would set what follows an underscore lower
-};
-
-constexpr std::array<NamedLaw, 5> named_laws = {{{"kollar", "kollar"},
-                                                 {"immediate", "immediate"},
-                                                 {"play", "play"},
-                                                 {"dead_zone", "dead zone"},
-                                                 {"none", "no backlash"}}};
-
-/// Places in `named_laws`.
-enum : std::size_t { play = 2, dead_zone = 3, no_backlash = 4 };
-
-Case with_law(Case the_case, const NamedLaw& law) {
-  the_case.backlash.law = law.key;
-  return the_case;
-}
+/// The values of backlash.law, and their words: gnuplot sets what follows an underscore lower.
+constexpr std::array<std::pair<const char*, const char*>, 5> laws = {{{"kollar", "kollar"},
+                                                                      {"immediate", "immediate"},
+                                                                      {"play", "play"},
+                                                                      {"dead_zone", "dead zone"},
+                                                                      {"none", "no backlash"}}};
 
 std::vector<StudiedLaw> study_laws(const JobContext& context) {
   Loops loops;
-  for (const NamedLaw& law : named_laws) {
-    const Case changed = with_law(context.case_data, law);
+  for (const auto& law : laws) {
+    Case changed = context.case_data;
+    changed.backlash.law = law.first;
     for (const std::size_t reading : {sampled_switching, exact_switching})
       loops.push_back({changed, readings[reading], studied_duration(changed)});
   }
   const Motions motions = study(loops, context.threads);
   write_motions(context, "switching-law-motions", motions);
   std::vector<StudiedLaw> studied;
-  for (std::size_t k = 0; k < named_laws.size(); ++k)
-    studied.push_back({named_laws[k].words, motions[2 * k], motions[2 * k + 1]});
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    studied.push_back({laws[k].second, motions[2 * k], motions[2 * k + 1]});
   return studied;
-}
-
-std::string amplitude_remark(const StudiedMotion& motion) {
-  const SteadyMotion& steady = motion.steady;
-  return steady.diverges ? "diverges" : milli(steady.largest_displacement) + " mm";
 }
 
 /// The strip of a law with its amplitude; an empty one where the motion has no answer.
@@ -209,22 +205,25 @@ ContactStrip strip_with_amplitude(const std::string& name, const StudiedMotion& 
   } catch (const NoAnswer&) {
     std::tie(strip.window.begin, strip.window.end) = shown_window(motion.loop.the_case);
   }
-  strip.remark = amplitude_remark(motion);
+  const SteadyMotion& steady = motion.steady;
+  strip.remark = steady.diverges ? "diverges" : milli(steady.largest_displacement) + " mm";
   return strip;
 }
 
-/// The strips of the laws that differ. Exactly taken, those up to `play` are one.
+/// The strips of the laws that differ. Exactly taken, the first three are one.
 std::vector<ContactStrip> strips_of_laws(const std::vector<StudiedLaw>& studied) {
   std::vector<ContactStrip> strips;
-  const auto add = [&strips](const std::string& name, const StudiedMotion& motion) {
-    strips.push_back(strip_with_amplitude(name, motion));
+  const auto add = [&](std::size_t law, const char* how, bool exact) {
+    const StudiedLaw& of = studied[law];
+    strips.push_back(strip_with_amplitude(how, exact ? of.exact : of.sampled));
   };
-  for (std::size_t k = 0; k <= play; ++k)
-    add(studied[k].words + ", at samples", studied[k].sampled);
-  add("these three, exact", studied[play].exact);
-  add("dead zone, at samples", studied[dead_zone].sampled);
-  add("dead zone, exact", studied[dead_zone].exact);
-  add("no backlash", studied[no_backlash].sampled);
+  add(0, "kollar, at samples", false);
+  add(1, "immediate, at samples", false);
+  add(2, "play, at samples", false);
+  add(2, "these three, exact", true);
+  add(3, "dead zone, at samples", false);
+  add(3, "dead zone, exact", true);
+  add(4, "no backlash", false);
   return strips;
 }
 
@@ -235,14 +234,16 @@ DrawnFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>&
   const bool empty = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
     return strip.window.phases.empty();
   });
-  const std::string name = "switching-laws";
-  write_strips(context, name, strips);
-  const Figure figure = contact_strips_figure(
-      name, "The same for every law of the backlash",
+  Figure figure{
+      "switching-laws",
+      "The same for every law of the backlash",
       "What the drive does under each law, switching at samples and exactly, the force exact in "
       "all; at the right the largest |z₁| of the steady motion. Exactly taken, kollar, immediate "
       "and play are one law. The gap of the dead zone lies about z₂ − z₁ = 0 and does not move.",
-      strips);
+      {},
+      ""};
+  write_strips(context, figure.name, strips);
+  draw_strips(figure, strips);
   return {figure, {}, "", empty ? nowhere : ""};
 }
 
@@ -255,15 +256,16 @@ ShownAmplitudes shown_amplitudes(const Case& the_case, const Motions& of_case) {
   return {free, largest};
 }
 
-DrawnFigure write_chart(const JobContext& context, const SwitchingChart& chart,
+DrawnFigure write_chart(const JobContext& context, SwitchingChart chart,
                         const ShownAmplitudes& amplitudes) {
   const Motions motions =
       study(loops_over(context.case_data, chart.key, chart.values), context.threads);
-  write_motions(context, chart.name, motions);
+  write_motions(context, chart.figure.name, motions);
   const bool empty = std::none_of(motions.begin(), motions.end(), [](const StudiedMotion& motion) {
     return std::isfinite(motion.steady.largest_displacement);
   });
-  return {switching_chart(chart, amplitudes), {}, "", empty ? nowhere : ""};
+  draw_chart(chart, amplitudes);
+  return {chart.figure, {}, "", empty ? nowhere : ""};
 }
 
 /// The charts; without their pictures where the force has many harmonics: they take two hundred
@@ -277,7 +279,7 @@ void add_charts(std::vector<DrawnFigure>& figures, const JobContext& context,
     const std::string reason = "the force has " + std::to_string(harmonics) +
                                " harmonics, too many to follow hundreds of motions";
     for (const SwitchingChart& chart : charts_of(the_case, false))
-      figures.push_back({{chart.name, chart.title, chart.caption, {}, ""}, {}, "", reason});
+      figures.push_back({chart.figure, {}, "", reason});
     return;
   }
   const ShownAmplitudes amplitudes = shown_amplitudes(the_case, of_case);
@@ -302,16 +304,12 @@ std::vector<StudiedLoop> loops_of_paper(const Case& the_case) {
   return loops;
 }
 
-std::vector<StudiedLoop> loops_of_case(const Case& the_case) {
-  Loops loops;
-  add_readings(loops, the_case, studied_duration(the_case));
-  return loops;
-}
-
 SwitchingPage make_switching_page(const JobContext& context, bool builtin) {
   const Case& the_case = context.case_data;
   SwitchingPage page;
-  page.of_case = study(loops_of_case(the_case), context.threads);
+  Loops of_case;
+  add_readings(of_case, the_case, studied_duration(the_case));
+  page.of_case = study(of_case, context.threads);
   write_motions(context, "switching-case", page.of_case);
   if (builtin) {
     page.of_paper = study(loops_of_paper(the_case), context.threads);

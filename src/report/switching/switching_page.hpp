@@ -28,11 +28,6 @@ struct SwitchingPage {
 /// @param the_case  the built-in one
 std::vector<StudiedLoop> loops_of_paper(const Case& the_case);
 
-/// The case's own loop in each reading, for 20 s or 200 periods of the excitation where these are
-/// longer, but no more than 500 000 samples (fewer for a force of many harmonics), nor after the
-/// end of a recorded force.
-std::vector<StudiedLoop> loops_of_case(const Case& the_case);
-
 /// Computes the page on many threads and writes its tables as FOLDER/data/switching-*.csv.
 /// @param context  its output is the report's folder
 /// @param builtin  the case is the paper's: its loops and its Fig. 8 are shown
