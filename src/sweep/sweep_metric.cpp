@@ -26,7 +26,7 @@ std::vector<std::string> kind_words() {
 
 struct NamedColumn {
   SweepMetric metric;
-  SweepColumn column;
+  CellColumn column;
 };
 
 using Metric = SweepMetric;
@@ -166,7 +166,7 @@ const std::vector<SweepMetric>& usual_metrics() {
   return usual;
 }
 
-const SweepColumn& metric_column(SweepMetric metric) {
+const CellColumn& metric_column(SweepMetric metric) {
   return std::find_if(columns().begin(), columns().end(),
                       [metric](const NamedColumn& known) { return known.metric == metric; })
       ->column;

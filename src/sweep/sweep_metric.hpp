@@ -64,9 +64,9 @@ SweepMetric metric_named(const std::string& name);
 const std::vector<SweepMetric>& usual_metrics();
 
 /// Name, unit and definition.
-const SweepColumn& metric_column(SweepMetric metric);
+const CellColumn& metric_column(SweepMetric metric);
 
-/// The value of a cell, as SweepColumn wants it: where the motion diverges, peaks, forces and
+/// The value of a cell, as CellColumn wants it: where the motion diverges, peaks, forces and
 /// stroke are inf; where there is no motion, reals are nan and whole numbers 0.
 double metric_value(SweepMetric metric, const CellResult& result);
 

@@ -7,12 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "io/file/output.hpp"
 #include "io/grid/netcdf_file.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "sweep/sweep_csv.hpp"
-#include "sweep/sweep_netcdf.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -24,7 +21,7 @@ bool is_one_word(const std::string& text) {
 }
 
 /// Whether the datatype is one that a sweep writes, with words as it wants them.
-bool is_writable(const SweepColumn& column) {
+bool is_writable(const CellColumn& column) {
   const std::string& datatype = column.column.datatype;
   if (column.words.size() > NetcdfFile::most_flags) return false;
   if (!std::all_of(column.words.begin(), column.words.end(), is_one_word)) return false;
@@ -37,7 +34,7 @@ bool has_values(const GridAxis& axis) { return axis.count() > 0; }
 const SweepLayout& require_writable(const SweepLayout& layout) {
   const bool whole = std::all_of(layout.axes.begin(), layout.axes.end(), has_values);
   if (layout.axes.empty() || !whole) throw std::logic_error("a sweep without cells");
-  for (const SweepColumn& column : layout.columns) {
+  for (const CellColumn& column : layout.columns) {
     if (!is_writable(column))
       throw std::logic_error("a sweep cannot write the column " + column.column.name);
   }
@@ -45,7 +42,7 @@ const SweepLayout& require_writable(const SweepLayout& layout) {
 }
 
 /// Whether every value is one that the column may have.
-bool fits(const SweepColumn& column, const double* values, std::int64_t cells) {
+bool fits(const CellColumn& column, const double* values, std::int64_t cells) {
   if (values == nullptr) return cells == 0;
   if (column.column.datatype == "double") return true;
   const bool worded = !column.words.empty();
@@ -54,11 +51,6 @@ bool fits(const SweepColumn& column, const double* values, std::int64_t cells) {
   return std::all_of(values, values + cells, [=](double value) {
     return value >= least && value <= most && value == std::trunc(value);
   });
-}
-
-std::unique_ptr<SweepWriter> writer_for(const JobContext& context, SweepLayout layout) {
-  if (is_netcdf_name(context.output)) return sweep_netcdf(context, std::move(layout));
-  return sweep_csv(context, std::move(layout));
 }
 
 }  // namespace
@@ -77,7 +69,7 @@ std::int64_t SweepLayout::cells() const {
 SweepOutput::SweepOutput(const JobContext& context, SweepLayout layout)
     : columns_(require_writable(layout).columns),
       cells_(layout.cells()),
-      writer_(writer_for(context, std::move(layout))) {}
+      writer_(cell_writer(context, std::move(layout.axes), columns_, CellPortions::any)) {}
 
 void SweepOutput::append(std::int64_t cells, const std::vector<const double*>& columns) {
   throw_if_interrupted();

@@ -7,46 +7,18 @@
 #include <vector>
 
 #include "case/axes/grid.hpp"
-#include "io/text/csv.hpp"
+#include "io/grid/cell_writer.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {
 
-/// What a column of a sweep tells of every cell. Its values are handed over as doubles; by the
-/// datatype of the column they are
-///  - "double": written as they are;
-///  - "integer": whole, within ±2⁵³; with words 0, 1, 2, … for them, which only netCDF tells;
-///  - "string": 0, 1, 2, … for the words.
-struct SweepColumn {
-  Column column;
-  /// Without blanks, at most 128: "periodic", "chaotic".
-  std::vector<std::string> words = {};
-};
-
 /// What the result of a sweep is made of: a product grid of axes, the first slowest.
 struct SweepLayout {
   std::vector<GridAxis> axes;  // at least one
-  std::vector<SweepColumn> columns;
+  std::vector<CellColumn> columns;
 
   /// Product of the axes' counts. Throws WrongInput for 2⁶³ and more.
   std::int64_t cells() const;
-};
-
-/// One way in which a sweep becomes a file: its cells in ascending order, with values that are
-/// such as their columns say, and never more than there are.
-class SweepWriter {
- public:
-  virtual ~SweepWriter() = default;
-  SweepWriter(const SweepWriter&) = delete;
-  SweepWriter& operator=(const SweepWriter&) = delete;
-  SweepWriter(SweepWriter&&) = delete;
-  SweepWriter& operator=(SweepWriter&&) = delete;
-
-  virtual void append(std::size_t cells, const std::vector<const double*>& columns) = 0;
-  virtual void commit() = 0;
-
- protected:
-  SweepWriter() = default;
 };
 
 /// A job's result over any number of axes, written in order in bounded memory: a netCDF-4 file with
@@ -61,7 +33,7 @@ class SweepWriter {
 ///     output.append(2501, {peaks.data(), verdicts.data()});   // or in any portions
 ///     output.commit();
 ///
-/// Throws std::logic_error for a layout without axes or with words that SweepColumn does not allow,
+/// Throws std::logic_error for a layout without axes or with words that CellColumn does not allow,
 /// for more cells than the layout has, values that are not such as their column says, and a
 /// commit() before the last cell; NoAnswer where netCDF is asked for and missing; Interrupted; and
 /// what SweepLayout::cells(), OutputFile and, for an axis name that netCDF does not take,
@@ -76,10 +48,10 @@ class SweepOutput {
   void commit();
 
  private:
-  std::vector<SweepColumn> columns_;
+  std::vector<CellColumn> columns_;
   std::int64_t cells_;
   std::int64_t cells_done_ = 0;
-  std::unique_ptr<SweepWriter> writer_;
+  std::unique_ptr<CellWriter> writer_;
 };
 
 }  // namespace holdfast::program

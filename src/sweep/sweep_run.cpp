@@ -23,8 +23,8 @@
 #include "sweep/sweep_cells.hpp"
 #include "sweep/tiles/tile_plan_file.hpp"
 #include "sweep/tiles/tile_result.hpp"
+#include "sweep/tiles/tile_store.hpp"
 #include "sweep/tiles/work_folder.hpp"
-#include "sweep/tiles/work_folder_plan.hpp"
 
 namespace holdfast::program {
 namespace {

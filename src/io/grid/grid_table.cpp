@@ -1,20 +1,30 @@
 #include "io/grid/grid_table.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "io/file/output.hpp"
-#include "io/grid/csv_grid.hpp"
-#include "io/grid/netcdf_grid.hpp"
+#include "io/text/text.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
 
-std::unique_ptr<GridWriter> writer_for(const JobContext& context, GridLayout layout) {
-  if (is_netcdf_name(context.output)) return netcdf_grid(context, std::move(layout));
-  return csv_grid(context, std::move(layout));
+std::vector<CellColumn> cell_columns(const JobContext& context,
+                                     const std::vector<GridColumn>& columns) {
+  std::vector<CellColumn> result;
+  for (const GridColumn& column : columns) {
+    CellColumn& cells = result.emplace_back(CellColumn{column.column});
+    const auto words = split(column.flag_meanings, ' ');
+    if (column.holds_flags()) {
+      cells.words.assign(words.begin(), words.end());
+    } else if (is_netcdf_name(context.output)) {
+      cells.column.datatype = "double";  // whatever a table calls it
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -33,9 +43,22 @@ double GridAxis::at(std::size_t index) const {
   return std::get<Axis>(values).at(number);
 }
 
+std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<GridAxis> axes,
+                                        const std::vector<CellColumn>& columns,
+                                        CellPortions portions) {
+  if (is_netcdf_name(context.output))
+    return netcdf_cells(context, std::move(axes), columns, portions);
+  return csv_cells(context, std::move(axes), columns);
+}
+
 GridTable::GridTable(const JobContext& context, const GridAxis& slow, const GridAxis& fast,
                      const std::vector<GridColumn>& columns)
-    : rows_(slow.count()), columns_(columns), writer_(writer_for(context, {slow, fast, columns})) {}
+    : rows_(slow.count()),
+      cells_of_row_(fast.count()),
+      columns_(columns),
+      flags_(columns.size()),
+      writer_(cell_writer(context, {slow, fast}, cell_columns(context, columns),
+                          CellPortions::lines)) {}
 
 void GridTable::append_row(const std::vector<GridValues>& columns) {
   throw_if_interrupted();
@@ -44,7 +67,19 @@ void GridTable::append_row(const std::vector<GridValues>& columns) {
     fits = std::holds_alternative<const std::uint8_t*>(columns[i]) == columns_[i].holds_flags();
   }
   if (!fits) throw std::logic_error("a row that does not fit its chart");
-  writer_->append_row(columns);
+  std::vector<const double*> values;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (const auto* reals = std::get_if<const double*>(&columns[i])) {
+      values.push_back(*reals);
+      continue;
+    }
+    const std::uint8_t* flags = std::get<const std::uint8_t*>(columns[i]);
+    flags_[i].resize(cells_of_row_);
+    std::transform(flags, flags + cells_of_row_, flags_[i].begin(),
+                   [](std::uint8_t flag) { return flag != 0 ? 1.0 : 0.0; });
+    values.push_back(flags_[i].data());
+  }
+  writer_->append(cells_of_row_, values);
   ++rows_done_;
 }
 

@@ -1,13 +1,29 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "case/axes/grid.hpp"
+#include "io/grid/cell_writer.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {
+
+/// What a chart tells of every cell: a real number, or yes or no.
+struct GridColumn {
+  Column column;
+  /// For flags what 0 and 1 mean, one word each: "unstable stable"; "" for real numbers.
+  std::string flag_meanings = {};
+
+  bool holds_flags() const { return !flag_meanings.empty(); }
+};
+
+/// The values of one column along the fast axis, as many as that has: flags (0 or not) or reals.
+using GridValues = std::variant<const std::uint8_t*, const double*>;
 
 /// A job's result over two axes: a netCDF-4 file when the output's name ends in `.nc`, else the
 /// same bytes as a Table with the columns slow axis, fast axis, values. It appears at commit() or
@@ -37,8 +53,10 @@ class GridTable {
  private:
   std::size_t rows_ = 0;
   std::size_t rows_done_ = 0;
+  std::size_t cells_of_row_ = 0;
   std::vector<GridColumn> columns_;
-  std::unique_ptr<GridWriter> writer_;
+  std::vector<std::vector<double>> flags_;  // of a row, column by column
+  std::unique_ptr<CellWriter> writer_;
 };
 
 }  // namespace holdfast::program

@@ -3,10 +3,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "sweep/tiles/tile_plan.hpp"
+#include "io/file/folder_lock.hpp"
+#include "sweep/tiles/tile_file.hpp"
+#include "sweep/tiles/tile_plan_file.hpp"
 
 namespace holdfast::program {
 
@@ -33,12 +38,6 @@ class TileStore {
   /// it. Throws WrongInput where the folder does not have that plan, or is not seen from here.
   static TileStore join(const std::filesystem::path& folder, const TilePlan& plan);
 
-  ~TileStore();
-  TileStore(TileStore&&) noexcept;
-  TileStore& operator=(TileStore&&) noexcept;
-  TileStore(const TileStore&) = delete;
-  TileStore& operator=(const TileStore&) = delete;
-
   /// Whether the folder holds this tile, whole and of this plan. Reads the file the first time. One
   /// that is not stays until put() replaces it: to remove it could meet what another process has
   /// put there meanwhile.
@@ -55,12 +54,19 @@ class TileStore {
   /// in the folder stays, and the folder then too; so does what the system will not remove.
   void remove();
 
-  const std::filesystem::path& folder() const;
+  const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  class Folder;
-  explicit TileStore(std::unique_ptr<Folder> folder);
-  std::unique_ptr<Folder> folder_;
+  TileStore(std::filesystem::path folder, const TilePlan& plan, std::optional<FolderLock> lock);
+  TileLabel label_of(std::int64_t tile) const;
+  bool known_whole(std::int64_t tile) const;
+  void set_known_whole(std::int64_t tile, bool whole) const;
+
+  std::filesystem::path folder_;
+  std::uint64_t identity_;
+  std::optional<FolderLock> lock_;
+  std::unique_ptr<std::mutex> mutex_;
+  mutable std::vector<bool> whole_;  // a bit a tile: those known to be
 };
 
 }  // namespace holdfast::program

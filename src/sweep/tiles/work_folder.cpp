@@ -55,6 +55,10 @@ std::optional<std::int64_t> tile_of_file_name(std::string_view name) {
   return tile;
 }
 
+std::string finished_tiles(std::int64_t tiles) {
+  return std::to_string(tiles) + (tiles == 1 ? " finished tile" : " finished tiles");
+}
+
 WorkFolderContents contents_of_work_folder(const fs::path& folder) {
   WorkFolderContents contents;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -25,6 +25,9 @@ struct WorkFolderContents {
   bool others = false;                           ///< anything that no work folder has
 };
 
+/// "1 finished tile", "12 finished tiles".
+std::string finished_tiles(std::int64_t tiles);
+
 /// Throws std::filesystem::filesystem_error where the folder cannot be read.
 WorkFolderContents contents_of_work_folder(const std::filesystem::path& folder);
 

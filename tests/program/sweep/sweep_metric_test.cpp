@@ -43,7 +43,7 @@ TEST(SweepMetric, RatioIsOverTheUncontrolledPeak) {
 TEST(SweepMetric, OfAnInadmissibleCellIsNoNumberAndSaysSo) {
   const CellResult cell;
   for (const SweepMetric metric : all_metrics()) {
-    const SweepColumn& column = metric_column(metric);
+    const CellColumn& column = metric_column(metric);
     const double value = metric_value(metric, cell);
     if (column.column.datatype == "double") {
       EXPECT_TRUE(std::isnan(value));

@@ -52,7 +52,7 @@ JobContext output_context(const std::filesystem::path& output) {
 }
 
 /// A column of each kind, with a word that CSV must quote.
-std::vector<SweepColumn> columns_of_every_kind() {
+std::vector<CellColumn> columns_of_every_kind() {
   return {{{"steady_peak", "m", "largest |z1|"}, {}},
           {{"period_samples", "", "0: none", "integer"}, {}},
           {{"attenuates", "", "1: it does", "integer"}, {"no", "yes"}},
@@ -125,7 +125,7 @@ std::vector<std::size_t> indices_of(const SweepLayout& layout, std::size_t cell)
 void write_as_table(const std::filesystem::path& file, const SweepCells& cells) {
   std::vector<Column> columns;
   for (const GridAxis& axis : cells.layout.axes) columns.push_back(axis.column);
-  for (const SweepColumn& column : cells.layout.columns) columns.push_back(column.column);
+  for (const CellColumn& column : cells.layout.columns) columns.push_back(column.column);
   Table table(output_context(file), columns);
   for (std::size_t cell = 0; cell < cells.count(); ++cell) {
     const std::vector<std::size_t> indices = indices_of(cells.layout, cell);

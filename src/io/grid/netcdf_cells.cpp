@@ -1,5 +1,4 @@
-#include "sweep/sweep_netcdf.hpp"
-
+#include "io/grid/cell_writer.hpp"
 #include "io/grid/netcdf_library.hpp"
 
 #ifdef HOLDFAST_HAS_NETCDF
@@ -28,7 +27,7 @@ using Shape = NetcdfDataset::Shape;
 /// A column's values in the cells that wait to be written, as its variable holds them.
 class WaitingValues {
  public:
-  WaitingValues(NetcdfDataset& dataset, const SweepColumn& column, const Shape& chunk) {
+  WaitingValues(NetcdfDataset& dataset, const CellColumn& column, const Shape& chunk) {
     if (!column.words.empty()) {
       variable_ = dataset.add_flags(column.column, column.words, chunk);
       values_ = std::vector<signed char>();
@@ -71,27 +70,34 @@ std::size_t cells_of(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
-class SweepNetcdf : public SweepWriter {
+/// A chunk is read as a whole, and HDF5 has none of 4 GiB; only lines longer than this are cut.
+constexpr std::size_t most_values_in_line = std::size_t{1} << 20;
+
+class NetcdfCells : public CellWriter {
  public:
-  SweepNetcdf(const JobContext& context, SweepLayout layout)
-      : dataset_(context, std::move(layout.axes)) {
-    const Shape chunk = chunk_shape(dataset_.shape(), values_in_block);
-    for (const SweepColumn& column : layout.columns) {
+  NetcdfCells(const JobContext& context, std::vector<GridAxis> axes,
+              const std::vector<CellColumn>& columns, CellPortions portions)
+      : dataset_(context, std::move(axes)) {
+    const bool lines = portions == CellPortions::lines;
+    const Shape& shape = dataset_.shape();
+    const Shape chunk = chunk_shape(shape, lines ? most_values_in_line : values_in_block);
+    if (lines) cells_of_portion_ = cells_of(shape) / shape[0] * chunk[0];
+    for (const CellColumn& column : columns) {
       columns_.emplace_back(dataset_, column, chunk);
       // Cells come in order: the chunk that is not yet whole is all that will be needed again.
-      dataset_.set_cache(columns_.back().variable(), cells_of(chunk) * sizeof(double));
+      if (!lines) dataset_.set_cache(columns_.back().variable(), cells_of(chunk) * sizeof(double));
     }
     dataset_.begin_values();
   }
 
   void append(std::size_t cells, const std::vector<const double*>& columns) override {
     for (std::size_t done = 0; done < cells;) {
-      const std::size_t taken = std::min(values_in_block - cells_waiting_, cells - done);
+      const std::size_t taken = std::min(cells_of_portion_ - cells_waiting_, cells - done);
       for (std::size_t i = 0; i < columns_.size(); ++i)
         columns_[i].append(columns[i] + done, taken);
       cells_waiting_ += taken;
       done += taken;
-      if (cells_waiting_ == values_in_block) write_waiting();
+      if (cells_waiting_ == cells_of_portion_) write_waiting();
     }
   }
 
@@ -116,19 +122,23 @@ class SweepNetcdf : public SweepWriter {
 
   NetcdfDataset dataset_;
   std::vector<WaitingValues> columns_;
+  std::size_t cells_of_portion_ = values_in_block;
   std::size_t cells_written_ = 0;
   std::size_t cells_waiting_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<SweepWriter> sweep_netcdf(const JobContext& context, SweepLayout layout) {
-  return std::make_unique<SweepNetcdf>(context, std::move(layout));
+std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, std::vector<GridAxis> axes,
+                                         const std::vector<CellColumn>& columns,
+                                         CellPortions portions) {
+  return std::make_unique<NetcdfCells>(context, std::move(axes), columns, portions);
 }
 
 #else
 
-std::unique_ptr<SweepWriter> sweep_netcdf(const JobContext&, SweepLayout) {
+std::unique_ptr<CellWriter> netcdf_cells(const JobContext&, std::vector<GridAxis>,
+                                         const std::vector<CellColumn>&, CellPortions) {
   require_netcdf();
   return nullptr;
 }

@@ -1,10 +1,9 @@
-#include "sweep/sweep_csv.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
 
+#include "io/grid/cell_writer.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/csv_lines.hpp"
 #include "io/text/number_text.hpp"
@@ -13,19 +12,21 @@
 namespace holdfast::program {
 namespace {
 
-std::vector<Column> csv_columns(const SweepLayout& layout) {
-  std::vector<Column> columns;
-  for (const GridAxis& axis : layout.axes) columns.push_back(axis.column);
-  for (const SweepColumn& column : layout.columns) columns.push_back(column.column);
-  return columns;
+std::vector<Column> columns_of(const std::vector<GridAxis>& axes,
+                               const std::vector<CellColumn>& columns) {
+  std::vector<Column> all;
+  for (const GridAxis& axis : axes) all.push_back(axis.column);
+  for (const CellColumn& column : columns) all.push_back(column.column);
+  return all;
 }
 
 /// How the values of a column become text.
 class ColumnText {
  public:
-  explicit ColumnText(const SweepColumn& column) : whole_(column.column.datatype == "integer") {
-    if (column.column.datatype != "string") return;
-    for (const std::string& word : column.words) words_.push_back(csv_cell(word));
+  explicit ColumnText(const CellColumn& column) : whole_(column.column.datatype == "integer") {
+    const bool number = column.column.datatype != "string";
+    for (const std::string& word : column.words)
+      words_.push_back(number ? std::to_string(words_.size()) : csv_cell(word));
   }
 
   /// Writes the value with a comma and returns the place behind.
@@ -51,12 +52,8 @@ class ColumnText {
 
  private:
   bool whole_;
-  std::vector<std::string> words_;  // as in the file; of a "string"
+  std::vector<std::string> words_;  // as in the file
 };
-
-std::vector<ColumnText> texts_of(const std::vector<SweepColumn>& columns) {
-  return {columns.begin(), columns.end()};
-}
 
 /// Of the axes and the values; what put_text() copies beyond an axis' text has room behind.
 std::size_t longest_line(std::size_t axes, const std::vector<ColumnText>& columns) {
@@ -65,13 +62,14 @@ std::size_t longest_line(std::size_t axes, const std::vector<ColumnText>& column
   return size;
 }
 
-class SweepCsv : public SweepWriter {
+class CsvCells : public CellWriter {
  public:
-  SweepCsv(const JobContext& context, SweepLayout layout)
-      : table_(context, csv_columns(layout)),
-        columns_(texts_of(layout.columns)),
-        lines_(table_.writer(), longest_line(layout.axes.size(), columns_)),
-        axes_(std::move(layout.axes)),
+  CsvCells(const JobContext& context, std::vector<GridAxis> axes,
+           const std::vector<CellColumn>& columns)
+      : table_(context, columns_of(axes, columns)),
+        columns_(columns.begin(), columns.end()),
+        lines_(table_.writer(), longest_line(axes.size(), columns_)),
+        axes_(std::move(axes)),
         fast_texts_(axes_.back()),
         indices_(axes_.size(), 0),
         ends_(axes_.size() - 1, 0) {
@@ -127,8 +125,9 @@ class SweepCsv : public SweepWriter {
 
 }  // namespace
 
-std::unique_ptr<SweepWriter> sweep_csv(const JobContext& context, SweepLayout layout) {
-  return std::make_unique<SweepCsv>(context, std::move(layout));
+std::unique_ptr<CellWriter> csv_cells(const JobContext& context, std::vector<GridAxis> axes,
+                                      const std::vector<CellColumn>& columns) {
+  return std::make_unique<CsvCells>(context, std::move(axes), columns);
 }
 
 }  // namespace holdfast::program
