@@ -13,7 +13,7 @@
 #include "holdfast/sweep/metric_batch.hpp"
 #include "sweep_cells.hpp"
 #ifdef HOLDFAST_BENCH_KERNELS
-#include "kernels/kernels_of_units.hpp"
+#include "kernels/pack_kernels.hpp"
 #include "kernels/rows_on_packs.hpp"
 #else
 #include "holdfast/simd/pack.hpp"

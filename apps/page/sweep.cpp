@@ -3,7 +3,6 @@
 #include "job.hpp"
 #include "motion_options.hpp"
 #include "sweep/sweep_run.hpp"
-#include "sweep/sweep_size.hpp"
 
 namespace holdfast::program {
 namespace {

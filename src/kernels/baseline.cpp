@@ -1,4 +1,3 @@
-#include "kernels/kernels_of_units.hpp"
 #include "kernels/kernels_on.hpp"
 #ifdef HOLDFAST_HAS_SIMD
 #include "holdfast/simd/pack.hpp"

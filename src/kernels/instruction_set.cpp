@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "process/errors.hpp"
 
@@ -51,15 +52,8 @@ std::string names_of(const Sets& sets) {
 }  // namespace
 
 std::string_view name_of(InstructionSet set) {
-  switch (set) {
-    case InstructionSet::baseline:
-      return "baseline";
-    case InstructionSet::avx2:
-      return "avx2";
-    case InstructionSet::avx512:
-      return "avx512";
-  }
-  return "";
+  constexpr std::array<std::string_view, 3> names = {"baseline", "avx2", "avx512"};
+  return names[static_cast<std::size_t>(set)];
 }
 
 InstructionSet instruction_set_named(std::string_view name) {

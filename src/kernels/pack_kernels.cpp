@@ -1,7 +1,5 @@
 #include "kernels/pack_kernels.hpp"
 
-#include "kernels/kernels_of_units.hpp"
-
 namespace holdfast::program {
 
 const PackKernels& pack_kernels(InstructionSet set) {

@@ -97,6 +97,12 @@ struct PackKernels {
                                           const PdGains<double>& gains, const Rational& ratio);
 };
 
+/// One unit each, compiled for its instruction set; those that the program does not have are not
+/// defined. Call none of a set that the processor has not got.
+const PackKernels& baseline_kernels();
+const PackKernels& avx2_kernels();
+const PackKernels& avx512_kernels();
+
 /// Those of an available instruction set.
 const PackKernels& pack_kernels(InstructionSet set);
 

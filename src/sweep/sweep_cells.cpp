@@ -1,9 +1,9 @@
 #include "sweep/sweep_cells.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "holdfast/core/errors.hpp"
@@ -25,6 +25,14 @@ CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {
   if (outcome == MinimumAmplitudeOutcome::none) return CellOutcome::no_gain;
   if (outcome == MinimumAmplitudeOutcome::aliased) return CellOutcome::aliased;
   return CellOutcome::computed;
+}
+
+/// What two motions without control must have in common to be one, to be compared.
+auto all_numbers_of(const SweepMotion& motion) {
+  const IdealLoop<double>& loop = motion.loop;
+  const Vector<double, 4>& state = motion.initial_state;
+  return std::tuple(numbers_of(loop.plant), loop.sampling.period, loop.excitation.amplitude,
+                    loop.excitation.frequency, loop.hold, state[0], state[1], state[2], state[3]);
 }
 
 /// The admissible cells of a tile as motions, and what is found of each.
@@ -116,7 +124,7 @@ class TileCells {
   /// Of each distinct motion without control once: many cells share theirs.
   void find_uncontrolled_peaks() {
     std::vector<CellMotion> distinct;
-    std::map<std::array<double, 14>, std::size_t> known;
+    std::map<decltype(all_numbers_of(motions_[0].of_paper)), std::size_t> known;
     std::vector<std::size_t> number_of(motions_.size());
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       const CellMotion motion = without_control(motions_[k]);
@@ -130,25 +138,6 @@ class TileCells {
         metrics_of(distinct, plan_.options().duration, plan_.context().instructions);
     for (std::size_t k = 0; k < motions_.size(); ++k)
       results_[cells_[k]].uncontrolled_peak = metrics[number_of[k]].steady_peak;
-  }
-
-  static std::array<double, 14> all_numbers_of(const SweepMotion& motion) {
-    const auto plant = numbers_of(motion.loop.plant);
-    const Vector<double, 4>& state = motion.initial_state;
-    return {plant[0],
-            plant[1],
-            plant[2],
-            plant[3],
-            plant[4],
-            plant[5],
-            motion.loop.sampling.period,
-            motion.loop.excitation.amplitude,
-            motion.loop.excitation.frequency,
-            motion.loop.hold == ForceHold::exact ? 1.0 : 0.0,
-            state[0],
-            state[1],
-            state[2],
-            state[3]};
   }
 
   void find_attractor(const CellMotion& motion, CellResult& result) const {

@@ -12,4 +12,8 @@ namespace holdfast::program {
 /// as they do, Interrupted; where tiles are left for --resume, standard error says so.
 void write_sweep(const JobContext& context, const SweepOptions& options);
 
+/// Writes to standard output how large a sweep would be, and computes nothing: axes, cells, tiles,
+/// samples, bytes of the tiles. Of several processes the first one writes.
+void write_sweep_size(const JobContext& context, const SweepOptions& options);
+
 }  // namespace holdfast::program

@@ -1,5 +1,4 @@
 #include "holdfast/simd/pack.hpp"
-#include "kernels/kernels_of_units.hpp"
 #include "kernels/kernels_on.hpp"
 
 namespace holdfast::program {

@@ -19,6 +19,7 @@
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/comparison/comparison_tools.hpp"
+#include "report/page/command_line.hpp"
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"
 #include "report/switching/switching_study.hpp"
@@ -330,12 +331,14 @@ std::vector<Answer> answers_of(const Case& the_case, InstructionSet set) {
   return answers;
 }
 
-std::string html_of(const std::vector<ShownAnswer>& answers) {
+std::string html_of(const std::vector<Answer>& answers,
+                    const std::vector<std::string>& case_arguments) {
   std::string html = "<section id=\"answers\">\n<h2>The answers</h2>\n";
-  for (const auto& [answer, command] : answers) {
+  for (const Answer& answer : answers) {
     html += "<div class=\"answer\">\n<h3>" + escaped(answer.question) +
             "</h3>\n<p class=\"said\">" + escaped(answer.answer) + "</p>\n<p class=\"why\">" +
-            escaped(answer.detail) + "</p>\n<pre>" + escaped(command) + "</pre>\n</div>\n";
+            escaped(answer.detail) + "</p>\n<pre>" +
+            escaped(shell_text(answer.arguments, case_arguments)) + "</pre>\n</div>\n";
   }
   return html + "</section>\n";
 }

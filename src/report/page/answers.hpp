@@ -22,13 +22,8 @@ struct Answer {
 /// @param set  on whose packs motions are computed
 std::vector<Answer> answers_of(const Case& the_case, InstructionSet set);
 
-/// An answer and the whole command line that shows it.
-struct ShownAnswer {
-  Answer answer;
-  std::string command;
-};
-
-/// The section of the page.
-std::string html_of(const std::vector<ShownAnswer>& answers);
+/// The section of the page, each answer with the whole command line that shows it.
+std::string html_of(const std::vector<Answer>& answers,
+                    const std::vector<std::string>& case_arguments);
 
 }  // namespace holdfast::program

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "report/page/command_line.hpp"
+
 namespace holdfast::program {
 namespace {
 
@@ -65,8 +67,7 @@ std::string comparison_table(const std::vector<Comparison>& comparisons) {
 }
 
 /// Two rows of the table: the numbers, and below them what they rest on.
-std::string motion_rows(const ShownMotion& motion) {
-  const MotionRow& row = motion.row;
+std::string motion_rows(const MotionRow& row, const std::string& command) {
   std::string html = "<tr class=\"motion\">";
   for (const std::string* cell : {&row.place, &row.motion, &row.verdict, &row.period,
                                   &row.multiplier, &row.border, &row.capture, &row.precision}) {
@@ -75,7 +76,7 @@ std::string motion_rows(const ShownMotion& motion) {
   html += "</tr>\n<tr class=\"basis\"><td></td><td colspan=\"7\">";
   if (!row.neighbour.empty())
     html += "<p>Beside the motion from rest: <strong>" + escaped(row.neighbour) + "</strong>.</p>";
-  return html + "<p>" + escaped(row.rests_on) + "</p><code>" + escaped(motion.command) +
+  return html + "<p>" + escaped(row.rests_on) + "</p><code>" + escaped(command) +
          "</code></td></tr>\n";
 }
 
@@ -91,10 +92,11 @@ constexpr const char* motions_text =
     "displacements differ. A <em>coincidence</em> is a sample that falls on the same phase of the "
     "forcing.</p>\n";
 
-std::string motions_table(const std::vector<ShownMotion>& motions) {
-  if (motions.empty()) return "";
+std::string motions_table(const Page& page) {
+  if (page.motions.empty()) return "";
   std::string rows;
-  for (const ShownMotion& motion : motions) rows += motion_rows(motion);
+  for (const MotionRow& motion : page.motions)
+    rows += motion_rows(motion, shell_text(motion.arguments, page.case_arguments));
   return std::string("<h2 id=\"motions\">What the motion is</h2>\n") + motions_text +
          html_table({"figure", "case", "verdict", "period", "largest multiplier",
                      "nearest change of contact", "radius of capture", "extended precision"},
@@ -173,7 +175,7 @@ std::string html_of(const Page& page) {
   html += page.answers;
   html += "<h2 id=\"figures\">Figures</h2>\n";
   for (const DrawnFigure& drawn : page.figures) html += figure_html(drawn);
-  html += motions_table(page.motions);
+  html += motions_table(page);
   html += page.switching;
   html += comparison_table(page.comparisons);
   html += "<h2 id=\"case\">The case</h2>\n<pre>" + escaped(page.case_text) +

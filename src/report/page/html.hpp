@@ -17,20 +17,15 @@ struct DrawnFigure {
   std::string reason;  ///< empty when there is a picture
 };
 
-/// A motion and the command line that shows all of it.
-struct ShownMotion {
-  MotionRow row;
-  std::string command;
-};
-
 /// Everything that the page shows.
 struct Page {
   std::string title;
   std::string introduction;
-  std::string case_text;                ///< the full case as TOML
-  std::string answers;                  ///< HTML: what a designer asks, answered
-  std::vector<Comparison> comparisons;  ///< may be empty
-  std::vector<ShownMotion> motions;
+  std::vector<std::string> case_arguments;  ///< the options that made the case
+  std::string case_text;                    ///< the full case as TOML
+  std::string answers;                      ///< HTML: what a designer asks, answered
+  std::vector<Comparison> comparisons;      ///< may be empty
+  std::vector<MotionRow> motions;
   std::string switching;  ///< HTML: how much the sampled switching matters
   std::vector<DrawnFigure> figures;
 };

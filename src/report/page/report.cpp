@@ -59,8 +59,8 @@ class ReportWriter {
   DrawnFigure make(const Figure& figure) const {
     DrawnFigure drawn{figure, {}, "", ""};
     for (const TableRequest& table : figure.tables) {
-      drawn.commands.push_back(shell_text(command_of(table.arguments, case_arguments_)) +
-                               " --output data/" + table.name + ".csv");
+      drawn.commands.push_back(shell_text(table.arguments, case_arguments_) + " --output data/" +
+                               table.name + ".csv");
     }
     drawn.reason = write_tables(figure);
     return drawn.reason.empty() ? with_picture(std::move(drawn)) : drawn;
@@ -68,7 +68,7 @@ class ReportWriter {
 
   /// A figure whose tables the report has written itself, unless there is a reason not to.
   DrawnFigure drawn(DrawnFigure own) const {
-    own.commands = {shell_text(command_of({"report"}, case_arguments_)) + " --output ."};
+    own.commands = {shell_text({"report"}, case_arguments_) + " --output ."};
     return own.reason.empty() ? with_picture(std::move(own)) : own;
   }
 
@@ -113,18 +113,6 @@ class ReportWriter {
   bool can_draw_;
 };
 
-std::vector<ShownMotion> shown_motions(const Case& the_case, bool builtin,
-                                       const Arguments& case_arguments) {
-  std::vector<MotionRow> rows =
-      builtin ? paper_motions(the_case) : std::vector<MotionRow>{motion_of_the_case(the_case)};
-  std::vector<ShownMotion> shown;
-  for (MotionRow& row : rows) {
-    std::string command = shell_text(command_of(row.arguments, case_arguments));
-    shown.push_back({std::move(row), std::move(command)});
-  }
-  return shown;
-}
-
 /// "my-line: 21.3 Hz, τ = 5 ms, r₀ = 0.5 mm".
 std::string title_of(const JobContext& context, bool builtin) {
   if (builtin) return "A controlled cable: the paper's figures and ours";
@@ -144,13 +132,6 @@ std::string introduction_of(bool builtin) {
          "of suspended cables</cite>, Nonlinear Dynamics (2022), computed anew, and each number of "
          "the paper beside "
          "the number found here.";
-}
-
-std::string answers_part(const JobContext& context, const Arguments& case_arguments) {
-  std::vector<ShownAnswer> shown;
-  for (const Answer& answer : answers_of(context.case_data, context.instructions))
-    shown.push_back({answer, shell_text(command_of(answer.arguments, case_arguments))});
-  return html_of(shown);
 }
 
 std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {
@@ -179,11 +160,13 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   Page page;
   page.title = title_of(context, builtin);
   page.introduction = introduction_of(builtin);
+  page.case_arguments = case_arguments;
   page.case_text = case_to_toml(context.case_data);
   if (builtin) page.comparisons = compare_with_paper();
-  page.motions = shown_motions(context.case_data, builtin, case_arguments);
+  page.motions = builtin ? paper_motions(context.case_data)
+                         : std::vector<MotionRow>{motion_of_the_case(context.case_data)};
   Progress progress(figures.size() + 2, "report", progress_wanted(context));
-  page.answers = answers_part(context, case_arguments);
+  page.answers = html_of(answers_of(context.case_data, context.instructions), case_arguments);
   progress.advance();
   page.switching = switching_part(context, builtin, writer);
   progress.advance();
