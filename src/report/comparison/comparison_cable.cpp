@@ -20,75 +20,69 @@
 namespace holdfast::program {
 namespace {
 
-using Rows = std::vector<Comparison>;
-
-void compare_stiffness(Rows& rows, const Case& the_case) {
+void compare_stiffness(Comparisons& rows, const Case& the_case) {
   const auto irvine = irvine_statics_of(the_case);
   const ReadingRange range = reading_range_of(the_case);
   const std::string why =
       "the paper's words, about 7–8 mm below and above, allow 48.9 to 50.5 N/m from Eq. 1";
-  rows.push_back(number("Table 1: k₁", "50.3 N/m", 50.3, 0.2, conductor_stiffness_of(the_case),
-                        "N/m", "least squares over Eq. 1, 7 mm above to 8 mm below"));
-  rows.push_back(number("Table 1: k₁", "50.3 N/m", 50.3, 0.2, irvine.stiffness(0.0), "N/m",
-                        "tangent of Eq. 1", why));
-  rows.push_back(number("Table 1: k₁", "50.3 N/m", 50.3, 0.2,
-                        conductor_stiffness(irvine, StiffnessReading::secant, range), "N/m",
-                        "secant of Eq. 1, 7 mm above to 8 mm below", why));
-  rows.push_back(number("Table 1: k₁", "50.3 N/m", 50.3, 0.3,
-                        exact_statics_of(the_case).stiffness(0.0), "N/m",
-                        "tangent of the exact statics", why));
+  rows.number("Table 1: k₁", "50.3 N/m", 0.2, conductor_stiffness_of(the_case),
+              "least squares over Eq. 1, 7 mm above to 8 mm below");
+  rows.number("Table 1: k₁", "50.3 N/m", 0.2, irvine.stiffness(0.0), "tangent of Eq. 1", why);
+  rows.number("Table 1: k₁", "50.3 N/m", 0.2,
+              conductor_stiffness(irvine, StiffnessReading::secant, range),
+              "secant of Eq. 1, 7 mm above to 8 mm below", why);
+  rows.number("Table 1: k₁", "50.3 N/m", 0.3, exact_statics_of(the_case).stiffness(0.0),
+              "tangent of the exact statics", why);
 }
 
-Comparison no_masses(double first, double second, const std::string& of) {
+void compare_masses(Comparisons& rows, double first, double second, const std::string& of) {
   const auto result = reduce_to_frequencies({50.3, 0.16, first, second});
   const bool none = result.outcome == ReductionOutcome::no_solution;
   const ReducedMasses& smaller = result.solutions[0];
   const bool agrees = std::abs(smaller.conductor_mass - 0.0767) < 5e-4 &&
                       std::abs(smaller.absorber_stiffness - 74.4) < 0.5;
-  return statement("Table 1: m₁ and k₂ from the first and sixth frequencies of the conductor",
-                   "0.0767 kg, 74.4 N/m",
-                   none ? "no two-mass plant has them"
-                        : rounded(smaller.conductor_mass, 4) + " kg, " +
-                              rounded(smaller.absorber_stiffness, 4) + " N/m",
-                   agrees, of + ": " + rounded(first, 4) + " and " + rounded(second, 4) + " Hz",
-                   "with k₁ = 50.3 N/m these frequencies allow an absorber of " +
-                       rounded(result.largest_absorber_mass, 4) +
-                       " kg at most, or with 0.16 kg need k₁ ≥ " +
-                       rounded(result.smallest_conductor_stiffness, 4) + " N/m");
+  rows.statement("Table 1: m₁ and k₂ from the first and sixth frequencies of the conductor",
+                 "0.0767 kg, 74.4 N/m",
+                 none ? "no two-mass plant has them"
+                      : rounded(smaller.conductor_mass, 4) + " kg, " +
+                            rounded(smaller.absorber_stiffness, 4) + " N/m",
+                 agrees, of + ": " + rounded(first, 4) + " and " + rounded(second, 4) + " Hz",
+                 "with k₁ = 50.3 N/m these frequencies allow an absorber of " +
+                     rounded(result.largest_absorber_mass, 4) +
+                     " kg at most, or with 0.16 kg need k₁ ≥ " +
+                     rounded(result.smallest_conductor_stiffness, 4) + " N/m");
 }
 
-void compare_reduction(Rows& rows, const Case& the_case) {
+void compare_reduction(Comparisons& rows, const Case& the_case) {
   const auto irvine = irvine_modes(conductor_of(the_case), 6);
   const ElementsModes found = elements_modes(conductor_of(the_case), 200, 6);
   if (found.outcome != EquilibriumOutcome::converged)
     throw NoAnswer("no equilibrium of the elements was found");
   const auto& elements = found.modes;
-  rows.push_back(no_masses(irvine[0].frequency, irvine[5].frequency, "Irvine and Caughey"));
-  rows.push_back(no_masses(elements[0].frequency, elements[5].frequency, "finite elements"));
+  compare_masses(rows, irvine[0].frequency, irvine[5].frequency, "Irvine and Caughey");
+  compare_masses(rows, elements[0].frequency, elements[5].frequency, "finite elements");
   const auto result = reduce_to_frequencies({50.3, 0.16, 1.99888, 6.99812});
   const ReducedMasses& smaller = result.solutions.front();
   const std::string reading = "1.999 and 6.998 Hz, the frequencies that Table 1 itself has";
-  rows.push_back(
-      number("Table 1: m₁", "0.0767 kg", 0.0767, 2e-4, smaller.conductor_mass, "kg", reading));
-  rows.push_back(
-      number("Table 1: k₂", "74.4 N/m", 74.4, 0.2, smaller.absorber_stiffness, "N/m", reading));
-  rows.push_back(number("Table 1: c₁, Eq. 3", "0.079 N s/m", 0.079, 5e-4,
-                        conductor_damping(0.0767, 50.3, the_case.conductor.damping_ratio), "N s/m",
-                        "ζ = 2 %, ω = √(k₁/m₁)"));
+  rows.number("Table 1: m₁", "0.0767 kg", 2e-4, smaller.conductor_mass, reading);
+  rows.number("Table 1: k₂", "74.4 N/m", 0.2, smaller.absorber_stiffness, reading);
+  rows.number("Table 1: c₁, Eq. 3", "0.079 N s/m", 5e-4,
+              conductor_damping(0.0767, 50.3, the_case.conductor.damping_ratio),
+              "ζ = 2 %, ω = √(k₁/m₁)");
 }
 
-void compare_damping(Rows& rows, const Case& the_case) {
+void compare_damping(Comparisons& rows, const Case& the_case) {
   const AbsorberDampingFit found = fit_absorber_damping(the_case, kollar2022_plant());
   const auto& minima = found.fit.minima;
   const std::string second = minima.size() > 1 ? "; a second minimum stands at " +
                                                      rounded(minima[1].plant.absorber_damping, 2)
                                                : "";
-  rows.push_back(number(
-      "Table 1: c₂", "4.0 N s/m", 4.0, 0.05, minima[0].plant.absorber_damping, "N s/m",
+  rows.number(
+      "Table 1: c₂", "4.0 N s/m", 0.05, minima[0].plant.absorber_damping,
       "first peak and period of the finite elements, ± " + rounded(minima[0].standard_errors[0], 1),
       "consistent with the paper's value, which the decay does not pin down: read in other ways it "
       "gives " +
-          rounded(found.lowest, 2) + " to " + rounded(found.highest, 2) + " N s/m" + second));
+          rounded(found.lowest, 2) + " to " + rounded(found.highest, 2) + " N s/m" + second);
 }
 
 /// Smallest |force| (N) at which the plant's spring misses the displacement by 10 %.
@@ -101,17 +95,16 @@ double force_of_ten_percent(const Case& the_case, double direction) {
   return std::nan("");
 }
 
-void compare_statics(Rows& rows, const Case& the_case) {
+void compare_statics(Comparisons& rows, const Case& the_case) {
   const auto exact = exact_statics_of(the_case);
-  rows.push_back(number("Fig. 2: displacement by 0.2 N", "3.76 mm", 3.76, 0.005,
-                        exact.displacement(0.2) * 1e3, "mm", "exact statics"));
+  rows.number("Fig. 2: displacement by 0.2 N", "3.76 mm", 0.005, exact.displacement(0.2) * 1e3,
+              "exact statics");
   for (const double direction : {1.0, -1.0}) {
-    rows.push_back(number(std::string("Fig. 2a: force ") + (direction > 0 ? "below" : "above") +
-                              " the weight at which the spring misses by 10 %",
-                          direction > 0 ? "0.4 N" : "−0.4 N", direction * 0.4, 0.05,
-                          force_of_ten_percent(the_case, direction), "N",
-                          "spring of 50.3 N/m against the exact statics",
-                          "the exact curve bends more than the paper's figure text says"));
+    rows.number(std::string("Fig. 2a: force ") + (direction > 0 ? "below" : "above") +
+                    " the weight at which the spring misses by 10 %",
+                direction > 0 ? "0.4 N" : "−0.4 N", 0.05, force_of_ten_percent(the_case, direction),
+                "spring of 50.3 N/m against the exact statics",
+                "the exact curve bends more than the paper's figure text says");
   }
 }
 
@@ -150,20 +143,20 @@ std::string scan_text(const PeakScan& scan) {
   return std::isnan(scan.reaches) ? text : text + ", first at " + rounded(scan.reaches, 2) + " N";
 }
 
-void compare_peaks(Rows& rows, const Case& the_case) {
+void compare_peaks(Comparisons& rows, const Case& the_case) {
   const PeakScan same_force = scan_peaks(the_case, 0.4, 0.1, false);
-  rows.push_back(statement("Fig. 2b: discrepancy of the first peaks below 0.4 N, same force",
-                           "below 10 %", scan_text(same_force), same_force.largest < 0.1,
-                           "finite elements, absorber as a weight"));
+  rows.statement("Fig. 2b: discrepancy of the first peaks below 0.4 N, same force", "below 10 %",
+                 scan_text(same_force), same_force.largest < 0.1,
+                 "finite elements, absorber as a weight");
   const PeakScan same_start = scan_peaks(the_case, 1.0, 0.05, true);
-  rows.push_back(statement(
+  rows.statement(
       "Fig. 2c: the same to 1 N, same displacement", "below 5 %", scan_text(same_start),
       same_start.largest < 0.05, "finite elements, absorber as a weight",
       "the cable is softer upward than downward and rebounds farther than a straight spring; the "
-      "paper may have compared the swing from the start"));
+      "paper may have compared the swing from the start");
 }
 
-void compare_decay(Rows& rows, const Case& the_case) {
+void compare_decay(Comparisons& rows, const Case& the_case) {
   const CableDecay cable = cable_decay(the_case, {0.2, 3.0, 0.001});
   const DecayMeasures elements = decay_measures(cable.record);
   const DecayMeasures plant =
@@ -171,10 +164,9 @@ void compare_decay(Rows& rows, const Case& the_case) {
                                                      cable.record.times)});
   const std::string reading = "0.2 N removed; plant against finite elements";
   const auto row = [&](const char* what, double ours, double theirs, const char* why) {
-    rows.push_back(statement(std::string("Fig. 2d: ") + what + " of plant and finite elements",
-                             "a close estimate",
-                             rounded(ours, 3) + " against " + rounded(theirs, 3),
-                             std::abs(ours / theirs - 1.0) < 0.05, reading, why));
+    rows.statement(std::string("Fig. 2d: ") + what + " of plant and finite elements",
+                   "a close estimate", rounded(ours, 3) + " against " + rounded(theirs, 3),
+                   std::abs(ours / theirs - 1.0) < 0.05, reading, why);
   };
   row("first peak (mm)", plant.first_peak * 1e3, elements.first_peak * 1e3, "");
   row("period (s)", plant.period, elements.period, "");
@@ -185,7 +177,7 @@ void compare_decay(Rows& rows, const Case& the_case) {
 
 }  // namespace
 
-void compare_cable(Rows& rows) {
+void compare_cable(Comparisons& rows) {
   const Case the_case = load_case({}, {});
   compare_stiffness(rows, the_case);
   compare_reduction(rows, the_case);
@@ -195,8 +187,8 @@ void compare_cable(Rows& rows) {
     compare_decay(rows, the_case);
     compare_damping(rows, the_case);
   } catch (const NoAnswer& reason) {
-    rows.push_back(statement("Fig. 2b–d and c₂ of Table 1", "continuous cable", "not computed",
-                             false, "", reason.what()));
+    rows.statement("Fig. 2b–d and c₂ of Table 1", "continuous cable", "not computed", false, "",
+                   reason.what());
   }
 }
 

@@ -17,9 +17,7 @@
 namespace holdfast::program {
 namespace {
 
-using Rows = std::vector<Comparison>;
-
-void compare_boundedness(Rows& rows) {
+void compare_boundedness(Comparisons& rows) {
   for (const double fraction : {0.0, 1.0}) {
     PaperLoop loop{0.011, 0.002};
     loop.delay_fraction = fraction;
@@ -27,11 +25,10 @@ void compare_boundedness(Rows& rows) {
     const bool bounded =
         run_trajectory(motion, samples_within(1000.0, 0.011), {}) == TrajectoryOutcome::completed;
     const double radius = spectral_radius<double, 5>(loop.loop().engaged_map(loop.gains));
-    rows.push_back(
-        statement("Fig. 9c: the motion at τ = 11 ms, r₀ = 2 mm", "bounded",
-                  (bounded ? "bounded, ρ(S) = " : "diverges, ρ(S) = ") + rounded(radius, 4),
-                  bounded, fraction == 0.0 ? "δ = 0" : "δ = τ, as Eq. 14 prints it",
-                  "the paper's numbers belong to δ = 0"));
+    rows.statement("Fig. 9c: the motion at τ = 11 ms, r₀ = 2 mm", "bounded",
+                   (bounded ? "bounded, ρ(S) = " : "diverges, ρ(S) = ") + rounded(radius, 4),
+                   bounded, fraction == 0.0 ? "δ = 0" : "δ = τ, as Eq. 14 prints it",
+                   "the paper's numbers belong to δ = 0");
   }
 }
 
@@ -50,17 +47,16 @@ std::string certificate_of(const OrbitResult& found) {
          rounded(orbit.largest_multiplier(), 3);
 }
 
-void compare_periods(Rows& rows) {
+void compare_periods(Comparisons& rows) {
   const std::string reading = "δ = 0, exact solution of the contacts that repeat";
   const std::string why = "no orbit was found that reproduces its own contacts";
   const OrbitResult fast = orbit_from_rest({0.001, 0.002});
-  rows.push_back(statement("Figs. 9b, 11a: the motion at τ = 1 ms, r₀ = 2 mm", "periodic",
-                           certificate_of(fast), fast.outcome == OrbitOutcome::certified, reading,
-                           why));
+  rows.statement("Figs. 9b, 11a: the motion at τ = 1 ms, r₀ = 2 mm", "periodic",
+                 certificate_of(fast), fast.outcome == OrbitOutcome::certified, reading, why);
   const OrbitResult slow = orbit_from_rest({0.011, 0.002});
-  rows.push_back(statement("Figs. 9c, 12: the irregular motion at τ = 11 ms, r₀ = 2 mm",
-                           "looks periodic, not chaotic", certificate_of(slow),
-                           slow.outcome == OrbitOutcome::certified, reading, why));
+  rows.statement("Figs. 9c, 12: the irregular motion at τ = 11 ms, r₀ = 2 mm",
+                 "looks periodic, not chaotic", certificate_of(slow),
+                 slow.outcome == OrbitOutcome::certified, reading, why);
 }
 
 std::vector<SpectralLine> steady_spectrum(const PaperLoop& loop, double frequency) {
@@ -86,22 +82,21 @@ double highest_line(const std::vector<SpectralLine>& lines, double from, double 
   return highest.frequency;
 }
 
-void compare_spectra(Rows& rows) {
+void compare_spectra(Comparisons& rows) {
   const auto fast = steady_spectrum({0.001, 0.002}, 10.0);
   const auto slow = steady_spectrum({0.011, 0.002}, 10.0);
   const std::string reading = "δ = 0, whole periods from 40 s on";
-  rows.push_back(number("Fig. 10a: prevailing frequency, τ = 1 ms", "10 Hz", 10.0, 0.05,
-                        highest_line(fast, 0.5, 45.0), "Hz", reading));
-  rows.push_back(
-      number("Fig. 10a: small peak below it", "2.2 Hz", 2.2, 0.05, highest_line(fast, 0.5, 8.0),
-             "Hz", reading,
-             "the steady motion repeats after five forcing periods, so its line is at 10/5 = 2 Hz; "
-             "a record "
-             "that holds the transient of the conductor's mode at 2 Hz shifts and widens it"));
-  rows.push_back(number("Fig. 10a: small peak above it", "30 Hz", 30.0, 0.5,
-                        highest_line(fast, 25.0, 45.0), "Hz", reading));
-  rows.push_back(number("Fig. 10b: prevailing frequency, τ = 11 ms", "10 Hz", 10.0, 0.05,
-                        highest_line(slow, 0.5, 45.0), "Hz", reading));
+  rows.number("Fig. 10a: prevailing frequency, τ = 1 ms", "10 Hz", 0.05,
+              highest_line(fast, 0.5, 45.0), reading);
+  rows.number(
+      "Fig. 10a: small peak below it", "2.2 Hz", 0.05, highest_line(fast, 0.5, 8.0), reading,
+      "the steady motion repeats after five forcing periods, so its line is at 10/5 = 2 Hz; "
+      "a record "
+      "that holds the transient of the conductor's mode at 2 Hz shifts and widens it");
+  rows.number("Fig. 10a: small peak above it", "30 Hz", 0.5, highest_line(fast, 25.0, 45.0),
+              reading);
+  rows.number("Fig. 10b: prevailing frequency, τ = 11 ms", "10 Hz", 0.05,
+              highest_line(slow, 0.5, 45.0), reading);
 }
 
 /// Largest |deviation of z₁| in the last second of a run.
@@ -118,21 +113,20 @@ double final_deviation(double sampling_period, double duration) {
   return largest;
 }
 
-void compare_deviations(Rows& rows) {
+void compare_deviations(Comparisons& rows) {
   const double fast = final_deviation(0.001, 10.0), slow = final_deviation(0.011, 60.0);
-  rows.push_back(statement(
+  rows.statement(
       "Fig. 11a: neighbours, τ = 1 ms", "neither approach nor part",
       rounded(fast, 2) + " m after 10 s, from 1e−5 m", fast > 1e-7 && fast < 1e-2, "δ = 0",
       "starts so close meet; but the motion of five forcing periods has five copies, each a "
       "forcing "
-      "period later, and starts 1 mm apart settle on different copies that never meet"));
-  rows.push_back(
-      statement("Fig. 11b: neighbours, τ = 11 ms", "approach each other",
-                rounded(slow, 2) + " m after 60 s, from 1e−5 m", slow < 1e-7, "δ = 0",
-                "the two starts settle on shifted copies of one orbit, or on different ones"));
+      "period later, and starts 1 mm apart settle on different copies that never meet");
+  rows.statement("Fig. 11b: neighbours, τ = 11 ms", "approach each other",
+                 rounded(slow, 2) + " m after 60 s, from 1e−5 m", slow < 1e-7, "δ = 0",
+                 "the two starts settle on shifted copies of one orbit, or on different ones");
 }
 
-void compare_coverage(Rows& rows) {
+void compare_coverage(Comparisons& rows) {
   const PaperLoop loop{0.011, 0.002};
   Coverage coverage({-1.5e-3, 1.5e-3, -0.1, 0.1}, 100);
   auto motion = loop.motion();
@@ -146,10 +140,9 @@ void compare_coverage(Rows& rows) {
                              std::to_string(visited[2]) + " cells";
   const double growth_first = static_cast<double>(visited[1]) / static_cast<double>(visited[0]);
   const double growth_then = static_cast<double>(visited[2]) / static_cast<double>(visited[1]);
-  rows.push_back(
-      statement("Fig. 12: the orbit fills more from 10 to 100 s, and no more from 100 to 1000 s",
-                "more, then no more", counts, growth_first > 1.2 && growth_then < 1.05,
-                "δ = 0, samples on 100 × 100 cells"));
+  rows.statement("Fig. 12: the orbit fills more from 10 to 100 s, and no more from 100 to 1000 s",
+                 "more, then no more", counts, growth_first > 1.2 && growth_then < 1.05,
+                 "δ = 0, samples on 100 × 100 cells");
 }
 
 struct Table2Column {
@@ -157,7 +150,7 @@ struct Table2Column {
   std::vector<double> exponents;
 };
 
-void compare_exponents(Rows& rows, const Table2Column& column, double tangent_fraction) {
+void compare_exponents(Comparisons& rows, const Table2Column& column, double tangent_fraction) {
   PaperLoop loop{column.sampling_period, 0.002}, tangent = loop;
   tangent.delay_fraction = tangent_fraction;
   LyapunovObserver observer(tangent.loop(), loop.gains);
@@ -176,15 +169,15 @@ void compare_exponents(Rows& rows, const Table2Column& column, double tangent_fr
         : tangent_fraction == 0.0
             ? "the paper's tangent is the one with δ = τ, while its trajectory has δ = 0"
             : "finite time: the value still moves by more than this over such a record";
-    rows.push_back(number(
-        name, rounded(paper, 4), paper, tolerance, exponents[i], "",
-        tangent_fraction == 0.0 ? "consistent tangent, δ = 0" : "tangent as printed, δ = τ", why));
+    rows.number(name, rounded(paper, 4), tolerance, exponents[i],
+                tangent_fraction == 0.0 ? "consistent tangent, δ = 0" : "tangent as printed, δ = τ",
+                why);
   }
 }
 
 }  // namespace
 
-void compare_characteristics(std::vector<Comparison>& rows) {
+void compare_characteristics(Comparisons& rows) {
   compare_boundedness(rows);
   compare_periods(rows);
   compare_spectra(rows);

@@ -12,6 +12,7 @@
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "report/comparison/comparison.hpp"
+#include "report/page/html.hpp"
 
 namespace holdfast::program {
 
@@ -39,23 +40,27 @@ struct PaperLoop {
   }
 };
 
-/// Text of a number with so many significant digits.
-std::string rounded(double value, int digits);
+/// The rows of the comparison, one after the other; `why` is kept only where they differ.
+class Comparisons {
+ public:
+  /// A number of the paper beside ours, in its unit.
+  /// @param paper  with its number and unit at the end: "about 30 ms", "−33.7 N s/m"
+  void number(const std::string& quantity, const std::string& paper, double tolerance, double ours,
+              const std::string& reading, const std::string& why = "");
 
-/// A number of the paper with its tolerance, beside ours; `why` is kept only where they differ.
-Comparison number(const std::string& quantity, const std::string& paper_text, double paper,
-                  double tolerance, double ours, const std::string& unit,
-                  const std::string& reading, const std::string& why = "");
+  /// A statement of the paper that holds or does not.
+  void statement(const std::string& quantity, const std::string& paper, const std::string& ours,
+                 bool holds, const std::string& reading, const std::string& why = "") {
+    rows.push_back({quantity, paper, ours, reading, holds, holds ? "" : why});
+  }
 
-/// A statement of the paper that holds or does not.
-Comparison statement(const std::string& quantity, const std::string& paper_text,
-                     const std::string& ours, bool holds, const std::string& reading,
-                     const std::string& why = "");
+  std::vector<Comparison> rows;
+};
 
 /// Fig. 2 and Table 1: the plant from its conductor.
-void compare_cable(std::vector<Comparison>& rows);
+void compare_cable(Comparisons& rows);
 
 /// Figs. 9–13 and Table 2: what kind of motion it is.
-void compare_characteristics(std::vector<Comparison>& rows);
+void compare_characteristics(Comparisons& rows);
 
 }  // namespace holdfast::program

@@ -18,7 +18,6 @@
 #include "jobs/motion/cell_motion.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "report/comparison/comparison_tools.hpp"
 #include "report/page/command_line.hpp"
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"

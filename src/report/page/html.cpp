@@ -1,6 +1,8 @@
 #include "report/page/html.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "report/page/command_line.hpp"
 
@@ -137,6 +139,13 @@ std::string html_table(const std::vector<std::string>& headings, const std::stri
   std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
   for (const std::string& heading : headings) html += "<th>" + escaped(heading) + "</th>";
   return html + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string rounded(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+  return replaced(text, "-", "−");
 }
 
 std::string escaped(const std::string& text) {

@@ -40,6 +40,9 @@ std::string figure_html(const DrawnFigure& drawn);
 /// @param rows  HTML, a <tr> each
 std::string html_table(const std::vector<std::string>& headings, const std::string& rows);
 
+/// Text of a number with so many significant digits.
+std::string rounded(double value, int digits);
+
 /// Text with &, <, > and quotes escaped.
 std::string escaped(const std::string& text);
 

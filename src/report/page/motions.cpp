@@ -12,8 +12,8 @@
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "io/text/text.hpp"
 #include "jobs/orbit/orbit_certificate.hpp"
-#include "report/comparison/comparison_tools.hpp"
 #include "report/figures/figure.hpp"
+#include "report/page/html.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -14,7 +14,6 @@
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
-#include "report/comparison/comparison_tools.hpp"
 #include "report/figures/figures.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "report/page/answers.hpp"

@@ -8,7 +8,7 @@
 #include "io/text/csv.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
-#include "report/comparison/comparison_tools.hpp"
+#include "report/page/html.hpp"
 
 namespace holdfast::program {
 namespace {

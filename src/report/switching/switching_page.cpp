@@ -10,7 +10,6 @@
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "process/errors.hpp"
-#include "report/comparison/comparison_tools.hpp"
 #include "report/switching/switching_figures.hpp"
 
 namespace holdfast::program {

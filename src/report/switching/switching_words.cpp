@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "report/comparison/comparison_tools.hpp"
 #include "report/page/html.hpp"
 #include "report/switching/switching_page.hpp"
 
