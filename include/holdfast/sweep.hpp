@@ -5,7 +5,6 @@
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/metric_group.hpp"
-#include "holdfast/sweep/metric_lanes.hpp"
 #include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/metric_track.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"

@@ -9,7 +9,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/stability/chart/chart_polynomials.hpp"
-#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "kernels/instruction_set.hpp"
 

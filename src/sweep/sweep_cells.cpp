@@ -1,5 +1,3 @@
-#include "sweep/sweep_cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +10,7 @@
 #include "jobs/motion/cell_motion.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "sweep/sweep_plan.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -83,4 +83,9 @@ class SweepPlan {
   std::int64_t tile_cells_ = 1;
 };
 
+/// Computes the cells of one tile; a cell that diverges or is not admissible is a value among the
+/// others. What a cell gets does not depend on its neighbours; its last digits do on the
+/// instruction set of the plan's context. Throws Interrupted.
+TileResult compute_tile(const SweepPlan& plan, std::int64_t tile);
+
 }  // namespace holdfast::program

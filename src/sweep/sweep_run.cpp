@@ -21,9 +21,8 @@
 #include "process/progress.hpp"
 #include "process/system_words.hpp"
 #include "process/worker_threads.hpp"
-#include "sweep/sweep_cells.hpp"
+#include "sweep/tiles/tile_file.hpp"
 #include "sweep/tiles/tile_plan_file.hpp"
-#include "sweep/tiles/tile_result.hpp"
 #include "sweep/tiles/tile_store.hpp"
 #include "sweep/tiles/work_folder.hpp"
 

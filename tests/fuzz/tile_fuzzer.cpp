@@ -13,7 +13,6 @@
 #include "process/errors.hpp"
 #include "sweep/tiles/tile_file.hpp"
 #include "sweep/tiles/tile_plan_file.hpp"
-#include "sweep/tiles/tile_result.hpp"
 #include "sweep/tiles/work_folder.hpp"
 
 namespace {

@@ -12,7 +12,6 @@
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/simd/lyapunov_group.hpp"
-#include "holdfast/simd/motion_family.hpp"
 #include "holdfast/simd/pack.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
 

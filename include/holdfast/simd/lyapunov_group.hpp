@@ -6,17 +6,74 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "holdfast/chaos/block_spectrum.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/simd/lane_maps.hpp"
+#include "holdfast/excitation/forcing.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/simd/pack.hpp"
 
-namespace holdfast::simd::detail {
+namespace holdfast {
+
+/// The maps of as many blocks as a pack has lanes, entry by entry side by side.
+template <class Architecture>
+class LaneMaps<xsimd::batch<double, Architecture>> {
+  using Number = xsimd::batch<double, Architecture>;
+
+ public:
+  /// Refers to maps of `blocks`, which must outlive this; one block a lane.
+  LaneMaps(const ItineraryBlocks& blocks, const LaneBlocks<Number>& lanes) {
+    for (std::size_t lane = 0; lane < Number::size; ++lane)
+      maps_[lane] = blocks.map(lanes[lane]).data();
+  }
+
+  /// The entry of every lane's T⁻¹ M T, 0 ≤ row, column < 5.
+  Number operator()(int row, int column) const {
+    return entry(static_cast<std::size_t>(5 * row + column),
+                 std::make_index_sequence<Number::size>());
+  }
+
+ private:
+  template <std::size_t... Lane>
+  Number entry(std::size_t index, std::index_sequence<Lane...> /*lanes*/) const {
+    return Number{maps_[Lane][index]...};
+  }
+
+  const double* maps_[Number::size];
+};
+
+namespace simd::detail {
+
+/// Makes the motions of a loop on scalars and on packs.
+/// @tparam Forcing  PeriodicForcing<double> or HarmonicForcing<double>
+template <class Forcing>
+struct MotionFamily {
+  using Number = Pack<double>;
+  template <class Scalar>
+  using Motion = SampledMotion<Scalar, Backlash<Scalar>, SharedForcing<Scalar, Forcing>>;
+
+  SampledLoop<double> loop;
+  IdealLoop<double> parameters;
+  Forcing forcing;
+
+  template <class Scalar>
+  Motion<Scalar> motion(const Vector<Scalar, 4>& initial_state) const {
+    const PdGains<double>& gains = parameters.gains;
+    return {converted<Scalar>(loop),
+            {Scalar(gains.proportional), Scalar(gains.differential)},
+            SharedForcing<Scalar, Forcing>(forcing),
+            Backlash<Scalar>(Scalar(parameters.backlash_width)),
+            initial_state};
+  }
+};
 
 /// Packs of trajectories that step in turn, so that one's latency hides behind the others.
 inline constexpr std::size_t packs_of_group = 2;
@@ -160,4 +217,5 @@ class LyapunovGroup {
   std::size_t running_ = 0;
 };
 
-}  // namespace holdfast::simd::detail
+}  // namespace simd::detail
+}  // namespace holdfast

@@ -15,7 +15,6 @@
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/sweep/metric_lanes.hpp"
 #include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "holdfast/sweep/metric_group.hpp"
-#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"

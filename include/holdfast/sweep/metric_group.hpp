@@ -16,7 +16,7 @@
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/phasor_table.hpp"
-#include "holdfast/sweep/metric_lanes.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/metric_track.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"

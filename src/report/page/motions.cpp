@@ -161,11 +161,6 @@ std::vector<PaperMotion> published_motions() {
           {"beyond the paper", "0.003", "0.002", {{"its neighbour", near, near_text}}}};
 }
 
-std::string loop_text(const Case& the_case) {
-  return "τ = " + rounded(1e3 * the_case.control.sampling_period, 4) +
-         " ms, r₀ = " + rounded(1e3 * the_case.backlash.width, 4) + " mm, from ";
-}
-
 void add_rows(std::vector<MotionRow>& rows, Case the_case, const PaperMotion& motion) {
   std::string settings;
   const auto set = [&](const std::string& key, const std::string& value) {
@@ -174,7 +169,7 @@ void add_rows(std::vector<MotionRow>& rows, Case the_case, const PaperMotion& mo
   };
   set("control.sampling_period", motion.sampling_period);
   set("backlash.width", motion.backlash_width);
-  const std::string loop = loop_text(the_case), of_loop = settings;
+  const std::string loop = loop_text(the_case) + ", from ", of_loop = settings;
   const KnownMotion from_rest = known_motion(the_case);
   rows.push_back(row_of(motion.place, loop + "rest", from_rest, settings));
   for (const Neighbour& neighbour : motion.neighbours) {
@@ -188,6 +183,11 @@ void add_rows(std::vector<MotionRow>& rows, Case the_case, const PaperMotion& mo
 
 }  // namespace
 
+std::string loop_text(const Case& the_case) {
+  return "τ = " + rounded(1e3 * the_case.control.sampling_period, 4) +
+         " ms, r₀ = " + rounded(1e3 * the_case.backlash.width, 4) + " mm";
+}
+
 std::vector<MotionRow> paper_motions(const Case& the_case) {
   std::vector<MotionRow> rows;
   for (const PaperMotion& motion : published_motions()) add_rows(rows, the_case, motion);
@@ -195,7 +195,7 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
 }
 
 MotionRow motion_of_the_case(const Case& the_case) {
-  const std::string text = loop_text(the_case) + "its initial state";
+  const std::string text = loop_text(the_case) + ", from its initial state";
   return row_of("this case", text, known_motion(the_case), "");
 }
 

@@ -24,6 +24,9 @@ struct MotionRow {
       {};  ///< of the command that shows all of it, without the case's
 };
 
+/// "τ = 1 ms, r₀ = 0.5 mm".
+std::string loop_text(const Case& the_case);
+
 /// The motions of Kollár's Figs. 6–13 with their neighbours, and some beyond them.
 /// @param the_case  the built-in one
 std::vector<MotionRow> paper_motions(const Case& the_case);

@@ -118,19 +118,14 @@ std::string title_of(const JobContext& context, bool builtin) {
   const Case& the_case = context.case_data;
   const std::string stem = fs::path(context.case_source.name).stem().string();
   return (stem.empty() ? "A controlled cable" : stem) + ": " +
-         rounded(effective_excitation(the_case).frequency, 4) +
-         " Hz, τ = " + rounded(1e3 * the_case.control.sampling_period, 4) +
-         " ms, r₀ = " + rounded(1e3 * the_case.backlash.width, 4) + " mm";
+         rounded(effective_excitation(the_case).frequency, 4) + " Hz, " + loop_text(the_case);
 }
 
 std::string introduction_of(bool builtin) {
   if (!builtin) return "Figures for the case at the end of this page.";
   return "Figures 2 to 13 and Tables 1 and 2 of L. E. Kollár, <cite>Dynamics of digitally "
-         "controlled "
-         "forced vibration "
-         "of suspended cables</cite>, Nonlinear Dynamics (2022), computed anew, and each number of "
-         "the paper beside "
-         "the number found here.";
+         "controlled forced vibration of suspended cables</cite>, Nonlinear Dynamics (2022), "
+         "computed anew, and each number of the paper beside the number found here.";
 }
 
 std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {

@@ -138,9 +138,8 @@ ContactStrip strip_of(const std::string& name, const StudiedLoop& studied, int i
 
 std::string phases_caption(const Case& the_case, const Reading& sampled, bool builtin) {
   const bool held = sampled.hold == ForceHold::sampled;
-  return "τ = " + milli(the_case.control.sampling_period) +
-         " ms, r₀ = " + milli(the_case.backlash.width) +
-         " mm. Top: the contact where the drive switches at samples (the force " +
+  return loop_text(the_case) +
+         ". Top: the contact where the drive switches at samples (the force " +
          (held ? "held over each sample as in the paper" : "exact") +
          "), with the instants in s at which it goes into its gap and out of it" +
          (builtin ? ", which are those of the paper's Fig. 8" : "") +

@@ -125,14 +125,9 @@ std::string table_of_case(const Motions& of_case) {
                     rows);
 }
 
-std::string loop_text(const StudiedLoop& studied) {
-  return "τ = " + rounded(1e3 * studied.the_case.control.sampling_period, 4) +
-         " ms, r₀ = " + rounded(1e3 * studied.the_case.backlash.width, 4) + " mm";
-}
-
 std::string case_part(const Motions& of_case) {
   const StudiedLoop& studied = of_case.front().loop;
-  return "<p>This case, " + escaped(loop_text(studied)) +
+  return "<p>This case, " + escaped(loop_text(studied.the_case)) +
          ", from its initial state: largest |z₁|, at all times, of the second half of " +
          rounded(studied.duration, 4) + " s.</p>\n" + table_of_case(of_case);
 }
@@ -152,8 +147,8 @@ std::string paper_cell(const StudiedMotion& motion) {
 std::string table_of_paper(const Motions& of_paper) {
   std::string rows;
   for (auto first = of_paper.begin(); first != of_paper.end(); first += readings.size())
-    rows += row_of({escaped(loop_text(first->loop)), paper_cell(first[0]), paper_cell(first[1]),
-                    paper_cell(first[2])});
+    rows += row_of({escaped(loop_text(first->loop.the_case)), paper_cell(first[0]),
+                    paper_cell(first[1]), paper_cell(first[2])});
   return html_table({"loop", "switching at samples, force held (the paper)",
                      "switching at samples, exact force", "exact switching, exact force"},
                     rows);
@@ -234,8 +229,9 @@ std::string subharmonics_text(const std::vector<StudiedMotion>& motions) {
   return "With exact switching " + share(exact_switching) +
          " motions have the shortest period that sampling and forcing allow; at samples " +
          share(sampled_switching) + " with the exact force, " + share(sampled_and_held) +
-         " with the force held. The longest of these, at " + loop_text(motions[longest].loop) +
-         ", has " + period_or_reason(motions[longest].period) + "; with exact switching it is " +
+         " with the force held. The longest of these, at " +
+         loop_text(motions[longest].loop.the_case) + ", has " +
+         period_or_reason(motions[longest].period) + "; with exact switching it is " +
          period_or_reason(motions[longest + exact_switching].period) + ".";
 }
 

@@ -1,4 +1,4 @@
-#include "sweep/tiles/tile_result.hpp"
+#include "sweep/tiles/tile_file.hpp"
 
 #include <gtest/gtest.h>
 
