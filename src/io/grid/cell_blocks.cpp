@@ -41,4 +41,17 @@ std::vector<CellBlock> cell_blocks(const std::vector<std::size_t>& shape, std::s
   return blocks;
 }
 
+std::vector<std::size_t> chunk_shape(const std::vector<std::size_t>& shape,
+                                     std::size_t longest_line) {
+  std::vector<std::size_t> chunk(shape.size(), 1);
+  if (shape.empty()) return chunk;
+  chunk.back() = std::min(shape.back(), longest_line);
+  std::size_t values = std::max(shape.back(), std::size_t{1});
+  for (std::size_t axis = shape.size() - 1; axis-- > 0 && values < values_in_block;) {
+    chunk[axis] = std::min(shape[axis], values_in_block / values);
+    values *= shape[axis];
+  }
+  return chunk;
+}
+
 }  // namespace holdfast::program

@@ -23,4 +23,14 @@ struct CellBlock {
 std::vector<CellBlock> cell_blocks(const std::vector<std::size_t>& shape, std::size_t first,
                                    std::size_t cells);
 
+/// How many values of a column are written at a time: enough for the compression to pay and few
+/// enough to keep in memory.
+constexpr std::size_t values_in_block = std::size_t{1} << 16;
+
+/// A chunk that is contiguous when cells are written in order, the last axis fastest: whole along
+/// the last axes, one cell along the first ones, and of values_in_block values at most. Only along
+/// the last axis it may be longer, up to `longest_line`.
+std::vector<std::size_t> chunk_shape(const std::vector<std::size_t>& shape,
+                                     std::size_t longest_line);
+
 }  // namespace holdfast::program

@@ -48,13 +48,15 @@ enum class CellPortions { any, lines };
 ///
 /// NetCDF is written after the CF conventions 1.10, readable as it is by xarray and ncdump: the
 /// axes are dimensions with coordinate variables of their names, the columns variables over all of
-/// them: doubles, integers of 64 bits, and for words bytes with their meanings. There is no
-/// metadata file beside it (NetcdfDataset). Cells are written 2^16 at a time, or a line where that
+/// them: doubles, integers of 64 bits, and for words bytes with their meanings. The file's
+/// attributes hold version, job, options and the full case as TOML; there is no metadata file
+/// beside it. Cells are written 2^16 at a time, or a line where that
 /// is more and lines are handed over, in chunks of so many at most that are contiguous in their
 /// order, so that each chunk is compressed once; memory holds a chunk and a portion of every
 /// column, for any grid.
 ///
-/// Throws NoAnswer where netCDF is asked for and missing, and what NetcdfDataset and Table throw.
+/// Throws NoAnswer where netCDF is asked for and missing, WrongInput where its output is no file,
+/// and what OutputFile, NetcdfFile and Table throw.
 std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<GridAxis> axes,
                                         const std::vector<CellColumn>& columns,
                                         CellPortions portions);
@@ -62,7 +64,8 @@ std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<G
 /// Its two kinds.
 std::unique_ptr<CellWriter> csv_cells(const JobContext& context, std::vector<GridAxis> axes,
                                       const std::vector<CellColumn>& columns);
-std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, std::vector<GridAxis> axes,
+std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context,
+                                         const std::vector<GridAxis>& axes,
                                          const std::vector<CellColumn>& columns,
                                          CellPortions portions);
 

@@ -46,8 +46,7 @@ double GridAxis::at(std::size_t index) const {
 std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<GridAxis> axes,
                                         const std::vector<CellColumn>& columns,
                                         CellPortions portions) {
-  if (is_netcdf_name(context.output))
-    return netcdf_cells(context, std::move(axes), columns, portions);
+  if (is_netcdf_name(context.output)) return netcdf_cells(context, axes, columns, portions);
   return csv_cells(context, std::move(axes), columns);
 }
 

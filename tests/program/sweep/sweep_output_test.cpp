@@ -11,7 +11,8 @@
 #include <stdexcept>
 
 #include "case/case_file.hpp"
-#include "io/grid/netcdf_dataset.hpp"
+#include "io/grid/cell_blocks.hpp"
+#include "io/grid/netcdf_file.hpp"
 #include "io/grid/netcdf_library.hpp"
 #include "io/text/table.hpp"
 #include "process/errors.hpp"
