@@ -91,6 +91,7 @@ SweepMetric metric_named(const std::string& name) {
                                   [&](const auto& metric) { return name_of(metric) == name; });
   if (known != all.end()) return static_cast<SweepMetric>(known - all.begin());
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const MetricOfCell& metric : all) names.push_back(name_of(metric));
   throw WrongInput("--metric " + name + ": unknown; did you mean " + nearest_name(names, name) +
                    "? There are " + metric_names());

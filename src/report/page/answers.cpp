@@ -26,8 +26,6 @@
 namespace holdfast::program {
 namespace {
 
-constexpr const char* width_key = "backlash.width";
-
 /// Seconds of a motion: 20, or as long as the case's force lasts.
 double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
 
@@ -109,21 +107,20 @@ std::string borrowed_text(const Case& the_case) {
   if (!the_case.plant_given && !the_case.conductor_given) return "";
   std::string names;
   for (const char* key : {"control.proportional_gain", "control.differential_gain",
-                          "control.sampling_period", width_key})
+                          "control.sampling_period", "backlash.width"})
     if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
   if (names.empty()) return "";
   return " Your case does not give " + names + ": the built-in value stands in.";
 }
 
 Answer does_it_help(const Case& the_case, const Vibration& vibration, InstructionSet set) {
-  Answer answer{
-      "Does control help here?",
-      "",
-      "Largest |z₁| in the second half of " + rounded(duration_of(the_case), 3) +
-          " s from the case's initial state, with its backlash of " +
-          millimetres(the_case.backlash.width) + ", beside the same without control force.",
-      {"sweep", "--axis", std::string(width_key) + "=" + range_of(the_case.backlash.width),
-       "--metric", "steady_peak", "--metric", "ratio_to_uncontrolled"}};
+  Answer answer{"Does control help here?", "",
+                "Largest |z₁| in the second half of " + rounded(duration_of(the_case), 3) +
+                    " s from the case's initial state, with its backlash of " +
+                    millimetres(the_case.backlash.width) +
+                    ", beside the same without control force.",
+                words_of("sweep --axis backlash.width=" + range_of(the_case.backlash.width) +
+                         " --metric steady_peak --metric ratio_to_uncontrolled")};
   if (!(vibration.free > 0.0)) {
     answer.answer = "Nothing vibrates without control either: there is nothing to reduce.";
   } else if (!std::isfinite(vibration.controlled)) {
@@ -171,10 +168,8 @@ std::string gain_of_case_text(const Case& the_case) {
 std::string in_play_text(const Case& the_case, double differential_gain, double free,
                          InstructionSet set) {
   if (!(the_case.backlash.width > 0.0)) return "";
-  const Vibration vibration =
-      vibrations_of({case_with(the_case, "control.differential_gain", differential_gain)}, free,
-                    set)
-          .front();
+  const Case changed = case_with(the_case, "control.differential_gain", differential_gain);
+  const Vibration vibration = vibrations_of({changed}, free, set).front();
   if (!std::isfinite(vibration.ratio())) return "";
   return " With the case's play of " + millimetres(the_case.backlash.width) + " it leaves " +
          percent(vibration.ratio()) + "." + force_text(vibration);
@@ -184,8 +179,8 @@ Answer which_gain(const Case& the_case, double free, InstructionSet set) {
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   const double duration = duration_of(the_case);
   const MinimumAmplitude best = BestGains(duration).of(loop);
-  Answer answer{"Which D?", "", "", {"design", "--largest-radius"}};
-  answer.arguments.push_back(format_number(std::exp(-10.0 * loop.sampling.period / duration)));
+  const double largest_radius = std::exp(-10.0 * loop.sampling.period / duration);
+  Answer answer{"Which D?", "", "", {"design", "--largest-radius", format_number(largest_radius)}};
   if (best.outcome == MinimumAmplitudeOutcome::none) {
     answer.answer = "None: at the case's P no D lets the motion settle in " +
                     rounded(0.5 * duration, 3) + " s.";
@@ -247,17 +242,13 @@ Answer how_slow(const Case& the_case) {
   return answer;
 }
 
-std::vector<Case> with_widths(const Case& the_case, const std::vector<double>& widths) {
-  std::vector<Case> cases;
-  cases.reserve(widths.size());
-  for (const double width : widths) cases.push_back(case_with(the_case, width_key, width));
-  return cases;
-}
-
 /// The first of ascending widths with which control does not reduce the vibration.
 std::optional<std::size_t> first_too_wide(const Case& the_case, const std::vector<double>& widths,
                                           double free, InstructionSet set) {
-  const std::vector<Vibration> vibrations = vibrations_of(with_widths(the_case, widths), free, set);
+  std::vector<Case> cases;
+  cases.reserve(widths.size());
+  for (const double width : widths) cases.push_back(case_with(the_case, "backlash.width", width));
+  const std::vector<Vibration> vibrations = vibrations_of(cases, free, set);
   for (std::size_t k = 0; k < widths.size(); ++k)
     if (!vibrations[k].is_reduced()) return k;
   return std::nullopt;
@@ -281,15 +272,13 @@ Answer how_much_play(const Case& the_case, const Vibration& vibration, Instructi
   constexpr int parts = 120, finer_parts = 20;
   const double widest = widest_play(the_case), step = widest / parts;
   Answer answer{
-      "How much play may the belt have?",
-      "",
+      "How much play may the belt have?", "",
       "With the case's gains, from its initial state. " + std::to_string(parts) + " widths up to " +
           millimetres(widest) +
           " were tried, and those about the limit more finely. Wider ones may serve too, but not "
           "all of them.",
-      {"sweep", "--axis",
-       std::string(width_key) + "=0:" + format_number(widest) + ":" + std::to_string(parts + 1),
-       "--metric", "ratio_to_uncontrolled"}};
+      words_of("sweep --axis backlash.width=0:" + format_number(widest) + ":" +
+               std::to_string(parts + 1) + " --metric ratio_to_uncontrolled")};
   if (!(vibration.free > 0.0)) {
     answer.answer = "Nothing vibrates: any.";
     return answer;
