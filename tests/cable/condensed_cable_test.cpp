@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/cable/statics.hpp"
+#include "support/dense_routes.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
@@ -81,7 +81,7 @@ TEST(CondensedCable, ItsForcesHaveAPotential) {
     for (double& coordinate : state) coordinate += draw > 0 ? random.uniform(-0.02, 0.02) : 0.0;
     const Eigen::MatrixXd stiffness = -mass * condensed_acceleration(cable, state);
     EXPECT_LE((stiffness - stiffness.transpose()).norm(), 1e-6 * stiffness.norm());
-    const double softest = stiffness.eigenvalues().real().minCoeff();
+    const double softest = test::eigenvalues_of(stiffness).real().minCoeff();
     EXPECT_TRUE(draw > 0 || softest > 0.0) << softest;
   }
 }
@@ -103,8 +103,8 @@ TEST(CondensedCable, TheBareOneHasIrvineAndCaugheysFrequencies) {
     auto conductor = kollar2022_conductor();
     conductor.youngs_modulus *= parameter / conductor.irvine_parameter();
     const Condensed cable(conductor, 0.64, 0.0, {0.0, 0.0});
-    const Eigen::VectorXcd squared =
-        -condensed_acceleration(cable, Eigen::VectorXd::Zero(Condensed::states())).eigenvalues();
+    const Eigen::VectorXcd squared = test::eigenvalues_of(
+        -condensed_acceleration(cable, Eigen::VectorXd::Zero(Condensed::states())));
     for (const auto& mode : irvine_modes(conductor, 4)) {
       const double asked = std::pow(2 * pi<double> * mode.frequency, 2);
       EXPECT_LE((squared.array() - asked).abs().minCoeff(), 2e-3 * asked) << mode.frequency;

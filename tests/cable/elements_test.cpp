@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -11,6 +10,7 @@
 
 #include "holdfast/cable/chain_modes.hpp"
 #include "holdfast/cable/statics.hpp"
+#include "support/dense_routes.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
@@ -195,7 +195,8 @@ TEST(CableElements, ItsSmallMotionsAreTheModesWithRayleighsDamping) {
   const auto conductor = kollar2022_conductor();
   const CableElements cable(conductor, conductor.span / 2, 10, {AbsorberReading::weight, 0.0},
                             kollar_damping);
-  const Eigen::VectorXcd found = analytic_jacobian(cable, cable.held_by(0.0).state).eigenvalues();
+  const Eigen::VectorXcd found =
+      test::eigenvalues_of(analytic_jacobian(cable, cable.held_by(0.0).state));
   for (const auto& mode : elements_modes(conductor, 10, 8).modes) {
     const double omega = 2 * pi<double> * mode.frequency;
     const double decay =

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -207,8 +207,7 @@ TEST(BlockSpectrum, NeitherOverflowsNorUnderflows) {
 
 TEST(BlockSpectrum, DoesABlockAgainThatTurnsOutTooLong) {
   test::Random random(506);
-  const TangentMap turn =
-      Eigen::HouseholderQR<TangentMap>(random.matrix<TangentMap>()).householderQ();
+  const TangentMap turn = test::orthogonal_factor_of(random.matrix<TangentMap>());
   // Long blocks while the maps only turn, then each sample contracts by up to a thousand.
   const Vector<double, 5> contraction(1.0, 0.3, 0.1, 0.03, 0.001);
   TangentSequence sequence{turn, turn * contraction.asDiagonal(), {}};
@@ -218,8 +217,7 @@ TEST(BlockSpectrum, DoesABlockAgainThatTurnsOutTooLong) {
 
 TEST(BlockSpectrum, SplitsAWordWhoseSamplesAreHardlyRegular) {
   test::Random random(507);
-  const TangentMap turn =
-      Eigen::HouseholderQR<TangentMap>(random.matrix<TangentMap>()).householderQ();
+  const TangentMap turn = test::orthogonal_factor_of(random.matrix<TangentMap>());
   const Vector<double, 5> contraction(1.0, 0.1, 1e-2, 1e-4, 1e-5);
   TangentSequence sequence{contraction.asDiagonal() * turn, turn, {}};
   for (int k = 0; k < 300; ++k) sequence.itinerary.push_back(random.unit() < 0.8);

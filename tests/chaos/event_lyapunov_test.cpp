@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,6 +15,7 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "orbit/event/event_setting.hpp"
+#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {
@@ -48,15 +48,6 @@ int finite_exponents(const LyapunovSpectrum<double, 7>& spectrum) {
   return static_cast<int>((exponents.array() > annihilated).count());
 }
 
-/// ln |λ| of a matrix, largest first.
-std::vector<double> logarithms_of_eigenvalues(const Matrix<double, 5>& map) {
-  std::vector<double> logarithms;
-  for (const auto& eigenvalue : map.eigenvalues())
-    logarithms.push_back(std::log(std::abs(eigenvalue)));
-  std::sort(logarithms.begin(), logarithms.end(), std::greater<>());
-  return logarithms;
-}
-
 /// Without backlash every map is S. Where its eigenvalues are a pair, the two exponents turn about
 /// their mean; the sum over them, and over all before, is that of ln |λ| once the directions have
 /// settled.
@@ -65,7 +56,7 @@ TEST(EventLyapunov, WithoutBacklashItIsTheSpectrumOfTheSampledLoop) {
     const auto which = kollar_case_of(0.001, 0.0, delay);
     auto motion = backlash_motion(which);
     const auto result = run_event_lyapunov(motion, {5000, 5000});
-    const auto expected = logarithms_of_eigenvalues(which.loop().engaged_map(which.gains));
+    const auto expected = test::log_moduli_of(which.loop().engaged_map(which.gains));
     EXPECT_NEAR(result.exponents.head<2>().sum(), expected[0] + expected[1], 1e-9);
     EXPECT_NEAR(result.exponents.head<4>().sum(),
                 expected[0] + expected[1] + expected[2] + expected[3], 1e-9);
@@ -222,7 +213,7 @@ TEST(EventLyapunov, AGapThatIsNeverLeftIsNeutral) {
   const auto result = run_event_lyapunov(motion, {4000, 20000});
   Matrix<double, 5> map = Matrix<double, 5>::Zero();
   map.topLeftCorner<4, 4>() = which.loop().transition;
-  const auto expected = logarithms_of_eigenvalues(map);
+  const auto expected = test::log_moduli_of(map);
   EXPECT_NEAR(result.exponents[0], 0.0, 1e-9);
   EXPECT_NEAR(result.exponents.segment<2>(1).sum(), expected[0] + expected[1], 1e-9);
 }
@@ -236,7 +227,7 @@ TEST(EventLyapunov, AStrongContractionIsFinite) {
   const auto result = run_event_lyapunov(motion, {2000, 100});
   Matrix<double, 5> map = Matrix<double, 5>::Zero();
   map.topLeftCorner<4, 4>() = which.loop().transition;
-  const auto expected = logarithms_of_eigenvalues(map);
+  const auto expected = test::log_moduli_of(map);
   EXPECT_LT(expected[3] - expected[0], -18.0);
   EXPECT_NEAR(result.exponents.head<2>().sum(), expected[0] + expected[1], 1e-9);
   EXPECT_NEAR(result.exponents.segment<2>(2).sum(), expected[2] + expected[3], 1e-5);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "holdfast/excitation/band_limited_noise.hpp"
+#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -45,13 +45,13 @@ auto classified_from_rest(const Loop& loop) {
 /// ln ρ(S), the exponent per sample of a loop without backlash.
 double exponent_without_backlash(const ImplementedLoop& loop) {
   const auto map = sampled_loop(loop.plant, loop.digital.sampling).engaged_map(loop.digital.gains);
-  return std::log(Eigen::EigenSolver<Matrix<double, 5>>(map).eigenvalues().cwiseAbs().maxCoeff());
+  return test::log_moduli_of(map)[0];
 }
 
 /// That of the plant left alone.
 double exponent_of_plant(const ImplementedLoop& loop) {
-  const Eigen::EigenSolver<Matrix<double, 4>> solver(loop.plant.state_matrix());
-  return solver.eigenvalues().real().maxCoeff() * loop.digital.sampling.period;
+  return test::eigenvalues_of(loop.plant.state_matrix()).real().maxCoeff() *
+         loop.digital.sampling.period;
 }
 
 void expect_exponent(const EventClassification& found, double expected) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -14,6 +13,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "orbit/event/event_setting.hpp"
+#include "support/dense_routes.hpp"
 
 namespace holdfast {
 namespace {
@@ -366,8 +366,8 @@ TEST(VariationalFlow, TheStructuralRankIsThatOfTheProduct) {
     for (int left = samples_in(setting, 2.0); left > samples; left -= samples) {
       VariationalFlow<ExactBacklash> tangent(motion);
       const Matrix<double, 7> product = advance_with(tangent, motion, samples);
-      const Eigen::JacobiSVD<Matrix<double, 7>> svd(scaled_by(sizes, product));
-      const Vector<double, 7> stretches = svd.singularValues() / svd.singularValues()[0];
+      const Eigen::VectorXd singular = test::singular_values_of(scaled_by(sizes, product));
+      const Eigen::VectorXd stretches = singular / singular[0];
       const int rank = tangent.rank_of_product();
       if (samples == 1) {
         ASSERT_EQ(rank, tangent.rank());

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,6 +12,7 @@
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/stability/response/response.hpp"
+#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 
 namespace holdfast {
@@ -111,8 +111,7 @@ TEST(PeriodicOrbit, MultipliersAreThoseOfTheReturnMapByFiniteDifferences) {
       const Vector<double, 5> step = steps[k] * Vector<double, 5>::Unit(k);
       tangent.col(k) = (after_period(step) - after_period(-step)) / (2.0 * steps[k]);
     }
-    Vector<double, 5> expected = tangent.eigenvalues().cwiseAbs();
-    std::sort(expected.begin(), expected.end(), std::greater<>());
+    const Eigen::VectorXd expected = test::moduli_of(tangent);
     for (std::size_t i = 0; i < 5; ++i) {
       const double found = std::abs(orbit.multipliers[i].value());
       EXPECT_NEAR(found, expected[static_cast<Eigen::Index>(i)], 1e-6) << i;
@@ -152,14 +151,8 @@ TEST(PeriodicOrbit, OfSlowSamplingHasAllItsMultipliers) {
     loop.excitation.frequency = 7.0;
     const PeriodicOrbit orbit = orbit_from_rest(loop);
     const IdealLoop<long double> precise = converted<long double>(loop);
-    Vector<double, 5> expected = sampled_loop(precise.plant, precise.sampling)
-                                     .engaged_map(precise.gains)
-                                     .eigenvalues()
-                                     .cwiseAbs()
-                                     .array()
-                                     .log()
-                                     .cast<double>();
-    std::sort(expected.begin(), expected.end(), std::greater<>());
+    const Eigen::VectorXd expected = test::log_moduli_of(
+        sampled_loop(precise.plant, precise.sampling).engaged_map(precise.gains));
     for (int i = 0; i < 4; ++i) {
       const double samples = static_cast<double>(orbit.period_samples());
       const double found = orbit.multipliers[static_cast<std::size_t>(i)].log_modulus / samples;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -97,8 +98,7 @@ TEST(CondensedBoundary, ClosesGrowingAndDecayingDirectionsTogether) {
   Matrix<double, 5> saddle = Matrix<double, 5>::Zero();
   saddle.diagonal() << 25.0, 10.0, 0.5, 0.1, 0.04;
   for (int trial = 0; trial < 20; ++trial) {
-    const Matrix<double, 5> turn =
-        Eigen::HouseholderQR<Matrix<double, 5>>(random.matrix<Matrix<double, 5>>()).householderQ();
+    const Matrix<double, 5> turn = test::orthogonal_factor_of(random.matrix<Matrix<double, 5>>());
     AffineMaps maps = random_affine_maps(random, 30, 1.0);
     for (auto& map : maps) map.map = turn * saddle * turn.transpose();
     const Vector<double, 5> expected = first_of_cycle(maps), found = first_by_ends(maps);

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
+#include "support/dense_routes.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 
@@ -29,7 +29,7 @@ Matrix<double, 4> energy_coordinates(const TwoMass<double>& plant) {
 }
 
 double spectral_norm(const Matrix<double, 4>& matrix) {
-  return Eigen::JacobiSVD<Eigen::Matrix4d>(matrix).singularValues()[0];
+  return test::singular_values_of(matrix)[0];
 }
 
 /// A state whose parts of the energy are of the same size.

@@ -3,7 +3,6 @@
 // where it is not, its rounding is all that changes.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/response/response.hpp"
 #include "property/units_case.hpp"
+#include "support/dense_routes.hpp"
 
 namespace holdfast {
 namespace {
@@ -165,8 +165,7 @@ TEST(UnitsOfLoop, BoundaryPointsScaleToTheLastBit) {
 /// Largest condition number of an eigenvalue of a balanced matrix: what it moves by, per unit that
 /// the matrix does.
 double eigenvalue_condition(const Matrix<double, 5>& balanced) {
-  const Eigen::EigenSolver<Matrix<double, 5>> solver(balanced);
-  const Matrix<std::complex<double>, 5> right = solver.eigenvectors();
+  const Matrix<std::complex<double>, 5> right = test::eigenvectors_of(balanced);
   const Matrix<std::complex<double>, 5> left = right.inverse();
   double largest = 0.0;
   for (int i = 0; i < 5; ++i) largest = std::max(largest, left.row(i).norm() * right.col(i).norm());

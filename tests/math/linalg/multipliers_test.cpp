@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "support/dense_routes.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
@@ -24,9 +24,7 @@ constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 Vector<double, 5> logarithms_of_product(const std::vector<Map5>& maps) {
   Matrix<long double, 5> product = Matrix<long double, 5>::Identity();
   for (const Map5& map : maps) product = map.cast<long double>() * product;
-  Vector<double, 5> logarithms = product.eigenvalues().cwiseAbs().array().log().cast<double>();
-  std::sort(logarithms.begin(), logarithms.end(), std::greater<>());
-  return logarithms;
+  return test::log_moduli_of(product);
 }
 
 std::vector<Map5> random_maps(test::Random& random, int count) {
@@ -36,7 +34,7 @@ std::vector<Map5> random_maps(test::Random& random, int count) {
 }
 
 Map5 random_orthogonal(test::Random& random) {
-  return Eigen::HouseholderQR<Map5>(random.matrix<Map5>()).householderQ();
+  return test::orthogonal_factor_of(random.matrix<Map5>());
 }
 
 /// Maps X_{k+1} B X_kᵀ with X_K = X₀: their product is similar to B^K.

@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <array>
 
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/types.hpp"
+#include "support/dense_routes.hpp"
 #include "support/random.hpp"
 
 namespace holdfast {
@@ -126,9 +125,8 @@ class LoopOfRandomEntries {
   int structural_rank() const { return rank_.rank(); }
 
   int numerical_rank() const {
-    const Eigen::JacobiSVD<Matrix<double, 8, 7>> svd(rows_);
-    return static_cast<int>(
-        (svd.singularValues().array() > 1e-9 * svd.singularValues()[0]).count());
+    const Eigen::VectorXd stretches = test::singular_values_of(rows_);
+    return static_cast<int>((stretches.array() > 1e-9 * stretches[0]).count());
   }
 
  private:
@@ -170,8 +168,8 @@ class LoopOfRandomEntries {
   RowVector<double, 4> row() { return random_.matrix<RowVector<double, 4>>(); }
 
   void mix() {
-    const Eigen::HouseholderQR<Matrix<double, 4>> qr(random_.matrix<Matrix<double, 4>>());
-    const Matrix<double, 4> rotation = qr.householderQ();
+    const Matrix<double, 4> rotation =
+        test::orthogonal_factor_of(random_.matrix<Matrix<double, 4>>());
     rows_.topRows<4>() = (rotation * rows_.topRows<4>()).eval();
   }
 

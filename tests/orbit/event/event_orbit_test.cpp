@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +22,7 @@
 #include "holdfast/orbit/event/event_orbit_measures.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -100,15 +99,13 @@ TEST(EventOrbit, WithoutBacklashIsThatOfTheSampledLoop) {
       for (std::size_t j = 0; j < orbit.states.size(); ++j)
         EXPECT_LT((orbit.states[j] - sampled.states[j].head<4>()).norm(), 1e-13);
       // μ^N of the eigenvalues μ of S, Eq. (14); the command of the last sample counts with δ > 0.
-      const Eigen::EigenSolver<Matrix<double, 5>> solver(
-          sampled_loop(loop.plant, loop.sampling).engaged_map(loop.gains), false);
-      std::vector<double> expected;
-      for (const std::complex<double>& value : solver.eigenvalues())
-        expected.push_back(std::log(std::abs(value)) * static_cast<double>(orbit.states.size()));
-      std::sort(expected.rbegin(), expected.rend());
+      const Eigen::VectorXd expected =
+          static_cast<double>(orbit.states.size()) *
+          test::log_moduli_of(sampled_loop(loop.plant, loop.sampling).engaged_map(loop.gains));
       ASSERT_EQ(orbit.multipliers.size(), 5U);
-      for (std::size_t i = 0; i < (delay_fraction > 0.0 ? 5U : 4U); ++i)
-        EXPECT_NEAR(orbit.multipliers[i].log_modulus, expected[i], 1e-9 * (1.0 - expected[i]));
+      for (int i = 0; i < (delay_fraction > 0.0 ? 5 : 4); ++i)
+        EXPECT_NEAR(orbit.multipliers[static_cast<std::size_t>(i)].log_modulus, expected[i],
+                    1e-9 * (1.0 - expected[i]));
       if (delay_fraction == 0.0) {
         EXPECT_EQ(orbit.multipliers[4].log_modulus, -std::numeric_limits<double>::infinity());
       }
@@ -223,12 +220,8 @@ std::vector<double> moduli_by_differences(const EventMotion<Contact>& any,
   }
   const Vector<double, 7> inverse = step.cwiseInverse();
   derivative = inverse.asDiagonal() * derivative * step.asDiagonal();
-  std::vector<double> moduli;
-  for (const auto& value :
-       Eigen::EigenSolver<Matrix<double, 7>>(derivative, false).eigenvalues().eval())
-    moduli.push_back(std::abs(value));
-  std::sort(moduli.rbegin(), moduli.rend());
-  return moduli;
+  const Eigen::VectorXd moduli = test::moduli_of(derivative);
+  return {moduli.begin(), moduli.end()};
 }
 
 template <class Contact>
@@ -338,9 +331,7 @@ TEST(EventOrbit, InAGapThatIsNeverLeftIsThatOfThePlant) {
     EXPECT_EQ(orbit.time_share[1], 1.0);
     EXPECT_EQ(orbit.margins.exit_velocity, SwitchingMargins::none);
     std::vector<double> rates;
-    for (const auto& pole : Eigen::EigenSolver<Matrix<double, 4>>(loop.plant.state_matrix(), false)
-                                .eigenvalues()
-                                .eval())
+    for (const auto& pole : test::eigenvalues_of(loop.plant.state_matrix()))
       rates.push_back(pole.real());
     std::sort(rates.rbegin(), rates.rend());
     for (std::size_t i = 0; i < 4; ++i)

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 #include "stability/loop_setting.hpp"
+#include "support/dense_routes.hpp"
 
 namespace holdfast {
 namespace {
@@ -79,8 +79,8 @@ TEST(Sensitivity, OfTheSpectralRadiusOfRandomLoopsIsItsSlope) {
     setting.sampling.period = 0.001 * std::pow(500.0, share(generator));
     setting.sampling.processing_delay = k % 3 == 0 ? 0.0 : 0.3 * setting.sampling.period;
     std::vector<double> moduli;
-    for (const auto& lambda :
-         sampled_loop(setting.plant, setting.sampling).engaged_map(setting.gains).eigenvalues()) {
+    for (const auto& lambda : test::eigenvalues_of(
+             sampled_loop(setting.plant, setting.sampling).engaged_map(setting.gains))) {
       if (lambda.imag() >= 0.0) moduli.push_back(std::abs(lambda));
     }
     std::sort(moduli.rbegin(), moduli.rend());
