@@ -35,7 +35,7 @@ TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
   const TwoMass<double> plant = kollar2022_plant();
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const auto masses = test::lagging_loop(plant, switching);
-    const auto ported = test::lagging_loop(linear_plant(plant), switching);
+    const auto ported = test::lagging_loop(test::through_ports(plant), switching);
     const LyapunovRun run{2000, 500};
     const LyapunovResult first = exponents_from_rest(masses, run);
     const LyapunovResult second = exponents_from_rest(ported, run);
@@ -47,7 +47,7 @@ TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
       }
     }
     const EventClassification one = classify_motion(masses, rest_of_plant(masses));
-    const EventClassification other = classify_motion(ported, rest_of_plant(ported));
+    const auto other = classify_motion(ported, rest_of_plant(ported));
     EXPECT_EQ(one.classification.kind, AttractorType::periodic);
     EXPECT_EQ(one.classification.kind, other.classification.kind);
     EXPECT_EQ(one.classification.period, other.classification.period);
@@ -58,9 +58,9 @@ TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMassesByItsSamplesToo) {
   const TwoMass<double> plant = kollar2022_plant();
   const auto masses = without_common_period(test::lagging_loop(plant, Switching::exact));
   const auto ported =
-      without_common_period(test::lagging_loop(linear_plant(plant), Switching::exact));
+      without_common_period(test::lagging_loop(test::through_ports(plant), Switching::exact));
   const EventClassification one = classify_motion(masses, rest_of_plant(masses));
-  const EventClassification other = classify_motion(ported, rest_of_plant(ported));
+  const auto other = classify_motion(ported, rest_of_plant(ported));
   ASSERT_EQ(one.search.outcome, OrbitOutcome::incommensurate);
   ASSERT_EQ(other.search.outcome, OrbitOutcome::incommensurate);
   EXPECT_EQ(one.classification.kind, other.classification.kind);
@@ -71,8 +71,8 @@ TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMassesByItsSamplesToo) {
 
 TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const auto loop = test::lagging_loop(test::filtered_and_lagging_plant(), switching);
-    const EventClassificationOf<7> found = classify_motion(loop, rest_of_plant(loop));
+    const auto loop = test::lagging_loop(test::seven_states(), switching);
+    const auto found = classify_motion(loop, rest_of_plant(loop));
     EXPECT_EQ(found.classification.kind, AttractorType::periodic);
     ASSERT_TRUE(found.search.orbit.has_value());
     EXPECT_EQ(found.classification.period, found.search.orbit->period_samples());
@@ -87,26 +87,12 @@ TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
 }
 
 TEST(VerdictOfAnyOrder, OfSevenUnderTwoFrequenciesIsJudgedByItsSamples) {
-  const auto plant = test::filtered_and_lagging_plant();
+  const auto plant = test::seven_states();
   const auto loop = without_common_period(test::lagging_loop(plant, Switching::exact));
   const auto found = classify_motion(loop, rest_of_plant(loop));
   EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);
   EXPECT_EQ(found.classification.kind, AttractorType::quasi_periodic);
   EXPECT_TRUE(found.indicators.largest_exponent->negative());
-}
-
-TEST(VerdictOfAnyOrder, KnownAtRunTimeAloneIsTheSame) {
-  const auto plant = test::filtered_and_lagging_plant();
-  const auto fixed = test::lagging_loop(plant, Switching::exact);
-  const auto dynamic = test::lagging_loop(test::of_dynamic_order(plant), Switching::exact);
-  const LyapunovRun run{2000, 500};
-  const LyapunovResult first = exponents_from_rest(fixed, run);
-  const LyapunovResult second = exponents_from_rest(dynamic, run);
-  EXPECT_NEAR(first.exponents[0], second.exponents[0], 1e-9);
-  const auto one = classify_motion(fixed, rest_of_plant(fixed));
-  const auto other = classify_motion(dynamic, rest_of_plant(dynamic));
-  EXPECT_EQ(one.classification.kind, other.classification.kind);
-  EXPECT_EQ(one.classification.period, other.classification.period);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/message_of.hpp"
 #include "support/state_between_samples.hpp"
 
@@ -131,14 +132,14 @@ TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
   const std::vector<double> widths{0.0, 0.0005};
   const DiagramOptions options{5.0, 20};
   const auto expected = diagram_of(0.001, widths, options);
-  std::vector<StrobePoint> points;
+  std::vector<StrobePointOf<Eigen::Dynamic>> points;
   const auto path = [](double width) {
     const ImplementedLoop loop = implemented_loop(diagram_loop(0.001, width));
-    return ImplementedLoopOf<LinearPlant<double, 4>>{linear_plant(loop.plant), loop.digital,
-                                                     loop.backlash, loop.switching};
+    return ImplementedLoopOf<LinearPlant<double>>{test::through_ports(loop.plant), loop.digital,
+                                                  loop.backlash, loop.switching};
   };
   run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
-                    [&](const StrobePoint& point) { points.push_back(point); });
+                    [&](const auto& point) { points.push_back(point); });
   ASSERT_EQ(points.size(), expected.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-11) << k;

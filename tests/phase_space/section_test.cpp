@@ -19,6 +19,7 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/kollar_case.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 #include "support/state_between_samples.hpp"
@@ -38,10 +39,16 @@ ImplementedLoop section_loop(double period, double width, Switching switching,
 }
 
 template <class Plant>
+auto motion_from_rest(const ImplementedLoopOf<Plant>& loop) {
+  const Eigen::Index order = loop.plant.state_matrix().rows();
+  return event_motion(loop, StateOf<Plant>(StateOf<Plant>::Zero(order)));
+}
+
+template <class Plant>
 auto section_of(const ImplementedLoopOf<Plant>& loop, std::int64_t samples) {
   using Point = SectionPointOf<states_of<Plant>>;
   std::vector<Point> points;
-  auto motion = event_motion(loop, StateOf<Plant>::Zero().eval());
+  auto motion = motion_from_rest(loop);
   run_section(motion, samples, [&](const Point& at) { points.push_back(at); });
   return points;
 }
@@ -82,8 +89,7 @@ std::vector<ScannedTurn> scanned_turns(EventMotion<Contact> motion, std::int64_t
 template <class Plant>
 std::size_t expect_scanned(const ImplementedLoopOf<Plant>& loop, std::int64_t samples, int looks) {
   const auto points = section_of(loop, samples);
-  const std::vector<ScannedTurn> turns =
-      scanned_turns(event_motion(loop, StateOf<Plant>::Zero().eval()), samples, looks);
+  const std::vector<ScannedTurn> turns = scanned_turns(motion_from_rest(loop), samples, looks);
   const double slack = 1e-9 * loop.digital.sampling.period;
   std::size_t next = 0, unseen = 0;
   for (const ScannedTurn& turn : turns) {
@@ -194,8 +200,8 @@ TEST(Section, NoTurnIsMissedOnAnyLoop) {
 TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const ImplementedLoop loop = section_loop(0.001, 0.0005, switching);
-    const ImplementedLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
-                                                         loop.backlash, loop.switching};
+    const ImplementedLoopOf<LinearPlant<double>> same{test::through_ports(loop.plant), loop.digital,
+                                                      loop.backlash, loop.switching};
     const auto expected = section_of(loop, 2000);
     const auto points = section_of(same, 2000);
     ASSERT_EQ(points.size(), expected.size());
@@ -210,13 +216,14 @@ TEST(Section, OfTheTwoMassesAsALinearPlantIsTheSame) {
 
 TEST(Section, OfALinearPlantGoesOnWhereItEndedInAStick) {
   const ImplementedLoop loop = section_loop(0.001, 0.0005, Switching::exact);
-  const ImplementedLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
-                                                       loop.backlash, loop.switching};
+  const ImplementedLoopOf<LinearPlant<double>> same{test::through_ports(loop.plant), loop.digital,
+                                                    loop.backlash, loop.switching};
   const auto whole = section_of(same, 2000);
-  std::vector<SectionPoint> pieces;
-  auto motion = event_motion(same, Vector<double, 4>::Zero().eval());
+  auto motion = motion_from_rest(same);
+  auto pieces = whole;
+  pieces.clear();
   for (int piece = 0; piece < 2000; ++piece)
-    run_section(motion, 1, [&](const SectionPoint& at) { pieces.push_back(at); });
+    run_section(motion, 1, [&](const auto& at) { pieces.push_back(at); });
   ASSERT_EQ(pieces.size(), whole.size());
   for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces[k].time, whole[k].time);
 }
@@ -224,9 +231,9 @@ TEST(Section, OfALinearPlantGoesOnWhereItEndedInAStick) {
 TEST(Section, NoTurnIsMissedOfADriveWithStatesOfItsOwn) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     const ImplementedLoop loop = section_loop(0.005, 0.0005, switching);
-    const auto plant = with_drive_lag(linear_plant(loop.plant), 20.0);
-    const ImplementedLoopOf<LinearPlant<double, 5>> lagging{plant, loop.digital, loop.backlash,
-                                                            loop.switching};
+    const auto plant = test::of_dynamic_order(with_drive_lag(linear_plant(loop.plant), 20.0));
+    const ImplementedLoopOf<LinearPlant<double>> lagging{plant, loop.digital, loop.backlash,
+                                                         loop.switching};
     EXPECT_EQ(expect_scanned(lagging, 2000, 50), 0U);
   }
 }

@@ -31,4 +31,13 @@ LinearPlant<double> of_dynamic_order(const LinearPlant<double, States>& plant) {
            ports.velocity_lift}};
 }
 
+/// Two masses whose state is read through ports, their order known at run time alone. Tests take
+/// this one plant of any order, so that each folder compiles the general route once.
+inline LinearPlant<double> through_ports(const TwoMass<double>& masses) {
+  return of_dynamic_order(linear_plant(masses));
+}
+
+/// Seven states, of which the compiler does not know the number.
+inline LinearPlant<double> seven_states() { return of_dynamic_order(filtered_and_lagging_plant()); }
+
 }  // namespace holdfast::test

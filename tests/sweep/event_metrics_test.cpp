@@ -19,6 +19,7 @@
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "support/kollar_case.hpp"
+#include "support/lagging_plant.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {
@@ -248,8 +249,8 @@ TEST(EventMetrics, OfTheTwoMassesAsALinearPlantAreTheSame) {
     const SweepMotion motion = metric_motion(0.001, 0.0005);
     ImplementedLoop loop = implemented_loop(motion.loop);
     loop.switching = switching;
-    const ImplementedLoopOf<LinearPlant<double, 4>> same{linear_plant(loop.plant), loop.digital,
-                                                         loop.backlash, loop.switching};
+    const ImplementedLoopOf<LinearPlant<double>> same{test::through_ports(loop.plant), loop.digital,
+                                                      loop.backlash, loop.switching};
     SCOPED_TRACE(static_cast<int>(switching));
     expect_same_motion(event_metrics(same, motion.initial_state, 3.0),
                        event_metrics(loop, motion.initial_state, 3.0), motion, 3.0);

@@ -41,7 +41,7 @@ TEST(OrbitOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMasses) {
       const TwoMass<double> plant = kollar2022_plant();
       const auto masses = orbit_from_rest(test::lagging_loop(plant, switching, delay));
       const auto ported =
-          orbit_from_rest(test::lagging_loop(linear_plant(plant), switching, delay));
+          orbit_from_rest(test::lagging_loop(test::through_ports(plant), switching, delay));
       ASSERT_EQ(masses.outcome, OrbitOutcome::certified);
       ASSERT_EQ(ported.outcome, OrbitOutcome::certified);
       ASSERT_EQ(ported.orbit->period_samples(), masses.orbit->period_samples());
@@ -145,21 +145,7 @@ void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
 
 TEST(OrbitOfAnyOrder, OfSevenClosesAndHasTheMultiplierOfItsReturn) {
   for (const Switching switching : {Switching::sampled, Switching::exact})
-    expect_closes_with_multiplier(
-        test::lagging_loop(test::filtered_and_lagging_plant(), switching));
-}
-
-TEST(OrbitOfAnyOrder, KnownAtRunTimeAloneIsTheSame) {
-  const auto plant = test::filtered_and_lagging_plant();
-  for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const auto fixed = orbit_from_rest(test::lagging_loop(plant, switching));
-    const auto dynamic =
-        orbit_from_rest(test::lagging_loop(test::of_dynamic_order(plant), switching));
-    ASSERT_EQ(fixed.outcome, OrbitOutcome::certified);
-    ASSERT_EQ(dynamic.outcome, OrbitOutcome::certified);
-    EXPECT_EQ(dynamic.orbit->modes, fixed.orbit->modes);
-    expect_same_multipliers(fixed.orbit->multipliers, dynamic.orbit->multipliers);
-  }
+    expect_closes_with_multiplier(test::lagging_loop(test::seven_states(), switching));
 }
 
 }  // namespace
