@@ -45,6 +45,7 @@ TEST(SwitchingComplexity, OfCoinsIsTheirEntropy) {
 TEST(SwitchingComplexity, OfAPeriodicSequenceIsZero) {
   const SwitchingComplexity found = switching_complexity(periodic_word(20000, word("1110010")));
   EXPECT_EQ(found.entropy, 0.0);
+  EXPECT_EQ(found.switches, 20000U / 7 * 4) << "three inside a period, one to the next";
 }
 
 TEST(SwitchingComplexity, OfAMarkovChainIsThatOfItsSteps) {

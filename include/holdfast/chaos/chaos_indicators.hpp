@@ -98,73 +98,41 @@ struct CollectedMotion {
 
 /// Runs transient and samples.
 template <int Size, class Advance, class Observable, class Tangent, class Contact>
-class MotionCollector {
-  static constexpr bool has_tangent = !std::is_same_v<Tangent, NoTangent>;
-  static constexpr bool has_contact = !std::is_same_v<Contact, NoContact>;
-
- public:
-  MotionCollector(const Vector<double, Size>& initial, Advance& advance, Observable& observable,
-                  Tangent& tangent, Contact& contact, const IndicatorOptions& options)
-      : state_(initial),
-        advance_(advance),
-        observable_(observable),
-        tangent_(tangent),
-        contact_(contact),
-        options_(options),
-        guard_(options.divergence_growth, initial),
-        exponent_(options.samples, initial.size()) {}
-
-  CollectedMotion<Size> run() {
-    settle();
-    if (!motion_.diverged_at) observe();
-    return std::move(motion_);
-  }
-
- private:
-  /// One step; false where the motion has diverged.
-  bool step() {
-    previous_ = state_;
-    advance_(state_);
-    ++index_;
-    if (!guard_.leaves(state_)) return true;
-    motion_.diverged_at = index_;
+CollectedMotion<Size> collected_motion(const Vector<double, Size>& initial, Advance& advance,
+                                       Observable& observable, Tangent& tangent, Contact& contact,
+                                       const IndicatorOptions& options) {
+  CollectedMotion<Size> motion;
+  DivergenceGuard<Size> guard(options.divergence_growth, initial);
+  LeadingExponent<Size> exponent(options.samples, initial.size());
+  Vector<double, Size> state = initial, previous = initial;
+  std::int64_t index = 0;
+  // One step; false where the motion has diverged.
+  const auto step = [&] {
+    previous = state;
+    advance(state);
+    ++index;
+    if (!guard.leaves(state)) return true;
+    motion.diverged_at = index;
     return false;
+  };
+  while (index < options.transient) {
+    if (!step()) return motion;
+    if constexpr (!std::is_same_v<Tangent, NoTangent>) exponent.settle(tangent(previous));
   }
-
-  void settle() {
-    while (index_ < options_.transient && step()) {
-      if constexpr (has_tangent) exponent_.settle(tangent_(previous_));
-    }
+  motion.states.reserve(static_cast<std::size_t>(options.samples));
+  motion.observed.reserve(static_cast<std::size_t>(options.samples));
+  for (std::int64_t taken = 0; taken < options.samples; ++taken) {
+    motion.states.push_back(state);
+    motion.observed.push_back(observable(state));
+    if (!step()) return motion;
+    if constexpr (!std::is_same_v<Tangent, NoTangent>) exponent.push(tangent(previous));
+    if constexpr (!std::is_same_v<Contact, NoContact>) motion.itinerary.push_back(contact());
   }
-
-  void observe() {
-    const auto count = static_cast<std::size_t>(options_.samples);
-    motion_.states.reserve(count);
-    motion_.observed.reserve(count);
-    if constexpr (has_contact) motion_.itinerary.reserve(count);
-    for (std::size_t taken = 0; taken < count; ++taken) {
-      motion_.states.push_back(state_);
-      motion_.observed.push_back(observable_(state_));
-      if (!step()) return;
-      if constexpr (has_tangent) exponent_.push(tangent_(previous_));
-      if constexpr (has_contact) motion_.itinerary.push_back(contact_());
-    }
-    motion_.largest = guard_.largest();
-    if constexpr (has_tangent) motion_.largest_exponent = exponent_.indicators();
-  }
-
-  Vector<double, Size> state_;
-  Vector<double, Size> previous_ = state_;
-  Advance& advance_;
-  Observable& observable_;
-  Tangent& tangent_;
-  Contact& contact_;
-  const IndicatorOptions& options_;
-  DivergenceGuard<Size> guard_;
-  LeadingExponent<Size> exponent_;
-  std::int64_t index_ = 0;
-  CollectedMotion<Size> motion_;
-};
+  motion.largest = guard.largest();
+  if constexpr (!std::is_same_v<Tangent, NoTangent>)
+    motion.largest_exponent = exponent.indicators();
+  return motion;
+}
 
 inline double extent_of(const std::vector<double>& series, std::size_t from, std::size_t to) {
   const auto begin = series.begin();
@@ -254,9 +222,8 @@ ChaosIndicators chaos_indicators(const Vector<double, Size>& initial, Advance ad
                                  Tangent tangent = {}, Contact contact = {}) {
   validate(options);
   for (Eigen::Index i = 0; i < initial.size(); ++i) require_finite("initial state", initial[i], "");
-  detail::MotionCollector<Size, Advance, Observable, Tangent, Contact> collector(
-      initial, advance, observable, tangent, contact, options);
-  const detail::CollectedMotion<Size> motion = collector.run();
+  const auto motion =
+      detail::collected_motion<Size>(initial, advance, observable, tangent, contact, options);
   if (!motion.diverged_at) return detail::weighed<Size>(motion, options);
   ChaosIndicators indicators;
   indicators.forcing_incommensurate = options.forcing_incommensurate;

@@ -186,11 +186,6 @@ std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& 
   return indicators_of_motion(start, options, false);
 }
 
-/// Whether neither forcing nor samples follow a rule that is known to repeat.
-inline bool is_irregularly_forced(const DigitalLoop& loop) {
-  return loop.force.record != nullptr || loop.jitter.half_width > 0.0;
-}
-
 /// The harmonic that motions are measured by; null without one.
 inline const Harmonic* first_harmonic(const MultiHarmonicForce& force) {
   const auto first =
@@ -254,7 +249,8 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
         "The recorded force ends before the samples that a verdict needs.";
     return;
   }
-  const bool irregular = is_irregularly_forced(digital);
+  // Neither forcing nor samples follow a rule that is known to repeat.
+  const bool irregular = digital.force.record != nullptr || digital.jitter.half_width > 0.0;
   options->forcing_incommensurate =
       found.search.outcome == OrbitOutcome::incommensurate && !irregular;
   const std::optional<ChaosIndicators> indicators = indicators_of_motion(start, *options);

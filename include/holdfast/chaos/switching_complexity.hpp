@@ -11,8 +11,9 @@ namespace holdfast {
 
 /// How rich an itinerary (engaged, in the backlash) is.
 struct SwitchingComplexity {
-  double entropy;     ///< h_k = H_{k+1} − H_k (bit per symbol)
-  std::size_t block;  ///< k
+  double entropy;        ///< h_k = H_{k+1} − H_k (bit per symbol)
+  std::size_t block;     ///< k
+  std::size_t switches;  ///< how often the contact changes
 };
 
 /// H_k, the entropy (bit) of the words of k symbols that a sequence holds, by their frequencies.
@@ -58,6 +59,8 @@ SwitchingComplexity switching_complexity(const Sequence& sequence) {
   const Sequence without_last(sequence.begin(), sequence.end() - 1);
   result.entropy = std::fmax(
       0.0, block_entropy(sequence, result.block + 1) - block_entropy(without_last, result.block));
+  for (std::size_t place = 1; place < sequence.size(); ++place)
+    result.switches += sequence[place] != sequence[place - 1] ? 1U : 0U;
   return result;
 }
 
