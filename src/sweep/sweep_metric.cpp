@@ -32,67 +32,64 @@ struct MetricOfCell {
   double (*value)(const CellResult& result);
 };
 
-/// All of them, in the order of SweepMetric.
-const std::vector<MetricOfCell>& metrics() {
-  using Cell = const CellResult&;
-  static const std::vector<MetricOfCell> all = {
-      {{{"first_peak", "m", "|z1| at the first local extremum of z1 after the start"}},
-       [](Cell cell) { return cell.motion.first_peak; }},
-      {{{"steady_peak", "m", "largest |z1| in the second half of the duration"}},
-       [](Cell cell) { return cell.motion.steady_peak; }},
-      {{{"steady_rms", "m", "root mean square of z1 in the second half of the duration"}},
-       [](Cell cell) { return cell.motion.steady_rms; }},
-      {{{"ratio_to_uncontrolled", "",
-         "steady_peak over that of the same case with P = D = 0 and no backlash"}},
-       ratio_of},
-      {{{"attenuates", "", "1: ratio_to_uncontrolled is below 1, 0: it is not", "integer"},
-        {"no", "yes"}},
-       [](Cell cell) { return ratio_of(cell) < 1.0 ? 1.0 : 0.0; }},
-      {{{"engaged_fraction", "",
-         "share of the samples of the second half at which the drive transmits its force"}},
-       [](Cell cell) { return cell.motion.engaged_fraction; }},
-      {{{"force_peak", "N", "largest |u| of all samples, what the drive must deliver"}},
-       [](Cell cell) { return cell.motion.force_peak; }},
-      {{{"force_rms", "N", "root mean square of u in the second half of the duration"}},
-       [](Cell cell) { return cell.motion.force_rms; }},
-      {{{"reversals_per_s", "1/s",
-         "sign changes of v2 - v1 from sample to sample in the second half, per second"}},
-       [](Cell cell) { return cell.motion.reversals_per_s; }},
-      {{{"absorber_stroke", "m", "largest less smallest z2 - z1 of all samples"}},
-       [](Cell cell) { return cell.motion.absorber_stroke; }},
-      {{{"largest_exponent", "", "Lyapunov exponent per sample over the whole duration"}},
-       [](Cell cell) { return cell.largest_exponent; }},
-      {{{"period_samples", "", "of the certified orbit; 0 where none was found", "integer"}},
-       [](Cell cell) { return static_cast<double>(cell.period); }},
-      {{{"verdict", "", "what the motion is, as the job verdict finds", "string"},
-        {"periodic", "quasi-periodic", "irregular", "chaotic", "diverges", "undecided", "invalid"}},
-       verdict_code},
-      {{{"differential_gain", "N.s/m", "D in force: the best one where that was asked for"}},
-       [](Cell cell) { return cell.differential_gain; }},
-      {{{"outcome", "",
-         "computed; diverges: the motion leaves the range of numbers within the duration (one that "
-         "grows more slowly is computed); invalid: the case is not admissible; no_gain, aliased: "
-         "there is no best gain; accumulates: the contact changes too often to be followed",
-         "string"},
-        {"computed", "diverges", "invalid", "no_gain", "aliased", "accumulates"}},
-       [](Cell cell) { return static_cast<double>(cell.outcome); }}};
-  return all;
-}
+using Cell = const CellResult&;
 
-const MetricOfCell& of(SweepMetric metric) { return metrics()[static_cast<std::size_t>(metric)]; }
+/// All of them, in the order of SweepMetric.
+const std::vector<MetricOfCell> metrics = {
+    {{{"first_peak", "m", "|z1| at the first local extremum of z1 after the start"}},
+     [](Cell cell) { return cell.motion.first_peak; }},
+    {{{"steady_peak", "m", "largest |z1| in the second half of the duration"}},
+     [](Cell cell) { return cell.motion.steady_peak; }},
+    {{{"steady_rms", "m", "root mean square of z1 in the second half of the duration"}},
+     [](Cell cell) { return cell.motion.steady_rms; }},
+    {{{"ratio_to_uncontrolled", "",
+       "steady_peak over that of the same case with P = D = 0 and no backlash"}},
+     ratio_of},
+    {{{"attenuates", "", "1: ratio_to_uncontrolled is below 1, 0: it is not", "integer"},
+      {"no", "yes"}},
+     [](Cell cell) { return ratio_of(cell) < 1.0 ? 1.0 : 0.0; }},
+    {{{"engaged_fraction", "",
+       "share of the samples of the second half at which the drive transmits its force"}},
+     [](Cell cell) { return cell.motion.engaged_fraction; }},
+    {{{"force_peak", "N", "largest |u| of all samples, what the drive must deliver"}},
+     [](Cell cell) { return cell.motion.force_peak; }},
+    {{{"force_rms", "N", "root mean square of u in the second half of the duration"}},
+     [](Cell cell) { return cell.motion.force_rms; }},
+    {{{"reversals_per_s", "1/s",
+       "sign changes of v2 - v1 from sample to sample in the second half, per second"}},
+     [](Cell cell) { return cell.motion.reversals_per_s; }},
+    {{{"absorber_stroke", "m", "largest less smallest z2 - z1 of all samples"}},
+     [](Cell cell) { return cell.motion.absorber_stroke; }},
+    {{{"largest_exponent", "", "Lyapunov exponent per sample over the whole duration"}},
+     [](Cell cell) { return cell.largest_exponent; }},
+    {{{"period_samples", "", "of the certified orbit; 0 where none was found", "integer"}},
+     [](Cell cell) { return static_cast<double>(cell.period); }},
+    {{{"verdict", "", "what the motion is, as the job verdict finds", "string"},
+      {"periodic", "quasi-periodic", "irregular", "chaotic", "diverges", "undecided", "invalid"}},
+     verdict_code},
+    {{{"differential_gain", "N.s/m", "D in force: the best one where that was asked for"}},
+     [](Cell cell) { return cell.differential_gain; }},
+    {{{"outcome", "",
+       "computed; diverges: the motion leaves the range of numbers within the duration (one that "
+       "grows more slowly is computed); invalid: the case is not admissible; no_gain, aliased: "
+       "there is no best gain; accumulates: the contact changes too often to be followed",
+       "string"},
+      {"computed", "diverges", "invalid", "no_gain", "aliased", "accumulates"}},
+     [](Cell cell) { return static_cast<double>(cell.outcome); }}};
+
+const MetricOfCell& of(SweepMetric metric) { return metrics[static_cast<std::size_t>(metric)]; }
 
 const std::string& name_of(const MetricOfCell& metric) { return metric.column.column.name; }
 
 }  // namespace
 
 SweepMetric metric_named(const std::string& name) {
-  const auto& all = metrics();
-  const auto known = std::find_if(all.begin(), all.end(),
+  const auto known = std::find_if(metrics.begin(), metrics.end(),
                                   [&](const auto& metric) { return name_of(metric) == name; });
-  if (known != all.end()) return static_cast<SweepMetric>(known - all.begin());
+  if (known != metrics.end()) return static_cast<SweepMetric>(known - metrics.begin());
   std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const MetricOfCell& metric : all) names.push_back(name_of(metric));
+  names.reserve(metrics.size());
+  for (const MetricOfCell& metric : metrics) names.push_back(name_of(metric));
   throw WrongInput("--metric " + name + ": unknown; did you mean " + nearest_name(names, name) +
                    "? There are " + metric_names());
 }
@@ -114,8 +111,7 @@ double metric_value(SweepMetric metric, const CellResult& result) {
 
 std::string metric_names() {
   std::string names;
-  for (const MetricOfCell& metric : metrics())
-    names += (names.empty() ? "" : ", ") + name_of(metric);
+  for (const MetricOfCell& metric : metrics) names += (names.empty() ? "" : ", ") + name_of(metric);
   return names;
 }
 

@@ -15,6 +15,7 @@ namespace {
 std::vector<Column> columns_of(const std::vector<GridAxis>& axes,
                                const std::vector<CellColumn>& columns) {
   std::vector<Column> all;
+  all.reserve(axes.size() + columns.size());
   for (const GridAxis& axis : axes) all.push_back(axis.column);
   for (const CellColumn& column : columns) all.push_back(column.column);
   return all;

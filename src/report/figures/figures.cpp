@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <initializer_list>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -51,8 +51,7 @@ constexpr const char* own_contact =
 constexpr const char* in_window =
     "Samples of the motion with τ = 11 ms, r₀ = 2 mm in a part of the phase plane.";
 
-/// Figs. 2–13 of Kollár 2022 and some beyond them, but for the maps of success.
-Figures figures_of_paper() {
+Figures figures_2_and_3() {
   return {
       figure(statics, "fig02a", "Fig. 2a: displacement and force at the absorber",
              "Both count from the equilibrium with the absorber's weight, downward. The exact "
@@ -75,7 +74,11 @@ Figures figures_of_paper() {
              {{"P", "-2000:500"},
               {"D", "-120:40"},
               {"curves", continuous_curves},
-              {"settings", "--continuous"}}),
+              {"settings", "--continuous"}})};
+}
+
+Figures figures_4_and_5() {
+  return {
       figure(stability, "fig04a", "Fig. 4a: stable gains, τ = 10 ms",
              "Shaded: gains with which the sampled loop is asymptotically stable. Lines: "
              "closed-form boundary.",
@@ -112,7 +115,11 @@ Figures figures_of_paper() {
       figure(design, "fig05b", "Best differential gain and its attenuation",
              "P is tuned to the excitation frequency, D leaves the least steady amplitude of all "
              "stabilising D. Positive: the amplitude is lower than without control. Lines end "
-             "where no D stabilises."),
+             "where no D stabilises.")};
+}
+
+Figures figures_6_to_9() {
+  return {
       figure(history, "fig06a", "Fig. 6a: the first second",
              "Conductor from rest; τ = 1 ms, r₀ = 0.5 mm. Positive is downward.",
              {{"from", "0"}, {"to", "1"}, {"settings", fine}}),
@@ -148,7 +155,11 @@ Figures figures_of_paper() {
       figure(phase, "fig09c", "Fig. 9c: phase diagram, τ = 11 ms, r₀ = 2 mm",
              "The slow computer makes the motion look irregular. Samples are joined by straight "
              "lines.",
-             {{"duration", "40"}, {"settings", slow}}),
+             {{"duration", "40"}, {"settings", slow}})};
+}
+
+Figures figures_10_to_13() {
+  return {
       figure(spectrum, "fig10a", "Fig. 10a: spectrum, τ = 1 ms, r₀ = 2 mm",
              "Amplitude of z₁ over whole forcing periods, transient left out.",
              {{"settings", fast}}),
@@ -169,7 +180,11 @@ Figures figures_of_paper() {
              {{"tangent", "printed"}, {"from", "0"}, {"range", "-0.06:0.03"}, {"settings", fast}}),
       figure(exponents, "fig13b", "Fig. 13b: Lyapunov exponents, τ = 11 ms, r₀ = 2 mm",
              "As Fig. 13a.",
-             {{"tangent", "printed"}, {"from", "0"}, {"range", "-0.3:0.15"}, {"settings", slow}}),
+             {{"tangent", "printed"}, {"from", "0"}, {"range", "-0.3:0.15"}, {"settings", slow}})};
+}
+
+Figures tables_and_orbits() {
+  return {
       figure(exponent_table, "table2a", "Table 2: Lyapunov exponents, τ = 1 ms, 10 s",
              "Bars: standard error by batch means. The fifth exponent is −∞ and not drawn; the "
              "paper prints −33.26.",
@@ -192,7 +207,11 @@ Figures figures_of_paper() {
              "A point for every instant at which conductor and absorber have the same velocity, "
              "found between the samples: there the drive reverses. 23.1 s from 30 s on are one "
              "period of the motion, so the points are all that there will ever be.",
-             {{"settings", slow}}),
+             {{"settings", slow}})};
+}
+
+Figures diagrams_and_basins() {
+  return {
       figure(diagram, "diagram-backlash", "Motions over the backlash, τ = 11 ms",
              "At each width of the backlash: z₁ at 20 forcing periods in a row, after 30 s. The "
              "width goes up and then back, each motion beginning where the last one ended. A few "
@@ -270,20 +289,23 @@ Figures figures_of_cable(const Case& the_case) {
                  {{"force", force}, {"duration", format_number(options.duration)}})};
 }
 
-Figures joined(Figures first, Figures second) {
-  std::move(second.begin(), second.end(), std::back_inserter(first));
-  return first;
+Figures joined(std::initializer_list<Figures> parts) {
+  Figures all;
+  for (const Figures& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace
 
-std::vector<Figure> paper_figures() { return joined(figures_of_paper(), paper_success_figures()); }
+std::vector<Figure> paper_figures() {
+  return joined({figures_2_and_3(), figures_4_and_5(), figures_6_to_9(), figures_10_to_13(),
+                 tables_and_orbits(), diagrams_and_basins(), paper_success_figures()});
+}
 
 std::vector<Figure> case_figures(const Case& the_case) {
-  Figures of_loop =
-      joined(figures_of_loop(gains_of(the_case), plant_of(the_case)), success_figures(the_case));
-  return plant_is_reduced(the_case) ? joined(figures_of_cable(the_case), std::move(of_loop))
-                                    : of_loop;
+  return joined({plant_is_reduced(the_case) ? figures_of_cable(the_case) : Figures(),
+                 figures_of_loop(gains_of(the_case), plant_of(the_case)),
+                 success_figures(the_case)});
 }
 
 }  // namespace holdfast::program
