@@ -205,9 +205,9 @@ FoundPeriod period_of(const StudiedLoop& studied) {
   try {
     return searched_period(studied);
   } catch (const NoAnswer& reason) {
-    FoundPeriod none;
-    none.verdict = reason.what();
-    return none;
+    FoundPeriod failed;
+    failed.verdict = reason.what();
+    return failed;
   }
 }
 
