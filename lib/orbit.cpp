@@ -13,7 +13,9 @@ template double ItineraryMaps<double>::spread_of(const Matrix<double, 5>&) const
 template std::vector<AffineMap<double>> affine_blocks(const ItineraryMaps<double>&,
                                                       const Itinerary&);
 
-template OrbitResult detail::OrbitSearch<double>::run();
+template OrbitResult detail::orbit_of_motion(const IdealLoop<double>&, const Rational&,
+                                             const OrbitLimits&,
+                                             const PeriodicallyForcedMotion<double>&);
 template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<double, 4>&,
                                          const OrbitLimits&);
 

@@ -16,6 +16,7 @@
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/periodic_solution.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
+#include "holdfast/orbit/return_search.hpp"
 #include "holdfast/orbit/state_scale.hpp"
 #include "holdfast/orbit/state_scaling.hpp"
 #include "holdfast/orbit/switching_borders.hpp"

@@ -53,7 +53,7 @@ PeriodicOrbit mirrored(const IdealLoop<double>& loop, const PeriodicOrbit& orbit
   from.backlash.upper = -law.lower();
   from.backlash.previous_velocity *= -1.0;
   motion.restore(from);
-  const OrbitResult found = detail::OrbitSearch(loop, orbit.ratio, {20000, 0}, motion).run();
+  const OrbitResult found = detail::orbit_of_motion(loop, orbit.ratio, {20000, 0}, motion);
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return found.orbit.value();
 }

@@ -20,6 +20,7 @@
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/orbit/return_search.hpp"
 #include "holdfast/plant/affine_dynamics.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/ports.hpp"
@@ -27,34 +28,22 @@
 
 namespace holdfast {
 
-/// What a search for the periodic orbit of an ImplementedLoop's motion found, for any contact.
-/// @tparam States  N, the order of the plant
-template <int States>
-struct EventSearchResultOf {
-  /// How the search ended; `incommensurate` also under a recorded force or where samples jitter.
-  OrbitOutcome outcome = OrbitOutcome::none_found;
-  std::optional<EventOrbitOf<States>> orbit;  ///< as in EventOrbitResult
-  std::int64_t samples = 0;                   ///< of the motion that was looked at
-  int candidates = 0;                         ///< returns that were solved for
-};
-
-/// That of the two masses.
-using EventSearchResult = EventSearchResultOf<4>;
-
 /// What a motion of a loop with backlash is, with its certificate or the indicators.
-/// @tparam Search  OrbitResult or EventSearchResultOf the plant's order
+/// @tparam Search  OrbitResultOf the model's orbit
 template <class Search>
 struct ClassifiedMotion {
   Classification classification;  ///< what the motion is, and what that rests on
-  Search search;                  ///< the orbit, where there is one
-  ChaosIndicators indicators;     ///< of a certified orbit its period and its exponent alone
+  /// The orbit, where there is one; `incommensurate` also under a recorded force or where samples
+  /// jitter.
+  Search search;
+  ChaosIndicators indicators;  ///< of a certified orbit its period and its exponent alone
 };
 
 /// That of an IdealLoop.
 using SampledClassification = ClassifiedMotion<OrbitResult>;
 /// That of an ImplementedLoop. @tparam States  N, the order of the plant
 template <int States>
-using EventClassificationOf = ClassifiedMotion<EventSearchResultOf<States>>;
+using EventClassificationOf = ClassifiedMotion<OrbitResultOf<EventOrbitOf<States>>>;
 /// That of the two masses.
 using EventClassification = EventClassificationOf<4>;
 
@@ -317,8 +306,7 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
   require_finite("initial state", initial_state.sum(), "");
   return with_motion(loop, initial_state, [&](const auto& motion) {
     auto search = find_event_orbit(motion, limits);
-    EventClassificationOf<states_of<Plant>> found{
-        {}, {search.outcome, std::move(search.orbit), search.samples, search.candidates}, {}};
+    EventClassificationOf<states_of<Plant>> found{{}, std::move(search), {}};
     if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
       detail::weigh_samples(loop, motion, found);
     return found;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "holdfast/core/rational.hpp"
@@ -52,7 +54,41 @@ struct LoopOrbit {
   }
 };
 
+/// Whether what was solved for is an orbit of the motion.
+enum class CandidateOutcome {
+  verified,         ///< the periodic solution switches as the motion did for which it was solved
+  singular,         ///< 1 is a multiplier: no periodic solution, or many
+  other_itinerary,  ///< the solution would switch otherwise: there is no such orbit
+  on_surface,       ///< it touches a switching surface, so that rounding decides its contacts
+};
+
+/// A periodic solution, verified or not.
+/// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
+template <class Orbit>
+struct OrbitCandidateOf {
+  CandidateOutcome outcome;    ///< whether the solution keeps to its itinerary
+  std::optional<Orbit> orbit;  ///< none where it is singular
+};
+
 namespace detail {
+
+/// The shortest period of which states and itinerary are a whole number of repetitions.
+/// @param step    q, samples
+/// @param extent  that of the states, in whose share_of() they are compared
+template <class State, class Symbol, class Extent>
+std::size_t shortest_period(const std::vector<State>& states, const std::vector<Symbol>& itinerary,
+                            std::size_t step, const Extent& extent) {
+  const std::size_t samples = states.size();
+  for (std::size_t period = step; period < samples; period += step) {
+    if (samples % period != 0) continue;
+    const State apart = states[period] - states.front();
+    if (extent.share_of(apart) > 1e-10) continue;
+    if (std::equal(itinerary.begin() + static_cast<std::ptrdiff_t>(period), itinerary.end(),
+                   itinerary.begin()))
+      return period;
+  }
+  return samples;
+}
 
 /// Distances from a switching surface within which rounding may decide how an orbit switches.
 struct SurfaceRounding {

@@ -42,19 +42,8 @@ struct PeriodicOrbit : LoopOrbit<5> {
   }
 };
 
-/// Whether an itinerary belongs to an orbit.
-enum class CandidateOutcome {
-  verified,         ///< the periodic solution reproduces its own sequence
-  singular,         ///< 1 is a multiplier: no periodic solution, or many
-  other_itinerary,  ///< the solution would switch otherwise: the sequence has no orbit
-  on_surface,       ///< it touches a switching surface, so that rounding decides its contacts
-};
-
 /// An itinerary with its solution, verified or not.
-struct OrbitCandidate {
-  CandidateOutcome outcome;            ///< whether the solution keeps to its sequence
-  std::optional<PeriodicOrbit> orbit;  ///< none where the sequence is singular
-};
+using OrbitCandidate = OrbitCandidateOf<PeriodicOrbit>;
 
 namespace detail {
 

@@ -187,7 +187,7 @@ struct BatchedMotions {
                                    const AttractorSet<Loop>& /*known*/) const {
     auto alone = start;
     alone.restore(motion.memory);
-    OrbitResult found = OrbitSearch<double>(loop, ratio, limits, alone).run();
+    OrbitResult found = orbit_of_motion(loop, ratio, limits, alone);
     if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
     return {{found.outcome, -1}, std::move(found.orbit)};
   }

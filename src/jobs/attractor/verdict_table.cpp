@@ -47,9 +47,8 @@ struct Classified {
   std::string warning;
 };
 
-/// @tparam Search  OrbitResult or EventSearchResult
-template <class Search>
-std::string warning_of(const Search& search) {
+template <class Orbit>
+std::string warning_of(const OrbitResultOf<Orbit>& search) {
   const bool certified = search.outcome == OrbitOutcome::certified;
   return certified ? near_border_warning(search.orbit->border_share()) : "";
 }

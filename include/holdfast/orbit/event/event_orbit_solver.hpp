@@ -18,7 +18,7 @@
 #include "holdfast/orbit/event/event_orbit_measures.hpp"
 #include "holdfast/orbit/event/repeating_motion.hpp"
 #include "holdfast/orbit/event/return_map.hpp"
-#include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/loop_orbit.hpp"
 
 namespace holdfast::detail {
 
@@ -151,10 +151,8 @@ class EventOrbitSolver {
   using Period = OnePeriod<Motion::states>;
   using Point = StroboscopicState<Contact>;
 
-  struct Candidate {
-    CandidateOutcome outcome;
-    std::optional<Orbit> orbit;
-    std::optional<Point> point;
+  struct Candidate : OrbitCandidateOf<Orbit> {
+    std::optional<Point> point;  // at the orbit's first sample
   };
 
   EventOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
@@ -170,12 +168,12 @@ class EventOrbitSolver {
     const Period one_period = one_period_of(motion_, samples, unused);
     const Extent extent(readings_, one_period.states);
     const std::int64_t section = section_of(one_period);
-    if (section < 0) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
+    if (section < 0) return {{CandidateOutcome::singular, std::nullopt}, std::nullopt};
     const bool gap_opens = !one_period.switches.empty();
     const auto units = return_units(motion_.motion(), extent, one_period.forces);
     ReturnMap<Contact> map(motion_, samples, units);
     const auto solution = map.fixed_point(moved(near, section), gap_opens);
-    if (!solution) return {CandidateOutcome::singular, std::nullopt, std::nullopt};
+    if (!solution) return {{CandidateOutcome::singular, std::nullopt}, std::nullopt};
     const Point first = moved(*solution, samples - section);
     Candidate candidate = measured(first, samples, extent);
     Orbit& orbit = *candidate.orbit;
@@ -209,7 +207,8 @@ class EventOrbitSolver {
     motion_.go_to(first);
     EventOrbitMeasures<Contact> measures(motion_.motion());
     Period one_period = one_period_of(motion_, samples, measures);
-    const std::int64_t shortest = shortest_period(one_period, extent);
+    const auto shortest = static_cast<std::int64_t>(shortest_period(
+        one_period.states, one_period.modes, static_cast<std::size_t>(ratio_.denominator), extent));
     if (shortest < samples) return measured(first, shortest, extent);
     bool alike = !motion_.motion().counts().accumulates;
     const State end = motion_.motion().state();
@@ -224,7 +223,7 @@ class EventOrbitSolver {
                              ? CandidateOutcome::on_surface
                          : alike ? CandidateOutcome::verified
                                  : CandidateOutcome::other_itinerary;
-    return {outcome, std::move(orbit), first};
+    return {{outcome, std::move(orbit)}, first};
   }
 
   Orbit orbit_of(Period one_period, const EventOrbitMeasures<Contact>& measures) const {
@@ -243,21 +242,6 @@ class EventOrbitSolver {
     orbit.time_share = measures.time_share();
     orbit.largest_displacement = measures.largest_displacement();
     return orbit;
-  }
-
-  /// The shortest period of which a turn is a whole number of repetitions.
-  std::int64_t shortest_period(const Period& one_period, const Extent& extent) const {
-    const auto samples = static_cast<std::int64_t>(one_period.states.size());
-    for (std::int64_t period = ratio_.denominator; period < samples; period += ratio_.denominator) {
-      if (samples % period != 0) continue;
-      const State apart =
-          one_period.states[static_cast<std::size_t>(period)] - one_period.states.front();
-      if (extent.share_of(apart) > 1e-10) continue;
-      if (std::equal(one_period.modes.begin() + period, one_period.modes.end(),
-                     one_period.modes.begin()))
-        return period;
-    }
-    return samples;
   }
 
   RepeatingMotion<Contact> motion_;

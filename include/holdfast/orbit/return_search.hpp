@@ -1,0 +1,212 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/orbit/loop_orbit.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+
+namespace holdfast {
+
+/// How the search for the periodic orbit of a motion ended.
+enum class OrbitOutcome {
+  certified,       ///< the motion was seen to tend to the orbit
+  approaching,     ///< an attracting orbit was proposed, but the motion was not seen to come to it
+  on_surface,      ///< its contacts repeat, but the orbit touches a switching surface: the result
+                   ///< depends on rounding, and no certificate can be given
+  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
+                   ///< does not repeat
+  diverges,        ///< the motion grows without bound
+  none_found,      ///< no orbit in the given number of samples, or q is beyond the largest period
+  not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
+};
+
+/// How long and how far to look for an orbit.
+struct OrbitLimits {
+  std::int64_t largest_period = 1'000'000;  ///< samples, 1 … 10⁸
+  /// Of the motion; 0: eight times the largest period.
+  std::int64_t most_samples = 0;
+  /// Called at every stroboscopic instant; may throw to end the search.
+  std::function<void()> watch = {};
+};
+
+/// @throws InvalidParameter where the limits are not admissible
+inline void validate(const OrbitLimits& limits) {
+  require_within("largest period", static_cast<double>(limits.largest_period), "samples", 1.0, 1e8);
+  require_within("number of samples", static_cast<double>(limits.most_samples), "", 0.0, 1e9);
+}
+
+/// What a search for a periodic orbit found.
+/// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
+template <class Orbit>
+struct OrbitResultOf {
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< how the search ended
+  std::optional<Orbit> orbit;  ///< certified, approached, touching a surface, or not reproduced
+  std::int64_t samples = 0;    ///< of the motion that was looked at
+  int candidates = 0;          ///< periods that were solved for
+};
+
+namespace detail {
+
+/// What a search has seen of a motion.
+/// @tparam Symbol  of the itinerary, one a sample
+template <class Symbol, class Plant>
+struct SeenMotion {
+  std::vector<Symbol> itinerary;
+  StateScaleOf<Plant> extent;
+  std::int64_t reference = 0;  ///< samples before the one that returns are compared with
+
+  /// Samples so far.
+  std::int64_t taken() const { return static_cast<std::int64_t>(itinerary.size()); }
+
+  /// Whether a motion that was within a millionth of its extent from a state has ended no farther
+  /// from it, but for rounding.
+  /// @param before,after  its distances, as shares of the extent
+  bool came_nearer(const StateOf<Plant>& state, double before, double after) const {
+    return before <= 1e-6 && after <= std::max(before, 1e-12 * extent.share_of(state));
+  }
+};
+
+/// Looks for the orbit that one motion comes to.
+///
+/// At every stroboscopic instant (sampling and forcing in phase) the state is compared with a
+/// reference that moves on at powers of two (R. P. Brent, An improved Monte Carlo factorization
+/// algorithm, BIT 20, 1980). A near return proposes a period, which is solved for its orbit. The
+/// orbit is the motion's once that is seen to come to it. Proposals after the first cost about as
+/// much as the motion at most.
+/// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
+///                take_sample()) with what is particular to it:
+///
+///     samples_per_solved                  samples taken before one more is solved for
+///     may_repeat(seen, period)            a near return is worth solving for
+///     solve(seen, period, reference)      the orbit that it may have come to; where it took
+///                                         samples to see that, they are added to `seen`
+///     is_same(known, other, seen)         of two candidates
+///     approach(candidate, seen)           the motion is watched from now on,
+///     has_come(candidate, seen)           and asked for at every stroboscopic instant
+///     result_of(candidate)                what the Result shows of it
+template <class Model>
+class ReturnSearch {
+ public:
+  using Result = typename Model::Result;
+
+  /// @param model  its motion at a stroboscopic instant
+  /// @param ratio  f τ = p/q
+  ReturnSearch(const Model& model, const Rational& ratio, const OrbitLimits& limits)
+      : model_(model),
+        ratio_(ratio),
+        limits_(limits),
+        seen_{{}, StateScaleOf<typename Model::Plant>(model_.readings()), 0},
+        reference_(model_.memory()),
+        largest_ever_(State::Zero(model_.state().size())) {
+    if (limits_.most_samples == 0) limits_.most_samples = 8 * limits_.largest_period;
+    seen_.extent.include(model_.state());
+    set_reference();
+  }
+
+  /// Looks until the orbit is found or the limits are reached.
+  Result run() {
+    while (seen_.taken() + ratio_.denominator <= limits_.most_samples) {
+      take_stroboscopic_instant();
+      if (limits_.watch) limits_.watch();
+      if (!(model_.state().cwiseAbs().maxCoeff() < 1e100)) return finish(OrbitOutcome::diverges);
+      if (!model_.is_followed()) return finish(OrbitOutcome::none_found);
+      if (has_come() || look_for_return())
+        return finish(
+            touches_surface(*proposed_) ? OrbitOutcome::on_surface : OrbitOutcome::certified,
+            *proposed_);
+      if (seen_.taken() >= 2 * std::max(seen_.reference, ratio_.denominator)) set_reference();
+    }
+    if (proposed_) return finish(OrbitOutcome::approaching, *proposed_);
+    if (failed_) return finish(OrbitOutcome::not_reproduced, *failed_);
+    return finish(OrbitOutcome::none_found);
+  }
+
+ private:
+  using State = typename Model::State;
+  using Candidate = typename Model::Candidate;
+
+  void take_stroboscopic_instant() {
+    for (std::int64_t j = 0; j < ratio_.denominator; ++j)
+      seen_.itinerary.push_back(model_.take_sample());
+    largest_ = largest_.cwiseMax(model_.state().cwiseAbs());
+    largest_ever_ = largest_ever_.cwiseMax(largest_);
+    seen_.extent.include(model_.state());
+  }
+
+  void set_reference() {
+    reference_ = model_.memory();
+    seen_.reference = seen_.taken();
+    largest_ = model_.state().cwiseAbs();
+  }
+
+  bool near_reference() const {
+    const State near = 1e-3 * largest_ + 1e-9 * largest_ever_;
+    return model_.has_contact_of(reference_) &&
+           ((model_.state() - reference_.state).cwiseAbs().array() <= near.array()).all();
+  }
+
+  bool has_come() { return proposed_ && model_.has_come(*proposed_, seen_); }
+
+  /// @return whether a return was found to be that of the motion's orbit
+  bool look_for_return() {
+    const std::int64_t period = seen_.taken() - seen_.reference;
+    if (period > limits_.largest_period || !near_reference() || !model_.may_repeat(seen_, period))
+      return false;
+    if (candidates_ > 0 && Model::samples_per_solved * (solved_samples_ + period) > seen_.taken())
+      return false;
+    solved_samples_ += period;
+    ++candidates_;
+    const std::int64_t taken = seen_.taken();
+    const Candidate candidate = model_.solve(seen_, period, reference_);
+    if (seen_.taken() > taken) set_reference();
+    if (!candidate.orbit) return false;
+    if (candidate.outcome == CandidateOutcome::other_itinerary) {
+      failed_ = candidate;
+      return false;
+    }
+    return (touches_surface(candidate) || candidate.orbit->is_attracting()) && propose(candidate);
+  }
+
+  static bool touches_surface(const Candidate& candidate) {
+    return candidate.outcome == CandidateOutcome::on_surface;
+  }
+
+  /// From now on the motion is watched for coming to this orbit.
+  bool propose(const Candidate& candidate) {
+    if (proposed_ && model_.is_same(*proposed_, candidate, seen_)) return false;
+    proposed_ = candidate;
+    model_.approach(*proposed_, seen_);
+    return has_come();
+  }
+
+  Result finish(OrbitOutcome outcome, const Candidate& found = {}) const {
+    Result result = model_.result_of(found);
+    result.outcome = outcome;
+    result.samples = seen_.taken();
+    result.candidates = candidates_;
+    return result;
+  }
+
+  Model model_;
+  Rational ratio_;
+  OrbitLimits limits_;
+  SeenMotion<typename Model::Symbol, typename Model::Plant> seen_;
+  typename Model::Memory reference_;
+  State largest_, largest_ever_;  // |x_i| since the reference, and of all
+  std::int64_t solved_samples_ = 0;
+  int candidates_ = 0;
+  std::optional<Candidate> proposed_;  // certified but for the motion's coming to it
+  std::optional<Candidate> failed_;
+};
+
+}  // namespace detail
+}  // namespace holdfast
