@@ -15,6 +15,7 @@ template std::complex<double> eigenvalue_derivative(const Matrix<double, Eigen::
                                                     const std::complex<double>&);
 
 template std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<double, 5>>&);
+template std::vector<Multiplier> multipliers_of_product(const std::vector<Eigen::MatrixXd>&);
 
 }  // namespace holdfast
 

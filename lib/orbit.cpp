@@ -1,9 +1,9 @@
 // Explicit instantiations of orbit for double.
 
+#include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
-#include "holdfast/orbit/periodic_solution.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 
 namespace holdfast {
@@ -24,8 +24,12 @@ template OrbitCandidate orbit_of_itinerary(const IdealLoop<double>&, const Ratio
                                            const Backlash<double>&);
 
 template CondensedBoundary<double> condensed_boundary(const std::vector<AffineMap<double>>&);
+template CondensedBoundary<double, Eigen::Dynamic> condensed_boundary(
+    const std::vector<AffineMap<double, Eigen::Dynamic>>&);
+template class CyclicSystem<double>;
+template class CyclicSystem<double, Eigen::Dynamic>;
 template std::optional<PeriodicSolution<double>> periodic_solution(
-    const ItineraryMaps<double>&, const Itinerary&, const CondensedBoundary<double>&);
+    const ItineraryMaps<double>&, const Itinerary&, const std::vector<AffineMap<double>>&);
 
 template std::vector<AttractionBall> attraction_balls(const IdealLoop<double>&,
                                                       const PeriodicOrbit&);

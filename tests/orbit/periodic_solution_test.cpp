@@ -1,4 +1,4 @@
-#include "holdfast/orbit/periodic_solution.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,7 @@ Vector<double, 5> first_of_cycle(const AffineMaps& maps) {
 }
 
 Vector<double, 5> first_by_ends(const AffineMaps& maps) {
-  const CondensedBoundary<double> ends = condensed_boundary(maps);
-  return (ends.first + ends.last).fullPivLu().solve(ends.addition);
+  return CyclicSystem<double>(maps).first_state();
 }
 
 AffineMaps random_affine_maps(test::Random& random, std::size_t count, double scale) {
@@ -106,6 +105,32 @@ TEST(CondensedBoundary, ClosesGrowingAndDecayingDirectionsTogether) {
   }
 }
 
+TEST(CyclicSystem, IsTheSameForAnOrderKnownAtRunTimeAlone) {
+  test::Random random(819);
+  for (int trial = 0; trial < 20; ++trial) {
+    const AffineMaps maps = random_affine_maps(random, 1 + random.index(20), 0.6);
+    std::vector<AffineMap<double, Eigen::Dynamic>> others;
+    for (const auto& map : maps) others.push_back({map.map, map.addition});
+    const CyclicSystem<double> system(maps);
+    const CyclicSystem<double, Eigen::Dynamic> other(others);
+    const Vector<double, 5> first = system.first_state();
+    EXPECT_LE((other.first_state() - first).norm(), 1e-12 * first.norm()) << trial;
+  }
+}
+
+TEST(CyclicSystem, CorrectsAMotionThatDoesNotClose) {
+  test::Random random(820);
+  for (int trial = 0; trial < 20; ++trial) {
+    const AffineMaps maps = random_affine_maps(random, 1 + random.index(20), 0.3);
+    const CyclicSystem<double> system(maps);
+    const Vector<double, 5> first = random.matrix<Vector<double, 5>>();
+    Vector<double, 5> last = first;
+    for (const auto& map : maps) last = map.map * last + map.addition;
+    const Vector<double, 5> corrected = first + system.correction(last - first);
+    EXPECT_LE((corrected - system.first_state()).norm(), 1e-12 * first.norm()) << trial;
+  }
+}
+
 // ---- the loop's own maps -----------------------------------------------------------------------
 
 struct ContactSequence {
@@ -127,8 +152,7 @@ ContactSequence random_sequence(test::Random& random) {
 template <class Scalar>
 std::optional<PeriodicSolution<Scalar>> solve_sequence(const ContactSequence& sequence) {
   const ItineraryMaps<Scalar> maps(converted<Scalar>(sequence.loop), sequence.ratio);
-  const auto ends = condensed_boundary(affine_blocks(maps, sequence.itinerary));
-  return periodic_solution(maps, sequence.itinerary, ends);
+  return periodic_solution(maps, sequence.itinerary, affine_blocks(maps, sequence.itinerary));
 }
 
 TEST(PeriodicSolution, ClosesForAnySequenceOfContacts) {
@@ -181,7 +205,7 @@ TEST(PeriodicSolution, ThereIsNoneWhereOneIsAMultiplier) {
     values.diagonal() << 1.0, 0.5, -0.7, 0.2, 0.0;
     const AffineMaps closed{{values * basis.inverse(), random.matrix<Vector<double, 5>>()},
                             {basis, random.matrix<Vector<double, 5>>()}};
-    EXPECT_FALSE(periodic_solution(maps, sequence.itinerary, condensed_boundary(closed))) << trial;
+    EXPECT_FALSE(periodic_solution(maps, sequence.itinerary, closed)) << trial;
   }
 }
 

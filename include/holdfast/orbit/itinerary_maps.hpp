@@ -11,19 +11,13 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/state_scaling.hpp"
 
 namespace holdfast {
 
 /// Contacts of successive samples: 1 where the drive transmits, 0 in its backlash.
 using Itinerary = std::vector<std::uint8_t>;
-
-/// x ↦ map x + addition.
-template <class Scalar>
-struct AffineMap {
-  Matrix<Scalar, 5> map;       ///< 5 × 5, of x = z̃ = [z; u_{j−1}]
-  Vector<Scalar, 5> addition;  ///< in the units of x
-};
 
 /// The affine maps that move z̃ = [z; u_{j−1}] over one sampling period,
 ///

@@ -90,18 +90,16 @@ std::size_t shortest_period(const std::vector<State>& states, const std::vector<
   return samples;
 }
 
-/// Distances from a switching surface within which rounding may decide how an orbit switches.
-struct SurfaceRounding {
-  double displacement;  ///< m
-  double velocity;      ///< m/s
-};
-
-/// @param extent  of the orbit's states
-/// @param error   of the states, as a share of the extent
-inline SurfaceRounding surface_rounding(const StateScale& extent, double error) {
+/// Whether an orbit comes so near to a switching surface that rounding may decide how it switches.
+/// @param extent        of the orbit's states
+/// @param error         of the states, as a share of the extent
+/// @param displacement  least distance from the end of a gap (m)
+/// @param velocity      from a reversal (m/s)
+inline bool touches_surface(const StateScale& extent, double error, double displacement,
+                            double velocity) {
   const double share = 256.0 * std::numeric_limits<double>::epsilon() + 64.0 * error;
-  const auto part = [share](double whole) { return whole > 0.0 ? share * whole : 0.0; };
-  return {part(extent.displacement), part(extent.velocity)};
+  const auto rounding = [share](double whole) { return whole > 0.0 ? share * whole : 0.0; };
+  return displacement <= rounding(extent.displacement) || velocity <= rounding(extent.velocity);
 }
 
 }  // namespace detail

@@ -13,7 +13,6 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
-#include "holdfast/orbit/periodic_solution.hpp"
 #include "holdfast/orbit/switching_borders.hpp"
 
 namespace holdfast {
@@ -66,7 +65,7 @@ class OrbitContinuation {
                                            : "0, as it is at the orbit");
     const ItineraryMaps<double> maps(loop, orbit_.ratio);
     const auto blocks = affine_blocks(maps, orbit_.itinerary);
-    const auto solution = periodic_solution(maps, orbit_.itinerary, condensed_boundary(blocks));
+    const auto solution = periodic_solution(maps, orbit_.itinerary, blocks);
     BranchPoint point;
     point.solved = solution.has_value();
     if (!point.solved) return point;

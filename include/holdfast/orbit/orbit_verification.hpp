@@ -8,7 +8,6 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
-#include "holdfast/orbit/periodic_solution.hpp"
 #include "holdfast/orbit/switching_borders.hpp"
 
 namespace holdfast {
@@ -33,8 +32,8 @@ template <class Precise>
 OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   using std::abs;
   const ItineraryMaps<Precise> maps(converted<Precise>(loop), orbit.ratio);
-  const auto ends = condensed_boundary(affine_blocks(maps, orbit.itinerary));
-  const auto solution = periodic_solution(maps, orbit.itinerary, ends);
+  const auto solution =
+      periodic_solution(maps, orbit.itinerary, affine_blocks(maps, orbit.itinerary));
   OrbitVerification verification;
   if (!solution) return verification;
   const BacklashMemory<double>& memory = orbit.memory;

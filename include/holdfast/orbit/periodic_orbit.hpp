@@ -13,9 +13,9 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/loop_orbit.hpp"
-#include "holdfast/orbit/periodic_solution.hpp"
 #include "holdfast/orbit/switching_borders.hpp"
 
 namespace holdfast {
@@ -45,25 +45,59 @@ struct PeriodicOrbit : LoopOrbit<5> {
 /// An itinerary with its solution, verified or not.
 using OrbitCandidate = OrbitCandidateOf<PeriodicOrbit>;
 
+/// The states of a motion that repeats a given itinerary for ever.
+template <class Scalar>
+struct PeriodicSolution {
+  std::vector<Vector<Scalar, 5>> states;  ///< z̃_j = [z_j; u_{j−1}], one for each sample
+  Scalar closure_error;  ///< ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀
+  /// What that means for z₀ itself, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
+  double state_error;
+};
+
 namespace detail {
 
-/// Whether the orbit comes so near to a surface that rounding may decide.
-/// @param state_error  of the states, as a share of their extent
-inline bool touches_surface(const PeriodicOrbit& orbit, double state_error) {
-  const SurfaceRounding rounding = surface_rounding(StateScale(orbit.states), state_error);
-  return std::abs(orbit.borders.displacement.distance) <= rounding.displacement ||
-         std::abs(orbit.borders.velocity.distance) <= rounding.velocity;
-}
-
+/// All states of the sequence from a given first one, and the state after its last sample.
 template <class Scalar>
-std::vector<Matrix<Scalar, 5>> maps_of(const std::vector<AffineMap<Scalar>>& blocks) {
-  std::vector<Matrix<Scalar, 5>> maps;
-  maps.reserve(blocks.size());
-  for (const auto& block : blocks) maps.push_back(block.map);
-  return maps;
+Vector<Scalar, 5> follow_itinerary(const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
+                                   std::vector<Vector<Scalar, 5>>& states) {
+  std::size_t phase = 0;
+  for (std::size_t j = 0; j + 1 < itinerary.size(); ++j) {
+    states[j + 1] = maps.step(states[j], itinerary[j] != 0, phase);
+    if (++phase == maps.samples_of_forcing()) phase = 0;
+  }
+  return maps.step(states.back(), itinerary.back() != 0, phase);
 }
 
 }  // namespace detail
+
+/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g without forming M or g.
+///
+/// The first state comes from the cyclic system of the blocks; the others follow by the maps
+/// themselves, and what is left open after one period is divided out once more.
+/// @param maps       of the loop
+/// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
+/// @param blocks     affine_blocks() of the sequence
+/// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
+///         periodic solution, or a continuum of them
+template <class Scalar>
+std::optional<PeriodicSolution<Scalar>> periodic_solution(
+    const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
+    const std::vector<AffineMap<Scalar>>& blocks) {
+  const CyclicSystem<Scalar> system(blocks);
+  if (system.is_singular()) return std::nullopt;
+  PeriodicSolution<Scalar> solution;
+  solution.states.resize(itinerary.size());
+  solution.states.front() = maps.units().cwiseProduct(system.first_state());
+  Vector<Scalar, 5> open, correction;
+  for (int refinement = 0; refinement < 3; ++refinement) {
+    open = detail::follow_itinerary(maps, itinerary, solution.states) - solution.states.front();
+    correction = maps.units().cwiseProduct(system.correction(open.cwiseQuotient(maps.units())));
+    if (refinement < 2) solution.states.front() += correction;
+  }
+  solution.closure_error = open.template head<4>().norm();
+  solution.state_error = StateScale(solution.states).share_of(correction);
+  return solution;
+}
 
 /// Solves for the orbit of an itinerary and verifies it.
 ///
@@ -79,23 +113,27 @@ OrbitCandidate orbit_of_itinerary(const IdealLoop<Scalar>& loop, const Rational&
                                   const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
                                   const Backlash<Scalar>& law) {
   const std::vector<AffineMap<Scalar>> blocks = affine_blocks(maps, itinerary);
-  auto solution = periodic_solution(maps, itinerary, condensed_boundary(blocks));
+  auto solution = periodic_solution(maps, itinerary, blocks);
   if (!solution) return {CandidateOutcome::singular, std::nullopt};
   const SwitchingPattern pattern = switching_pattern(solution->states, law);
   PeriodicOrbit orbit{{ratio, loop.sampling.period, std::move(solution->states),
-                       multipliers_of_product(detail::maps_of(blocks)), solution->closure_error},
+                       multipliers_of_product(maps_of(blocks)), solution->closure_error},
                       itinerary,
                       pattern.memory,
                       {}};
   orbit.borders = borders_of(pattern, orbit.states, loop.backlash_width);
-  const auto outcome = detail::touches_surface(orbit, solution->state_error)
-                           ? CandidateOutcome::on_surface
+  const bool touches = detail::touches_surface(StateScale(orbit.states), solution->state_error,
+                                               std::abs(orbit.borders.displacement.distance),
+                                               std::abs(orbit.borders.velocity.distance));
+  const auto outcome = touches                             ? CandidateOutcome::on_surface
                        : has_itinerary(pattern, itinerary) ? CandidateOutcome::verified
                                                            : CandidateOutcome::other_itinerary;
   return {outcome, std::move(orbit)};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::optional<PeriodicSolution<double>> periodic_solution(
+    const ItineraryMaps<double>&, const Itinerary&, const std::vector<AffineMap<double>>&);
 extern template OrbitCandidate orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
                                                   const ItineraryMaps<double>&, const Itinerary&,
                                                   const Backlash<double>&);

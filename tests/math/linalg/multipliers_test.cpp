@@ -33,18 +33,20 @@ std::vector<Map5> random_maps(test::Random& random, int count) {
   return maps;
 }
 
-Map5 random_orthogonal(test::Random& random) {
-  return test::orthogonal_factor_of(random.matrix<Map5>());
+template <class Map = Map5>
+Map random_orthogonal(test::Random& random) {
+  return test::orthogonal_factor_of(random.matrix<Map>());
 }
 
 /// Maps X_{k+1} B X_kᵀ with X_K = X₀: their product is similar to B^K.
-std::vector<Map5> disguised(const Map5& block, int count, test::Random& random) {
-  std::vector<Map5> maps;
-  const Map5 start = random_orthogonal(random);
-  Map5 before = start;
+template <class Map>
+std::vector<Map> disguised(const Map& block, int count, test::Random& random) {
+  std::vector<Map> maps;
+  const Map start = random_orthogonal<Map>(random);
+  Map before = start;
   for (int k = 1; k <= count; ++k) {
-    const Map5 after = k == count ? start : random_orthogonal(random);
-    maps.push_back(after * block * before.transpose());
+    const Map after = k == count ? start : random_orthogonal<Map>(random);
+    maps.emplace_back(after * block * before.transpose());
     before = after;
   }
   return maps;
@@ -89,6 +91,24 @@ TEST(Multipliers, SpanTheWholeRangeOfNumbersAndMore) {
       const bool negative = i == 1 && count % 2 == 1;
       EXPECT_NEAR(std::abs(multiplier.angle), negative ? pi<double> : 0.0, 1e-9);
     }
+  }
+}
+
+TEST(Multipliers, OfAnyOrderAreFoundLikewise) {
+  test::Random random(806);
+  Matrix<double, 8> block = Matrix<double, 8>::Zero();
+  block.diagonal() << 1.01, -0.9, 0.4, 0.2, 0.03, 1e-3, 2e-5, 0.0;
+  for (const int count : {3, 50, 300}) {
+    std::vector<Eigen::MatrixXd> maps;
+    for (const auto& map : disguised(block, count, random)) maps.emplace_back(map);
+    const auto found = multipliers_of_product(maps);
+    ASSERT_EQ(found.size(), 8U);
+    for (int i = 0; i < 7; ++i) {
+      const double expected = count * std::log(std::abs(block(i, i)));
+      EXPECT_NEAR(found[static_cast<std::size_t>(i)].log_modulus, expected, 1e-10 * count)
+          << count << ' ' << i;
+    }
+    EXPECT_EQ(found.back().log_modulus, minus_infinity);
   }
 }
 

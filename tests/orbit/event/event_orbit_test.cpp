@@ -264,6 +264,48 @@ TEST(EventOrbit, MultipliersCountWhatTheControllerRemembers) {
   }
 }
 
+/// The map of [z; u_{j−1}; z₁ as read] over a sample whose drive is engaged, the velocity being
+/// taken as the difference of two readings.
+Matrix<double, 6> map_by_differences(const IdealLoop<double>& loop) {
+  const auto sampled = sampled_loop(loop.plant, loop.sampling);
+  const double rate = loop.gains.differential / loop.sampling.period;
+  RowVector<double, 6> command = RowVector<double, 6>::Zero();
+  command[0] = loop.gains.proportional + rate;
+  command[5] = -rate;
+  Matrix<double, 6> map = Matrix<double, 6>::Zero();
+  map.topLeftCorner<4, 4>() = sampled.transition;
+  map.block<4, 1>(0, 4) = sampled.previous_force;
+  map.topRows<4>() += sampled.present_force * command;
+  map.row(4) = command;
+  map(5, 0) = 1.0;
+  return map;
+}
+
+// Products of the maps of a period span 130 decades here: formed as one matrix, all but the largest
+// multipliers would be its rounding.
+TEST(EventOrbit, SmallMultipliersOfManyAreNoRounding) {
+  for (const double period : {0.003, 0.005}) {
+    const auto ideal = event_orbit_loop(period, 0.0, ForceHold::exact, 0.3);
+    ImplementedLoop loop = implemented_loop(ideal);
+    loop.digital.limits.velocity = VelocitySensing::difference;
+    const auto found =
+        find_event_orbit(EventMotion<ExactBacklash>(loop.digital, ExactBacklash(loop.plant, 0.0),
+                                                    Vector<double, 4>::Zero()),
+                         OrbitLimits{20000});
+    ASSERT_EQ(found.outcome, OrbitOutcome::certified);
+    const EventOrbit& orbit = *found.orbit;
+    EXPECT_LT(orbit.closure_error, 1e-14);
+    std::vector<double> expected;
+    const Eigen::EigenSolver<Matrix<double, 6>> solver(map_by_differences(ideal), false);
+    for (const std::complex<double>& value : solver.eigenvalues())
+      expected.push_back(std::log(std::abs(value)) * static_cast<double>(orbit.states.size()));
+    std::sort(expected.rbegin(), expected.rend());
+    ASSERT_EQ(orbit.multipliers.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_NEAR(orbit.multipliers[i].log_modulus, expected[i], 1e-9 * (1.0 - expected[i]));
+  }
+}
+
 TEST(EventOrbit, OfADeadZoneHasTheMultipliersOfDifferences) {
   const Vector<double, 4> rest = Vector<double, 4>::Zero();
   for (const double stiffness : {0.0, 200.0, 2000.0}) {

@@ -2,7 +2,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -28,29 +27,35 @@ namespace detail {
 
 /// The product R = R_K … R₁ of upper triangular matrices as D U with D = diag(± e^{l_i}) and U of
 /// unit diagonal, so that no entry leaves the range of numbers.
-template <class Scalar>
+template <class Scalar, int Size>
 struct ScaledTriangle {
-  Vector<Scalar, 5> logarithms = Vector<Scalar, 5>::Zero();
-  Vector<Scalar, 5> signs = Vector<Scalar, 5>::Ones();
-  Matrix<Scalar, 5> unit = Matrix<Scalar, 5>::Identity();
-  int rank = 5;  ///< leading rows that no map takes to zero
+  Vector<Scalar, Size> logarithms, signs;
+  Matrix<Scalar, Size> unit;
+  Eigen::Index rank;  ///< leading rows that no map takes to zero
+
+  /// The unit matrix, order × order.
+  explicit ScaledTriangle(Eigen::Index order)
+      : logarithms(Vector<Scalar, Size>::Zero(order)),
+        signs(Vector<Scalar, Size>::Ones(order)),
+        unit(Matrix<Scalar, Size>::Identity(order, order)),
+        rank(order) {}
 
   /// R ← next · R. A diagonal entry below the round-off of `size` ends the rank.
-  void multiply_from_left(const Matrix<Scalar, 5>& next, const Scalar& size) {
+  void multiply_from_left(const Matrix<Scalar, Size>& next, const Scalar& size) {
     const Scalar round_off = Scalar(8) * std::numeric_limits<Scalar>::epsilon() * size;
-    for (int i = 0; i < rank; ++i) {
+    for (Eigen::Index i = 0; i < rank; ++i) {
       if (std::abs(next(i, i)) > round_off) continue;
       rank = i;
       break;
     }
-    Matrix<Scalar, 5> inner = Matrix<Scalar, 5>::Identity();
-    for (int i = 0; i < rank; ++i) {
-      for (int j = i + 1; j < rank; ++j)
+    Matrix<Scalar, Size> inner = Matrix<Scalar, Size>::Identity(unit.rows(), unit.cols());
+    for (Eigen::Index i = 0; i < rank; ++i) {
+      for (Eigen::Index j = i + 1; j < rank; ++j)
         inner(i, j) =
             next(i, j) / next(i, i) * signs[i] * signs[j] * std::exp(logarithms[j] - logarithms[i]);
     }
     unit = inner * unit;
-    for (int i = 0; i < rank; ++i) {
+    for (Eigen::Index i = 0; i < rank; ++i) {
       logarithms[i] += std::log(std::abs(next(i, i)));
       if (next(i, i) < 0.0) signs[i] = -signs[i];
     }
@@ -59,26 +64,26 @@ struct ScaledTriangle {
 
 /// An orthogonal matrix whose columns lie in no special position, so that no coordinate axis that
 /// the maps keep is mistaken for the leading direction.
-template <class Scalar>
-Matrix<Scalar, 5> generic_basis() {
-  Matrix<Scalar, 5> dense;
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j)
+template <class Scalar, int Size>
+Matrix<Scalar, Size> generic_basis(int order) {
+  Matrix<Scalar, Size> dense(order, order);
+  for (int i = 0; i < order; ++i)
+    for (int j = 0; j < order; ++j)
       dense(i, j) = Scalar(std::cos(1.0 + 3.0 * i + 7.0 * j + 1.3 * i * j));
-  return Eigen::HouseholderQR<Matrix<Scalar, 5>>(dense).householderQ();
+  return Eigen::HouseholderQR<Matrix<Scalar, Size>>(dense).householderQ();
 }
 
 /// One turn of orthogonal iteration around the period: Q ← the orthogonal factor after the last
 /// map.
-template <class Scalar>
-ScaledTriangle<Scalar> turn_basis(const std::vector<Matrix<Scalar, 5>>& maps,
-                                  Matrix<Scalar, 5>& basis) {
-  ScaledTriangle<Scalar> triangle;
-  for (const Matrix<Scalar, 5>& map : maps) {
-    const Matrix<Scalar, 5> stretched = map * basis;
-    const Eigen::HouseholderQR<Matrix<Scalar, 5>> qr(stretched);
+template <class Scalar, int Size>
+ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>& maps,
+                                        Matrix<Scalar, Size>& basis) {
+  ScaledTriangle<Scalar, Size> triangle(basis.rows());
+  for (const Matrix<Scalar, Size>& map : maps) {
+    const Matrix<Scalar, Size> stretched = map * basis;
+    const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
     basis = qr.householderQ();
-    const Matrix<Scalar, 5> upper = qr.matrixQR().template triangularView<Eigen::Upper>();
+    const Matrix<Scalar, Size> upper = qr.matrixQR().template triangularView<Eigen::Upper>();
     triangle.multiply_from_left(upper, map.norm());
   }
   return triangle;
@@ -86,20 +91,32 @@ ScaledTriangle<Scalar> turn_basis(const std::vector<Matrix<Scalar, 5>>& maps,
 
 /// Whether the first `leading` directions turn among themselves: what the turn W = Q₀ᵀQ_N mixes
 /// into the others is small.
-template <class Scalar>
-bool decoupled(const Matrix<Scalar, 5>& turn, int leading) {
-  return turn.bottomLeftCorner(5 - leading, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
+template <class Scalar, int Size>
+bool decoupled(const Matrix<Scalar, Size>& turn, Eigen::Index leading) {
+  const Eigen::Index others = turn.rows() - leading;
+  return others == 0 ||
+         turn.bottomLeftCorner(others, leading).cwiseAbs().maxCoeff() < Scalar(1e-10);
+}
+
+/// Whether no three neighbours beginning at an odd one are left together: most often a pair is left
+/// that no further turn separates.
+template <class Scalar, int Size>
+bool settled(const Matrix<Scalar, Size>& turn, Eigen::Index rank) {
+  for (Eigen::Index k = 1; k == 1 || k < rank; k += 2)
+    if (!decoupled(turn, k) && !decoupled(turn, k + 1)) return false;
+  return true;
 }
 
 /// Eigenvalues of rows and columns first … last − 1 of W D U.
-template <class Scalar>
-void append_multipliers(const Matrix<Scalar, 5>& turn, const ScaledTriangle<Scalar>& triangle,
-                        int first, int last, std::vector<Multiplier>& multipliers) {
-  using Block = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5>;
-  const int size = last - first;
+template <class Scalar, int Size>
+void append_multipliers(const Matrix<Scalar, Size>& turn,
+                        const ScaledTriangle<Scalar, Size>& triangle, Eigen::Index first,
+                        Eigen::Index last, std::vector<Multiplier>& multipliers) {
+  using Block = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, Size, Size>;
+  const Eigen::Index size = last - first;
   const Scalar scale = triangle.logarithms[first];
   Block stretch = triangle.unit.block(first, first, size, size);
-  for (int i = 0; i < size; ++i)
+  for (Eigen::Index i = 0; i < size; ++i)
     stretch.row(i) *= triangle.signs[first + i] * std::exp(triangle.logarithms[first + i] - scale);
   const Block block = turn.block(first, first, size, size) * stretch;
   for (const std::complex<Scalar>& value : eigenvalues(block))
@@ -115,32 +132,29 @@ void append_multipliers(const Matrix<Scalar, 5>& turn, const ScaledTriangle<Scal
 /// Q₀ᵀ M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K falls into diagonal blocks for the groups of
 /// eigenvalues whose moduli are apart. Each block is scaled by its own exponent, so that a modulus
 /// of 10⁻³⁰⁰⁰ is found as well as one of 0.9.
-/// @param maps  at least one; each well enough conditioned to be factorised alone
-/// @return five; those of null directions have log_modulus −∞
-template <class Scalar = double>
-std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, 5>>& maps) {
+/// @param maps  at least one, N × N, N ≥ 2; each well enough conditioned to be factorised alone
+/// @return N of them; those of null directions have log_modulus −∞
+template <class Scalar = double, int Size = 5>
+std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, Size>>& maps) {
   constexpr int most_turns = 40;
-  Matrix<Scalar, 5> basis = detail::generic_basis<Scalar>(), turn;
-  detail::ScaledTriangle<Scalar> triangle;
+  const Eigen::Index order = maps.front().rows();
+  Matrix<Scalar, Size> basis = detail::generic_basis<Scalar, Size>(static_cast<int>(order)), turn;
+  detail::ScaledTriangle<Scalar, Size> triangle(order);
   for (int count = 0; count < most_turns; ++count) {
-    const Matrix<Scalar, 5> before = basis;
+    const Matrix<Scalar, Size> before = basis;
     triangle = detail::turn_basis(maps, basis);
     turn = before.transpose() * basis;
-    // Most often a pair is left that no further turn separates.
-    const bool settled = detail::decoupled(turn, 1) || detail::decoupled(turn, 2);
-    if (count > 1 && settled &&
-        (triangle.rank < 4 || detail::decoupled(turn, 3) || detail::decoupled(turn, 4)))
-      break;
+    if (count > 1 && detail::settled(turn, triangle.rank)) break;
   }
   std::vector<Multiplier> multipliers;
-  int first = 0;
-  for (int last = 1; last <= triangle.rank; ++last) {
+  Eigen::Index first = 0;
+  for (Eigen::Index last = 1; last <= triangle.rank; ++last) {
     if (last < triangle.rank && !detail::decoupled(turn, last)) continue;
     detail::append_multipliers(turn, triangle, first, last, multipliers);
     first = last;
   }
-  while (multipliers.size() < 5)
-    multipliers.push_back({-std::numeric_limits<double>::infinity(), 0.0});
+  multipliers.resize(static_cast<std::size_t>(order),
+                     {-std::numeric_limits<double>::infinity(), 0.0});
   std::stable_sort(multipliers.begin(), multipliers.end(),
                    [](const auto& a, const auto& b) { return a.log_modulus > b.log_modulus; });
   return multipliers;
@@ -149,6 +163,7 @@ std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template std::vector<Multiplier> multipliers_of_product(
     const std::vector<Matrix<double, 5>>&);
+extern template std::vector<Multiplier> multipliers_of_product(const std::vector<Eigen::MatrixXd>&);
 #endif
 
 }  // namespace holdfast

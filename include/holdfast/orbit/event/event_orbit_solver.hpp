@@ -130,16 +130,6 @@ std::int64_t sample_far_from_switches(const OnePeriod<States>& one_period, Conta
   return best;
 }
 
-/// Whether an orbit comes so near to grazing that rounding may decide how it switches.
-/// @param closure  z_N − z₀ of both sides of the gap
-template <int States>
-bool touches_surface(const EventOrbitOf<States>& orbit, const Vector<double, 4>& closure) {
-  const SurfaceRounding rounding = surface_rounding(orbit.extent, orbit.extent.share_of(closure));
-  const SwitchingMargins& margins = orbit.margins;
-  return margins.border_distance <= rounding.displacement ||
-         std::min(margins.exit_velocity, margins.reversal_velocity) <= rounding.velocity;
-}
-
 /// Solves for the orbit of N samples near a point and measures it.
 template <class Contact>
 class EventOrbitSolver {
@@ -171,14 +161,14 @@ class EventOrbitSolver {
     if (section < 0) return {{CandidateOutcome::singular, std::nullopt}, std::nullopt};
     const bool gap_opens = !one_period.switches.empty();
     const auto units = return_units(motion_.motion(), extent, one_period.forces);
-    ReturnMap<Contact> map(motion_, samples, units);
-    const auto solution = map.fixed_point(moved(near, section), gap_opens);
+    ReturnMap<Contact> map(motion_, samples, units, gap_opens);
+    const auto solution = map.fixed_point(moved(near, section));
     if (!solution) return {{CandidateOutcome::singular, std::nullopt}, std::nullopt};
     const Point first = moved(*solution, samples - section);
     Candidate candidate = measured(first, samples, extent);
     Orbit& orbit = *candidate.orbit;
-    if (orbit.period_samples() < samples) map = {motion_, orbit.period_samples(), units};
-    orbit.multipliers = map.multipliers(*solution, gap_opens);
+    if (orbit.period_samples() < samples) map = {motion_, orbit.period_samples(), units, gap_opens};
+    orbit.multipliers = map.multipliers(*solution);
     return candidate;
   }
 
@@ -219,8 +209,11 @@ class EventOrbitSolver {
     Orbit orbit = orbit_of(std::move(one_period), measures);
     const State closure = end - orbit.states.front();
     orbit.closure_error = closure.norm();
-    const auto outcome = touches_surface(orbit, readings_.both_sides(closure))
-                             ? CandidateOutcome::on_surface
+    const SwitchingMargins& margins = orbit.margins;
+    const bool touches = touches_surface(
+        orbit.extent, orbit.extent.share_of(readings_.both_sides(closure)), margins.border_distance,
+        std::min(margins.exit_velocity, margins.reversal_velocity));
+    const auto outcome = touches ? CandidateOutcome::on_surface
                          : alike ? CandidateOutcome::verified
                                  : CandidateOutcome::other_itinerary;
     return {{outcome, std::move(orbit)}, first};

@@ -30,16 +30,6 @@ template <class Contact>
 struct HasMovingGap<Contact, std::void_t<decltype(std::declval<Contact&>().shift_gap(0.0))>>
     : std::true_type {};
 
-/// The ends of the gap are what the contact remembers.
-template <class Contact>
-bool remembers_gap([[maybe_unused]] const Contact& contact) {
-  if constexpr (HasMovingGap<Contact>::value) {
-    return contact.remembers_gap();
-  } else {
-    return false;
-  }
-}
-
 /// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] of VariationalFlow.
 template <class Contact>
 using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
@@ -52,7 +42,7 @@ PointDeviation<Contact> difference(const StroboscopicState<Contact>& from,
   apart << to.state - from.state, to.previous_command - from.previous_command, 0.0,
       to.previous_reading - from.previous_reading;
   if constexpr (HasMovingGap<Contact>::value) {
-    if (remembers_gap(from.contact) && remembers_gap(to.contact))
+    if (from.contact.remembers_gap() && to.contact.remembers_gap())
       apart[from.state.size() + 1] = to.contact.lower() - from.contact.lower();
   }
   return apart;
@@ -66,7 +56,7 @@ StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
   point.previous_command += by[order];
   point.previous_reading += by[order + 2];
   if constexpr (HasMovingGap<Contact>::value) {
-    if (remembers_gap(point.contact)) point.contact.shift_gap(by[order + 1]);
+    if (point.contact.remembers_gap()) point.contact.shift_gap(by[order + 1]);
   }
   return point;
 }
