@@ -14,14 +14,10 @@ template std::complex<double> eigenvalue_derivative(const Matrix<double, Eigen::
                                                     const Matrix<double, Eigen::Dynamic>&,
                                                     const std::complex<double>&);
 
+template Matrix<double, 5> exponential(const Matrix<double, 5>&);
+template Matrix<double, 6> exponential(const Matrix<double, 6>&);
+template Matrix<double, 8> exponential(const Matrix<double, 8>&);
 template std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<double, 5>>&);
 template std::vector<Multiplier> multipliers_of_product(const std::vector<Eigen::MatrixXd>&);
 
 }  // namespace holdfast
-
-namespace holdfast::detail {
-
-template Matrix<double, 5> balanced_exponential(const Matrix<double, 5>&);
-template Matrix<double, 6> balanced_exponential(const Matrix<double, 6>&);
-
-}  // namespace holdfast::detail

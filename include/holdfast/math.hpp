@@ -5,6 +5,7 @@
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
 #include "holdfast/math/linalg/gram_schmidt.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"

@@ -38,10 +38,7 @@ PreciseState precise_state(const AffineDynamics& dynamics, const Vector<double, 
   Vector<long double, 7> begin;
   begin << state.cast<long double>(), 1.0L, harmonic.amplitude * std::cos(angle),
       harmonic.amplitude * std::sin(angle);
-  const BalancedMatrix<long double, 7> similar(generator * length);
-  const Matrix<long double, 7> step =
-      similar.restored(exponential<long double, 7>(similar.balanced));
-  return (step * begin).head<4>();
+  return (exponential<long double, 7>(generator * length) * begin).head<4>();
 }
 
 /// The motion of a plant with all its inputs.

@@ -36,9 +36,9 @@ HeldStep<Scalar, States, Inputs> zero_order_hold(const Matrix<Scalar, States>& a
   Matrix<Scalar, size> augmented = Matrix<Scalar, size>::Zero(n + m, n + m);
   augmented.template topLeftCorner<States, States>(n, n) = a * period;
   augmented.template topRightCorner<States, Inputs>(n, m) = b * period;
-  const Matrix<Scalar, size> exponential = detail::balanced_exponential(augmented);
-  return {exponential.template topLeftCorner<States, States>(n, n),
-          exponential.template topRightCorner<States, Inputs>(n, m)};
+  const Matrix<Scalar, size> whole = exponential(augmented);
+  return {whole.template topLeftCorner<States, States>(n, n),
+          whole.template topRightCorner<States, Inputs>(n, m)};
 }
 
 }  // namespace holdfast

@@ -47,10 +47,9 @@ HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
   generator.template block<States, 1>(0, n, n, 1) = c;
   generator(n, n + 1) = -angular_frequency;
   generator(n + 1, n) = angular_frequency;
-  const Matrix<Scalar, size> exponential =
-      detail::balanced_exponential(Matrix<Scalar, size>(generator * period));
-  return {exponential.template block<States, 1>(0, n, n, 1),
-          exponential.template block<States, 1>(0, n + 1, n, 1)};
+  const auto whole = exponential(Matrix<Scalar, size>(generator * period));
+  return {whole.template block<States, 1>(0, n, n, 1),
+          whole.template block<States, 1>(0, n + 1, n, 1)};
 }
 
 /// The input of a harmonic force whose phase is ahead by `angle` (rad):

@@ -1,43 +1,56 @@
 #pragma once
 
-#include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
 
+namespace detail {
+
+/// k of the power 4ᵏ nearest to a ratio ≥ 0 (on a logarithmic scale), within ±`most`.
+template <class Scalar>
+int nearest_power_of_four(Scalar ratio, int most) {
+  int power = 0;
+  for (; ratio >= Scalar(2) && power < most; ratio /= Scalar(4)) ++power;
+  for (; ratio <= Scalar(0.5) && power > -most; ratio *= Scalar(4)) --power;
+  return power;
+}
+
+}  // namespace detail
+
 /// Powers of two t_i for which row i and column i of diag(t)⁻¹ M diag(t) have about the same size.
 ///
 /// Displacements and velocities differ by the size of a frequency. Scaling and squaring as well as
 /// the QR algorithm err by a fraction of the matrix norm, which balancing brings close to the
-/// spectral radius. Powers of two round nothing.
+/// spectral radius. Powers of two round nothing. The numbers need the four operations and a
+/// comparison; the powers of dual numbers are constants.
 /// Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
-  using std::abs;
-  using std::exp2;
-  using std::log2;
-  using std::round;
   // Entries at the end of the range of numbers would carry the factors beyond it.
-  const Scalar most = exp2(Scalar(std::numeric_limits<Scalar>::max_exponent) / Scalar(5));
+  constexpr int most = std::numeric_limits<Scalar>::max_exponent / 5;
   const auto size = static_cast<int>(matrix.rows());
+  const Matrix<Scalar, Size> moduli = matrix.cwiseAbs();
   Vector<Scalar, Size> factors = Vector<Scalar, Size>::Ones(size);
+  Vector<int, Size> exponents = Vector<int, Size>::Zero(size);
   for (int sweep = 0; sweep < 4; ++sweep) {
     for (int i = 0; i < size; ++i) {
       Scalar row(0), column(0);
       for (int j = 0; j < size; ++j) {
         if (j == i) continue;
-        row += abs(matrix(i, j)) * factors[j] / factors[i];
-        column += abs(matrix(j, i)) * factors[i] / factors[j];
+        row += moduli(i, j) * factors[j] / factors[i];
+        column += moduli(j, i) * factors[i] / factors[j];
       }
-      Scalar factor = factors[i];
-      if (row > Scalar(0) && column > Scalar(0)) {
-        factor *= exp2(round(log2(row / column) / Scalar(2)));
-      } else if (row > Scalar(0)) {
-        factor *= exp2(round(log2(row)));  // nothing depends on i: its unit is free
-      }
-      if (factor <= most && factor >= Scalar(1) / most) factors[i] = factor;
+      if (!(row > Scalar(0))) continue;
+      // Where nothing depends on i its unit is free.
+      const Scalar ratio = column > Scalar(0) ? Scalar(row / column) : Scalar(row * row);
+      const int change = detail::nearest_power_of_four(ratio, 2 * most + 1);
+      if (std::abs(exponents[i] + change) > most) continue;
+      exponents[i] += change;
+      for (int k = 0; k < change; ++k) factors[i] *= Scalar(2);
+      for (int k = 0; k > change; --k) factors[i] /= Scalar(2);
     }
   }
   return factors;

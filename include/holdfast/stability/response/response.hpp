@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 
 namespace holdfast {
@@ -193,7 +193,7 @@ SteadyResponse<Scalar>::SteadyResponse(const SampledLoop<Scalar>& loop,
                    loop.previous_force.template cast<Complex>() / lambda;
   sources.col(1) =
       input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
-  const Matrix<Complex, 4, 2> solution = resolvent.partialPivLu().solve(sources);
+  const Matrix<Complex, 4, 2> solution = eliminated(resolvent, sources);
   phasors_ = {solution(0, 0), solution(1, 0), solution(0, 1), solution(1, 1)};
   uncontrolled_ = phasors_.force_displacement;
   numerator_slope_ = phasors_.numerator_slope();

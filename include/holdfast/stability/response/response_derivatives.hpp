@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 
@@ -51,9 +50,8 @@ HarmonicInput<Scalar> exact_input_derivative_by_plant(const Plant& plant,
   }
   generator.template block<4, 4>(0, 6) = rate.state_matrix;
   generator.template block<4, 1>(0, 10) = rate.excitation_input;
-  const Matrix<Scalar, 12> exponential =
-      detail::balanced_exponential(Matrix<Scalar, 12>(generator * sampling_period));
-  return {exponential.template block<4, 1>(0, 10), exponential.template block<4, 1>(0, 11)};
+  const auto whole = exponential(Matrix<Scalar, 12>(generator * sampling_period));
+  return {whole.template block<4, 1>(0, 10), whole.template block<4, 1>(0, 11)};
 }
 
 /// How the phasors of the steady response move with one parameter:
@@ -97,7 +95,7 @@ class BasicResponseDerivatives {
   SampledLoop<Scalar> loop_;
   Scalar angle_;
   Complex lambda_;
-  Eigen::PartialPivLU<Matrix<Complex, 4>> factors_;
+  Matrix<Complex, 4> resolvent_;  // λI − A_d
   Matrix<Complex, 4, 2> response_;
 };
 
@@ -112,10 +110,8 @@ BasicResponseDerivatives<Scalar>::BasicResponseDerivatives(const SampledLoop<Sca
   lambda_ = std::polar(Scalar(1), angle_);
   const Scalar half_sine = std::sin(angle_ / Scalar(2));
   const Complex from_one(Scalar(-2) * half_sine * half_sine, std::sin(angle_));
-  const Matrix<Complex, 4> system =
-      from_one * Matrix<Complex, 4>::Identity() - loop.increment.template cast<Complex>();
-  factors_.compute(system);
-  response_ = factors_.solve(sources(loop.present_force, loop.previous_force, input));
+  resolvent_ = from_one * Matrix<Complex, 4>::Identity() - loop.increment.template cast<Complex>();
+  response_ = eliminated(resolvent_, sources(loop.present_force, loop.previous_force, input));
 }
 
 template <class Scalar>
@@ -126,7 +122,7 @@ ResponsePhasors<Scalar> BasicResponseDerivatives<Scalar>::along(
   right.col(0) -=
       loop_.previous_force.template cast<Complex>() * (lambda_rate / (lambda_ * lambda_));
   right -= lambda_rate * response_ - rate.transition.template cast<Complex>() * response_;
-  return phasors_of(factors_.solve(right));
+  return phasors_of(eliminated(resolvent_, right));
 }
 
 template <class Scalar>

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <complex>
+#include <utility>
+
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// What the size of a pivot is judged by, for numbers that compare: |x|.
+template <class Scalar>
+Scalar pivot_size(const Scalar& x) {
+  return x < Scalar(0) ? Scalar(-x) : x;
+}
+
+/// |z|², which needs no root.
+template <class Scalar>
+Scalar pivot_size(const std::complex<Scalar>& z) {
+  return std::norm(z);
+}
+
+}  // namespace detail
+
+/// X of M X = B by Gaussian elimination with row exchanges, for real and complex numbers and any
+/// other type with the four operations and a comparison, dual numbers among them.
+///
+/// For small systems: plain loops that compile in a fraction of the time of Eigen's
+/// decompositions. Work: n³/3 + n² c multiply-adds for c columns.
+/// @param matrix  M, n × n; where it is singular the result is not finite
+/// @param right   B, n × c
+template <class Square, class Columns>
+Columns eliminated(Square matrix, Columns right) {
+  using Scalar = typename Square::Scalar;
+  const Eigen::Index n = matrix.rows(), columns = right.cols();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      if (detail::pivot_size(matrix(i, k)) > detail::pivot_size(matrix(pivot, k))) pivot = i;
+    }
+    for (Eigen::Index j = k; j < n && pivot != k; ++j) std::swap(matrix(k, j), matrix(pivot, j));
+    for (Eigen::Index j = 0; j < columns && pivot != k; ++j)
+      std::swap(right(k, j), right(pivot, j));
+    const Scalar inverse = Scalar(1) / matrix(k, k);
+    for (Eigen::Index i = k + 1; i < n; ++i) matrix(i, k) *= inverse;
+    for (Eigen::Index j = k + 1; j < n; ++j) {
+      for (Eigen::Index i = k + 1; i < n; ++i) matrix(i, j) -= matrix(i, k) * matrix(k, j);
+    }
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      for (Eigen::Index i = k + 1; i < n; ++i) right(i, j) -= matrix(i, k) * right(k, j);
+    }
+  }
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    for (Eigen::Index k = n - 1; k >= 0; --k) {
+      right(k, j) /= matrix(k, k);
+      for (Eigen::Index i = 0; i < k; ++i) right(i, j) -= matrix(i, k) * right(k, j);
+    }
+  }
+  return right;
+}
+
+}  // namespace holdfast
