@@ -14,7 +14,7 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "medians.hpp"
 #ifdef HOLDFAST_HAS_SUNDIALS
-#include "holdfast/sundials/switching_reference.hpp"
+#include "support/switching_reference.hpp"
 #endif
 
 namespace {

@@ -12,9 +12,9 @@
 
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/sundials/switching_reference.hpp"
 #include "support/extended_switching.hpp"
 #include "support/random.hpp"
+#include "support/switching_reference.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,4 +1,4 @@
-#include "holdfast/sundials/switching_reference.hpp"
+#include "support/switching_reference.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 #include <gtest/gtest.h>

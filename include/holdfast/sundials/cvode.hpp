@@ -1,99 +1,17 @@
 #pragma once
 
 #include <cvode/cvode.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_config.h>
-#include <sundials/sundials_types.h>
 #include <sunlinsol/sunlinsol_band.h>
 #include <sunmatrix/sunmatrix_band.h>
-#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <Eigen/Core>
-#include <cstdlib>
-#include <memory>
-#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "holdfast/core/errors.hpp"
+#include "holdfast/sundials/cvode_session.hpp"
 
-/// Time integration of the library's continuous models by CVODE, SUNDIALS 6 and 7.
-///
-/// The one part of the library, with ceres/, that needs a package besides Eigen. SUNDIALS itself
-/// owns the global namespace `sundials`, hence this name.
 namespace holdfast::cvode {
-
-/// How an integration ended; each case is a family of CVODE's return flags.
-enum class IntegrationOutcome {
-  completed,           ///< CV_SUCCESS and CV_TSTOP_RETURN
-  model_ended,         ///< CV_ROOT_RETURN: the system's margin() reached zero
-  too_much_work,       ///< CV_TOO_MUCH_WORK: the limit of steps was reached
-  too_much_accuracy,   ///< CV_TOO_MUCH_ACC: the tolerances are finer than round-off
-  error_test_failed,   ///< CV_ERR_FAILURE: the step shrank without passing the error test
-  convergence_failed,  ///< CV_CONV_FAILURE and its kin: Newton or the fixed point did not converge
-  linear_solver_failed,    ///< CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL
-  right_hand_side_failed,  ///< CV_RHSFUNC_FAIL and its kin: the rates were not finite
-                           ///< (on the way, Adams' fixed point calls it convergence_failed)
-  out_of_memory,           ///< a handle could not be made
-  refused,                 ///< any other flag: CVODE was asked what it does not do
-};
-
-/// The outcome that a flag of CVODE means.
-inline IntegrationOutcome outcome_of_flag(int flag) {
-  switch (flag) {
-    case CV_SUCCESS:
-    case CV_TSTOP_RETURN:
-      return IntegrationOutcome::completed;
-    case CV_ROOT_RETURN:
-      return IntegrationOutcome::model_ended;
-    case CV_TOO_MUCH_WORK:
-      return IntegrationOutcome::too_much_work;
-    case CV_TOO_MUCH_ACC:
-      return IntegrationOutcome::too_much_accuracy;
-    case CV_ERR_FAILURE:
-      return IntegrationOutcome::error_test_failed;
-    case CV_CONV_FAILURE:
-    case CV_NLS_INIT_FAIL:
-    case CV_NLS_SETUP_FAIL:
-    case CV_NLS_FAIL:
-      return IntegrationOutcome::convergence_failed;
-    case CV_LINIT_FAIL:
-    case CV_LSETUP_FAIL:
-    case CV_LSOLVE_FAIL:
-      return IntegrationOutcome::linear_solver_failed;
-    case CV_RHSFUNC_FAIL:
-    case CV_FIRST_RHSFUNC_ERR:
-    case CV_REPTD_RHSFUNC_ERR:
-    case CV_UNREC_RHSFUNC_ERR:
-      return IntegrationOutcome::right_hand_side_failed;
-    case CV_MEM_FAIL:
-    case CV_MEM_NULL:
-      return IntegrationOutcome::out_of_memory;
-    default:
-      return IntegrationOutcome::refused;
-  }
-}
-
-/// CVODE's name of a flag: "CV_TOO_MUCH_WORK".
-inline std::string name_of_flag(int flag) {
-  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
-  return name ? std::string(name.get()) : "flag " + std::to_string(flag);
-}
-
-/// What the integration cost.
-struct IntegrationCost {
-  long steps = 0;                 ///< of the integrator, not of the instants asked for
-  long rate_evaluations = 0;      ///< calls of the right-hand side
-  long jacobian_evaluations = 0;  ///< 0 for a system without a banded Jacobian
-};
-
-/// Local error per step and the limit of steps between two outputs.
-struct Tolerances {
-  double relative = 1e-6;  ///< > 0
-  double absolute = 1e-9;  ///< > 0, in the units of the states (m, m/s)
-  /// > 0, from one instant asked for to the next; more end as `too_much_work`.
-  long largest_number_of_steps = 2000000;
-};
 
 namespace detail {
 
@@ -111,160 +29,6 @@ struct HasMargin : std::false_type {};
 template <class System>
 struct HasMargin<System, std::void_t<decltype(std::declval<const System&>().margin(
                              std::declval<const double*>()))>> : std::true_type {};
-
-struct FreeContext {
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
-};
-struct FreeVector {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-};
-struct FreeMatrix {
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-};
-struct FreeLinearSolver {
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-};
-struct FreeNonlinearSolver {
-  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
-};
-struct FreeIntegrator {
-  void operator()(void* memory) const { CVodeFree(&memory); }
-};
-
-template <class Handle, class Free>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
-
-inline SUNContext make_context() {
-  SUNContext context = nullptr;
-#if SUNDIALS_VERSION_MAJOR >= 7
-  if (SUNContext_Create(SUN_COMM_NULL, &context) != SUN_SUCCESS) return nullptr;
-  SUNContext_ClearErrHandlers(context);  // a library does not print
-#else
-  if (SUNContext_Create(nullptr, &context) != 0) return nullptr;
-#endif
-  return context;
-}
-
-/// What every integration by CVODE holds and how it fails: the handles, the outcome, the words.
-class Session {
- public:
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-  Session(Session&&) = delete;
-  Session& operator=(Session&&) = delete;
-
-  IntegrationOutcome outcome() const { return outcome_; }
-  /// CVODE's own words on a failure: the flag's name, and its message where it gave one.
-  const std::string& words() const { return words_; }
-
- protected:
-  /// @throws InvalidParameter for tolerances that are not positive
-  explicit Session(const Tolerances& tolerances) {
-    require_positive("relative tolerance", tolerances.relative, "");
-    require_positive("absolute tolerance", tolerances.absolute, "");
-    context_.reset(make_context());
-  }
-  ~Session() = default;
-
-  /// Makes ready to integrate from t = 0; `user_data` is what CVODE hands to the functions.
-  void open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
-            const Tolerances& tolerances, void* user_data);
-  void use_fixed_point();
-
-  bool check(int flag) {
-    if (outcome_ != IntegrationOutcome::completed) return false;
-    const bool warning = flag > 0 && flag != CV_ROOT_RETURN;
-    outcome_ = warning ? IntegrationOutcome::completed : outcome_of_flag(flag);
-    if (outcome_ == IntegrationOutcome::completed) return true;
-    words_ = name_of_flag(flag) + (message_.empty() ? "" : ": " + message_);
-    return false;
-  }
-
-  /// SUNDIALS 6 uses its own copies of vectors and matrices without a look whether there was memory
-  /// for them. Hence as much is asked for beforehand, and given back.
-  bool lacks_memory_for_vectors(sunindextype states, sunindextype vectors) {
-    const Owned<N_Vector, FreeVector> spare(N_VNew_Serial(states * vectors, context_.get()));
-    return lacks_memory(spare != nullptr);
-  }
-  bool lacks_memory_for_matrix(sunindextype states, sunindextype reach) {
-    const Owned<SUNMatrix, FreeMatrix> spare(
-        SUNBandMatrixStorage(states, reach, reach, 2 * reach + spare_rows, context_.get()));
-    return lacks_memory(spare != nullptr);
-  }
-
-  bool lacks_memory(bool made) {
-    if (made) return false;
-    outcome_ = IntegrationOutcome::out_of_memory;
-    words_ = "CV_MEM_FAIL: there is not enough memory";
-    return true;
-  }
-
-  /// One of CVODE's counters, 0 where there is none.
-  long count(int (*get)(void*, long*)) const {
-    long number = 0;
-    return memory_ && get(memory_.get(), &number) == CV_SUCCESS ? number : 0;
-  }
-
-  /// The history of Adams' method and what it works with; BDF has fewer.
-  static constexpr sunindextype vectors_of_integrator = 32;
-  /// Beside the copy of a banded matrix CVODE allocates some vectors.
-  static constexpr sunindextype spare_rows = 8;
-
-  IntegrationOutcome outcome_ = IntegrationOutcome::completed;
-  std::string words_, message_;
-  // Freed in the opposite order: everything before its context.
-  Owned<SUNContext, FreeContext> context_;
-  Owned<N_Vector, FreeVector> state_;
-  Owned<SUNMatrix, FreeMatrix> matrix_;
-  Owned<SUNLinearSolver, FreeLinearSolver> linear_solver_;
-  Owned<SUNNonlinearSolver, FreeNonlinearSolver> nonlinear_solver_;
-  std::unique_ptr<void, FreeIntegrator> memory_;
-
- private:
-#if SUNDIALS_VERSION_MAJOR < 7
-  static void note_message(int, const char*, const char*, char* message, void* self) {
-    static_cast<Session*>(self)->message_ = message;
-  }
-#else
-  static void note_message(int, const char*, const char*, const char* message, SUNErrCode,
-                           void* self, SUNContext) {
-    if (message != nullptr) static_cast<Session*>(self)->message_ = message;
-  }
-#endif
-
-  void listen_to_messages() {
-#if SUNDIALS_VERSION_MAJOR < 7
-    check(CVodeSetErrHandlerFn(memory_.get(), &note_message, this));
-#else
-    SUNContext_PushErrHandler(context_.get(), &note_message, this);
-#endif
-  }
-};
-
-inline void Session::open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
-                          const Tolerances& tolerances, void* user_data) {
-  if (lacks_memory(context_ != nullptr)) return;
-  state_.reset(N_VNew_Serial(initial_state.size(), context_.get()));
-  if (lacks_memory(state_ != nullptr)) return;
-  Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), initial_state.size()) =
-      initial_state;
-  if (lacks_memory_for_vectors(initial_state.size(), vectors_of_integrator)) return;
-  memory_.reset(CVodeCreate(method, context_.get()));
-  if (lacks_memory(memory_ != nullptr)) return;
-  listen_to_messages();
-  check(CVodeInit(memory_.get(), rate, 0.0, state_.get()));
-  check(CVodeSetUserData(memory_.get(), user_data));
-  check(CVodeSStolerances(memory_.get(), tolerances.relative, tolerances.absolute));
-  check(CVodeSetMaxNumSteps(memory_.get(), tolerances.largest_number_of_steps));
-  check(CVodeSetMaxHnilWarns(memory_.get(), -1));  // SUNDIALS 7 prints these warnings itself
-}
-
-inline void Session::use_fixed_point() {
-  if (outcome_ != IntegrationOutcome::completed) return;
-  nonlinear_solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
-  if (lacks_memory(nonlinear_solver_ != nullptr)) return;
-  check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
-}
 
 }  // namespace detail
 
@@ -336,7 +100,14 @@ class Integrator : public detail::Session {
   }
 
   void use_banded_newton();
-  void watch_margin();
+  void watch_margin() {
+    if (outcome_ != IntegrationOutcome::completed) return;
+    if (system_.margin(state()) <= 0.0) {
+      outcome_ = IntegrationOutcome::model_ended;
+    } else {
+      check(CVodeRootInit(memory_.get(), 1, &Integrator::margin));
+    }
+  }
 
   const System& system_;
   double time_ = 0.0;
@@ -358,16 +129,6 @@ Integrator<System>::Integrator(const System& system, const Eigen::VectorXd& init
   else
     use_fixed_point();
   if constexpr (bounded) watch_margin();
-}
-
-template <class System>
-void Integrator<System>::watch_margin() {
-  if (outcome_ != IntegrationOutcome::completed) return;
-  if (system_.margin(N_VGetArrayPointer(state_.get())) <= 0.0) {
-    outcome_ = IntegrationOutcome::model_ended;
-    return;
-  }
-  check(CVodeRootInit(memory_.get(), 1, &Integrator::margin));
 }
 
 template <class System>

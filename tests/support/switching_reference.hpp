@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cvode/cvode.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
-#include "holdfast/sundials/cvode.hpp"
+#include "holdfast/sundials/cvode_session.hpp"
 
 namespace holdfast::cvode {
 
