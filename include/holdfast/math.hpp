@@ -17,8 +17,6 @@
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/poly/positive_roots.hpp"
 #include "holdfast/math/poly/routh_hurwitz.hpp"
-#include "holdfast/math/poly/schur_cohn.hpp"
-#include "holdfast/math/poly/unstable_roots.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/math/roots/first_root.hpp"

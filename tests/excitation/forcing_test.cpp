@@ -11,6 +11,7 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/sample_excitation.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,4 +1,5 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
+#include "support/sample_excitation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,6 +13,7 @@
 
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "support/random.hpp"
+#include "support/sample_excitation.hpp"
 
 namespace holdfast {
 namespace {

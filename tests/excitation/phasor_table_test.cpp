@@ -8,6 +8,7 @@
 #include "holdfast/control/loop_input.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/sample_excitation.hpp"
 
 namespace holdfast {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/sample_excitation.hpp"
 
 namespace holdfast {
 namespace {

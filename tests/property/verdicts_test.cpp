@@ -10,10 +10,10 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/math/poly/routh_hurwitz.hpp"
-#include "holdfast/math/poly/schur_cohn.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "property/loop_case.hpp"
+#include "support/schur_cohn.hpp"
 
 namespace holdfast {
 namespace {

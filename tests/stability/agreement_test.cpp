@@ -13,11 +13,12 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/math/poly/routh_hurwitz.hpp"
-#include "holdfast/math/poly/schur_cohn.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/pair_gains.hpp"
 #include "support/random_loop.hpp"
+#include "support/schur_cohn.hpp"
 
 namespace holdfast {
 namespace {
@@ -132,7 +133,7 @@ TEST(StabilityRoads, AgreeCloseToTheBoundary) {
     const auto sampling = test::random_sampling(plant, random);
     const auto loop = sampled_loop(plant, sampling);
     const double angle = 2 * std::atan(random.log_uniform(0.01, 10.0));
-    const auto edge = complex_pair_gains(characteristic_polynomial(loop), angle);
+    const auto edge = test::complex_pair_gains(characteristic_polynomial(loop), angle);
     if (!edge) continue;
     // Most of the curve borders on loops that another root destabilises: keep where this pair
     // decides.

@@ -249,7 +249,7 @@ TEST(AnyOrderResponse, RatesAreDifferenceQuotients) {
   const double omega = 2.0 * pi<double> * 9.0, period = 0.003;
   for (const double fraction : {0.4, 2.3}) {
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-      const auto family = MapFamily<LinearPlant<double>>::of_period(plant, fraction);
+      const auto family = SamplingFamily<LinearPlant<double>>::of_period(plant, fraction);
       const auto at = [&](double t) {
         const auto map = family.loop_at(t);
         return AnyOrderResponse<double>(map, harmonic_input(plant, map, hold, omega), omega);
@@ -275,11 +275,11 @@ TEST(AnyOrderResponse, RatesAreDifferenceQuotients) {
   }
 }
 
-TEST(MapFamily, RatesOfTheMapAndOfItsRootsAreDifferenceQuotients) {
+TEST(SamplingFamily, RatesOfTheMapAndOfItsRootsAreDifferenceQuotients) {
   const LinearPlant<double> plant = of_dynamic_order(filtered_and_lagging_plant(40.0, 60.0));
   const PdGains<double> gains{-50.0, -3.0};
   const double period = 0.003;
-  using Family = MapFamily<LinearPlant<double>>;
+  using Family = SamplingFamily<LinearPlant<double>>;
   for (const bool by_period : {true, false}) {
     for (const double fraction : {0.0, 0.4, 1.0, 2.3}) {
       if (!by_period && fraction == std::floor(fraction)) continue;

@@ -20,6 +20,7 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 #include "support/lagging_plant.hpp"
+#include "support/pair_gains.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 
@@ -187,7 +188,7 @@ TEST(AnyOrder, BoundaryOfTwoMassesPassesWhereTheClosedFormsDo) {
   int compared = 0;
   for (const auto& point : stability_boundary(loop_map(plant, sampling), {-1000.0, 200.0})) {
     if (point.curve != BoundaryCurve::complex_pair) continue;
-    const auto gains = complex_pair_gains(polynomial, point.angle);
+    const auto gains = test::complex_pair_gains(polynomial, point.angle);
     ASSERT_TRUE(gains.has_value());
     const double size = std::abs(gains->proportional) + 1.0;
     EXPECT_NEAR(point.gains.proportional, gains->proportional, 1e-7 * size);

@@ -1,5 +1,6 @@
 #include "support/switching_reference.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/sample_excitation.hpp"
 
 #include <gtest/gtest.h>
 

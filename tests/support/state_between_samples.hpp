@@ -8,6 +8,7 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
+#include "support/sample_excitation.hpp"
 
 namespace holdfast::test {
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
@@ -24,19 +21,6 @@ struct ExcitationSample {
   Scalar cosine;  ///< F_m cos ω t_j (N); the bare cosine where no amplitude is meant
   Scalar sine;    ///< F_m sin ω t_j (N); the bare sine likewise
 };
-
-/// F_m cos(ω j τ) and F_m sin(ω j τ); whole cycles are removed first, so that j may be large.
-template <class Scalar>
-ExcitationSample<Scalar> sample_excitation(const HarmonicExcitation<Scalar>& excitation,
-                                           const Scalar& sampling_period, std::int64_t index) {
-  using std::cos;
-  using std::floor;
-  using std::sin;
-  const Scalar cycles =
-      Scalar(static_cast<double>(index)) * (excitation.frequency * sampling_period);
-  const Scalar phase = Scalar(2) * pi<Scalar> * (cycles - floor(cycles));
-  return {excitation.amplitude * cos(phase), excitation.amplitude * sin(phase)};
-}
 
 /// @throws InvalidParameter unless F_m ≥ 0 and f > 0, both finite
 inline void validate(const HarmonicExcitation<double>& excitation) {

@@ -5,7 +5,7 @@
 
 #include "case/case.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
-#include "holdfast/stability/boundary/boundary_feature.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
 
 namespace holdfast::program {
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/boundary/gain_window.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {

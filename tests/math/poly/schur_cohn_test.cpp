@@ -1,4 +1,4 @@
-#include "holdfast/math/poly/schur_cohn.hpp"
+#include "support/schur_cohn.hpp"
 
 #include <gtest/gtest.h>
 

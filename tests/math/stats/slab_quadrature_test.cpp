@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "holdfast/math/poly/unstable_roots.hpp"
+#include "holdfast/math/poly/positive_roots.hpp"
 #include "support/made_polynomial.hpp"
 
 namespace holdfast {

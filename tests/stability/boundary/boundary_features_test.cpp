@@ -14,6 +14,7 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/made_polynomial.hpp"
+#include "support/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {
@@ -29,7 +30,7 @@ double relative_residual(const AffinePolynomial<double, Degree>& polynomial,
                          const BoundaryRoot<double>& root, const PdGains<double>& gains) {
   using Complex = std::complex<long double>;
   const long double angle = root.angle;
-  const Complex x = Degree == 5 ? unit_circle_minus_one(angle) : Complex(0, angle);
+  const Complex x = Degree == 5 ? test::unit_circle_minus_one(angle) : Complex(0, angle);
   Complex power(1), value(0);
   long double size = 0;
   for (int k = 0; k <= Degree; ++k, power *= x) {

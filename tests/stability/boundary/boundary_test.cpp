@@ -11,6 +11,7 @@
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {
@@ -153,7 +154,7 @@ TEST(Boundary, GainsForAPairAreExactForRandomLoops) {
     const auto loop = sampled_loop(converted<Precise>(rough),
                                    Sampling<Precise>{sampling.period, sampling.processing_delay});
     const Precise angle = random.uniform(0.05, 3.0);
-    const auto gains = complex_pair_gains(characteristic_polynomial(loop), angle);
+    const auto gains = test::complex_pair_gains(characteristic_polynomial(loop), angle);
     if (!gains) continue;
     ++solved;
     EXPECT_LE(distance<5>(loop.engaged_map(*gains), std::polar(Precise(1), angle)), 1e-9L);
@@ -166,13 +167,13 @@ TEST(Boundary, GainsThatCannotPlaceARootAreNotInvented) {
   idle.base = Polynomial<double, 5>::Ones();
   idle.proportional = Polynomial<double, 5>::Unit(1);
   idle.differential = 2 * idle.proportional;
-  EXPECT_FALSE(gains_with_root(idle, std::complex<double>(0.3, 0.8)));
+  EXPECT_FALSE(test::gains_with_root(idle, std::complex<double>(0.3, 0.8)));
 }
 
 TEST(Boundary, TheCircleNearOneIsReachedWithoutCancellation) {
   for (const double angle : {1e-9, 1e-3, 1.0, 3.0}) {
     const PreciseComplex expected = std::polar(Precise(1), Precise(angle)) - Precise(1);
-    const std::complex<double> found = unit_circle_minus_one(angle);
+    const std::complex<double> found = test::unit_circle_minus_one(angle);
     EXPECT_NEAR(found.imag() / static_cast<double>(expected.imag()), 1.0, 1e-15);
     EXPECT_NEAR(found.real(), -angle * angle / 2,
                 angle * angle * angle * angle / 24 + 1e-15 * angle * angle);

@@ -12,6 +12,7 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {
@@ -123,7 +124,7 @@ int passes(const TracedLoop& loop, const std::vector<BoundaryPoint<double>>& poi
     const bool pass = (a.gains.proportional > p) != (b.gains.proportional > p);
     const bool within = std::abs(a.gains.differential) <= loop.largest_differential();
     if (a.curve != b.curve || !pass || !within) continue;
-    const auto between = complex_pair_gains(loop.polynomial(), (a.angle + b.angle) / 2);
+    const auto between = test::complex_pair_gains(loop.polynomial(), (a.angle + b.angle) / 2);
     const bool inside = between && between->proportional > loop.range.lower &&
                         between->proportional < loop.range.upper;
     result += inside || a.curve == BoundaryCurve::minus_one ? 1 : 0;
@@ -160,8 +161,8 @@ TEST(CurveTracer, TheCurveBetweenTwoPointsIsOnTheirChord) {
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       const auto &a = points[k], &b = points[k + 1];
       const double size = std::abs(a.gains.differential) + std::abs(b.gains.differential);
-      const auto between =
-          complex_pair_gains(loop.polynomial(), a.angle + random.unit() * (b.angle - a.angle));
+      const auto between = test::complex_pair_gains(loop.polynomial(),
+                                                    a.angle + random.unit() * (b.angle - a.angle));
       if (a.curve != b.curve || a.curve != BoundaryCurve::complex_pair || !between) continue;
       // The curve leaves the range here and comes back elsewhere.
       if (between->proportional < loop.range.lower || between->proportional > loop.range.upper) {

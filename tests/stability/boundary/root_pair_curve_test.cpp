@@ -10,6 +10,7 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/row_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "support/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {
@@ -22,7 +23,7 @@ TEST(RootPairCurve, PutsThePairOnTheUnitCircle) {
   for (const double angle : {0.1, 0.5, 1.0, 2.0, 3.0}) {
     const double y = std::tan(angle / 2.0) / curve.unit();
     const auto gains = curve.gains(y * y);
-    const auto expected = complex_pair_gains(polynomial, angle);
+    const auto expected = test::complex_pair_gains(polynomial, angle);
     ASSERT_TRUE(expected);
     EXPECT_NEAR(gains.proportional, expected->proportional, 1e-9 * std::abs(gains.proportional));
     EXPECT_NEAR(gains.differential, expected->differential, 1e-9 * std::abs(gains.differential));

@@ -25,6 +25,16 @@ std::vector<typename Coefficients::Scalar> positive_roots(
   return result;
 }
 
+/// Number of roots in the open right half-plane Re w > 0, by finding all roots.
+/// @param polynomial  degree 4 or 5, in s, or in w after `in_half_plane`, where Re w > 0 is |λ| > 1
+template <class Coefficients>
+int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
+  using Scalar = typename Coefficients::Scalar;
+  int count = 0;
+  for (const auto& root : roots(polynomial)) count += root.real() > Scalar(0) ? 1 : 0;
+  return count;
+}
+
 /// The polynomial divided by x − root, its last coefficient 0; the remainder is dropped.
 template <class Scalar, int Size>
 Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {

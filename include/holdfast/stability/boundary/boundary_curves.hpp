@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/math/poly/parity.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
@@ -40,6 +40,28 @@ struct BoundaryLine {
   }
 };
 
+namespace detail {
+
+/// The two ends of a line within a P range; D = ∓∞ where it is vertical.
+template <class Scalar>
+void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<Scalar>& line,
+                 const ProportionalRange& range) {
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  const Scalar lower(range.lower), upper(range.upper);
+  if (!line.is_vertical()) {
+    for (const Scalar& p : {lower, upper}) {
+      points.push_back({line.curve, line.angle, {p, line.differential_at(p)}});
+    }
+    return;
+  }
+  const Scalar p = line.proportional_at(Scalar(0));
+  if (!(p >= lower && p <= upper)) return;
+  points.push_back({line.curve, line.angle, {p, -infinity}});
+  points.push_back({line.curve, line.angle, {p, infinity}});
+}
+
+}  // namespace detail
+
 /// All curves of the gain plane on which a characteristic root is on the boundary of stability: the
 /// curve of root pairs, parametrised by Y (`RootPairCurve`), and at most two lines.
 ///
@@ -55,7 +77,7 @@ class BoundaryCurves {
   /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
   /// `characteristic_polynomial(plant)`, in s (degree 4)
   explicit BoundaryCurves(const AffinePolynomial<Scalar, Degree>& polynomial)
-      : polynomial_(in_stable_half_plane(polynomial)), pairs_(polynomial_) {
+      : polynomial_(detail::in_stable_half_plane(polynomial)), pairs_(polynomial_) {
     add_line(polynomial, sampled ? BoundaryCurve::plus_one : BoundaryCurve::zero, Scalar(0),
              Scalar(0));
     // λ − 1 = −2
@@ -83,15 +105,6 @@ class BoundaryCurves {
   }
 
  private:
-  static AffinePolynomial<Scalar, Degree> in_stable_half_plane(
-      const AffinePolynomial<Scalar, Degree>& polynomial) {
-    if constexpr (sampled) {
-      return polynomial.transformed(in_half_plane<Scalar, Degree + 1>);
-    } else {
-      return polynomial;
-    }
-  }
-
   /// No root without control has a larger modulus than twice this (Fujiwara).
   static Scalar root_bound(const Polynomial<Scalar, Degree>& base) {
     Scalar largest(0);

@@ -10,10 +10,8 @@
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/poly/positive_roots.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
-#include "holdfast/stability/boundary/boundary_feature.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/double_neimark_sacker.hpp"
-#include "holdfast/stability/boundary/gain_window.hpp"
 #include "holdfast/stability/polynomial/affine_polynomial.hpp"
 
 namespace holdfast {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
@@ -43,23 +43,22 @@ class CircleBoundary {
     const Scalar angle = curve == BoundaryCurve::plus_one ? Scalar(0) : pi<Scalar>;
     const CommandResponse<Scalar> g = response_.at_angle(angle);
     const Scalar by_p = g.displacement.real(), by_d = g.velocity.real();
-    const Scalar lower(range_.lower), upper(range_.upper);
-    constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-    if (std::abs(by_d) > Scalar(1e-9) * response_size()) {
-      for (const Scalar& p : {lower, upper})
-        points.push_back({curve, angle, {p, (Scalar(1) - p * by_p) / by_d}});
-    } else if (const Scalar p = Scalar(1) / by_p; p >= lower && p <= upper) {
-      points.push_back({curve, angle, {p, -infinity}});
-      points.push_back({curve, angle, {p, infinity}});
-    }
+    const bool idle = !(std::abs(by_d) > Scalar(1e-9) * response_size());
+    detail::append_line(
+        points, BoundaryLine<Scalar>{curve, angle, Scalar(1), -by_p, idle ? Scalar(0) : -by_d},
+        range_);
   }
 
   /// The curve of root pairs within the range, by ascending angle.
   void append_curve(std::vector<BoundaryPoint<Scalar>>& points) const {
-    std::vector<Scalar> angles = starting_angles();
+    const std::vector<Scalar> angles = starting_angles();
+    if (angles.empty()) return;
+    Place left = place_at(angles.front());
     for (std::size_t k = 0; k + 1 < angles.size(); ++k) {
-      append(angles[k], points);
-      refine(angles[k], angles[k + 1], 0, points);
+      const Place right = place_at(angles[k + 1]);
+      append(left, points);
+      refine(left, right, 0, points);
+      left = right;
     }
   }
 
@@ -72,8 +71,15 @@ class CircleBoundary {
     return largest;
   }
 
-  bool within(const PdGains<Scalar>& gains) const {
-    return gains.proportional >= Scalar(range_.lower) && gains.proportional <= Scalar(range_.upper);
+  struct Place {
+    Scalar angle;
+    std::optional<PdGains<Scalar>> gains;
+  };
+  Place place_at(const Scalar& angle) const { return {angle, gains_at(angle)}; }
+
+  bool within(const Place& place) const {
+    return place.gains->proportional >= Scalar(range_.lower) &&
+           place.gains->proportional <= Scalar(range_.upper);
   }
 
   /// Close together about each pole, towards 0 and towards π, where the curve moves fast.
@@ -92,21 +98,21 @@ class CircleBoundary {
     return angles;
   }
 
-  void append(const Scalar& angle, std::vector<BoundaryPoint<Scalar>>& points) const {
-    const auto gains = gains_at(angle);
-    if (gains && within(*gains)) points.push_back({BoundaryCurve::complex_pair, angle, *gains});
+  void append(const Place& place, std::vector<BoundaryPoint<Scalar>>& points) const {
+    if (place.gains && within(place))
+      points.push_back({BoundaryCurve::complex_pair, place.angle, *place.gains});
   }
 
   /// Halves an interval of angles while its middle is off the chord by more than a 500th of the
   /// range of P, and where one end alone lies in the range.
-  void refine(const Scalar& left, const Scalar& right, int depth,
+  void refine(const Place& left, const Place& right, int depth,
               std::vector<BoundaryPoint<Scalar>>& points) const {
     constexpr int deepest = 14;
     if (depth == deepest) return;
-    const Scalar middle = left + (right - left) / Scalar(2);
-    const auto a = gains_at(left), b = gains_at(right), m = gains_at(middle);
+    const Place middle = place_at(left.angle + (right.angle - left.angle) / Scalar(2));
+    const auto &a = left.gains, &b = right.gains, &m = middle.gains;
     if (!a || !b || !m) return;
-    const int inside = int(within(*a)) + int(within(*b)) + int(within(*m));
+    const int inside = int(within(left)) + int(within(right)) + int(within(middle));
     if (inside == 0) return;
     const Scalar off = std::abs(m->proportional - (a->proportional + b->proportional) / Scalar(2));
     const Scalar off_d =
@@ -116,7 +122,7 @@ class CircleBoundary {
         std::max({std::abs(a->differential), std::abs(b->differential), std::abs(m->differential)});
     if (inside == 3 && off <= Scalar(0.002) * width && off_d <= Scalar(0.002) * size_d) return;
     refine(left, middle, depth + 1, points);
-    if (within(*m)) points.push_back({BoundaryCurve::complex_pair, middle, *m});
+    append(middle, points);
     refine(middle, right, depth + 1, points);
   }
 

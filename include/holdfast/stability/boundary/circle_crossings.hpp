@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
 namespace holdfast {
@@ -167,7 +167,6 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
-  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   const auto stable_at = [&](Scalar x) {
     const PdGains<Scalar> pair = free == FreeGain::differential
                                      ? PdGains<Scalar>{gains.proportional, x}
@@ -177,25 +176,14 @@ std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain 
   std::vector<Scalar> ends;
   for (const GainCrossing& crossing : circle_crossings(map, free, gains))
     if (ends.empty() || crossing.gain > ends.back()) ends.push_back(crossing.gain);
-  if (ends.empty()) {
-    if (stable_at(Scalar(0))) return {{-infinity, infinity}};
-    return {};
-  }
-  const Scalar reach = std::max({std::abs(ends.front()), std::abs(ends.back()), Scalar(1e-300)});
-  std::vector<Interval<Scalar>> stable;
-  for (std::size_t gap = 0; gap <= ends.size(); ++gap) {
-    const Scalar lower = gap == 0 ? -infinity : ends[gap - 1];
-    const Scalar upper = gap == ends.size() ? infinity : ends[gap];
-    const Scalar inside = gap == 0             ? upper - reach
-                          : gap == ends.size() ? lower + reach
-                                               : lower + (upper - lower) / Scalar(2);
-    if (!stable_at(inside)) continue;
-    if (!stable.empty() && stable.back().upper == lower && stable_at(lower))
-      stable.back().upper = upper;
-    else
-      stable.push_back({lower, upper});
-  }
-  return stable;
+  Scalar reach(1e-300);
+  for (const Scalar& end : ends) reach = std::max(reach, std::abs(end));
+  const auto inside = [&](const Interval<Scalar>& gap) {
+    if (std::isinf(gap.lower)) return std::isinf(gap.upper) ? Scalar(0) : gap.upper - reach;
+    if (std::isinf(gap.upper)) return gap.lower + reach;
+    return gap.lower + (gap.upper - gap.lower) / Scalar(2);
+  };
+  return detail::stable_gaps(ends, inside, stable_at);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

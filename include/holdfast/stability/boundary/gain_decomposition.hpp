@@ -14,7 +14,7 @@
 #include "holdfast/stability/boundary/arc_crossing.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
-#include "holdfast/stability/boundary/gain_window.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
 
 namespace holdfast {
 

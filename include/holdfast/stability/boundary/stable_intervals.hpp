@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "holdfast/core/interval.hpp"
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/math/poly/parity.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/poly/routh_hurwitz.hpp"
@@ -56,29 +57,22 @@ std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part
   return crossings;
 }
 
-/// The open intervals of x in which a(w) + x d(w) has all its roots in Re w < 0.
-///
-/// Between neighbouring crossings the number of unstable roots cannot change, so one Hurwitz test
-/// in each gap decides it; gaps that touch and are both stable are joined unless a root sits on the
-/// axis between. The leading coefficient may change sign along x; the test normalises it.
-template <class Scalar, int Size>
-std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
-                                               const Vector<Scalar, Size>& d) {
+namespace detail {
+
+/// The gaps between ascending `ends` that are stable inside, the first and the last without bound;
+/// gaps that touch are joined unless it is not stable where they do.
+/// @param inside     (gap) → a point of it
+/// @param stable_at  (point) → bool
+template <class Scalar, class Inside, class StableAt>
+std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const Inside& inside,
+                                          const StableAt& stable_at) {
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  std::vector<Scalar> ends = boundary_crossings(a, d);
-  ends.insert(ends.begin(), -infinity);
-  ends.push_back(infinity);
-  const auto stable_at = [&](const Scalar& x) {
-    const Vector<Scalar, Size> polynomial = a + x * d;
-    const Scalar sign = polynomial[Size - 1] < Scalar(0) ? Scalar(-1) : Scalar(1);
-    return hurwitz_conditions<Scalar, Size>(sign * polynomial).satisfied();
-  };
   std::vector<Interval<Scalar>> result;
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-    const Interval<Scalar> gap{ends[k], ends[k + 1]};
-    if (!(gap.lower < gap.upper) || !stable_at(gap.representative())) continue;
-    const bool joins = !result.empty() && result.back().upper == gap.lower && stable_at(gap.lower);
-    if (joins) {
+  for (std::size_t k = 0; k <= ends.size(); ++k) {
+    const Interval<Scalar> gap{k == 0 ? -infinity : ends[k - 1],
+                               k == ends.size() ? infinity : ends[k]};
+    if (!(gap.lower < gap.upper) || !stable_at(inside(gap))) continue;
+    if (!result.empty() && result.back().upper == gap.lower && stable_at(gap.lower)) {
       result.back().upper = gap.upper;
     } else {
       result.push_back(gap);
@@ -87,44 +81,46 @@ std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
   return result;
 }
 
-/// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m), continuous loop.
-/// @param polynomial         `characteristic_polynomial(plant)`, in s
+}  // namespace detail
+
+/// The open intervals of x in which a(w) + x d(w) has all its roots in Re w < 0.
+///
+/// Between neighbouring crossings the number of unstable roots cannot change, so one Hurwitz test
+/// in each gap decides it; gaps that touch and are both stable are joined unless a root sits on the
+/// axis between. The leading coefficient may change sign along x; the test normalises it.
+template <class Scalar, int Size>
+std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
+                                               const Vector<Scalar, Size>& d) {
+  return detail::stable_gaps(
+      boundary_crossings(a, d), [](const Interval<Scalar>& gap) { return gap.representative(); },
+      [&](const Scalar& x) {
+        const Vector<Scalar, Size> polynomial = a + x * d;
+        const Scalar sign = polynomial[Size - 1] < Scalar(0) ? Scalar(-1) : Scalar(1);
+        return hurwitz_conditions<Scalar, Size>(sign * polynomial).satisfied();
+      });
+}
+
+/// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m).
+/// @param polynomial  `characteristic_polynomial(plant)` of the continuous loop, in s, or
+///                    `characteristic_polynomial(loop)` of the sampled one, in powers of λ − 1
 /// @param proportional_gain  P (N/m), finite
-template <class Scalar>
+template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> stable_differential_gains(
-    const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& proportional_gain) {
-  return stable_intervals<Scalar, 5>(polynomial.base + proportional_gain * polynomial.proportional,
-                                     polynomial.differential);
+    const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {
+  const auto q = detail::in_stable_half_plane(polynomial);
+  return stable_intervals<Scalar, Degree + 1>(q.base + proportional_gain * q.proportional,
+                                              q.differential);
 }
 
-/// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m), sampled loop.
-/// @param polynomial         `characteristic_polynomial(loop)`, in powers of λ − 1
-/// @param proportional_gain  P (N/m), finite
-template <class Scalar>
-std::vector<Interval<Scalar>> stable_differential_gains(
-    const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& proportional_gain) {
-  const auto q = polynomial.transformed(in_half_plane<Scalar, 6>);
-  return stable_intervals<Scalar, 6>(q.base + proportional_gain * q.proportional, q.differential);
-}
-
-/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), continuous loop.
-/// @param polynomial         `characteristic_polynomial(plant)`, in s
+/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m).
+/// @param polynomial         as for `stable_differential_gains`
 /// @param differential_gain  D (N s/m), finite
-template <class Scalar>
+template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> stable_proportional_gains(
-    const AffinePolynomial<Scalar, 4>& polynomial, const Scalar& differential_gain) {
-  return stable_intervals<Scalar, 5>(polynomial.base + differential_gain * polynomial.differential,
-                                     polynomial.proportional);
-}
-
-/// Stable intervals of P (N/m) at a fixed differential gain D (N s/m), sampled loop.
-/// @param polynomial         `characteristic_polynomial(loop)`, in powers of λ − 1
-/// @param differential_gain  D (N s/m), finite
-template <class Scalar>
-std::vector<Interval<Scalar>> stable_proportional_gains(
-    const AffinePolynomial<Scalar, 5>& polynomial, const Scalar& differential_gain) {
-  const auto q = polynomial.transformed(in_half_plane<Scalar, 6>);
-  return stable_intervals<Scalar, 6>(q.base + differential_gain * q.differential, q.proportional);
+    const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& differential_gain) {
+  const auto q = detail::in_stable_half_plane(polynomial);
+  return stable_intervals<Scalar, Degree + 1>(q.base + differential_gain * q.differential,
+                                              q.proportional);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -9,11 +9,11 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/math/poly/unstable_roots.hpp"
+#include "holdfast/math/poly/positive_roots.hpp"
 #include "holdfast/math/stats/slab_quadrature.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/gain_decomposition.hpp"
-#include "holdfast/stability/boundary/gain_window.hpp"
 #include "holdfast/stability/polynomial/affine_polynomial.hpp"
 
 namespace holdfast {

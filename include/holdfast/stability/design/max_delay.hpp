@@ -58,7 +58,7 @@ class DelaySearch {
   DelaySearch(const Plant& plant, const MaxDelayOptions& options)
       : plant_(plant),
         options_(options),
-        family_(FamilyOfSamplings<Plant>::of_period(plant, options.delay_fraction)) {}
+        family_(SamplingFamily<Plant>::of_period(plant, options.delay_fraction)) {}
 
   MaxDelay answer() {
     feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
@@ -142,25 +142,11 @@ class DelaySearch {
     const double omega = options_.angular_frequency();
     const auto input = harmonic_input(plant_, loop, options_.hold, omega);
     const auto input_rate = input_derivative_by_period(plant_, loop, options_.hold, input, omega);
-    const auto ratio = moving_ratio(loop, input, input_rate, gains);
+    const MovingResponse<Plant> response(loop, input, omega);
+    const auto ratio = amplitude_ratio(response.phasors(),
+                                       response.along(family_.rate(loop), input_rate, 1.0), gains);
     points.push_back({TrackedPoint{ratio.value, ratio.rate}});
     return points;
-  }
-
-  template <class Loop, class Input>
-  AmplitudeRatio moving_ratio(const Loop& loop, const Input& input, const Input& input_rate,
-                              const PdGains<double>& gains) const {
-    const double omega = options_.angular_frequency();
-    if constexpr (has_closed_forms<Plant>) {
-      const ResponseDerivatives response(loop, input, omega);
-      const std::complex<double> lambda_rate = std::complex<double>(0.0, omega) * response.lambda();
-      const auto rates = response.along(family_.rate(loop), input_rate, lambda_rate);
-      return amplitude_ratio(response.phasors(), rates, gains);
-    } else {
-      const AnyOrderResponse<double> response(loop, input, omega);
-      return amplitude_ratio(response.phasors(),
-                             response.along(family_.rate(loop), input_rate, 1.0), gains);
-    }
   }
 
   /// Positive where some D stabilises: 1 − min ρ over D, to a ten-thousandth of itself.
@@ -241,7 +227,7 @@ class DelaySearch {
 
   Plant plant_;
   MaxDelayOptions options_;
-  FamilyOfSamplings<Plant> family_;
+  SamplingFamily<Plant> family_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
   double start_ = 0.0;     // D of minimum radius at a neighbouring period

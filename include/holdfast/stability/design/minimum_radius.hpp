@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "holdfast/control/sampled_loop.hpp"
@@ -35,6 +37,16 @@ struct MinimumRadius {
 
 namespace detail {
 
+/// Where the secants of both ends between two levels meet, the vertex of a V; nothing where the
+/// interval of the lower level does not lie inside that of the higher.
+inline std::optional<double> secant_vertex(const Interval<double>& higher,
+                                           const Interval<double>& lower) {
+  if (!(higher.lower < lower.lower && lower.upper < higher.upper)) return std::nullopt;
+  const double left = 1.0 / (lower.lower - higher.lower);
+  const double right = 1.0 / (higher.upper - lower.upper);
+  return (left * lower.lower + right * lower.upper) / (left + right);
+}
+
 /// Narrows the least level r at which {D : ρ(P, D) < r} is not empty.
 ///
 /// The set is a union of intervals known in closed form for every r, and it grows with r, so that
@@ -65,7 +77,6 @@ class MinimumRadiusSearch {
         continue;
       }
       previous_ = std::move(intervals_);
-      previous_level_ = upper_;
       intervals_ = std::move(found);
       upper_ = trial;
     }
@@ -115,12 +126,8 @@ class MinimumRadiusSearch {
   double best_in(const Interval<double>& interval) const {
     double best = loop_.radius_offset({proportional_gain_, interval.representative()});
     for (const Interval<double>& outer : previous_) {
-      if (!(outer.lower < interval.lower && interval.upper < outer.upper)) continue;
-      // The secants of both ends between the last two levels meet at the vertex of a V.
-      const double left = 1.0 / (interval.lower - outer.lower);
-      const double right = 1.0 / (outer.upper - interval.upper);
-      const double vertex = (left * interval.lower + right * interval.upper) / (left + right);
-      best = std::min(best, loop_.radius_offset({proportional_gain_, vertex}));
+      if (const auto vertex = secant_vertex(outer, interval))
+        best = std::min(best, loop_.radius_offset({proportional_gain_, *vertex}));
     }
     return best;
   }
@@ -147,31 +154,9 @@ class MinimumRadiusSearch {
 
   Loop loop_;
   double proportional_gain_, accuracy_;
-  double lower_ = 0.0, upper_ = 0.0, previous_level_ = 0.0, probe_ = 0.0;
+  double lower_ = 0.0, upper_ = 0.0, probe_ = 0.0;
   Intervals intervals_, previous_;
 };
-
-}  // namespace detail
-
-/// min over D of ρ(S(P, D)): the global minimum, not by scanning.
-///
-/// With λ = r λ′ the loop has all |λ| < r exactly if the polynomial in λ′ is stable, so that
-/// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`). The minimum
-/// radius is the r at which it becomes empty. The leading coefficient does not contain D, so ρ
-/// grows without bound as |D| does and the minimum exists unless no coefficient contains D.
-/// @tparam Loop              any in `double` that has a `loop_polynomial`
-/// @param loop               of `sampled_loop`
-/// @param proportional_gain  P (N/m), finite
-/// @param start              a D (N s/m) to begin from, finite; any will do
-/// @throws InvalidParameter for gains that are not finite
-template <class Loop>
-MinimumRadius minimum_radius(const Loop& loop, double proportional_gain, double start = 0.0) {
-  require_finite("proportional gain P", proportional_gain, "N/m");
-  require_finite("differential gain D", start, "N s/m");
-  return detail::MinimumRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
-}
-
-namespace detail {
 
 /// A loop of any order as `MinimumRadiusSearch` asks for it, radii counted from 1.
 template <class Scalar>
@@ -193,19 +178,29 @@ struct RadiusLevels {
 
 }  // namespace detail
 
-/// min over D of ρ of a loop of any order and delay: the same search on the crossings of the circle
-/// of radius r (`circle_crossings`). To about 10⁻⁹, what round-off makes of two roots that meet.
-/// @param map                of `loop_map`
+/// min over D of ρ(S(P, D)): the global minimum, not by scanning.
+///
+/// With λ = r λ′ the loop has all |λ| < r exactly if the polynomial in λ′ is stable, so that
+/// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`); of a loop of any
+/// order they come from the crossings of the circle of radius r (`circle_crossings`). The minimum
+/// radius is the r at which the set becomes empty; of a `LoopMap` to about 10⁻⁹, what round-off
+/// makes of two roots that meet. The leading coefficient does not contain D, so ρ grows without
+/// bound as |D| does and the minimum exists unless no coefficient contains D.
+/// @tparam Loop              any in `double` that has a `loop_polynomial`, or a `LoopMap`
+/// @param loop               of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite
 /// @param start              a D (N s/m) to begin from, finite; any will do
 /// @throws InvalidParameter for gains that are not finite
-template <class Scalar>
-MinimumRadius minimum_radius(const LoopMap<Scalar>& map, double proportional_gain,
-                             double start = 0.0) {
+template <class Loop>
+MinimumRadius minimum_radius(const Loop& loop, double proportional_gain, double start = 0.0) {
   require_finite("proportional gain P", proportional_gain, "N/m");
   require_finite("differential gain D", start, "N s/m");
-  const detail::RadiusLevels<Scalar> levels{map};
-  return detail::MinimumRadiusSearch(levels, proportional_gain, 1e-9).from(start);
+  if constexpr (std::is_same_v<Loop, LoopMap<double>>) {
+    const detail::RadiusLevels<double> levels{loop};
+    return detail::MinimumRadiusSearch(levels, proportional_gain, 1e-9).from(start);
+  } else {
+    return detail::MinimumRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);
+  }
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

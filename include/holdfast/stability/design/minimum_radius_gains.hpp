@@ -9,9 +9,8 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/math/poly/schur_cohn.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
-#include "holdfast/stability/boundary/gain_window.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
@@ -34,6 +33,8 @@ struct MinimumRadiusGains {
 };
 
 namespace detail {
+
+constexpr int binomial(int n, int k) { return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k; }
 
 /// Narrows a range to what two values leave of it.
 inline void narrow(double& lower, double& upper, double low, double high) {
@@ -175,10 +176,7 @@ class MinimumRadiusGainsSearch {
     for (const Interval<double>& interval : intervals_) {
       consider(interval.representative(), best);
       for (const Interval<double>& outer : previous_) {
-        if (!(outer.lower < interval.lower && interval.upper < outer.upper)) continue;
-        const double left = 1.0 / (interval.lower - outer.lower);
-        const double right = 1.0 / (outer.upper - interval.upper);
-        consider((left * interval.lower + right * interval.upper) / (left + right), best);
+        if (const auto vertex = secant_vertex(outer, interval)) consider(*vertex, best);
       }
     }
     return best;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <complex>
-#include <type_traits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -14,8 +13,8 @@
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/margins/map_family.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/margins/tracked_roots.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
@@ -62,14 +61,6 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 
 namespace detail {
 
-// What the searches ask of a loop, twice: of the two masses in closed form, of any order from its
-// map.
-
-/// The samplings of a plant, along τ or δ.
-template <class Plant>
-using FamilyOfSamplings =
-    std::conditional_t<has_closed_forms<Plant>, SamplingFamily<Plant>, MapFamily<Plant>>;
-
 /// The sampled loop of a plant: `SampledLoop` of the two masses, `LoopMap` of any other.
 template <class Plant>
 auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
@@ -79,19 +70,6 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   } else {
     return loop_map(plant, sampling);
   }
-}
-
-/// ρ − 1.
-template <class Scalar>
-Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scalar>>& gains) {
-  return loop_polynomial(loop).excess(gains);
-}
-
-/// λ − 1 of all roots.
-template <class Scalar>
-std::vector<std::complex<Scalar>> roots_from_one(const SampledLoop<Scalar>& loop,
-                                                 const PdGains<Undeduced<Scalar>>& gains) {
-  return roots(characteristic_polynomial(loop).at(gains));
 }
 
 /// The roots s of the continuous loop without delay, to which the sampled loop tends as τ → 0.

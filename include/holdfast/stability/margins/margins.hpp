@@ -101,19 +101,11 @@ MarginEnd boundary_end(const Loop& loop, const PdGains<double>& gains, double po
 
 /// An end without a boundary.
 inline MarginEnd no_boundary(double position) {
-  MarginEnd end;
-  end.outcome = MarginEndOutcome::none;
-  end.position = position;
-  end.distance = std::numeric_limits<double>::infinity();
-  return end;
+  return {MarginEndOutcome::none, position, std::numeric_limits<double>::infinity()};
 }
 
 inline MarginEnd beyond_search(double position, double value) {
-  MarginEnd end;
-  end.outcome = MarginEndOutcome::beyond_search;
-  end.position = position;
-  end.distance = std::abs(position - value);
-  return end;
+  return {MarginEndOutcome::beyond_search, position, std::abs(position - value)};
 }
 
 /// Both ends of the interval that holds the value; undefined where none does.
@@ -205,7 +197,7 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
   const MarginEnd no_longer = certain <= longest
                                   ? no_boundary(std::numeric_limits<double>::infinity())
                                   : beyond_search(longest, period);
-  const FamilyMargin margin(FamilyOfSamplings<Plant>::of_period(plant, fraction), gains, period,
+  const FamilyMargin margin(SamplingFamily<Plant>::of_period(plant, fraction), gains, period,
                             search);
   const double limit = std::max(period, std::min(certain, longest));
   return {margin.towards(shortest, 0.05 * period, no_shorter),
@@ -226,7 +218,7 @@ TwoSidedMargin delay_margin_by_cells(const Plant& plant, const Sampling<double>&
     for (int k = held; k >= 1; k += direction) {
       const double seam = (direction < 0 ? k - 1 : k) * period;
       const double limit = std::min(seam, longest);
-      const FamilyMargin margin(MapFamily<Plant>::of_delay(plant, period, k), gains, position,
+      const FamilyMargin margin(SamplingFamily<Plant>::of_delay(plant, period, k), gains, position,
                                 search);
       MarginEnd end = margin.towards(limit, 0.05 * period, no_boundary(limit));
       end.distance = std::abs(end.position - delay);

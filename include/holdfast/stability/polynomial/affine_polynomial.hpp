@@ -1,6 +1,7 @@
 #pragma once
 
 #include "holdfast/control/gains.hpp"
+#include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 
 namespace holdfast {
@@ -29,5 +30,22 @@ struct AffinePolynomial {
     return {map(base), map(proportional), map(differential)};
   }
 };
+
+namespace detail {
+
+/// A loop's characteristic polynomial, of degree 4 in s or of degree 5 in powers of λ − 1, in a
+/// variable whose stable half-plane is Re < 0.
+template <class Scalar, int Degree>
+AffinePolynomial<Scalar, Degree> in_stable_half_plane(
+    const AffinePolynomial<Scalar, Degree>& polynomial) {
+  static_assert(Degree == 4 || Degree == 5, "4 roots of the continuous loop, 5 of the sampled one");
+  if constexpr (Degree == 4) {
+    return polynomial;
+  } else {
+    return polynomial.transformed(in_half_plane<Scalar, 6>);
+  }
+}
+
+}  // namespace detail
 
 }  // namespace holdfast

@@ -140,6 +140,11 @@ inline AmplitudeRatio amplitude_ratio(const LoopPhasors<double>& phasors,
 
 namespace detail {
 
+/// What gives a plant's response with its derivatives, from the loop of `loop_of`.
+template <class Plant>
+using MovingResponse =
+    std::conditional_t<has_closed_forms<Plant>, ResponseDerivatives, AnyOrderResponse<double>>;
+
 /// The steady response of a loop in the form that it has: of the two masses, or of any order.
 template <class Plant, class Loop>
 SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,

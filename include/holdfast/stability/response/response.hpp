@@ -50,6 +50,16 @@ struct LoopPhasors {
   }
 };
 
+namespace detail {
+
+/// Coefficients of |a + x b|² = |a|² + 2 Re(ā b) x + |b|² x².
+template <class Scalar>
+Vector<Scalar, 3> squared_modulus(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
+  return {std::norm(a), Scalar(2) * std::real(std::conj(a) * b), std::norm(b)};
+}
+
+}  // namespace detail
+
 /// A quotient of two quadratics in D, coefficients constant first.
 template <class Scalar>
 struct RatioOfQuadratics {
@@ -128,10 +138,11 @@ class SteadyResponse {
   ///
   /// or, f₁ above being f_c + P (t_c f_z − f_c t_z) where z itself is not measured.
   RatioOfQuadratics<Scalar> squared_ratio(const Scalar& proportional_gain) const {
-    return {squared_modulus(without_differential(proportional_gain), numerator_slope_),
-            std::norm(uncontrolled_) *
-                squared_modulus(Complex(1) - proportional_gain * phasors_.control_displacement,
-                                -phasors_.control_velocity)};
+    return {
+        detail::squared_modulus(without_differential(proportional_gain), numerator_slope_),
+        std::norm(uncontrolled_) *
+            detail::squared_modulus(Complex(1) - proportional_gain * phasors_.control_displacement,
+                                    -phasors_.control_velocity)};
   }
 
   /// The open intervals of D, stable or not, in which the amplitude stays below `ratio` times that
@@ -164,11 +175,6 @@ class SteadyResponse {
   /// f_c + P (t_c f_z − f_c t_z), the numerator of Z at D = 0.
   Complex without_differential(const Scalar& proportional_gain) const {
     return uncontrolled_ + proportional_gain * proportional_slope_;
-  }
-
-  /// Coefficients of |a + x b|² = |a|² + 2 Re(ā b) x + |b|² x².
-  static Vector<Scalar, 3> squared_modulus(const Complex& a, const Complex& b) {
-    return {std::norm(a), Scalar(2) * std::real(std::conj(a) * b), std::norm(b)};
   }
 
   ResponsePhasors<Scalar> phasors_;          // of what is measured

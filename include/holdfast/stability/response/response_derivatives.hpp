@@ -76,13 +76,10 @@ class BasicResponseDerivatives {
   /// The derivatives of the phasors along a parameter.
   /// @param rate         of the loop's matrices, per unit of the parameter
   /// @param input_rate   of the harmonic input, likewise
-  /// @param lambda_rate  of λ = e^{iωτ}: iωλ by τ, 0 by the plant's parameters and by δ
+  /// @param period_rate  of τ, likewise: λ′ = iωλτ′
   ResponsePhasors<Scalar> along(const BasicLoopDerivative<Scalar>& rate,
                                 const HarmonicInput<Scalar>& input_rate,
-                                const Complex& lambda_rate) const;
-
-  /// λ = e^{iωτ}.
-  const Complex& lambda() const { return lambda_; }
+                                const Scalar& period_rate) const;
 
  private:
   Matrix<Complex, 4, 2> sources(const Vector<Scalar, 4>& present, const Vector<Scalar, 4>& previous,
@@ -93,8 +90,8 @@ class BasicResponseDerivatives {
   }
 
   SampledLoop<Scalar> loop_;
-  Scalar angle_;
-  Complex lambda_;
+  Complex lambda_;                // e^{iωτ}
+  Complex lambda_rate_;           // iωλ
   Matrix<Complex, 4> resolvent_;  // λI − A_d
   Matrix<Complex, 4, 2> response_;
 };
@@ -106,10 +103,12 @@ template <class Scalar>
 BasicResponseDerivatives<Scalar>::BasicResponseDerivatives(const SampledLoop<Scalar>& loop,
                                                            const HarmonicInput<Scalar>& input,
                                                            const Scalar& angular_frequency)
-    : loop_(loop), angle_(angular_frequency * loop.sampling.period) {
-  lambda_ = std::polar(Scalar(1), angle_);
-  const Scalar half_sine = std::sin(angle_ / Scalar(2));
-  const Complex from_one(Scalar(-2) * half_sine * half_sine, std::sin(angle_));
+    : loop_(loop) {
+  const Scalar angle = angular_frequency * loop.sampling.period;
+  lambda_ = std::polar(Scalar(1), angle);
+  lambda_rate_ = Complex(0, angular_frequency) * lambda_;
+  const Scalar half_sine = std::sin(angle / Scalar(2));
+  const Complex from_one(Scalar(-2) * half_sine * half_sine, std::sin(angle));
   resolvent_ = from_one * Matrix<Complex, 4>::Identity() - loop.increment.template cast<Complex>();
   response_ = eliminated(resolvent_, sources(loop.present_force, loop.previous_force, input));
 }
@@ -117,7 +116,8 @@ BasicResponseDerivatives<Scalar>::BasicResponseDerivatives(const SampledLoop<Sca
 template <class Scalar>
 ResponsePhasors<Scalar> BasicResponseDerivatives<Scalar>::along(
     const BasicLoopDerivative<Scalar>& rate, const HarmonicInput<Scalar>& input_rate,
-    const Complex& lambda_rate) const {
+    const Scalar& period_rate) const {
+  const Complex lambda_rate = period_rate * lambda_rate_;
   Matrix<Complex, 4, 2> right = sources(rate.present_force, rate.previous_force, input_rate);
   right.col(0) -=
       loop_.previous_force.template cast<Complex>() * (lambda_rate / (lambda_ * lambda_));

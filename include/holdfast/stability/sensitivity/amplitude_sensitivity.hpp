@@ -33,8 +33,9 @@ class MovingRatio {
       : phasors_(phasors), proportional_gain_(proportional_gain) {
     slope_ = phasors.numerator_slope();
     below_ = 1.0 - proportional_gain * phasors.control_displacement;
-    ratio_ = {squares(phasors.force_displacement, slope_),
-              std::norm(phasors.force_displacement) * squares(below_, -phasors.control_velocity)};
+    ratio_ = {
+        squared_modulus(phasors.force_displacement, slope_),
+        std::norm(phasors.force_displacement) * squared_modulus(below_, -phasors.control_velocity)};
   }
 
   const RatioOfQuadratics<Scalar>& ratio() const { return ratio_; }
@@ -47,15 +48,12 @@ class MovingRatio {
     const Complex slope_rate = t1_rate * f2 + t1 * f2_rate - t2_rate * f1 - t2 * f1_rate;
     const Complex below_rate = -proportional_gain_ * t1_rate - proportional_rate * t1;
     return {square_rates(f1, slope_, f1_rate, slope_rate),
-            2.0 * (std::conj(f1) * f1_rate).real() * squares(below_, -t2) +
+            2.0 * (std::conj(f1) * f1_rate).real() * squared_modulus(below_, -t2) +
                 std::norm(f1) * square_rates(below_, -t2, below_rate, -t2_rate)};
   }
 
  private:
-  /// Coefficients of |a + x b|² and their rates.
-  static Vector<Scalar, 3> squares(const Complex& a, const Complex& b) {
-    return {std::norm(a), 2.0 * (std::conj(a) * b).real(), std::norm(b)};
-  }
+  /// The rates of `squared_modulus`.
   static Vector<Scalar, 3> square_rates(const Complex& a, const Complex& b, const Complex& a_rate,
                                         const Complex& b_rate) {
     return {2.0 * (std::conj(a) * a_rate).real(),
@@ -80,14 +78,12 @@ std::array<ResponsePhasors<Scalar>, carried_parameters> phasor_derivatives(
   const auto by_plant = plant_derivatives(plant);
   for (std::size_t i = 0; i < result.size(); ++i) {
     HarmonicInput<Scalar> input_rate{rates[i].held_excitation, Vector<Scalar, 4>::Zero()};
-    std::complex<Scalar> lambda_rate(0.0);
     if (i == 6) {
       input_rate = input_derivative_by_period(plant, loop, hold, input, omega);
-      lambda_rate = std::complex<Scalar>(0.0, omega) * response.lambda();
     } else if (i < 6 && hold == ForceHold::exact) {
       input_rate = exact_input_derivative_by_plant(plant, by_plant[i], loop.sampling.period, omega);
     }
-    result[i] = response.along(rates[i], input_rate, lambda_rate);
+    result[i] = response.along(rates[i], input_rate, i == 6 ? 1.0 : 0.0);
   }
   return result;
 }
