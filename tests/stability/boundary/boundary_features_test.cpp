@@ -342,7 +342,7 @@ TEST(BoundaryFeatures, TangentsAreAllTurnsAlongTheCurve) {
 
 TEST(BoundaryFeatures, OfTheLoopWithoutDelayAreThoseWithoutItsRootAtZero) {
   using Extended = long double;
-  test::Random random(828);
+  test::Random random(831);
   int seen = 0, crossings = 0;
   for (int draw = 0; draw < 200; ++draw) {
     auto plant = test::random_plant(random);

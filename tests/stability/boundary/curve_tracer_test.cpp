@@ -95,7 +95,7 @@ TEST(CurveTracer, PointsAreWhereBisectionOnEigenvaluesPutsTheBoundary) {
 }
 
 TEST(CurveTracer, TheCurveEntersAndLeavesTheRangeAtItsEnds) {
-  test::Random random(802);
+  test::Random random(805);
   int ends = 0;
   for (int draw = 0; draw < 200; ++draw) {
     const TracedLoop loop(random);

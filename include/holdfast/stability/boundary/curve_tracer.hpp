@@ -119,13 +119,16 @@ class CurveTracer {
     return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
   }
 
-  /// Round-off must not push a point out of the range.
+  /// Round-off must not push a point out of the range, nor leave two of them at one angle, as about
+  /// a pole that a zero all but cancels.
   void append(const Knot& knot, std::vector<BoundaryPoint<Scalar>>& points) const {
     if (!std::isfinite(knot.gains.proportional) || !std::isfinite(knot.gains.differential)) return;
+    const Scalar angle = curves_.angle(knot.square);
+    const bool first = points.empty() || points.back().curve != curves_.pair_kind();
+    if (!first && !(points.back().angle < angle)) return;
     const Scalar p =
         std::clamp(knot.gains.proportional, Scalar(range_.lower), Scalar(range_.upper));
-    points.push_back(
-        {curves_.pair_kind(), curves_.angle(knot.square), {p, knot.gains.differential}});
+    points.push_back({curves_.pair_kind(), angle, {p, knot.gains.differential}});
   }
 
   const BoundaryCurves<Scalar, Degree>& curves_;
