@@ -3,6 +3,7 @@
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/next_event.hpp"
 #include "holdfast/motion/subinterval_step.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 
@@ -10,6 +11,8 @@ namespace holdfast {
 
 template SubintervalStepOf<4>::SubintervalStepOf(const AffineDynamicsOf<4>&,
                                                  const std::vector<Harmonic>&, double, double);
+template NextEvent<4> next_event(const AffineDynamicsOf<4>&, const GuardsOf<4>&,
+                                 const ModeStretch<4>&);
 template HeldStep<double, 4, 1> VariationalFlow<DriveContact<>>::exponential(int, double) const;
 template HarmonicallyForcedMotion<double> harmonically_forced_motion(
     const IdealLoop<double>&, const StateOf<TwoMass<double>>&);

@@ -6,6 +6,7 @@
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_law.hpp"
 #include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/contact/contact_tangent.hpp"
 #include "holdfast/contact/dead_zone.hpp"
 #include "holdfast/contact/exact_backlash.hpp"
 #include "holdfast/contact/exact_dead_zone.hpp"

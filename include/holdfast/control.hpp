@@ -3,6 +3,7 @@
 /// The sampled-data loop: gains, hold, delay, quantisation, clock.
 
 #include "holdfast/control/controller.hpp"
+#include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/loop_map.hpp"

@@ -2,12 +2,14 @@
 
 /// Motions of the loop: sampled map and event-driven flow.
 
-#include "holdfast/motion/contact_tangent.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/event_sample.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/instant.hpp"
+#include "holdfast/motion/mode_motion.hpp"
+#include "holdfast/motion/next_event.hpp"
 #include "holdfast/motion/no_event_bound.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/saltation.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "holdfast/motion/implemented_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 
@@ -103,8 +104,6 @@ TEST(ForcingRatio, IsWhatTheDecimalsMean) {
   const Rational ratio = forcing_ratio(loop).value();
   EXPECT_EQ(ratio.numerator, 11);
   EXPECT_EQ(ratio.denominator, 100);
-  EXPECT_TRUE(forcing_ratio(loop, 100));
-  EXPECT_FALSE(forcing_ratio(loop, 99));
   loop.excitation.frequency = 10.0 * std::sqrt(0.5);
   EXPECT_FALSE(forcing_ratio(loop));
   loop.excitation.frequency = 1e300;
@@ -112,6 +111,45 @@ TEST(ForcingRatio, IsWhatTheDecimalsMean) {
   loop.excitation.amplitude = 0.0;
   EXPECT_EQ(forcing_ratio(loop).value().numerator, 0);
   EXPECT_EQ(forcing_ratio(loop).value().denominator, 1);
+}
+
+TEST(IdealLoop, IsFoundAgainInTheLoopThatIsBuilt) {
+  const IdealLoop<double> loop = loop_with_gap(0.003, 0.0005);
+  const auto found = ideal_loop(implemented_loop(loop));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->sampling.period, loop.sampling.period);
+  EXPECT_EQ(found->gains.differential, loop.gains.differential);
+  EXPECT_EQ(found->excitation.amplitude, loop.excitation.amplitude);
+  EXPECT_EQ(found->excitation.frequency, loop.excitation.frequency);
+  EXPECT_EQ(found->backlash_width, loop.backlash_width);
+  EXPECT_EQ(found->hold, loop.hold);
+}
+
+TEST(IdealLoop, SaysNothingOfWhatThePaperDoesNotHave) {
+  const ImplementedLoop plain = implemented_loop(loop_with_gap(0.003, 0.0005));
+  ImplementedLoop loop = plain;
+  loop.switching = Switching::exact;
+  EXPECT_FALSE(ideal_loop(loop));
+  loop = plain;
+  loop.digital.jitter.half_width = 1e-6;
+  EXPECT_FALSE(ideal_loop(loop));
+  loop = plain;
+  loop.digital.limits.largest_force = 1.0;
+  EXPECT_FALSE(ideal_loop(loop));
+  loop = plain;
+  loop.digital.force.harmonics.front().phase = 0.1;
+  EXPECT_FALSE(ideal_loop(loop));
+  loop = plain;
+  loop.digital.force.harmonics.push_back({0.1, 3.0});
+  EXPECT_FALSE(ideal_loop(loop));
+  loop = plain;
+  for (const ContactLaw law : {ContactLaw::immediate, ContactLaw::play, ContactLaw::dead_zone}) {
+    loop.backlash.law = law;
+    EXPECT_FALSE(ideal_loop(loop));
+  }
+  loop.backlash.law = ContactLaw::none;
+  ASSERT_TRUE(ideal_loop(loop));
+  EXPECT_EQ(ideal_loop(loop)->backlash_width, 0.0);
 }
 
 TEST(IdealLoop, ConvertedThereAndBackIsTheSame) {

@@ -29,8 +29,8 @@ enum class Switching : std::uint8_t {
 ///
 ///     DriveContact<> contact(plant, {ContactLaw::play, 0.0005}, Switching::exact, state);
 ///
-/// In each mode the plant is affine (`dynamics`), guards tell how long it lasts, and `reached`,
-/// `jumped` and `sample` are the transitions. All is that of the law, to the last bit.
+/// In each mode of a law the plant is affine (`dynamics`), guards tell how long it lasts, and
+/// `reached`, `jumped` and `sample` are the transitions; `with_law` gives the law.
 /// @tparam DrivenPlant  TwoMass<double> or a LinearPlant<double, N>
 template <class DrivenPlant = TwoMass<double>>
 class DriveContact {
@@ -56,37 +56,33 @@ class DriveContact {
   /// A law by itself.
   explicit DriveContact(Law law) : law_(std::move(law)) {}
 
-  /// The law with what it remembers.
-  const Law& law() const { return law_; }
+  /// Calls `visit` with the law, of one type or another. @return what it returns, of one type for
+  /// all of them
+  template <class Visit>
+  decltype(auto) visit(const Visit& visit) {
+    return visited(law_, visit);
+  }
+  /// The same of a contact that stays as it is.
+  template <class Visit>
+  decltype(auto) visit(const Visit& visit) const {
+    return visited(law_, visit);
+  }
 
   /// How states of the plant are read.
   const PortReadings<Plant>& readings() const {
-    return asked(law_,
-                 [](const auto& law) -> const PortReadings<Plant>& { return law.readings(); });
-  }
-  /// How the state moves in one of the modes.
-  DynamicsOf<Plant> dynamics(int mode) const {
-    return asked(law_, [&](const auto& law) { return law.dynamics(mode); });
-  }
-  /// The two masses whose energy bounds the motion in one of the modes.
-  Plant plant(int mode) const {
-    return asked(law_, [&](const auto& law) -> Plant { return law.plant(mode); });
+    return visit([](const auto& law) -> const PortReadings<Plant>& { return law.readings(); });
   }
   /// Number of the present mode, 0 … `modes` − 1.
   int mode() const {
-    return asked(law_, [](const auto& law) { return law.mode(); });
+    return visit([](const auto& law) { return law.mode(); });
   }
   /// What the drive does in the present mode.
   ContactMode word() const {
-    return asked(law_, [](const auto& law) { return law.word(); });
+    return visit([](const auto& law) { return law.word(); });
   }
-  /// u (N) as it goes to the drive.
-  double commanded(double command) const {
-    return asked(law_, [&](const auto& law) { return law.commanded(command); });
-  }
-  /// What the drive transmits (N).
-  double transmitted(const Instant& now) const {
-    return asked(law_, [&](const auto& law) { return law.transmitted(now); });
+  /// What ends the present mode.
+  ModeGuards guards() const {
+    return visit([](const auto& law) { return law.guards(); });
   }
   /// Whether the command of the present sample takes effect: unless a law at samples found it not
   /// transmitted.
@@ -96,39 +92,6 @@ class DriveContact {
   }
   /// Whether the contact changes at samples alone.
   bool switches_at_samples() const { return std::holds_alternative<SampledLawOf<Plant>>(law_); }
-  /// What ends the present mode.
-  ModeGuards guards() const {
-    return asked(law_, [](const auto& law) { return law.guards(); });
-  }
-
-  /// Takes a sample.
-  void sample(const State& state) {
-    asked(law_, [&](auto& law) { law.sample(state); });
-  }
-  /// The force or the command has jumped, or may have.
-  void jumped(const Instant& now) {
-    asked(law_, [&](auto& law) { law.jumped(now); });
-  }
-  /// The conductor was displaced against the absorber.
-  void displaced() {
-    asked(law_, [](auto& law) { law.displaced(); });
-  }
-  /// Takes rounding out of a state of the present mode, which has come from another one in it.
-  void keep(const State& before, State& after) const {
-    asked(law_, [&](const auto& law) { law.keep(before, after); });
-  }
-  /// Some time has passed since the last change.
-  void flowed() {
-    asked(law_, [](auto& law) { law.flowed(); });
-  }
-  /// The sign, ±1, that a guard has taken whose sign was not known.
-  void learn_sign(double sign) {
-    asked(law_, [&](auto& law) { law.learn_sign(sign); });
-  }
-  /// A guard has come to zero: the contact changes.
-  void reached(int guard, Instant& now) {
-    asked(law_, [&](auto& law) { law.reached(guard, now); });
-  }
 
   /// Whether the drive's gap lies where it last reversed, and it is in it.
   bool remembers_gap() const {
@@ -139,11 +102,6 @@ class DriveContact {
   double lower() const {
     const auto* play = std::get_if<ExactBacklashOf<Plant>>(&law_);
     return play == nullptr ? 0.0 : play->lower();
-  }
-  /// Upper end of it, Δz (m); 0 of another law.
-  double upper() const {
-    const auto* play = std::get_if<ExactBacklashOf<Plant>>(&law_);
-    return play == nullptr ? 0.0 : play->upper();
   }
   /// Moves both ends by a displacement (m); without effect on another law.
   void shift_gap(double by) {
@@ -162,14 +120,32 @@ class DriveContact {
   }
 
   /// std::visit without its way for a variant that holds nothing: this one always holds a law.
-  template <class AnyLaw, class Ask>
-  static decltype(auto) asked(AnyLaw& law, const Ask& ask) {
-    if (auto* play = std::get_if<0>(&law)) return ask(*play);
-    if (auto* sampled = std::get_if<2>(&law)) return ask(*sampled);
-    return ask(*std::get_if<1>(&law));
+  template <class AnyLaw, class Visit>
+  static decltype(auto) visited(AnyLaw& law, const Visit& visit) {
+    if (auto* play = std::get_if<0>(&law)) return visit(*play);
+    if (auto* sampled = std::get_if<2>(&law)) return visit(*sampled);
+    return visit(*std::get_if<1>(&law));
   }
 
   Law law_;
 };
+
+/// Calls `visit` with the law of a contact: that which a DriveContact holds, and any other contact
+/// itself. What is asked often within a sample asks the law, not the contact. @return what it
+/// returns
+template <class Contact, class Visit>
+decltype(auto) with_law(Contact& contact, const Visit& visit) {
+  return visit(contact);
+}
+/// That of a law chosen at run time.
+template <class Plant, class Visit>
+decltype(auto) with_law(DriveContact<Plant>& contact, const Visit& visit) {
+  return contact.visit(visit);
+}
+/// The same of a contact that stays as it is.
+template <class Plant, class Visit>
+decltype(auto) with_law(const DriveContact<Plant>& contact, const Visit& visit) {
+  return contact.visit(visit);
+}
 
 }  // namespace holdfast

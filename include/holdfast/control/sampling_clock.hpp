@@ -74,12 +74,15 @@ class SamplingClock {
 
   /// t_j (s), j ≥ 0.
   double time(std::int64_t index) const {
-    return std::fma(jitter_.half_width, share(index), static_cast<double>(index) * period_);
+    const double on_grid = static_cast<double>(index) * period_;
+    if (jitter_.half_width == 0) return on_grid;
+    return std::fma(jitter_.half_width, share(index), on_grid);
   }
 
   /// t_{j+1} − t_j = τ + e_{j+1} − e_j (s), j ≥ 0: rounded once, where the difference of two late
   /// instants would have lost digits.
   double period_of(std::int64_t index) const {
+    if (jitter_.half_width == 0) return period_;
     return std::fma(jitter_.half_width, share(index + 1) - share(index), period_);
   }
 

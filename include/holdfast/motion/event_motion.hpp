@@ -1,89 +1,31 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/control/controller.hpp"
+#include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/control/sampling_clock.hpp"
-#include "holdfast/core/errors.hpp"
 #include "holdfast/excitation/force_over_samples.hpp"
-#include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/math/roots/series.hpp"
-#include "holdfast/motion/no_event_bound.hpp"
-#include "holdfast/motion/sampled_motion.hpp"
-#include "holdfast/motion/subinterval_step.hpp"
+#include "holdfast/motion/event_sample.hpp"
+#include "holdfast/motion/mode_motion.hpp"
+#include "holdfast/motion/next_event.hpp"
 #include "holdfast/motion/taylor_step.hpp"
-#include "holdfast/plant/decaying_norm.hpp"
-#include "holdfast/plant/energy.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
-
-/// The digital side of a loop and its excitation: all that a motion depends on beside its contact
-/// and its initial state.
-struct DigitalLoop {
-  Sampling<double> sampling;            ///< τ and δ
-  PdGains<double> gains;                ///< P and D
-  MultiHarmonicForce force;             ///< F(t), the excitation of the conductor
-  ForceHold hold = ForceHold::sampled;  ///< how F is taken over a sample, a record included
-  ControllerLimits limits = {};         ///< of the sensors and the drive
-  Jitter jitter = {};                   ///< of the clock; 2 J + δ ≤ τ
-};
-
-/// @throws InvalidParameter where any part is not admissible
-inline void validate(const DigitalLoop& loop) {
-  validate(loop.sampling, loop.jitter);
-  validate(loop.gains);
-  validate(loop.force);
-  validate(loop.limits);
-}
-
-/// What is known of a motion at one sample, with the mode of its contact from then on.
-/// @tparam States  N, the order of the plant
-template <int States>
-struct EventSampleOf : MotionSample<double, States> {
-  ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
-};
-
-/// That of the two masses.
-using EventSample = EventSampleOf<4>;
-
-/// What a motion has met with.
-struct SwitchCounts {
-  std::array<std::int64_t, 3> entered{};  ///< how often each ContactMode began
-  std::int64_t grazing = 0;  ///< changes of contact that rounding decides: a guard touches zero
-  bool accumulates = false;  ///< more than `most_switches` changes in one sampling period: those
-                             ///< after them, up to its end, were not followed, and from there on
-                             ///< the motion is not to be trusted
-};
-
-/// Does not look at what happens between the samples.
-struct IgnoreFlow {
-  /// A part of the sampling period was passed: the mode's number, its begin (s after the sample)
-  /// and its length (s).
-  void flowed(int, double, double) const {}
-  /// At t_j + δ u_j took the place of u_{j−1}.
-  void commanded() const {}
-  /// The contact changed: the numbers of the mode before and after, that of the guard that came to
-  /// zero (−1: a jump of the command or the force did it), the instant.
-  template <class Instant>
-  void switched(int, int, int, const Instant&) const {}
-};
 
 namespace detail {
 
@@ -132,7 +74,7 @@ class EventMotion {
   static constexpr int most_switches = 1000;
   /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
   /// change.
-  static constexpr double most_turns_per_sample = 1e6;
+  static constexpr double most_turns_per_sample = ModeMotion<Plant>::most_turns_per_sample;
 
   /// @throws InvalidParameter where the loop is not admissible, or turns more than
   ///         `most_turns_per_sample` in one sampling period
@@ -145,29 +87,16 @@ class EventMotion {
         contact_(contact),
         state_(initial_state) {
     validate(loop);
-    for (int mode = 0; mode < Contact::modes; ++mode) prepare(mode);
+    for (int mode = 0; mode < Contact::modes; ++mode)
+      modes_.emplace_back(
+          with_law(contact_, [mode](const auto& law) { return law.dynamics(mode); }), loop, force_);
     for (const double after : {0.0, loop.sampling.processing_delay, loop.sampling.period})
       instants_.push_back(force_.instant(after));
   }
 
   /// Takes sample j: the command, and the contact where it depends on it. Call once per sample.
   Sample sense() {
-    const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
-    force_.begin_sample(index_, time());
-    switches_ = 0;
-    contact_.sample(state_);
-    command_ = contact_.commanded(controller_.command(
-        readings_.measured_displacement(state_), readings_.measured_velocity(state_), elapsed));
-    const Instant now{state_, first_command(), force_at(0)};
-    jump(now);
-    Sample sample;
-    sample.index = index_;
-    sample.time = time();
-    sample.state = state_;
-    sample.mode = contact_.word();
-    sample.engaged = sample.mode == ContactMode::engaged;
-    sample.control_force = contact_.transmitted({state_, command_, now.force});
-    return sample;
+    return with_law(contact_, [this](auto& law) { return this->sense_by(law); });
   }
 
   /// Moves from t_j to t_{j+1} under the command that the last `sense()` decided.
@@ -180,13 +109,7 @@ class EventMotion {
   ///     switched(from, to, guard, instant)      at the end of the last part, the state before
   template <class Observer>
   void advance(Observer&& observer) {
-    const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
-    if (delay > 0.0) flow(previous_command_, 0.0, std::min(delay, period), 0, observer);
-    observer.commanded();
-    if (delay < period) {
-      if (delay > 0.0) jump({state_, command_, force_at(1)}, &observer);
-      flow(command_, delay, period, 1, observer);
-    }
+    with_law(contact_, [&](auto& law) { advance_by(law, observer); });
     previous_command_ = command_;
     ++index_;
   }
@@ -194,7 +117,7 @@ class EventMotion {
   /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
   void displace_conductor(double displacement) {
     readings_.displace_conductor(state_, displacement);
-    contact_.displaced();
+    with_law(contact_, [](auto& law) { law.displaced(); });
   }
 
   /// j, the sample that `sense()` will take or has taken.
@@ -222,9 +145,9 @@ class EventMotion {
   /// h_j = t_{j+1} − t_j (s).
   double period() const { return clock_.period_of(index_); }
   /// 1 / the largest length (s) over which a series of `most_terms` terms is exact, in a mode.
-  double rate(int mode) const { return rate_[at(mode)]; }
+  double rate(int mode) const { return modes_[at(mode)].rate(); }
   /// The motion in one of the modes of the contact.
-  const Dynamics& dynamics(int mode) const { return dynamics_[at(mode)]; }
+  const Dynamics& dynamics(int mode) const { return modes_[at(mode)].dynamics(); }
 
   /// Forgets what the motion has met with.
   void restart_counts() { counts_ = {}; }
@@ -243,29 +166,10 @@ class EventMotion {
   }
 
  private:
-  /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
-  using Norm = std::conditional_t<detail::HasPorts<Plant>::value, DecayingNorm<states>, EnergyNorm>;
-  using Bound = NoEventBoundOf<Norm, states>;
   using ModeGuard = GuardOf<states>;
   using ModeGuards = GuardsOf<states>;
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
-
-  void prepare(int mode) {
-    const Dynamics dynamics = contact_.dynamics(mode);
-    dynamics_[at(mode)] = dynamics;
-    const double fastest =
-        std::max(balanced_norm(dynamics.state), force_.highest_angular_frequency());
-    rate_[at(mode)] = fastest;
-    const Sampling<double>& sampling = loop_.sampling;
-    if (!(fastest * sampling.period <= most_turns_per_sample))
-      throw InvalidParameter("fastest rate of the motion times the sampling period",
-                             fastest * sampling.period, "", "at most 1e6");
-    const double parts[] = {0.0, sampling.processing_delay, sampling.period};
-    for (std::size_t part = 0; part < 2; ++part)
-      steps_[part].emplace_back(dynamics, loop_.force.harmonics, parts[part],
-                                parts[part + 1] - parts[part]);
-  }
 
   /// F at one of the ends of the two parts of the period.
   double force_at(std::size_t end) const {
@@ -278,60 +182,88 @@ class EventMotion {
     return loop_.sampling.processing_delay > 0.0 ? previous_command_ : command_;
   }
 
-  void jump(const Instant& now) { jump(now, static_cast<const IgnoreFlow*>(nullptr)); }
-
-  template <class Observer>
-  void jump(const Instant& now, Observer* observer) {
-    const int before = contact_.mode();
-    contact_.jumped(now);
-    if (contact_.mode() == before) return;
-    count();
-    if (observer != nullptr) observer->switched(before, contact_.mode(), -1, now);
+  template <class Law>
+  Sample sense_by(Law& law) {
+    const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
+    force_.begin_sample(index_, time());
+    switches_ = 0;
+    law.sample(state_);
+    command_ = law.commanded(controller_.command(readings_.measured_displacement(state_),
+                                                 readings_.measured_velocity(state_), elapsed));
+    const double force = force_at(0);
+    jump(law, {state_, first_command(), force}, IgnoreFlow());
+    Sample sample;
+    sample.index = index_;
+    sample.time = time();
+    sample.state = state_;
+    sample.mode = law.word();
+    sample.engaged = sample.mode == ContactMode::engaged;
+    sample.control_force = law.transmitted({state_, command_, force});
+    return sample;
   }
 
-  void count() {
-    ++counts_.entered[static_cast<std::size_t>(contact_.word())];
+  template <class Law, class Observer>
+  void advance_by(Law& law, Observer& observer) {
+    const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
+    if (delay > 0.0) flow(law, {previous_command_, 0.0, std::min(delay, period), 0}, observer);
+    observer.commanded();
+    if (!(delay < period)) return;
+    if (delay > 0.0) jump(law, {state_, command_, force_at(1)}, observer);
+    flow(law, {command_, delay, period, 1}, observer);
+  }
+
+  template <class Law, class Observer>
+  void jump(Law& law, const Instant& now, Observer&& observer) {
+    const int before = law.mode();
+    law.jumped(now);
+    if (law.mode() == before) return;
+    count(law.word());
+    observer.switched(before, law.mode(), -1, now);
+  }
+
+  void count(ContactMode entered) {
+    ++counts_.entered[static_cast<std::size_t>(entered)];
     if (++switches_ > most_switches) counts_.accumulates = true;
   }
 
-  template <class Observer>
-  void flow(double command, double begin, double end, std::size_t part, Observer&& observer) {
-    if (flow_quietly(command, end - begin, part)) {
-      observer.flowed(contact_.mode(), begin, end - begin);
+  /// A part of the sampling period under one command.
+  struct Part {
+    double command;      // N
+    double begin, end;   // s after the sample
+    std::size_t number;  // 0 before t_j + δ, 1 after it
+  };
+
+  template <class Law, class Observer>
+  void flow(Law& law, const Part& part, Observer& observer) {
+    if (flow_without_event(law, part.command, part.end - part.begin, part.number)) {
+      observer.flowed(law.mode(), part.begin, part.end - part.begin);
       return;
     }
-    double reached = begin;
-    while (reached < end) reached = flow_to_event(command, reached, end, observer);
+    double reached = part.begin;
+    while (reached < part.end) reached = flow_to_event(law, part, reached, observer);
   }
 
   /// A whole part of the period at once, if it is sure that the contact does not change in it.
-  bool flow_quietly(double command, double length, std::size_t part) {
+  template <class Law>
+  bool flow_without_event(Law& law, double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
-    const ModeGuards guards = contact_.guards();
+    const ModeGuards guards = law.guards();
     for (int g = 0; g < guards.count; ++g)
       if (!may_have_no_event(guards.guard[at(g)])) return false;
-    const int mode = contact_.mode();
-    State after = steps_[part][at(mode)].state(state_, command, force_.held(), force_.phases());
-    contact_.keep(state_, after);
+    const int mode = law.mode();
+    ModeMotion<Plant>& here = modes_[at(mode)];
+    State after = here.step(part).state(state_, command, force_.held(), force_.phases());
+    law.keep(state_, after);
     if (guards.count > 0) {
-      if (bounds_[at(mode)] == std::nullopt) make_bound(mode, guards.guard[0]);
-      const double drop_below_chord = bounds_[at(mode)]->drop_below_chord(state_, command, length);
+      const double drop_below_chord =
+          here.bound(law, mode, guards.guard[0], force_).drop_below_chord(state_, command, length);
       for (int g = 0; g < guards.count; ++g)
         if (!(least_at_ends(guards.guard[at(g)], after, command, part) > drop_below_chord))
           return false;
     }
     state_ = after;
-    contact_.flowed();
+    law.flowed();
     return true;
-  }
-
-  void make_bound(int mode, const ModeGuard& guard) {
-    const Dynamics& dynamics = dynamics_[at(mode)];
-    if constexpr (detail::HasPorts<Plant>::value) {
-      bounds_[at(mode)].emplace(dynamics, dynamics.state, guard, force_.bounds());
-    } else {
-      bounds_[at(mode)].emplace(dynamics, contact_.plant(mode), guard, force_.bounds());
-    }
   }
 
   static bool may_have_no_event(const ModeGuard& guard) {
@@ -349,100 +281,44 @@ class EventMotion {
     return std::min(begin, end) + guard.command * command + guard.constant;
   }
 
-  /// Goes on to the next change of contact, or to `end`. @return where it came to
-  template <class Observer>
-  double flow_to_event(double command, double begin, double end, Observer&& observer) {
-    const int mode = contact_.mode();
-    const double wanted = std::min(end, force_.next_break(begin)) - begin;
-    const double length = std::min(wanted, 1.0 / rate_[at(mode)]);
-    Series force(terms_for(rate_[at(mode)] * length));
-    force_.expand(begin, length, force);
-    const Expansion motion(dynamics_[at(mode)], state_, command, force, length);
-    const auto [guard, root] = earliest(motion, command, force);
-    const bool whole = root.outcome == RootOutcome::none;
-    const double passed = whole ? length : root.at * length;
-    const double reached = whole && length == wanted ? begin + wanted : begin + passed;
+  /// Goes on to the next change of contact, or to the end of the part. @return where it came to
+  template <class Law, class Observer>
+  double flow_to_event(Law& law, const Part& part, double begin, Observer& observer) {
+    const int mode = law.mode();
+    const ModeMotion<Plant>& here = modes_[at(mode)];
+    const double wanted = std::min(part.end, force_.next_break(begin)) - begin;
+    const double length = std::min(wanted, 1.0 / here.rate());
+    ModeStretch<states> stretch{state_, part.command, Series(terms_for(here.rate() * length)),
+                                length};
+    force_.expand(begin, length, stretch.force);
+    const NextEvent<states> event = next_event(
+        here.dynamics(), switches_ > most_switches ? ModeGuards{} : law.guards(), stretch);
+    if (event.sign != 0.0) law.learn_sign(event.sign);
+    const bool whole = event.guard < 0;
+    const double passed = whole ? length : event.root.at * length;
+    const double reached = begin + passed;
     observer.flowed(mode, begin, passed);
-    state_ = motion.state(whole ? 1.0 : root.at);
-    if (passed > 0.0) contact_.flowed();
-    if (whole) {
-      if (length == end - begin) return end;
-      if (length == wanted) jump({state_, command, force_.at(reached)}, &observer);
+    state_ = event.state;
+    if (passed > 0.0) law.flowed();
+    if (!whole) {
+      const double force = value_and_slope(stretch.force, event.root.at).value;
+      change(law, event.guard, {state_, part.command, force}, observer);
+      if (event.root.outcome == RootOutcome::grazing) ++counts_.grazing;
       return reached;
     }
-    change(guard, command, force_value(force, root.at), observer);
-    if (root.outcome == RootOutcome::grazing) ++counts_.grazing;
+    if (length == part.end - begin) return part.end;
+    if (length == wanted) jump(law, {state_, part.command, force_.at(reached)}, observer);
     return reached;
   }
 
-  struct Earliest {
-    int guard;
-    FirstRoot root;
-  };
-
-  Earliest earliest(const Expansion& motion, double command, const Series& force) {
-    Earliest first{-1, {RootOutcome::none, 1.0, 0}};
-    if (switches_ > most_switches) return first;
-    const ModeGuards guards = contact_.guards();
-    for (int g = 0; g < guards.count; ++g) {
-      const Series series = series_of(guards.guard[at(g)], motion, command, force);
-      const FirstRoot root = first_root(series);
-      if (root.outcome != RootOutcome::none && (first.guard < 0 || root.at < first.root.at))
-        first = {g, root};
-    }
-    return first;
-  }
-
-  Series series_of(const ModeGuard& guard, const Expansion& motion, double command,
-                   const Series& force) {
-    Series series = (guard.state.transpose() * motion.coefficients()).transpose();
-    if (guard.force != 0.0) series += guard.force * force;
-    series[0] += guard.command * command + guard.constant;
-    const Eigen::Index zeros = std::min<Eigen::Index>(guard.zeros, series.size());
-    series.head(zeros).setZero();
-    clear_rounding(guard, motion, command, force, series);
-    return guard.unsigned_yet ? signed_series(series) : series;
-  }
-
-  /// The series with the sign that its guard takes first, which the contact learns. A force that
-  /// begins at zero does so to rounding only: what is that small beside the rest decides nothing.
-  Series signed_series(Series series) {
-    const double rounding = 1e-12 * series.cwiseAbs().sum();
-    Eigen::Index leading = 0;
-    while (leading < series.size() && std::abs(series[leading]) <= rounding) ++leading;
-    series.head(leading).setZero();
-    if (leading == series.size()) return series;
-    const double sign = series[leading] > 0.0 ? 1.0 : -1.0;
-    contact_.learn_sign(sign);
-    return sign * series;
-  }
-
-  /// Leading coefficients that are nothing but rounding are zero: just after a change of contact
-  /// the guard may not have come out of its own rounding yet.
-  static void clear_rounding(const ModeGuard& guard, const Expansion& motion, double command,
-                             const Series& force, Series& series) {
-    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-    double known = std::abs(guard.command * command) + std::abs(guard.constant);
-    for (Eigen::Index k = 0; k < series.size(); ++k, known = 0.0) {
-      const double size = guard.state.cwiseAbs().dot(motion.coefficients().col(k).cwiseAbs()) +
-                          std::abs(guard.force * force[k]) + known;
-      if (std::abs(series[k]) > rounding * size) return;
-      series[k] = 0.0;
-    }
-  }
-
-  static double force_value(const Series& force, double x) {
-    return value_and_slope(force, x).value;
-  }
-
-  template <class Observer>
-  void change(int guard, double command, double force, Observer&& observer) {
-    const int before = contact_.mode();
-    Instant now{state_, command, force};
-    contact_.reached(guard, now);
-    observer.switched(before, contact_.mode(), guard, Instant{state_, command, force});
+  template <class Law, class Observer>
+  void change(Law& law, int guard, const Instant& before, Observer& observer) {
+    const int left = law.mode();
+    Instant now = before;
+    law.reached(guard, now);
+    observer.switched(left, law.mode(), guard, before);
     state_ = now.state;
-    count();
+    count(law.word());
   }
 
   DigitalLoop loop_;
@@ -452,12 +328,8 @@ class EventMotion {
   ForceOverSamples force_;
   Contact contact_;
   State state_;
-  std::array<Dynamics, Contact::modes> dynamics_;
-  std::array<double, Contact::modes> rate_{};
-  std::array<std::vector<SubintervalStepOf<states>>, 2>
-      steps_;                            // of the parts before and after t_j + δ
+  std::vector<ModeMotion<Plant>> modes_;
   std::vector<PeriodInstant> instants_;  // at which they begin and end
-  std::array<std::optional<Bound>, Contact::modes> bounds_;
   double previous_command_ = 0.0, command_ = 0.0;
   std::int64_t index_ = 0;
   int switches_ = 0;

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <type_traits>
 
 #include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
@@ -55,20 +55,17 @@ auto converted(const IdealLoop<From, Plant>& loop) {
       loop.hold};
 }
 
-/// f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods of the
-/// excitation. Without excitation 0/1.
-/// @param loop             of which f, τ and F_m are looked at
-/// @param largest_samples  ≥ 1; beyond 10⁶ it counts as 10⁶, since to the precision of its digits
-///                         every number is a fraction with a larger q
-/// @return nothing where f τ is no fraction with q ≤ largest_samples: then the two count as
-///         incommensurate
+/// The digital side of a loop of the paper's model: an ideal computer under one harmonic.
 template <class Plant>
-std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop,
-                                      std::int64_t largest_samples = 1'000'000) {
-  if (loop.excitation.amplitude == 0.0) return Rational{0, 1};
-  const double ratio = loop.excitation.frequency * loop.sampling.period;
-  if (!(ratio < 1e15)) return std::nullopt;
-  return reconstruct_rational(ratio, std::min<std::int64_t>(largest_samples, 1'000'000));
+DigitalLoop digital_loop(const IdealLoop<double, Plant>& loop) {
+  return {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold};
+}
+
+/// f τ = p/q in lowest terms: sampling and excitation coincide every q samples, p periods of the
+/// excitation (control/digital_loop.hpp).
+template <class Plant>
+std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
+  return forcing_ratio(digital_loop(loop));
 }
 
 namespace detail {

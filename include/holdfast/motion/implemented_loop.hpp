@@ -1,13 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <numeric>
 #include <optional>
+#include <vector>
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/core/rational.hpp"
-#include "holdfast/core/types.hpp"
+#include "holdfast/control/controller.hpp"
+#include "holdfast/control/digital_loop.hpp"
+#include "holdfast/excitation/harmonic.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/ports.hpp"
@@ -41,32 +42,33 @@ void validate(const ImplementedLoopOf<Plant>& loop) {
 template <class Plant>
 ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) {
   return {loop.plant,
-          {loop.sampling, loop.gains, multi_harmonic_force(loop.excitation), loop.hold},
+          digital_loop(loop),
           {ContactLaw::kollar, loop.backlash_width},
           Switching::sampled};
 }
 
-/// f τ = p/q of the first harmonic, with q the number of samples after which sampling and all
-/// harmonics coincide; 0/1 without excitation.
-/// @return nothing where they never do, or only after more than 10⁶ samples: incommensurate
-///         frequencies, a recorded force, or samples that jitter
-inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
-  constexpr std::int64_t most_samples = 1'000'000;
-  if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;
-  std::optional<Rational> first;
-  std::int64_t together = 1;
-  for (const Harmonic& line : loop.force.harmonics) {
-    if (line.amplitude == 0.0) continue;
-    const double ratio = line.frequency * loop.sampling.period;
-    if (!(ratio < 1e15)) return std::nullopt;
-    const auto rational = reconstruct_rational(ratio, most_samples);
-    if (!rational) return std::nullopt;
-    together = std::lcm(together, rational->denominator);
-    if (together > most_samples) return std::nullopt;
-    if (!first) first = rational;
-  }
-  if (!first) return Rational{0, 1};
-  return Rational{first->numerator * (together / first->denominator), together};
+/// The same loop in the paper's model, where that says all of it: switching at samples, the paper's
+/// backlash or none, one harmonic that begins at phase 0, an ideal computer and clock. Its motion
+/// is then one of SampledMotion, its orbits and exponents are those of a piecewise affine map.
+/// @return nothing of any other loop
+template <class Plant>
+std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant>& loop) {
+  const DigitalLoop& digital = loop.digital;
+  const std::vector<Harmonic>& lines = digital.force.harmonics;
+  const bool without_backlash = loop.backlash.law == ContactLaw::none;
+  if (loop.switching != Switching::sampled || !is_ideal(digital.limits) ||
+      digital.jitter.half_width != 0.0 || digital.force.record != nullptr || lines.size() > 1 ||
+      (!lines.empty() && lines.front().phase != 0.0) ||
+      !(without_backlash || loop.backlash.law == ContactLaw::kollar))
+    return std::nullopt;
+  HarmonicExcitation<double> excitation{0.0, 1.0};
+  if (!lines.empty()) excitation = {lines.front().amplitude, lines.front().frequency};
+  return IdealLoop<double, Plant>{loop.plant,
+                                  digital.sampling,
+                                  digital.gains,
+                                  excitation,
+                                  without_backlash ? 0.0 : loop.backlash.width,
+                                  digital.hold};
 }
 
 /// The motion of the loop from [z₁, ż₁, z₂, ż₂].

@@ -42,8 +42,8 @@ struct SubintervalStepOf {
                                double held_force,
                                const std::vector<ExcitationSample<double>>& phases) const {
     Vector<double, States> after = transition * before + command * commanded + drift;
-    if (phases.empty()) return after + held * held_force;
-    for (std::size_t l = 0; l < lines.size(); ++l)
+    if (phases.empty()) after += held * held_force;
+    for (std::size_t l = 0; l < phases.size(); ++l)
       after += lines[l].cosine * phases[l].cosine + lines[l].sine * phases[l].sine;
     return after;
   }

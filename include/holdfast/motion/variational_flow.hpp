@@ -5,11 +5,11 @@
 #include <cstddef>
 
 #include "holdfast/contact/contact.hpp"
+#include "holdfast/contact/contact_tangent.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/structural_rank.hpp"
-#include "holdfast/motion/contact_tangent.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/saltation.hpp"
 #include "holdfast/motion/taylor_step.hpp"
@@ -48,7 +48,7 @@ namespace holdfast {
 /// Work per sample of the two masses: 140 multiply-adds for each of its two parts; per change of
 /// contact 1500 more, most of them for a matrix exponential. Nothing is allocated for a fixed
 /// order.
-/// @tparam Contact  of the motion; contact_tangent.hpp tells what it has to offer
+/// @tparam Contact  of the motion; contact/contact_tangent.hpp tells what it has to offer
 template <class Contact>
 class VariationalFlow {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <variant>
+#include <type_traits>
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
@@ -32,25 +32,19 @@ struct ContactTangent<ExactBacklashOf<Plant>> {
 
 /// The mode of a contact in which Δż = 0; −1: there is none.
 template <class Contact>
-int sticking_mode(const Contact&) {
-  return ContactTangent<Contact>::sticking;
-}
-/// The same of a law chosen at run time.
-template <class Plant>
-int sticking_mode(const DriveContact<Plant>& contact) {
-  return std::visit([](const auto& law) { return sticking_mode(law); }, contact.law());
+int sticking_mode(const Contact& contact) {
+  return with_law(contact, [](const auto& law) {
+    return ContactTangent<std::decay_t<decltype(law)>>::sticking;
+  });
 }
 
 /// Whether the gap of a contact lies where the drive reversed, in a mode: its surface is that of
 /// Δz − g, else that of Δż for a moving gap and of Δz for stops.
 template <class Contact>
-bool is_anchored(const Contact&, int mode) {
-  return ContactTangent<Contact>::anchored(mode);
-}
-/// The same of a law chosen at run time.
-template <class Plant>
-bool is_anchored(const DriveContact<Plant>& contact, int mode) {
-  return std::visit([mode](const auto& law) { return is_anchored(law, mode); }, contact.law());
+bool is_anchored(const Contact& contact, int mode) {
+  return with_law(contact, [mode](const auto& law) {
+    return ContactTangent<std::decay_t<decltype(law)>>::anchored(mode);
+  });
 }
 
 namespace detail {

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <optional>
+
+#include "holdfast/control/controller.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/control/sampling_clock.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/excitation/harmonic.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/excitation/multi_harmonic_force.hpp"
+
+namespace holdfast {
+
+/// The digital side of a loop and its excitation: all that a motion depends on beside its contact
+/// and its initial state.
+struct DigitalLoop {
+  Sampling<double> sampling;            ///< τ and δ
+  PdGains<double> gains;                ///< P and D
+  MultiHarmonicForce force;             ///< F(t), the excitation of the conductor
+  ForceHold hold = ForceHold::sampled;  ///< how F is taken over a sample, a record included
+  ControllerLimits limits = {};         ///< of the sensors and the drive
+  Jitter jitter = {};                   ///< of the clock; 2 J + δ ≤ τ
+};
+
+/// @throws InvalidParameter where any part is not admissible
+inline void validate(const DigitalLoop& loop) {
+  validate(loop.sampling, loop.jitter);
+  validate(loop.gains);
+  validate(loop.force);
+  validate(loop.limits);
+}
+
+/// f τ = p/q of the first harmonic, with q the number of samples after which sampling and all
+/// harmonics coincide: q samples are p of its periods; 0/1 without excitation.
+/// @return nothing where they never do, or only after more than 10⁶ samples: incommensurate
+///         frequencies (to the precision of its digits every number is a fraction with a larger
+///         q), a recorded force, or samples that jitter
+inline std::optional<Rational> forcing_ratio(const DigitalLoop& loop) {
+  constexpr std::int64_t most_samples = 1'000'000;
+  if (loop.force.record != nullptr || loop.jitter.half_width > 0.0) return std::nullopt;
+  std::optional<Rational> first;
+  std::int64_t together = 1;
+  for (const Harmonic& line : loop.force.harmonics) {
+    if (line.amplitude == 0.0) continue;
+    const double ratio = line.frequency * loop.sampling.period;
+    if (!(ratio < 1e15)) return std::nullopt;
+    const auto rational = reconstruct_rational(ratio, most_samples);
+    if (!rational) return std::nullopt;
+    together = std::lcm(together, rational->denominator);
+    if (together > most_samples) return std::nullopt;
+    if (!first) first = rational;
+  }
+  if (!first) return Rational{0, 1};
+  return Rational{first->numerator * (together / first->denominator), together};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/control/digital_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/excitation/force_over_samples.hpp"
+#include "holdfast/motion/no_event_bound.hpp"
+#include "holdfast/motion/subinterval_step.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/decaying_norm.hpp"
+#include "holdfast/plant/energy.hpp"
+#include "holdfast/plant/ports.hpp"
+
+namespace holdfast {
+
+/// How a plant moves in one mode of its contact over the two parts of every sampling period: 0
+/// before t_j + δ, 1 after it.
+template <class Plant>
+class ModeMotion {
+ public:
+  static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
+  /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
+  using Norm = std::conditional_t<detail::HasPorts<Plant>::value, DecayingNorm<states>, EnergyNorm>;
+  using Bound = NoEventBoundOf<Norm, states>;  ///< tells that no guard comes to zero
+
+  /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
+  /// change.
+  static constexpr double most_turns_per_sample = 1e6;
+
+  /// @throws InvalidParameter where the mode or the force turns more than `most_turns_per_sample`
+  ///         in one sampling period
+  ModeMotion(const AffineDynamicsOf<states>& dynamics, const DigitalLoop& loop,
+             const ForceOverSamples& force)
+      : dynamics_(dynamics),
+        rate_(std::max(balanced_norm(dynamics.state), force.highest_angular_frequency())),
+        steps_{{{dynamics, loop.force.harmonics, 0.0, loop.sampling.processing_delay},
+                {dynamics, loop.force.harmonics, loop.sampling.processing_delay,
+                 loop.sampling.period - loop.sampling.processing_delay}}} {
+    if (!(rate_ * loop.sampling.period <= most_turns_per_sample))
+      throw InvalidParameter("fastest rate of the motion times the sampling period",
+                             rate_ * loop.sampling.period, "", "at most 1e6");
+  }
+
+  /// A, b, c and the drift.
+  const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
+  /// 1 / the largest length (s) over which a series of `most_terms` terms is exact.
+  double rate() const { return rate_; }
+  /// The exact step over a whole part of the period.
+  const SubintervalStepOf<states>& step(std::size_t part) const { return steps_[part]; }
+
+  /// The bound for the guards of the mode, made when it is first asked for.
+  /// @param law    tells the plant whose energy bounds the motion
+  /// @param mode   its number
+  /// @param guard  one of the mode's
+  template <class Law>
+  const Bound& bound(const Law& law, int mode, const GuardOf<states>& guard,
+                     const ForceOverSamples& force) {
+    if (bound_ == std::nullopt) {
+      if constexpr (detail::HasPorts<Plant>::value) {
+        bound_.emplace(dynamics_, dynamics_.state, guard, force.bounds());
+      } else {
+        bound_.emplace(dynamics_, law.plant(mode), guard, force.bounds());
+      }
+    }
+    return *bound_;
+  }
+
+ private:
+  AffineDynamicsOf<states> dynamics_;
+  double rate_;
+  std::array<SubintervalStepOf<states>, 2> steps_;
+  std::optional<Bound> bound_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/series.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+
+namespace holdfast {
+
+/// A stretch of a motion in one mode of its contact, short enough for one Taylor series.
+/// @tparam States  N, the order of the plant
+template <int States>
+struct ModeStretch {
+  Vector<double, States> state;  ///< x at its begin, N × 1
+  double command;                ///< u in force (N)
+  Series force;   ///< F_k (N) of F(t + y h) = Σ F_k y^k; as many terms as are needed
+  double length;  ///< h (s), ≥ 0
+};
+
+/// The first of a mode's guards that comes to zero over a stretch.
+/// @tparam States  N, the order of the plant
+template <int States>
+struct NextEvent {
+  int guard = -1;                             ///< its number; −1: none comes to zero
+  FirstRoot root{RootOutcome::none, 1.0, 0};  ///< where, in lengths of the stretch
+  double sign = 0.0;  ///< ±1 that a guard took first whose sign was not known; 0: none did
+  Vector<double, States> state =
+      {};  ///< x there, N × 1; at the end of the stretch where there is none
+};
+
+namespace detail {
+
+/// Leading coefficients that are nothing but rounding are zero: just after a change of contact
+/// the guard may not have come out of its own rounding yet.
+template <int States>
+void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
+                    const TaylorStepOf<States>& motion, Series& series) {
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  double known = std::abs(guard.command * stretch.command) + std::abs(guard.constant);
+  for (Eigen::Index k = 0; k < series.size(); ++k, known = 0.0) {
+    const double size = guard.state.cwiseAbs().dot(motion.coefficients().col(k).cwiseAbs()) +
+                        std::abs(guard.force * stretch.force[k]) + known;
+    if (std::abs(series[k]) > rounding * size) return;
+    series[k] = 0.0;
+  }
+}
+
+/// g along a stretch.
+template <int States>
+Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
+                    const TaylorStepOf<States>& motion) {
+  Series series = (guard.state.transpose() * motion.coefficients()).transpose();
+  if (guard.force != 0.0) series += guard.force * stretch.force;
+  series[0] += guard.command * stretch.command + guard.constant;
+  const Eigen::Index zeros = std::min<Eigen::Index>(guard.zeros, series.size());
+  series.head(zeros).setZero();
+  clear_rounding(guard, stretch, motion, series);
+  return series;
+}
+
+/// The sign that a series takes first; 0 where it stays zero. A force that begins at zero does so
+/// to rounding only: what is that small beside the rest is made zero and decides nothing.
+inline double first_sign(Series& series) {
+  const double rounding = 1e-12 * series.cwiseAbs().sum();
+  Eigen::Index leading = 0;
+  while (leading < series.size() && std::abs(series[leading]) <= rounding) ++leading;
+  series.head(leading).setZero();
+  if (leading == series.size()) return 0.0;
+  return series[leading] > 0.0 ? 1.0 : -1.0;
+}
+
+}  // namespace detail
+
+/// Follows a mode to the first root of any of its guards, or to the end of the stretch, by Taylor
+/// series: no root is passed over (math/roots/first_root.hpp). What depends on neither the law nor
+/// who watches the motion.
+/// Work: N² + 2 N multiply-adds for each term of the series, 2 N for each guard and term, and the
+/// search for the root.
+/// @param dynamics  of the mode
+/// @param guards    of the mode; none: the stretch is passed as a whole
+/// @param stretch   at most 1/‖A‖ long
+template <int States>
+NextEvent<States> next_event(const AffineDynamicsOf<States>& dynamics,
+                             const GuardsOf<States>& guards, const ModeStretch<States>& stretch) {
+  const TaylorStepOf<States> motion(dynamics, stretch.state, stretch.command, stretch.force,
+                                    stretch.length);
+  NextEvent<States> first;
+  for (int g = 0; g < guards.count; ++g) {
+    const GuardOf<States>& guard = guards.guard[static_cast<std::size_t>(g)];
+    Series series = detail::guard_series(guard, stretch, motion);
+    if (guard.unsigned_yet) {
+      first.sign = detail::first_sign(series);
+      if (first.sign != 0.0) series *= first.sign;
+    }
+    const FirstRoot root = first_root(series);
+    if (root.outcome == RootOutcome::none || (first.guard >= 0 && root.at >= first.root.at))
+      continue;
+    first.guard = g;
+    first.root = root;
+  }
+  first.state = motion.state(first.guard < 0 ? 1.0 : first.root.at);
+  return first;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template NextEvent<4> next_event(const AffineDynamicsOf<4>&, const GuardsOf<4>&,
+                                        const ModeStretch<4>&);
+#endif
+
+}  // namespace holdfast
