@@ -263,25 +263,6 @@ TEST(PlantOrder, OfSevenIsThatOfADenseSimulation) {
   }
 }
 
-TEST(PlantOrder, OfSevenStepsAtSamplesAsItFlows) {
-  const OrderSetting setting;
-  const Order7 plant = order_seven(setting.plant, setting.extras);
-  const IdealLoop<double, Order7> loop{
-      plant, setting.sampling, setting.gains, setting.excitation, setting.width, ForceHold::exact};
-  auto stepped = harmonically_forced_motion(loop, State7::Zero());
-  auto flowing =
-      event_motion(loop_of(setting, plant, ContactLaw::kollar, Switching::sampled), State7::Zero());
-  for (int j = 0; j < 1000; ++j) {
-    const auto first = stepped.sense();
-    const auto second = flowing.sense();
-    ASSERT_EQ(first.engaged, second.engaged) << j;
-    ASSERT_NEAR(first.control_force, second.control_force, 1e-10) << j;
-    stepped.advance();
-    flowing.advance();
-    ASSERT_LE((stepped.state() - flowing.state()).norm(), 1e-11) << j;
-  }
-}
-
 TEST(PlantOrder, KnownAtRunTimeAloneIsTheSame) {
   const OrderSetting setting;
   const Order7 fixed = order_seven(setting.plant, setting.extras);

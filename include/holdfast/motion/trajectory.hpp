@@ -3,12 +3,47 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 
 namespace holdfast {
+
+namespace detail {
+
+template <class Motion, class = void>
+struct IsMotion : std::false_type {};
+template <class Motion>
+struct IsMotion<Motion, std::void_t<decltype(std::declval<Motion&>().sense().state),
+                                    decltype(std::declval<Motion&>().sense().control_force),
+                                    decltype(std::declval<Motion&>().sense().engaged),
+                                    decltype(std::declval<Motion&>().advance()),
+                                    decltype(std::declval<Motion&>().displace_conductor(0.0)),
+                                    decltype(std::declval<const Motion&>().index()),
+                                    decltype(std::declval<const Motion&>().time()),
+                                    decltype(std::declval<const Motion&>().state()),
+                                    decltype(std::declval<const Motion&>().readings())>>
+    : std::true_type {};
+
+}  // namespace detail
+
+/// True of a motion of a sampled loop, which goes from one sample to the next. It has two models:
+/// SampledMotion, the map of one sampling period whose contact changes at samples, and EventMotion,
+/// which follows the contact between them; where the loop is that of the paper's model
+/// (`ideal_loop`) both show the same samples up to rounding. What a motion offers:
+///
+///     sense()                  takes sample j: a MotionSample with t_j, x_j (N × 1), the force u_j
+///                              (N) and whether the drive transmits; once before each `advance()`
+///     advance()                moves from t_j to t_{j+1}
+///     displace_conductor(d)    adds d (m) to the conductor's z, before `sense()`
+///     index(), time()          j and t_j (s) of the sample that `sense()` will take or has taken
+///     state()                  x_j, N × 1
+///     readings()               how states of the plant are read (plant/port_readings.hpp)
+template <class Motion>
+inline constexpr bool is_motion_v = detail::IsMotion<Motion>::value;
 
 /// A sudden displacement of the conductor, as in Kollár 2022, Fig. 7.
 struct Kick {
@@ -39,6 +74,8 @@ inline std::int64_t samples_within(double duration, double sampling_period) {
 ///
 /// The observers decide what is kept; nothing is allocated here. The motion is left at the sample
 /// after the last one shown, so that a further call goes on from there.
+/// @tparam Motion  one of which is_motion_v is true, or that has its `sense`, `advance`,
+///                 `displace_conductor` and `time`
 template <class Motion, class... Observers>
 TrajectoryOutcome run_trajectory(Motion& motion, std::int64_t samples,
                                  const std::optional<Kick>& kick, Observers&&... observers) {

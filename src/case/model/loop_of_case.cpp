@@ -65,12 +65,7 @@ IdealLoop<double> uncontrolled(IdealLoop<double> loop) {
 }
 
 bool is_of_the_paper(const Case& the_case, Switching switching) {
-  const auto& excitation = the_case.excitation;
-  const ContactLaw law = law_of(the_case.backlash.law);
-  return switching == Switching::sampled &&
-         (law == ContactLaw::kollar || law == ContactLaw::none) && the_case.control.jitter == 0.0 &&
-         is_ideal(limits_of(the_case)) && excitation.harmonics.empty() &&
-         the_case.force_record == nullptr && excitation.noise_rms == 0.0;
+  return ideal_loop(implemented_loop_of(the_case, switching)).has_value();
 }
 
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
