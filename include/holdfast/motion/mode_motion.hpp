@@ -38,14 +38,12 @@ class ModeMotion {
   ModeMotion(const AffineDynamicsOf<states>& dynamics, const DigitalLoop& loop,
              const ForceOverSamples& force)
       : dynamics_(dynamics),
-        rate_(std::max(balanced_norm(dynamics.state), force.highest_angular_frequency())),
+        rate_(admissible_rate(
+            std::max(balanced_norm(dynamics.state), force.highest_angular_frequency()),
+            loop.sampling.period)),
         steps_{{{dynamics, loop.force.harmonics, 0.0, loop.sampling.processing_delay},
                 {dynamics, loop.force.harmonics, loop.sampling.processing_delay,
-                 loop.sampling.period - loop.sampling.processing_delay}}} {
-    if (!(rate_ * loop.sampling.period <= most_turns_per_sample))
-      throw InvalidParameter("fastest rate of the motion times the sampling period",
-                             rate_ * loop.sampling.period, "", "at most 1e6");
-  }
+                 loop.sampling.period - loop.sampling.processing_delay}}} {}
 
   /// A, b, c and the drift.
   const AffineDynamicsOf<states>& dynamics() const { return dynamics_; }
@@ -72,6 +70,12 @@ class ModeMotion {
   }
 
  private:
+  static double admissible_rate(double rate, double period) {
+    if (rate * period <= most_turns_per_sample) return rate;
+    throw InvalidParameter("fastest rate of the motion times the sampling period", rate * period,
+                           "", "at most 1e6");
+  }
+
   AffineDynamicsOf<states> dynamics_;
   double rate_;
   std::array<SubintervalStepOf<states>, 2> steps_;
