@@ -2,13 +2,13 @@
 
 /// Periodic orbits, their certificates and continuation.
 
+#include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_measures.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/event/event_orbit_solver.hpp"
 #include "holdfast/orbit/event/repeating_motion.hpp"
 #include "holdfast/orbit/event/return_map.hpp"
-#include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
 #include "holdfast/orbit/loop_orbit.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"

@@ -13,7 +13,7 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "property/loop_case.hpp"
-#include "support/schur_cohn.hpp"
+#include "support/polynomial/schur_cohn.hpp"
 
 namespace holdfast {
 namespace {

@@ -16,9 +16,9 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "support/pair_gains.hpp"
+#include "support/polynomial/pair_gains.hpp"
+#include "support/polynomial/schur_cohn.hpp"
 #include "support/random_loop.hpp"
-#include "support/schur_cohn.hpp"
 
 namespace holdfast {
 namespace {

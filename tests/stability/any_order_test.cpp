@@ -20,7 +20,7 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 #include "support/lagging_plant.hpp"
-#include "support/pair_gains.hpp"
+#include "support/polynomial/pair_gains.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
 

@@ -1,4 +1,4 @@
-#include "support/schur_cohn.hpp"
+#include "support/polynomial/schur_cohn.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "holdfast/math/poly/positive_roots.hpp"
-#include "support/made_polynomial.hpp"
+#include "support/polynomial/made_polynomial.hpp"
 
 namespace holdfast {
 namespace {

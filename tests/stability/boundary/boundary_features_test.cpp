@@ -13,8 +13,8 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "support/made_polynomial.hpp"
-#include "support/pair_gains.hpp"
+#include "support/polynomial/made_polynomial.hpp"
+#include "support/polynomial/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {

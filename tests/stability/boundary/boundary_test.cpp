@@ -11,7 +11,7 @@
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "support/pair_gains.hpp"
+#include "support/polynomial/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {

@@ -10,7 +10,7 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/row_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "support/pair_gains.hpp"
+#include "support/polynomial/pair_gains.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {

@@ -12,7 +12,7 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "support/made_polynomial.hpp"
+#include "support/polynomial/made_polynomial.hpp"
 #include "support/random_loop.hpp"
 
 namespace holdfast {
