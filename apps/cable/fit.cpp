@@ -1,23 +1,53 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
+#include "holdfast/ceres/decay_fit_options.hpp"
 #include "io/file/input.hpp"
 #include "io/text/decay_file.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"
 #include "jobs/cable/damping_fit.hpp"
-#include "jobs/cable/fit_options.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 
 namespace holdfast::program {
 namespace {
+
+/// A parameter that a fit may free, as the case file names it.
+struct FitParameter {
+  fit::PlantParameter parameter;
+  const char* name;  ///< its key in [plant]
+  const char* unit;
+};
+
+constexpr FitParameter known_parameters[] = {
+    {fit::PlantParameter::conductor_mass, "conductor_mass", "kg"},
+    {fit::PlantParameter::conductor_stiffness, "conductor_stiffness", "N/m"},
+    {fit::PlantParameter::conductor_damping, "conductor_damping", "N s/m"},
+    {fit::PlantParameter::absorber_stiffness, "absorber_stiffness", "N/m"},
+    {fit::PlantParameter::absorber_damping, "absorber_damping", "N s/m"}};
+
+const FitParameter& parameter_named(std::string_view name) {
+  if (name.empty()) throw WrongInput("--parameters: a name is missing");
+  for (const FitParameter& known : known_parameters)
+    if (name == known.name) return known;
+  throw WrongInput("--parameters: " + one_line(name) +
+                   " is none of conductor_mass, conductor_stiffness, conductor_damping, "
+                   "absorber_stiffness, absorber_damping");
+}
+
+const FitParameter& description_of(fit::PlantParameter parameter) {
+  return known_parameters[static_cast<std::size_t>(parameter)];
+}
 
 struct FitOptions {
   std::optional<std::string> data;
@@ -27,11 +57,36 @@ struct FitOptions {
 };
 
 fit::DecayFitOptions question_of(const FitOptions& options) {
-  fit::DecayFitOptions question =
-      fit_options(options.parameters, options.target.value_or("history"));
+  fit::DecayFitOptions question;
+  question.free.clear();
+  for (const std::string_view name : split(options.parameters, ',')) {
+    const fit::PlantParameter parameter = parameter_named(trimmed(name)).parameter;
+    if (std::count(question.free.begin(), question.free.end(), parameter) > 0)
+      throw WrongInput("--parameters: " + one_line(trimmed(name)) + " stands there twice");
+    question.free.push_back(parameter);
+  }
+  const std::string target = options.target.value_or("history");
+  question.target = target == "history" ? fit::DecayTarget::time_history
+                    : target == "peak"  ? fit::DecayTarget::first_peak_and_period
+                                        : fit::DecayTarget::first_peak_period_and_decrement;
+  const std::size_t most = target == "peak" ? 1 : target == "measures" ? 2 : 5;
+  if (question.free.size() > most)
+    throw WrongInput("--parameters: --target " + target + " determines " + std::to_string(most) +
+                     " of them at most");
   question.robust = !options.plain;
   question.fit_initial_displacement = options.data.has_value();
   return question;
+}
+
+/// Parameters are fitted by their logarithms, and all but c2 start from the plant's values, which
+/// must not be 0.
+void require_starts(const fit::DecayFitOptions& options, const TwoMass<double>& plant) {
+  for (const fit::PlantParameter parameter : options.free) {
+    if (parameter == fit::PlantParameter::absorber_damping || parameter_of(plant, parameter) > 0.0)
+      continue;
+    throw WrongInput(std::string("--parameters: the fit starts from plant.") +
+                     description_of(parameter).name + ", which is 0; admissible is greater than 0");
+  }
 }
 
 /// Quantities of the deepest minimum bear their key's name; those of the next, `_minimum_2` behind.

@@ -9,27 +9,19 @@
 namespace holdfast::program {
 namespace {
 
-const char* word_for(MarginEndOutcome outcome) {
-  switch (outcome) {
-    case MarginEndOutcome::undefined:
-      return "undefined";
-    case MarginEndOutcome::boundary:
-      return "boundary";
-    case MarginEndOutcome::none:
-      return "none";
-    case MarginEndOutcome::beyond_search:
-      return "beyond_search";
-  }
-  return "";
-}
+constexpr Named<MarginEndOutcome> end_names[] = {
+    {MarginEndOutcome::undefined, "undefined"},
+    {MarginEndOutcome::boundary, "boundary"},
+    {MarginEndOutcome::none, "none"},
+    {MarginEndOutcome::beyond_search, "beyond_search"}};
 
 /// Writes the two ends of one quantity's stable stretch.
 void write(Table& table, const char* quantity, const char* unit, double value,
            const TwoSidedMargin& margin) {
   const auto row = [&](const char* side, const MarginEnd& end) {
     const bool crosses = end.outcome == MarginEndOutcome::boundary;
-    table.row(quantity, unit, value, side, word_for(end.outcome), end.position, end.distance,
-              crosses ? name_of(end.curve) : "", end.frequency);
+    table.row(quantity, unit, value, side, name_in(end_names, end.outcome), end.position,
+              end.distance, crosses ? name_in(curve_names, end.curve) : "", end.frequency);
   };
   row("below", margin.below);
   row("above", margin.above);

@@ -1,15 +1,53 @@
-#include <array>
+#include <string>
+#include <vector>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/loop_axis.hpp"
+#include "case/axes/key_axis.hpp"
+#include "case/case_keys.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/sampled_loop_of_case.hpp"
-#include "io/file/input.hpp"
+#include "holdfast/stability/chart/loop_chart.hpp"
+#include "io/text/names.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
+#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
+
+constexpr Named<LoopParameter> parameter_keys[] = {
+    {LoopParameter::proportional_gain, "control.proportional_gain"},
+    {LoopParameter::differential_gain, "control.differential_gain"},
+    {LoopParameter::sampling_period, "control.sampling_period"},
+    {LoopParameter::processing_delay, "control.processing_delay"},
+    {LoopParameter::conductor_mass, "plant.conductor_mass"},
+    {LoopParameter::conductor_stiffness, "plant.conductor_stiffness"},
+    {LoopParameter::conductor_damping, "plant.conductor_damping"},
+    {LoopParameter::absorber_mass, "plant.absorber_mass"},
+    {LoopParameter::absorber_stiffness, "plant.absorber_stiffness"},
+    {LoopParameter::absorber_damping, "plant.absorber_damping"}};
+
+LoopParameter parameter_of(const std::string& key) {
+  std::string known;
+  for (const auto& [parameter, name] : parameter_keys) {
+    if (key == name) return parameter;
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  throw WrongInput("--axis: stability does not depend on " + key + "; it does on " + known);
+}
+
+/// An axis whose two ends the key admits.
+KeyAxis admissible_axis(const std::string& text) {
+  KeyAxis axis = parse_key_axis("--axis", text);
+  parameter_of(axis.key);
+  const CaseKey& key = *find_case_key(axis.key);
+  for (const double end : {axis.axis.min, axis.axis.max}) {
+    if (!key.range.contains(end)) {
+      throw WrongInput("--axis " + text + ": " + axis.key + " must be " + key.admissible());
+    }
+  }
+  return axis;
+}
 
 struct StabilityOptions {
   std::string p = "-1000:200:121";
@@ -46,9 +84,19 @@ void run_over_gains(const JobContext& context, const StabilityOptions& options) 
   table.commit();
 }
 
+/// A sampling period on an axis takes the processing delay with it in proportion; a tuned P stays
+/// that of the case.
 void run_over_axes(const JobContext& context, const StabilityOptions& options) {
-  const auto [chart, slow, fast] = loop_chart_of(context.case_data, options.axes);
-  GridTable table(context, slow, fast, columns(options));
+  if (options.axes.size() != 2) {
+    throw WrongInput("--axis: a chart needs two axes, not " + std::to_string(options.axes.size()));
+  }
+  const KeyAxis slow = admissible_axis(options.axes[0]), fast = admissible_axis(options.axes[1]);
+  if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key);
+  const LoopChart chart{operating_point_of(context.case_data),
+                        {parameter_of(slow.key), slow.axis},
+                        {parameter_of(fast.key), fast.axis}};
+  validate(chart);
+  GridTable table(context, grid_axis(slow), grid_axis(fast), columns(options));
   append_sampled_chart(context, chart, options.radius, table);
   table.commit();
 }
