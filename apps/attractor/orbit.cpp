@@ -1,10 +1,24 @@
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "case/axes/axis.hpp"
+#include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/orbit/orbit_continuation.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "io/text/names.hpp"
+#include "io/text/table.hpp"
+#include "io/text/text.hpp"
 #include "job.hpp"
-#include "jobs/orbit/event_orbit_tables.hpp"
-#include "jobs/orbit/orbit_tables.hpp"
+#include "jobs/motion/motion_columns.hpp"
+#include "jobs/orbit/certified_orbit.hpp"
+#include "jobs/orbit/orbit_certificate.hpp"
 #include "motion_options.hpp"
 #include "process/errors.hpp"
 
@@ -19,35 +33,235 @@ struct OrbitOptions {
   Switching switching = Switching::sampled;
 };
 
-void write_built(const JobContext& context, const OrbitOptions& options) {
-  const ImplementedLoop loop = implemented_loop_of(context.case_data, options.switching);
-  if (options.follow) {
-    throw WrongInput(
-        "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
-        "computer only");
-  }
-  if (options.trace) {
-    write_orbit_trace(context, loop, options.largest_period);
-  } else if (options.certificate) {
-    write_certificate(context, loop, options.largest_period);
-  } else {
-    write_orbit(context, loop, options.largest_period);
+/// Calls `visit` with the orbit: of the paper's model where that is all there is to the case, else
+/// of the loop with all that the case says of it.
+template <class Visit>
+void with_orbit(const JobContext& context, const OrbitOptions& options, const Visit& visit) {
+  if (is_of_the_paper(context.case_data, options.switching))
+    visit(certified_orbit(context, options.largest_period));
+  else
+    visit(certified_orbit(context, implemented_loop_of(context.case_data, options.switching),
+                          options.largest_period));
+}
+
+double border_distance(const PeriodicOrbit& orbit) { return orbit.borders.displacement.distance; }
+/// That of a turn inside the gap from its ends.
+double border_distance(const EventOrbit& orbit) { return orbit.margins.border_distance; }
+
+void write_orbit(const JobContext& context, const OrbitOptions& options) {
+  Table table(
+      context,
+      {{"period_samples", "", "samples of one period", "integer"},
+       {"period_s", "s", "period"},
+       {"forcing_periods", "", "periods of the excitation in one of the orbit", "integer"},
+       {"largest_multiplier", "", "largest modulus of a multiplier of one period"},
+       {"closure_error", "m", "state after one period less the first one, norm in SI numbers"},
+       {"border_distance_m", "m",
+        "smallest distance of z2 - z1 from a change of contact at an end of the gap"},
+       {"engaged_fraction", "", "share of the samples at which the drive transmits"}});
+  with_orbit(context, options, [&](const auto& orbit) {
+    table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
+              orbit.largest_multiplier(), orbit.closure_error, border_distance(orbit),
+              orbit.engaged_fraction());
+  });
+  table.commit();
+}
+
+/// How long the orbit is, how large, how often engaged, and how well it closes.
+/// @param amplitude  m
+template <class Orbit>
+void write_size(Table& table, const Orbit& orbit, double amplitude) {
+  table.row("coincidence_samples", static_cast<double>(orbit.ratio.denominator), "");
+  table.row("coincidence_forcing_periods", static_cast<double>(orbit.ratio.numerator), "");
+  table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
+  table.row("period", orbit.period(), "s");
+  table.row("forcing_periods", static_cast<double>(orbit.forcing_periods()), "");
+  table.row("amplitude", amplitude, "m");
+  table.row("engaged_fraction", orbit.engaged_fraction(), "");
+  table.row("closure_error", orbit.closure_error, "m");
+}
+
+/// Modulus, angle and exponent per sample of each multiplier.
+template <class Orbit>
+void write_multipliers(Table& table, const Orbit& orbit) {
+  int number = 1;
+  for (const Multiplier& multiplier : orbit.multipliers) {
+    const std::string name = "multiplier_" + std::to_string(number++);
+    table.row(name + "_modulus", std::abs(multiplier.value()), "");
+    table.row(name + "_angle", multiplier.angle, "rad");
+    table.row(name + "_exponent",
+              multiplier.log_modulus / static_cast<double>(orbit.period_samples()), "per sample");
   }
 }
 
-void run(const JobContext& context, const OrbitOptions& options) {
-  if (!is_of_the_paper(context.case_data, options.switching)) {
-    write_built(context, options);
-    return;
+void write_border(Table& table, const std::string& name, const Border& border, const char* unit,
+                  double sampling_period) {
+  table.row(name, border.distance, unit);
+  const bool there = border.sample >= 0;
+  table.row(name + "_at",
+            there ? static_cast<double>(border.sample) * sampling_period : std::nan(""), "s");
+}
+
+/// Distances to the switching surfaces, radius of attraction, multipliers, and the same orbit in
+/// extended precision.
+void write_quantities(Table& table, const JobContext& context, const PeriodicOrbit& orbit) {
+  write_size(table, orbit, orbit.amplitude());
+  write_border(table, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
+  write_border(table, "reversal_distance", orbit.borders.velocity, "m/s", orbit.sampling_period);
+  const OrbitCertificate certificate = certificate_of(ideal_loop_of(context.case_data), orbit);
+  table.row("capture_radius_smallest", certificate.smallest_radius, "m");
+  table.row("capture_radius_largest", certificate.largest_radius, "m");
+  write_multipliers(table, orbit);
+  const OrbitVerification& wide = certificate.verification;
+  table.row("extended_precision_same_contacts", wide.same_itinerary ? 1.0 : 0.0, "");
+  table.row("extended_precision_displacement_difference", wide.displacement_difference, "m");
+  table.row("extended_precision_velocity_difference", wide.velocity_difference, "m/s");
+  table.row("extended_precision_closure_error", wide.closure_error, "m");
+}
+
+/// Margins, shares and numbers of the modes, multipliers with the saltation at the switches.
+void write_quantities(Table& table, const JobContext&, const EventOrbit& orbit) {
+  write_size(table, orbit, orbit.largest_displacement);
+  const SwitchingMargins& margins = orbit.margins;
+  table.row("gap_distance", margins.border_distance, "m");
+  table.row("exit_velocity", margins.exit_velocity, "m/s");
+  table.row("reversal_velocity", margins.reversal_velocity, "m/s");
+  table.row("reversal_acceleration", margins.reversal_acceleration, "m/s2");
+  table.row("stick_acceleration", margins.stick_acceleration, "m/s2");
+  for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
+    const std::string name = word_for(mode);
+    table.row(name + "_time_share", orbit.time_share[static_cast<std::size_t>(mode)], "");
+    table.row(name + "_phases", static_cast<double>(orbit.entries(mode)), "");
   }
+  write_multipliers(table, orbit);
+}
+
+/// The whole certificate, one quantity a row.
+void write_certificate(const JobContext& context, const OrbitOptions& options) {
+  Table table(context, {{"quantity", "", "what is certified", "string"},
+                        {"value", "", "in the unit of the row"},
+                        {"unit", "", "of the value", "string"}});
+  with_orbit(context, options, [&](const auto& orbit) { write_quantities(table, context, orbit); });
+  table.commit();
+}
+
+/// Sample j of the orbit, without its time.
+MotionRow sample_of(const PeriodicOrbit& orbit, std::size_t j) {
+  const ContactMode mode = orbit.itinerary[j] != 0 ? ContactMode::engaged : ContactMode::gap;
+  return {0.0, orbit.states[j].head<4>(), orbit.states[(j + 1) % orbit.states.size()][4], mode};
+}
+MotionRow sample_of(const EventOrbit& orbit, std::size_t j) {
+  return {0.0, orbit.states[j], orbit.forces[j], orbit.modes[j]};
+}
+
+/// The orbit's samples, with the columns of `simulate`: one period and the sample that closes it.
+void write_orbit_trace(const JobContext& context, const OrbitOptions& options) {
+  Table table(context, motion_columns(options.switching));
+  with_orbit(context, options, [&](const auto& orbit) {
+    for (std::size_t k = 0; k <= orbit.states.size(); ++k) {
+      MotionRow row = sample_of(orbit, k % orbit.states.size());
+      row.time = static_cast<double>(k) * orbit.sampling_period;
+      write_motion_row(table, options.switching, row);
+    }
+  });
+  table.commit();
+}
+
+std::pair<std::string, Range> parse_key_range(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw WrongInput("--follow " + text + ": expected KEY=MIN:MAX");
+  return {text.substr(0, equals), parse_range("--follow", text.substr(equals + 1))};
+}
+
+bool moves_the_orbit(const std::string& key) {
+  const bool of_the_loop = key == "control.proportional_gain" ||
+                           key == "control.differential_gain" || key == "control.processing_delay";
+  return of_the_loop || key.rfind("plant.", 0) == 0 || key == "backlash.width" ||
+         key == "excitation.amplitude";
+}
+
+/// The case's value of the key, which the orbit can be followed along within the range.
+double followed_value(const Case& the_case, const std::string& key, const std::string& axis,
+                      const Range& range) {
+  const double value = case_value(the_case, key);
+  if (key == "control.sampling_period" || key == "excitation.frequency")
+    throw WrongInput("--follow " + key +
+                     ": another value changes how sampling and excitation coincide, so the orbit "
+                     "cannot be followed along it");
+  if (!moves_the_orbit(key))
+    throw WrongInput(
+        "--follow " + key +
+        ": expected control.proportional_gain, differential_gain or processing_delay, a key "
+        "of [plant], backlash.width or excitation.amplitude");
+  const CaseKey& known = *find_case_key(key);
+  for (const double end : {range.min, range.max}) {
+    if (!known.range.contains(end))
+      throw WrongInput("--follow " + axis + ": " + key + " must be " + known.admissible());
+  }
+  if (!(range.min <= value && value <= range.max))
+    throw WrongInput("--follow " + axis + ": the case's " + key + " = " + format_number(value) +
+                     " lies outside");
+  if (key == "backlash.width" && value == 0.0)
+    throw WrongInput(
+        "--follow backlash.width: the case has no backlash, where the rule is another one; set a "
+        "width greater than 0 m");
+  return value;
+}
+
+constexpr Named<BranchEndOutcome> branch_end_names[] = {
+    {BranchEndOutcome::border_collision, "border_collision"},
+    {BranchEndOutcome::unit_circle, "unit_circle"},
+    {BranchEndOutcome::range_end, "range_end"}};
+
+constexpr Named<SwitchingSurface> surface_names[] = {{SwitchingSurface::reversal, "reversal"},
+                                                     {SwitchingSurface::gap_lower, "gap_lower"},
+                                                     {SwitchingSurface::gap_upper, "gap_upper"}};
+
+/// Where the orbit ends below and above the case's value of one key, and why: two rows.
+/// @param axis  KEY=MIN:MAX
+void write_branch_ends(const JobContext& context, std::int64_t largest_period,
+                       const std::string& axis) {
+  const auto [key, range] = parse_key_range(axis);
+  const double value = followed_value(context.case_data, key, axis, range);
+  Table table(context, {{"side", "", "below or above the case's value", "string"},
+                        {"outcome", "",
+                         "border_collision: a sample reaches a switching surface; unit_circle: a "
+                         "multiplier does; range_end: neither",
+                         "string"},
+                        {"position", "", "of the key, in its unit"},
+                        {"distance", "", "from the case's value"},
+                        {"surface", "", "reversal, gap_lower or gap_upper", "string"},
+                        {"sample", "", "of the orbit; -1 without a collision", "integer"},
+                        {"largest_multiplier", "", "modulus there"},
+                        {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
+  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  const auto path = [&, name = key](double position) {
+    return ideal_loop_with(context.case_data, name, position);
+  };
+  for (const bool above : {false, true}) {
+    const BranchEnd end = continue_orbit(path, orbit, value, above ? range.max : range.min);
+    const bool collides = end.outcome == BranchEndOutcome::border_collision;
+    table.row(above ? "above" : "below", name_in(branch_end_names, end.outcome), end.parameter,
+              std::abs(end.parameter - value),
+              collides ? name_in(surface_names, end.border.surface) : "", end.border.sample,
+              std::abs(end.multiplier.value()), end.multiplier.angle);
+  }
+  table.commit();
+}
+
+void run(const JobContext& context, const OrbitOptions& options) {
+  if (options.follow && !is_of_the_paper(context.case_data, options.switching))
+    throw WrongInput(
+        "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
+        "computer only");
   if (options.trace) {
-    write_orbit_trace(context, options.largest_period);
+    write_orbit_trace(context, options);
   } else if (options.certificate) {
-    write_certificate(context, options.largest_period);
+    write_certificate(context, options);
   } else if (options.follow) {
     write_branch_ends(context, options.largest_period, *options.follow);
   } else {
-    write_orbit(context, options.largest_period);
+    write_orbit(context, options);
   }
 }
 

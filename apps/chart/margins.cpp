@@ -9,7 +9,7 @@
 namespace holdfast::program {
 namespace {
 
-constexpr Named<MarginEndOutcome> end_names[] = {
+constexpr Named<MarginEndOutcome> margin_end_names[] = {
     {MarginEndOutcome::undefined, "undefined"},
     {MarginEndOutcome::boundary, "boundary"},
     {MarginEndOutcome::none, "none"},
@@ -20,7 +20,7 @@ void write(Table& table, const char* quantity, const char* unit, double value,
            const TwoSidedMargin& margin) {
   const auto row = [&](const char* side, const MarginEnd& end) {
     const bool crosses = end.outcome == MarginEndOutcome::boundary;
-    table.row(quantity, unit, value, side, name_in(end_names, end.outcome), end.position,
+    table.row(quantity, unit, value, side, name_in(margin_end_names, end.outcome), end.position,
               end.distance, crosses ? name_in(curve_names, end.curve) : "", end.frequency);
   };
   row("below", margin.below);

@@ -13,8 +13,7 @@
 #include "holdfast/orbit/event/event_orbit_measures.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "jobs/orbit/event_orbit_tables.hpp"
-#include "jobs/orbit/orbit_tables.hpp"
+#include "jobs/orbit/certified_orbit.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {

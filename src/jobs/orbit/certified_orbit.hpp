@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
+#include "process/job_context.hpp"
+
+namespace holdfast::program {
+
+/// The periodic orbit that the case's motion of the paper's model comes to. Warns where a switching
+/// surface is near. Throws NoAnswer, saying why, where there is none, or none with a certificate.
+/// @param largest_period  samples
+PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_period);
+
+/// That of any loop from the case's initial state.
+EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
+                           std::int64_t largest_period);
+
+}  // namespace holdfast::program
