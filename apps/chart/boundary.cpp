@@ -3,7 +3,6 @@
 
 #include "case/axes/axis.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/sampled_loop_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"

@@ -3,7 +3,6 @@
 
 #include "case/axes/axis.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/sampled_loop_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"

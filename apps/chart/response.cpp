@@ -1,6 +1,5 @@
 #include "case/axes/axis.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/sampled_loop_of_case.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"

@@ -2,10 +2,9 @@
 #include <vector>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/key_axis.hpp"
+#include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/sampled_loop_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "io/text/names.hpp"
 #include "job.hpp"

@@ -6,22 +6,25 @@
 
 namespace holdfast::program {
 
-/// The user asked for something that cannot be asked: exit code 2. The message is one line.
-class WrongInput : public std::runtime_error {
+/// Why the program ends, on one line.
+class Refusal : public std::runtime_error {
  public:
-  explicit WrongInput(const std::string& message);
+  explicit Refusal(const std::string& message);
+};
+
+/// The user asked for something that cannot be asked: exit code 2.
+struct WrongInput : Refusal {
+  using Refusal::Refusal;
 };
 
 /// The question is fair and the computation has no answer to it: exit code 1. The message says why.
-class NoAnswer : public std::runtime_error {
- public:
-  explicit NoAnswer(const std::string& reason);
+struct NoAnswer : Refusal {
+  using Refusal::Refusal;
 };
 
 /// A result could not be written, in the system's words: exit code 1.
-class OutputError : public std::runtime_error {
- public:
-  explicit OutputError(const std::string& message);
+struct OutputError : Refusal {
+  using Refusal::Refusal;
 };
 
 /// Another process of the same computation has told why it ends; this one ends with the same code

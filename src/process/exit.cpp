@@ -35,13 +35,9 @@ std::string message_of(const std::exception_ptr& fault) {
     return "";
   } catch (const Interrupted& stopped) {
     return stopped.what();
-  } catch (const WrongInput& error) {
-    return error.what();
+  } catch (const Refusal& refusal) {
+    return refusal.what();
   } catch (const InvalidParameter& error) {
-    return error.what();
-  } catch (const NoAnswer& error) {
-    return error.what();
-  } catch (const OutputError& error) {
     return error.what();
   } catch (const std::bad_alloc&) {
     return "the computation needs more memory than there is";

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/key_axis.hpp"
+#include "case/axes/grid.hpp"
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/resolved_plant.hpp"

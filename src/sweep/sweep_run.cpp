@@ -12,7 +12,6 @@
 #include "io/text/table.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "kernels/instruction_set.hpp"
-#include "process/collective_call.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/group/mpi_launch.hpp"

@@ -11,6 +11,15 @@
 #include "process/errors.hpp"
 
 namespace holdfast::program {
+namespace {
+
+StiffnessReading stiffness_reading_of(const Case& the_case) {
+  const std::string& reading = the_case.reduction.stiffness_reading;
+  if (reading == "tangent") return StiffnessReading::tangent;
+  return reading == "secant" ? StiffnessReading::secant : StiffnessReading::least_squares;
+}
+
+}  // namespace
 
 bool plant_is_reduced(const Case& the_case) {
   const auto& keys = case_keys();
@@ -30,12 +39,6 @@ StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case)
 
 StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case) {
   return exact_statics(conductor_of(the_case), the_case.absorber.position, the_case.absorber.mass);
-}
-
-StiffnessReading stiffness_reading_of(const Case& the_case) {
-  const std::string& reading = the_case.reduction.stiffness_reading;
-  if (reading == "tangent") return StiffnessReading::tangent;
-  return reading == "secant" ? StiffnessReading::secant : StiffnessReading::least_squares;
 }
 
 ReadingRange reading_range_of(const Case& the_case) {

@@ -17,7 +17,6 @@ bool plant_is_reduced(const Case& the_case);
 Conductor<double> conductor_of(const Case& the_case);
 StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case);
 StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case);
-StiffnessReading stiffness_reading_of(const Case& the_case);
 ReadingRange reading_range_of(const Case& the_case);
 
 /// Throws WrongInput, naming the key, for a range of the readings of k1 beyond what Eq. 1 is valid

@@ -4,7 +4,6 @@
 
 #include "case/case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "case/model/sampled_loop_of_case.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"

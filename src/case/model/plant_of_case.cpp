@@ -23,6 +23,14 @@ Sampling<double> sampling_of(const Case& the_case) {
   return {the_case.control.sampling_period, the_case.control.processing_delay};
 }
 
+SampledLoop<double> loop_of(const Case& the_case) {
+  return sampled_loop(plant_of(the_case), sampling_of(the_case));
+}
+
+OperatingPoint operating_point_of(const Case& the_case) {
+  return {plant_of(the_case), sampling_of(the_case), gains_of(the_case)};
+}
+
 HarmonicExcitation<double> excitation_of(const Case& the_case) {
   const auto excitation = effective_excitation(the_case);
   return {excitation.amplitude, excitation.frequency};

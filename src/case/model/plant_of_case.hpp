@@ -9,6 +9,7 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/chart/operating_point.hpp"
 
 namespace holdfast::program {
 
@@ -16,6 +17,9 @@ namespace holdfast::program {
 TwoMass<double> plant_of(const Case& the_case);
 PdGains<double> gains_of(const Case& the_case);
 Sampling<double> sampling_of(const Case& the_case);
+/// The exact discretisation of the loop, and what its stability depends on.
+SampledLoop<double> loop_of(const Case& the_case);
+OperatingPoint operating_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);

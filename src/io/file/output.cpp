@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <string>
 
-#include "io/file/new_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "process/errors.hpp"
 #include "process/system_words.hpp"
 

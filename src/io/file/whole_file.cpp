@@ -9,7 +9,6 @@
 #include <cerrno>
 
 #include "io/file/descriptor.hpp"
-#include "io/file/new_file.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -65,6 +64,19 @@ int read_regular(int descriptor, std::string& text) {
 }
 
 }  // namespace
+
+int open_new_file(const std::function<std::filesystem::path()>& next_name,
+                  std::filesystem::path& file) {
+  constexpr int most_attempts = 100;
+  constexpr mode_t everyone_may_read_and_write = 0666;  // less the user's umask
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    file = next_name();
+    const int descriptor =
+        open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, everyone_may_read_and_write);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
+  return -1;
+}
 
 int write_whole_file(const fs::path& file, std::string_view bytes) {
   fs::path temporary;

@@ -1,13 +1,15 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 
 #include "io/grid/cell_writer.hpp"
 #include "io/text/csv.hpp"
-#include "io/text/csv_lines.hpp"
-#include "io/text/number_text.hpp"
 #include "io/text/table.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -20,6 +22,83 @@ std::vector<Column> columns_of(const std::vector<GridAxis>& axes,
   for (const CellColumn& column : columns) all.push_back(column.column);
   return all;
 }
+
+/// A number with the comma behind it, to be copied into many lines.
+struct CellText {
+  std::array<char, 31> characters;
+  std::uint8_t size;
+};
+static_assert(sizeof(CellText) == 32);
+
+CellText cell_text(double value) {
+  CellText text{};
+  char* end = put_number(text.characters.data(), value);
+  *end++ = ',';
+  text.size = static_cast<std::uint8_t>(end - text.characters.data());
+  return text;
+}
+
+/// Copies the whole text, of any length, and returns the place behind its comma: a copy of
+/// fixed size is two instructions, and what is behind the digits will be written over. There must
+/// be room for sizeof(CellText) characters.
+char* put_text(char* place, const CellText& text) {
+  std::memcpy(place, &text, sizeof(text));
+  return place + text.size;
+}
+
+/// The texts of an axis' values: each is formed once, unless the axis is so long that keeping the
+/// texts would cost more memory than it saves time.
+class AxisTexts {
+ public:
+  explicit AxisTexts(const GridAxis& axis)
+      : axis_(axis), texts_(std::min(axis.count(), most_texts_)) {
+    for (std::size_t i = 0; i < texts_.size(); ++i) texts_[i] = cell_text(axis_.at(i));
+  }
+
+  CellText at(std::size_t index) const {
+    return index < texts_.size() ? texts_[index] : cell_text(axis_.at(index));
+  }
+
+ private:
+  static constexpr std::size_t most_texts_ = std::size_t{1} << 16;
+
+  GridAxis axis_;
+  std::vector<CellText> texts_;
+};
+
+/// Lines of a CSV table that are formed as text in place and handed over many at a time.
+class CsvLines {
+ public:
+  /// @param longest_line  characters that a line may take, and those copied beyond its end
+  CsvLines(CsvWriter& writer, std::size_t longest_line)
+      : writer_(writer), buffer_(buffer_size_ + longest_line) {}
+
+  /// Where the next line begins.
+  char* place() { return buffer_.data() + used_; }
+
+  /// @param end  behind the comma of the line's last cell
+  void end_line(char* end) {
+    end[-1] = '\r';  // in the place of the last comma
+    *end++ = '\n';
+    used_ = static_cast<std::size_t>(end - buffer_.data());
+    ++lines_;
+    if (used_ >= buffer_size_) hand_over();
+  }
+
+  void hand_over() {
+    writer_.rows_of_text({buffer_.data(), used_}, lines_);
+    used_ = 0;
+    lines_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t buffer_size_ = std::size_t{1} << 18;
+
+  CsvWriter& writer_;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;
+  std::uint64_t lines_ = 0;  // in the buffer
+};
 
 /// How the values of a column become text.
 class ColumnText {
@@ -36,7 +115,7 @@ class ColumnText {
       const std::string& word = words_[static_cast<std::size_t>(value)];
       place = std::copy(word.begin(), word.end(), place);
     } else if (whole_) {
-      place = put_number(place, static_cast<std::int64_t>(value));
+      place = std::to_chars(place, place + longest_number, static_cast<std::int64_t>(value)).ptr;
     } else {
       place = put_number(place, value);
     }

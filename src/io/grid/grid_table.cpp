@@ -29,20 +29,6 @@ std::vector<CellColumn> cell_columns(const JobContext& context,
 
 }  // namespace
 
-std::size_t GridAxis::count() const {
-  if (const auto* list = std::get_if<std::vector<double>>(&values)) return list->size();
-  if (const auto* ratios = std::get_if<LogAxis>(&values))
-    return static_cast<std::size_t>(ratios->count);
-  return static_cast<std::size_t>(std::get<Axis>(values).count);
-}
-
-double GridAxis::at(std::size_t index) const {
-  if (const auto* list = std::get_if<std::vector<double>>(&values)) return (*list)[index];
-  const auto number = static_cast<std::int64_t>(index);
-  if (const auto* ratios = std::get_if<LogAxis>(&values)) return ratios->at(number);
-  return std::get<Axis>(values).at(number);
-}
-
 std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<GridAxis> axes,
                                         const std::vector<CellColumn>& columns,
                                         CellPortions portions) {

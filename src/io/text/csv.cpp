@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <stdexcept>
 
 #include "io/file/input.hpp"
@@ -16,13 +14,6 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 constexpr std::uint64_t rows_between_interrupt_checks = 1024;
-
-template <typename Number>
-void append_digits(std::string& buffer, Number value) {
-  std::array<char, 32> digits;  // NOLINT: to_chars fills it
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  buffer.append(digits.data(), result.ptr);
-}
 
 bool needs_quotes(std::string_view text) {
   return text.find_first_of(",\"\r\n") != std::string_view::npos;
@@ -59,11 +50,8 @@ void CsvWriter::separate() {
 
 void CsvWriter::cell(double value) {
   separate();
-  if (std::isnan(value)) {
-    buffer_ += "nan";  // to_chars would tell the sign of a NaN
-  } else {
-    append_digits(buffer_, value);
-  }
+  std::array<char, longest_number> digits;  // NOLINT: put_number fills it
+  buffer_.append(digits.data(), put_number(digits.data(), value));
 }
 
 void CsvWriter::cell(std::string_view text) {
@@ -75,16 +63,6 @@ void CsvWriter::cell(std::string_view text) {
   } else {
     buffer_ += text;
   }
-}
-
-void CsvWriter::signed_cell(std::int64_t value) {
-  separate();
-  append_digits(buffer_, value);
-}
-
-void CsvWriter::unsigned_cell(std::uint64_t value) {
-  separate();
-  append_digits(buffer_, value);
 }
 
 void CsvWriter::end_row() {

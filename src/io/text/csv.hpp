@@ -40,11 +40,8 @@ class CsvWriter {
   void cell(const std::string& text) { cell(std::string_view(text)); }
   template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
   void cell(Integer value) {
-    if constexpr (std::is_unsigned_v<Integer>) {
-      unsigned_cell(value);
-    } else {
-      signed_cell(value);
-    }
+    separate();
+    buffer_ += std::to_string(value);
   }
   void end_row();
 
@@ -65,8 +62,6 @@ class CsvWriter {
  private:
   void separate();
   void end_line();
-  void signed_cell(std::int64_t value);
-  void unsigned_cell(std::uint64_t value);
 
   OutputFile& output_;
   std::size_t width_;

@@ -94,11 +94,15 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+char* put_number(char* place, double value) {
+  if (!std::isnan(value)) return std::to_chars(place, place + longest_number, value).ptr;
+  constexpr std::string_view none = "nan";  // to_chars would tell the sign of a NaN
+  return std::copy(none.begin(), none.end(), place);
+}
+
 std::string format_number(double value) {
-  if (std::isnan(value)) return "nan";  // to_chars would tell the sign of a NaN
-  std::array<char, 32> digits{};
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return std::string(digits.data(), result.ptr);
+  std::array<char, longest_number> digits{};
+  return std::string(digits.data(), put_number(digits.data(), value));
 }
 
 std::string format_rounded(double value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,13 @@ std::string_view trimmed(std::string_view text);
 
 /// The parts between separators; a text without separator is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// "-2.2250738585072014e-308"
+constexpr std::size_t longest_number = 24;
+
+/// Writes what format_number() gives, longest_number characters at most, and gives the place
+/// behind.
+char* put_number(char* place, double value);
 
 /// The shortest decimal digits that read back as the same double; `inf`, `-inf` and `nan`.
 std::string format_number(double value);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "case/axes/axis.hpp"
-#include "case/axes/key_axis.hpp"
+#include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"

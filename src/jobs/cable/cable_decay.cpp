@@ -7,7 +7,6 @@
 #include "process/interrupt.hpp"
 
 #ifdef HOLDFAST_HAS_SUNDIALS
-#include "holdfast/cable/condensed_cable.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/sundials/load_removal.hpp"
 #endif
@@ -37,8 +36,7 @@ void require_followable(const Case& the_case, const CableDecayOptions& options) 
                  "reduction.first_frequency");
 }
 
-template <class Cable>
-CableDecay decay_of(const Cable& cable, const CableDecayOptions& options) {
+CableDecay decay_of(const CableElements& cable, const CableDecayOptions& options) {
   const auto removal = cvode::load_removal(cable, options.force, options.duration, options.interval,
                                            {}, throw_if_interrupted);
   const std::string force = "a force of " + format_number(options.force) + " N";
@@ -69,14 +67,6 @@ CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options) {
   return decay_of(elements_of(the_case, options.elements, options.reading), options);
 }
 
-CableDecay condensed_decay(const Case& the_case, const CableDecayOptions& options) {
-  require_force_within_statics(the_case, options.force);
-  require_followable(the_case, options);
-  const CondensedCable<8> cable(conductor_of(the_case), the_case.absorber.position,
-                                the_case.absorber.mass, rayleigh_damping_of(the_case));
-  return decay_of(cable, options);
-}
-
 #else
 
 bool has_sundials() { return false; }
@@ -88,11 +78,6 @@ void require_sundials() {
 }
 
 CableDecay cable_decay(const Case&, const CableDecayOptions&) {
-  require_sundials();
-  return {};
-}
-
-CableDecay condensed_decay(const Case&, const CableDecayOptions&) {
   require_sundials();
   return {};
 }

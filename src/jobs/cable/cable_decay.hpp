@@ -36,7 +36,4 @@ struct CableDecay {
 /// package.
 CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options);
 
-/// The same by the condensed model, the cheap second opinion; the absorber by its weight.
-CableDecay condensed_decay(const Case& the_case, const CableDecayOptions& options);
-
 }  // namespace holdfast::program

@@ -1,6 +1,5 @@
-#include "process/group/mpi_processes.hpp"
-
 #include "process/errors.hpp"
+#include "process/group/process_group.hpp"
 
 #ifdef HOLDFAST_HAS_MPI
 

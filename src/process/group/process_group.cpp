@@ -1,10 +1,11 @@
 #include "process/group/process_group.hpp"
 
 #include <atomic>
+#include <exception>
 
 #include "process/errors.hpp"
+#include "process/exit.hpp"
 #include "process/group/mpi_launch.hpp"
-#include "process/group/mpi_processes.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -41,6 +42,20 @@ std::unique_ptr<ProcessGroup> join_process_group() {
   auto group = mpi_processes();
   require_all(launch, *group);
   return group;
+}
+
+void make_collective_call(ProcessGroup& group, const std::function<void()>& step) {
+  std::exception_ptr fault;
+  try {
+    step();
+  } catch (...) {
+    fault = std::current_exception();
+  }
+  const std::vector<std::string> codes =
+      group.exchange(fault ? std::to_string(exit_code_of(fault)) : "");
+  if (fault) std::rethrow_exception(fault);
+  for (const std::string& code : codes)
+    if (!code.empty()) throw ToldElsewhere(std::stoi(code));
 }
 
 }  // namespace holdfast::program

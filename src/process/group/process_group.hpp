@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,5 +59,17 @@ std::unique_ptr<ProcessGroup> single_process();
 /// each would do the whole work: the program is built without MPI, or with another MPI than the
 /// launcher's.
 std::unique_ptr<ProcessGroup> join_process_group();
+
+/// Starts MPI and joins the processes that its launcher started together. Where MPI cannot start
+/// at all it says so itself and ends the process.
+///
+/// Throws NoAnswer where the program is built without MPI, and in MPI's words where it fails;
+/// std::logic_error at the second call, since MPI starts once per process.
+std::unique_ptr<ProcessGroup> mpi_processes();
+
+/// A step that all processes of a group take, and that ends when the last of them has. What one
+/// throws ends it in all: where it arose it comes out as it is, elsewhere as ToldElsewhere with the
+/// exit code of the first process at fault. All processes call it, in the same order.
+void make_collective_call(ProcessGroup& group, const std::function<void()>& step);
 
 }  // namespace holdfast::program
