@@ -1,4 +1,4 @@
-#include "completion.hpp"
+#include "texts.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "examples.hpp"
+#include "texts.hpp"
 
 #include <algorithm>
 #include <string_view>

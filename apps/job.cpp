@@ -98,6 +98,14 @@ CLI::Option* Job::add_text(const std::string& name, std::string& value,
   return options_->add_option(name, value, description)->capture_default_str();
 }
 
+CLI::Option* Job::add_number(const std::string& name, double& value, const std::string& description,
+                             double lowest, double highest) const {
+  return options_->add_option(name, value, description)
+      ->check(number_from(lowest, highest))
+      ->type_name("")
+      ->capture_default_str();
+}
+
 JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_file) const {
   if (case_file && common_->case_file)
     throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");

@@ -28,6 +28,10 @@ class Job {
   CLI::Option* add_text(const std::string& name, std::string& value,
                         const std::string& description) const;
 
+  /// The same for a finite number from `lowest` to `highest`.
+  CLI::Option* add_number(const std::string& name, double& value, const std::string& description,
+                          double lowest, double highest) const;
+
   /// The job computes on packs: what it writes names the instruction set.
   void computes_on_packs() const { common_->on_packs = true; }
 

@@ -1,4 +1,4 @@
-#include "manual.hpp"
+#include "texts.hpp"
 
 #include <string_view>
 

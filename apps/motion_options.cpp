@@ -5,17 +5,11 @@
 namespace holdfast::program {
 
 CLI::Option* add_duration(const Job& job, double& duration) {
-  return job->add_option("--duration", duration, "Length of the motion, s")
-      ->check(number_from(0.0, 1e12))
-      ->type_name("")
-      ->capture_default_str();
+  return job.add_number("--duration", duration, "Length of the motion, s", 0.0, 1e12);
 }
 
 void add_from(const Job& job, double& from) {
-  job->add_option("--from", from, "First instant to be written, s")
-      ->check(number_from(0.0, 1e12))
-      ->type_name("")
-      ->capture_default_str();
+  job.add_number("--from", from, "First instant to be written, s", 0.0, 1e12);
 }
 
 void add_switching(const Job& job, Switching& switching) {

@@ -4,15 +4,13 @@
 #include <sstream>
 #include <system_error>
 
-#include "completion.hpp"
-#include "examples.hpp"
 #include "io/file/build_record.hpp"
 #include "io/file/output.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"
-#include "manual.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
+#include "texts.hpp"
 
 namespace holdfast::program {
 namespace {

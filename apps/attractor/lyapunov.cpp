@@ -147,17 +147,11 @@ void add_lyapunov(CLI::App& program) {
                 "The five Lyapunov exponents of the motion");
   const auto options = std::make_shared<LyapunovOptions>();
   add_duration(job, options->duration);
-  CLI::Option* discard = job->add_option("--discard", options->discard, "Left out at the start, s")
-                             ->check(number_from(0.0, 1e12))
-                             ->type_name("")
-                             ->capture_default_str();
-  CLI::Option* error =
-      job->add_option(
-             "--standard-error", options->standard_error,
-             "Stop once the largest exponent per sample is known to this; 0: at --duration")
-          ->check(number_from(0.0, 1e12))
-          ->type_name("")
-          ->capture_default_str();
+  CLI::Option* discard =
+      job.add_number("--discard", options->discard, "Left out at the start, s", 0.0, 1e12);
+  CLI::Option* error = job.add_number(
+      "--standard-error", options->standard_error,
+      "Stop once the largest exponent per sample is known to this; 0: at --duration", 0.0, 1e12);
   job->add_option("--tangent", options->tangent,
                   "consistent: of the motion itself; printed: S and S* with delay tau, as the "
                   "paper's Table 2")

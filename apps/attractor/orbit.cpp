@@ -18,7 +18,6 @@
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
-#include "jobs/orbit/orbit_certificate.hpp"
 #include "motion_options.hpp"
 #include "process/errors.hpp"
 
@@ -236,7 +235,7 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
                         {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
   const PeriodicOrbit orbit = certified_orbit(context, largest_period);
   const auto path = [&, name = key](double position) {
-    return ideal_loop_with(context.case_data, name, position);
+    return ideal_loop_of(case_with(context.case_data, name, position));
   };
   for (const bool above : {false, true}) {
     const BranchEnd end = continue_orbit(path, orbit, value, above ? range.max : range.min);

@@ -42,10 +42,8 @@ void add_deviation(CLI::App& program) {
   const Job job(program, "deviation", question::attractor,
                 "How far two motions part that start close to each other");
   const auto options = std::make_shared<DeviationOptions>();
-  job->add_option("--offset", options->offset, "Start of the neighbour: z1 displaced by this, m")
-      ->check(number_from(-1e6, 1e6))
-      ->type_name("")
-      ->capture_default_str();
+  job.add_number("--offset", options->offset, "Start of the neighbour: z1 displaced by this, m",
+                 -1e6, 1e6);
   add_duration(job, options->duration);
   add_switching(job, options->switching);
   job->final_callback([job, options] { run(job.context(), *options); });

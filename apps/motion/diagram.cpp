@@ -48,7 +48,7 @@ void run(const JobContext& context, const DiagramArguments& options) {
               point.state[2], point.state[3]);
   };
   const auto path = [&, name = key](double value) {
-    return implemented_loop_with(context.case_data, name, value, options.switching);
+    return implemented_loop_of(case_with(context.case_data, name, value), options.switching);
   };
   const std::size_t diverged =
       run_orbit_diagram(path, values, initial_state_of(context.case_data), question, write);
@@ -67,10 +67,7 @@ void add_diagram(CLI::App& program) {
                 "Orbit diagram: one state a forcing period against a key, up and back");
   const auto options = std::make_shared<DiagramArguments>();
   job.add_text("--axis", options->axis, "KEY=MIN:MAX:COUNT, the key that goes up and back");
-  job->add_option("--transient", options->question.transient, "Left out at each value, s")
-      ->check(number_from(0.0, 1e9))
-      ->type_name("")
-      ->capture_default_str();
+  job.add_number("--transient", options->question.transient, "Left out at each value, s", 0.0, 1e9);
   job->add_option("--strobes", options->question.strobes, "Forcing periods shown at each value")
       ->check(CLI::Range(1, 1'000'000))
       ->type_name("")

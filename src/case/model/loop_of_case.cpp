@@ -1,6 +1,5 @@
 #include "case/model/loop_of_case.hpp"
 
-#include "case/case_keys.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
 
 namespace holdfast::program {
@@ -50,10 +49,6 @@ IdealLoop<double> ideal_loop_of(const Case& the_case) {
           force_hold_of(the_case)};
 }
 
-IdealLoop<double> ideal_loop_with(const Case& the_case, const std::string& key, double value) {
-  return ideal_loop_of(case_with(the_case, key, value));
-}
-
 SampledMotion<double> motion_of(const Case& the_case) {
   return harmonically_forced_motion(ideal_loop_of(the_case), initial_state_of(the_case));
 }
@@ -78,11 +73,6 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
        limits_of(the_case), jitter},
       {law_of(backlash.law), backlash.width, backlash.contact_stiffness, backlash.contact_damping},
       switching};
-}
-
-ImplementedLoop implemented_loop_with(const Case& the_case, const std::string& key, double value,
-                                      Switching switching) {
-  return implemented_loop_of(case_with(the_case, key, value), switching);
 }
 
 ImplementedLoop uncontrolled(ImplementedLoop loop) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "case/case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
@@ -12,10 +10,6 @@ namespace holdfast::program {
 
 /// All that a motion depends on beside its initial state.
 IdealLoop<double> ideal_loop_of(const Case& the_case);
-
-/// The same with one number of the case changed, by its key. Throws WrongInput where the key or the
-/// value is not admissible.
-IdealLoop<double> ideal_loop_with(const Case& the_case, const std::string& key, double value);
 
 /// The loop with P = D = 0 and a drive without backlash.
 IdealLoop<double> uncontrolled(IdealLoop<double> loop);
@@ -29,11 +23,6 @@ SampledMotion<double> motion_of(const Case& the_case);
 
 /// The loop with all that the case says of it.
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
-
-/// The same with one number of the case changed, by its key. Throws WrongInput where the key or the
-/// value is not admissible.
-ImplementedLoop implemented_loop_with(const Case& the_case, const std::string& key, double value,
-                                      Switching switching);
 
 /// The loop with P = D = 0 and a drive without backlash.
 ImplementedLoop uncontrolled(ImplementedLoop loop);

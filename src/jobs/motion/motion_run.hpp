@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "holdfast/motion/trajectory.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -36,10 +38,15 @@ class InterruptibleMotion {
 };
 
 /// Throws NoAnswer: the motion diverged at `time`, s.
-[[noreturn]] void refuse_diverging(double time);
+[[noreturn]] inline void refuse_diverging(double time) {
+  throw NoAnswer("the motion diverges: it leaves the range of numbers at t = " +
+                 format_number(time) + " s; a shorter --duration shows how it grows");
+}
 
 /// Throws NoAnswer when the motion diverged, saying when.
-void require_completed(TrajectoryOutcome outcome, double time);
+inline void require_completed(TrajectoryOutcome outcome, double time) {
+  if (outcome == TrajectoryOutcome::diverged) refuse_diverging(time);
+}
 
 /// Runs `samples` samples of a motion past the observers, as `run_trajectory` does, to the last
 /// one. Ends early only by an exception: when the program is asked to stop, or NoAnswer when the

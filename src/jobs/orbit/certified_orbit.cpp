@@ -1,5 +1,7 @@
 #include "jobs/orbit/certified_orbit.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "holdfast/core/rational.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/orbit/region_of_attraction.hpp"
 #include "io/text/text.hpp"
 #include "jobs/charts/conditioning.hpp"
 #include "process/errors.hpp"
@@ -86,6 +89,17 @@ EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loo
   return with_motion(loop, initial_state_of(context.case_data), [&](const auto& motion) {
     return certified(find_event_orbit(motion, limits), ratio, limits, context.quiet);
   });
+}
+
+OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
+  const auto points = attraction_balls(loop, orbit);
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (const AttractionBall& point : points) {
+    const double radius = attraction_radius(point, point.memory);
+    smallest = std::min(smallest, radius);
+    largest = std::max(largest, radius);
+  }
+  return {points.empty() ? 0.0 : smallest, largest, verify_orbit<long double>(loop, orbit)};
 }
 
 }  // namespace holdfast::program

@@ -4,6 +4,7 @@
 
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/orbit_verification.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "process/job_context.hpp"
 
@@ -17,5 +18,14 @@ PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_pe
 /// That of any loop from the case's initial state.
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period);
+
+/// What a certificate says beside the orbit itself.
+struct OrbitCertificate {
+  double smallest_radius;          ///< of capture (m), 0 where none was found; ∞ without backlash
+  double largest_radius;           ///< m
+  OrbitVerification verification;  ///< in extended precision
+};
+
+OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit);
 
 }  // namespace holdfast::program

@@ -11,7 +11,7 @@
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "io/text/text.hpp"
-#include "jobs/orbit/orbit_certificate.hpp"
+#include "jobs/orbit/certified_orbit.hpp"
 #include "report/figures/figure.hpp"
 #include "report/page/html.hpp"
 
