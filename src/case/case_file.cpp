@@ -1,16 +1,13 @@
 #include "case/case_file.hpp"
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <locale>
 #include <optional>
-#include <sstream>
 
 #include "case/builtin_case.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/toml_values.hpp"
 #include "io/file/input.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -37,34 +34,6 @@ struct Entry {
 
 std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
-/// As a file would have it; numbers with their shortest digits.
-std::string toml_text(const toml::node& node) {
-  if (const auto number = node.value_exact<double>()) return format_number(*number);
-  if (const toml::array* list = node.as_array()) {
-    std::string text;
-    for (const toml::node& one : *list) text += (text.empty() ? "" : ", ") + toml_text(one);
-    return "[" + text + "]";
-  }
-  std::ostringstream stream;
-  stream.imbue(std::locale::classic());
-  node.visit([&](const auto& value) { stream << value; });
-  return one_line(stream.str());
-}
-
-std::string value_text(const toml::node& node) {
-  constexpr std::size_t longest = 60;
-  return shortened(toml_text(node), longest);
-}
-
-bool is_bare_word(std::string_view text) {
-  const auto fits = [](char character) {
-    const auto code = static_cast<unsigned char>(character);
-    return std::isalnum(code) != 0 || character == '_' || character == '-';
-  };
-  return !text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0 &&
-         std::all_of(text.begin(), text.end(), fits);
-}
-
 bool is_case_table(std::string_view name) {
   const auto& keys = case_keys();
   return std::any_of(keys.begin(), keys.end(),
@@ -79,26 +48,23 @@ std::string unknown_key(std::string_view name) {
   return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
 }
 
-WrongInput unknown_table(const std::string& file, std::size_t line, const std::string& table) {
-  return WrongInput(file + ":" + std::to_string(line) + ": [" + table +
-                    "]: unknown table: did you mean [" + nearest_case_table(table) + "]?");
-}
-
 /// Puts layers of values one over another and sees to it that each is fit.
 class CaseReader {
  public:
+  /// Begins with the built-in case.
+  CaseReader() { read_text(builtin_case_text, "built-in case", Layer::builtin); }
+
   void read_text(std::string_view text, const std::string& name, Layer layer);
-  void read_override(const std::string& text);
-  Case finish();
+  Case finish(const std::vector<std::string>& overrides);
 
  private:
+  void read_override(const std::string& text);
   std::vector<Entry> entries(const toml::table& root, const std::string& name) const;
   void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
   void set_number(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_word(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_file(const CaseKey& key, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
-  void note_user(const CaseKey& key);
   const Given* last_given(const std::vector<std::string>& keys) const;
   void check_wind() const;
   void settle_frequencies();
@@ -153,47 +119,8 @@ std::vector<std::array<double, 3>> harmonics_of(const CaseKey& key, const toml::
   return harmonics;
 }
 
-bool is_digit(char character) { return std::isdigit(static_cast<unsigned char>(character)) != 0; }
-
-bool has_decimal_comma(std::string_view text) {
-  for (std::size_t k = 1; k + 1 < text.size(); ++k)
-    if (text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1])) return true;
-  return false;
-}
-
-/// A line's value, without what follows a #.
-std::string_view value_of_line(std::string_view text, std::size_t line) {
-  const auto lines = split(text, '\n');
-  const std::string_view all = line >= 1 && line <= lines.size() ? lines[line - 1] : "";
-  const std::string_view uncommented = all.substr(0, all.find('#'));
-  const std::size_t equals = uncommented.find('=');
-  return equals == std::string_view::npos ? "" : trimmed(uncommented.substr(equals + 1));
-}
-
-/// What is probably wrong with a value that no TOML can be read from; empty where there is no
-/// guess.
-std::string guess_of_value(std::string_view value) {
-  if (value.empty() || value.front() == '[' || value.front() == '"') return "";
-  if (has_decimal_comma(value)) return "; a number has a decimal point, not a comma: 0.5";
-  const std::size_t blank = value.find_first_of(" \t");
-  const bool number_first = parse_number(value.substr(0, blank)).has_value();
-  if (number_first && blank != std::string_view::npos)
-    return "; a number stands alone, in the unit that `holdfast case --check` gives for its key";
-  return "";
-}
-
-toml::table parse_file(std::string_view text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    const std::size_t line = error.source().begin.line;
-    throw WrongInput(name + ":" + std::to_string(line) + ": " + std::string(error.description()) +
-                     guess_of_value(value_of_line(text, line)));
-  }
-}
-
 void CaseReader::read_text(std::string_view text, const std::string& name, Layer layer) {
-  const toml::table root = parse_file(text, name);
+  const toml::table root = parse_case_text(text, name);
   folder_ = std::filesystem::path(name).parent_path();
   if (const toml::node* wind = root.get("wind"); wind != nullptr && wind->is_table()) {
     begin_wind(name + ":" + std::to_string(line_of(*wind)) + ": [wind]", layer);
@@ -216,9 +143,9 @@ std::vector<Entry> CaseReader::entries(const toml::table& root, const std::strin
       found.push_back({table, &node, line_of(node)});
       continue;
     }
-    if (!is_case_table(table)) {
-      throw unknown_table(name, line_of(node), table);
-    }
+    if (!is_case_table(table))
+      throw WrongInput(name + ":" + std::to_string(line_of(node)) + ": [" + table +
+                       "]: unknown table: did you mean [" + nearest_case_table(table) + "]?");
     for (const auto& [key, value] : *keys) {
       std::string full_name = table + ".";
       full_name += key.str();
@@ -228,21 +155,6 @@ std::vector<Entry> CaseReader::entries(const toml::table& root, const std::strin
   std::stable_sort(found.begin(), found.end(),
                    [](const Entry& a, const Entry& b) { return a.line < b.line; });
   return found;
-}
-
-/// The value of an override: TOML, or a word or the name of a file without quotes.
-toml::table parse_override_value(const CaseKey& key, std::string_view value,
-                                 const std::string& place) {
-  try {
-    toml::table parsed = toml::parse("value = " + std::string(value));
-    if (parsed.size() == 1) return parsed;
-  } catch (const toml::parse_error&) {
-    const bool is_text = key.file != nullptr || is_bare_word(value);
-    if (is_text) return toml::table{{"value", std::string(value)}};
-  }
-  const std::string guess = guess_of_value(value);
-  const std::string form = key.number != nullptr ? ", a plain number such as 0.01" : "";
-  throw WrongInput(place + ": admissible is " + key.admissible() + (guess.empty() ? form : guess));
 }
 
 void CaseReader::read_override(const std::string& text) {
@@ -281,7 +193,9 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
   given_.push_back({name, place, layer});
   if (layer == Layer::builtin) return;
   case_.places[name] = place.rfind("--set", 0) == 0 ? place : place.substr(0, place.find(": "));
-  note_user(*key);
+  const std::string table = key->table();
+  case_.plant_given |= table == "plant";
+  case_.conductor_given |= table == "conductor" || table == "absorber" || table == "reduction";
 }
 
 void CaseReader::set_number(const CaseKey& key, const toml::node& node, const std::string& place) {
@@ -324,18 +238,10 @@ void CaseReader::begin_wind(const std::string& place, Layer layer) {
   wind_layer_ = layer;
 }
 
-void CaseReader::note_user(const CaseKey& key) {
-  const std::string table = key.table();
-  if (table == "plant") case_.plant_given = true;
-  const bool conductor = table == "conductor" || table == "absorber" || table == "reduction";
-  if (conductor) case_.conductor_given = true;
-}
-
 const Given* CaseReader::last_given(const std::vector<std::string>& keys) const {
-  const auto involved = [&](const Given& given) {
+  const auto found = std::find_if(given_.rbegin(), given_.rend(), [&](const Given& given) {
     return std::find(keys.begin(), keys.end(), given.key) != keys.end();
-  };
-  const auto found = std::find_if(given_.rbegin(), given_.rend(), involved);
+  });
   return found == given_.rend() ? nullptr : &*found;
 }
 
@@ -382,22 +288,12 @@ void CaseReader::check_faults() const {
   throw WrongInput(given == nullptr ? fault.message : given->place + ": " + fault.message);
 }
 
-Case CaseReader::finish() {
+Case CaseReader::finish(const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) read_override(text);
   check_wind();
   settle_frequencies();
   check_faults();
   return case_;
-}
-
-Case finish_with(CaseReader& reader, const std::vector<std::string>& overrides) {
-  for (const std::string& text : overrides) reader.read_override(text);
-  return reader.finish();
-}
-
-CaseReader reader_of_builtin() {
-  CaseReader reader;
-  reader.read_text(builtin_case_text, "built-in case", Layer::builtin);
-  return reader;
 }
 
 }  // namespace
@@ -405,15 +301,14 @@ CaseReader reader_of_builtin() {
 Case load_case(const std::optional<std::filesystem::path>& file,
                const std::vector<std::string>& overrides) {
   if (file) return load_case_text(read_input(*file), file->string(), overrides);
-  CaseReader reader = reader_of_builtin();
-  return finish_with(reader, overrides);
+  return CaseReader().finish(overrides);
 }
 
 Case load_case_text(const std::string& text, const std::string& name,
                     const std::vector<std::string>& overrides) {
-  CaseReader reader = reader_of_builtin();
+  CaseReader reader;
   reader.read_text(text, name, Layer::file);
-  return finish_with(reader, overrides);
+  return reader.finish(overrides);
 }
 
 }  // namespace holdfast::program
