@@ -75,33 +75,12 @@ void do_job(const std::vector<std::string>& arguments);
 /// code.
 int run_program(int argument_count, char** arguments);
 
-void add_case(CLI::App& program);
-void add_stability(CLI::App& program);
-void add_boundary(CLI::App& program);
-void add_max_delay(CLI::App& program);
-void add_response(CLI::App& program);
-void add_design(CLI::App& program);
-void add_margins(CLI::App& program);
-void add_sensitivity(CLI::App& program);
-void add_simulate(CLI::App& program);
-void add_spectrum(CLI::App& program);
-void add_deviation(CLI::App& program);
-void add_coverage(CLI::App& program);
-void add_lyapunov(CLI::App& program);
-void add_orbit(CLI::App& program);
-void add_basins(CLI::App& program);
-void add_diagram(CLI::App& program);
-void add_section(CLI::App& program);
-void add_verdict(CLI::App& program);
-void add_sweep(CLI::App& program);
-void add_reduce(CLI::App& program);
-void add_statics(CLI::App& program);
-void add_modes(CLI::App& program);
-void add_decay(CLI::App& program);
-void add_peaks(CLI::App& program);
-void add_fit(CLI::App& program);
-void add_answers(CLI::App& program);
-void add_report(CLI::App& program);
+/// Each adds one job to the program, in the order of `holdfast --help`.
+using AddJob = void(CLI::App& program);
+AddJob add_case, add_reduce, add_statics, add_modes, add_decay, add_peaks, add_fit, add_stability,
+    add_boundary, add_response, add_design, add_margins, add_sensitivity, add_max_delay,
+    add_simulate, add_spectrum, add_deviation, add_coverage, add_verdict, add_orbit, add_basins,
+    add_diagram, add_section, add_lyapunov, add_sweep, add_answers, add_report;
 
 namespace question {
 inline constexpr const char* case_file = "What does my case say?";

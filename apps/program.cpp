@@ -43,33 +43,13 @@ void add_texts(CLI::App& program) {
 }
 
 void add_jobs(CLI::App& program) {
-  add_case(program);
-  add_reduce(program);
-  add_statics(program);
-  add_modes(program);
-  add_decay(program);
-  add_peaks(program);
-  add_fit(program);
-  add_stability(program);
-  add_boundary(program);
-  add_response(program);
-  add_design(program);
-  add_margins(program);
-  add_sensitivity(program);
-  add_max_delay(program);
-  add_simulate(program);
-  add_spectrum(program);
-  add_deviation(program);
-  add_coverage(program);
-  add_verdict(program);
-  add_orbit(program);
-  add_basins(program);
-  add_diagram(program);
-  add_section(program);
-  add_lyapunov(program);
-  add_sweep(program);
-  add_answers(program);
-  add_report(program);
+  for (AddJob* add :
+       {add_case,        add_reduce,    add_statics,  add_modes,    add_decay,     add_peaks,
+        add_fit,         add_stability, add_boundary, add_response, add_design,    add_margins,
+        add_sensitivity, add_max_delay, add_simulate, add_spectrum, add_deviation, add_coverage,
+        add_verdict,     add_orbit,     add_basins,   add_diagram,  add_section,   add_lyapunov,
+        add_sweep,       add_answers,   add_report})
+    add(program);
   add_texts(program);
 }
 

@@ -82,40 +82,34 @@ NetcdfFile::Number NetcdfFile::add_dimension(const std::string& name, std::size_
 }
 
 NetcdfFile::Number NetcdfFile::add_variable(const std::string& name, int type,
-                                            const std::vector<Number>& dimensions) {
+                                            const std::vector<Number>& dimensions,
+                                            const double* none) {
   Number number = 0;
   check(NETCDF(nc_def_var)(id_, name.c_str(), type, static_cast<int>(dimensions.size()),
                            dimensions.data(), &number));
+  check(NETCDF(nc_def_var_fill)(id_, number, none != nullptr ? NC_FILL : NC_NOFILL, none));
   return number;
 }
 
 NetcdfFile::Number NetcdfFile::add_coordinate(const std::string& name, Number dimension) {
-  const Number number = add_variable(name, NC_DOUBLE, {dimension});
-  // A coordinate misses no value (CF 2.5.1).
-  check(NETCDF(nc_def_var_fill)(id_, number, NC_NOFILL, nullptr));
-  return number;
+  return add_variable(name, NC_DOUBLE, {dimension});  // misses no value (CF 2.5.1)
 }
 
 NetcdfFile::Number NetcdfFile::add_reals(const std::string& name,
                                          const std::vector<Number>& dimensions) {
-  const Number number = add_variable(name, NC_DOUBLE, dimensions);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  check(NETCDF(nc_def_var_fill)(id_, number, NC_FILL, &none));
-  return number;
+  return add_variable(name, NC_DOUBLE, dimensions, &none);
 }
 
 NetcdfFile::Number NetcdfFile::add_integers(const std::string& name,
                                             const std::vector<Number>& dimensions) {
-  const Number number = add_variable(name, NC_INT64, dimensions);
-  check(NETCDF(nc_def_var_fill)(id_, number, NC_NOFILL, nullptr));
-  return number;
+  return add_variable(name, NC_INT64, dimensions);
 }
 
 NetcdfFile::Number NetcdfFile::add_flags(const std::string& name,
                                          const std::vector<Number>& dimensions,
                                          const std::vector<std::string>& words) {
   const Number number = add_variable(name, NC_BYTE, dimensions);
-  check(NETCDF(nc_def_var_fill)(id_, number, NC_NOFILL, nullptr));
   std::vector<signed char> values(words.size());
   std::iota(values.begin(), values.end(), static_cast<signed char>(0));
   check(

@@ -58,7 +58,9 @@ class NetcdfFile {
   void close();
 
  private:
-  Number add_variable(const std::string& name, int type, const std::vector<Number>& dimensions);
+  /// @param none  what stands where nothing is written; null where all is
+  Number add_variable(const std::string& name, int type, const std::vector<Number>& dimensions,
+                      const double* none = nullptr);
   void check(int status) const;
 
   std::string shown_;

@@ -11,9 +11,9 @@ namespace holdfast::program {
 
 /// What the job `basins` was asked.
 struct BasinOptions {
-  std::vector<std::string> axes;  ///< KEY=MIN:MAX:COUNT, two of initial.*
-  std::int64_t largest_period;    ///< samples
-  bool fractions = false;         ///< a row for each attractor instead of one for each state
+  std::vector<std::string> axes;          ///< KEY=MIN:MAX:COUNT, two of initial.*
+  std::int64_t largest_period = 100'000;  ///< samples
+  bool fractions = false;  ///< a row for each attractor instead of one for each state
   Switching switching = Switching::sampled;
 };
 

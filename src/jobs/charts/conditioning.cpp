@@ -20,8 +20,7 @@ std::string sensitive_reduction_warning(const Case& the_case) {
          format_rounded(taken.mass_condition) + " % of m1";
 }
 
-template <class Scalar>
-std::string near_cusp_warning(const std::vector<BoundaryFeature<Scalar>>& features) {
+std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features) {
   const auto near = std::find_if(features.begin(), features.end(),
                                  [](const auto& feature) { return feature.nearly_cusp; });
   if (near == features.end()) return "";
@@ -30,9 +29,6 @@ std::string near_cusp_warning(const std::vector<BoundaryFeature<Scalar>>& featur
          " N/m, D = " + format_rounded(static_cast<double>(near->gains.differential)) +
          " N s/m: there a small change of the loop makes stable intervals appear or vanish";
 }
-
-template std::string near_cusp_warning(const std::vector<BoundaryFeature<double>>&);
-template std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>&);
 
 std::string near_border_warning(double border_share) {
   if (!(border_share < near_border)) return "";

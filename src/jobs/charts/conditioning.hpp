@@ -16,9 +16,7 @@ namespace holdfast::program {
 std::string sensitive_reduction_warning(const Case& the_case);
 
 /// Of tangents of the boundary that are nearly a cusp.
-/// @tparam Scalar  of double or long double
-template <class Scalar>
-std::string near_cusp_warning(const std::vector<BoundaryFeature<Scalar>>& features);
+std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& features);
 
 /// Of an orbit near a switching surface.
 /// @param border_share  of PeriodicOrbit or EventOrbit
