@@ -45,9 +45,8 @@ double known(const std::optional<Part>& part, const Read& read) {
   return part ? read(*part) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// @tparam Search  OrbitResult or EventSearchResult
-template <class Search>
-std::string warning_of(const Search& search) {
+template <class Orbit>
+std::string warning_of(const OrbitResultOf<Orbit>& search) {
   const bool certified = search.outcome == OrbitOutcome::certified;
   return certified ? near_border_warning(search.orbit->border_share()) : "";
 }
@@ -60,7 +59,7 @@ void say(const Classification& classification, double period, const JobContext& 
 }
 
 /// One row with the verdict, the numbers behind it and the sentence that says what it rests on.
-/// @tparam Found  SampledClassification or EventClassification
+/// @tparam Found  of either model
 template <class Found>
 void write(const JobContext& context, Table& table, const Found& found) {
   const Classification& classification = found.classification;

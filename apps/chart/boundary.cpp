@@ -7,7 +7,6 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/boundary/gain_window.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"

@@ -27,7 +27,7 @@ struct Ratio {
 };
 
 /// Why there is no certificate, as a sentence without its end.
-/// @param found  OrbitResult or EventSearchResult
+/// @param found  of either model
 template <class Result>
 std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t largest_period) {
   const std::string looked_at = std::to_string(found.samples) + " samples";
