@@ -23,7 +23,7 @@ void run(const JobContext& context, const ResponseOptions& options) {
   GridTable table(
       context, {{"proportional_gain", "N/m", "P"}, grid.proportional},
       {{"differential_gain", "N.s/m", "D"}, grid.differential},
-      {{{"stable", "", "1: asymptotically stable, 0: not", "integer"}, "unstable stable"},
+      {{{"stable", "", "1: asymptotically stable, 0: not", "integer"}, {"unstable", "stable"}},
        {{"amplitude_m", "m", "steady amplitude of z1 without backlash; nan where unstable"}},
        {{"ratio_to_uncontrolled", "", "amplitude over that without control; nan where unstable"}}});
   append_response_chart(context, loop, response, excitation.amplitude, grid, table);

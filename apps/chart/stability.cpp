@@ -56,9 +56,9 @@ struct StabilityOptions {
   bool radius = false;
 };
 
-std::vector<GridColumn> columns(const StabilityOptions& options) {
-  std::vector<GridColumn> result = {
-      {{"stable", "", "1: asymptotically stable, 0: not", "integer"}, "unstable stable"}};
+std::vector<CellColumn> columns(const StabilityOptions& options) {
+  std::vector<CellColumn> result = {
+      {{"stable", "", "1: asymptotically stable, 0: not", "integer"}, {"unstable", "stable"}}};
   if (!options.radius) return result;
   if (options.continuous) {
     result.push_back({{"spectral_abscissa", "1/s", "largest real part of a characteristic root"}});

@@ -6,25 +6,16 @@
 #include <utility>
 
 #include "io/file/output.hpp"
-#include "io/text/text.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
 
-std::vector<CellColumn> cell_columns(const JobContext& context,
-                                     const std::vector<GridColumn>& columns) {
-  std::vector<CellColumn> result;
-  for (const GridColumn& column : columns) {
-    CellColumn& cells = result.emplace_back(CellColumn{column.column});
-    const auto words = split(column.flag_meanings, ' ');
-    if (column.holds_flags()) {
-      cells.words.assign(words.begin(), words.end());
-    } else if (is_netcdf_name(context.output)) {
-      cells.column.datatype = "double";  // whatever a table calls it
-    }
-  }
-  return result;
+/// In netCDF a number is a double, whatever a table calls it.
+std::vector<CellColumn> cell_columns(const JobContext& context, std::vector<CellColumn> columns) {
+  for (CellColumn& cells : columns)
+    if (cells.words.empty() && is_netcdf_name(context.output)) cells.column.datatype = "double";
+  return columns;
 }
 
 }  // namespace
@@ -37,7 +28,7 @@ std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<G
 }
 
 GridTable::GridTable(const JobContext& context, const GridAxis& slow, const GridAxis& fast,
-                     const std::vector<GridColumn>& columns)
+                     const std::vector<CellColumn>& columns)
     : rows_(slow.count()),
       cells_of_row_(fast.count()),
       columns_(columns),
@@ -49,7 +40,7 @@ void GridTable::append_row(const std::vector<GridValues>& columns) {
   throw_if_interrupted();
   bool fits = columns.size() == columns_.size() && rows_done_ < rows_;
   for (std::size_t i = 0; fits && i < columns.size(); ++i) {
-    fits = std::holds_alternative<const std::uint8_t*>(columns[i]) == columns_[i].holds_flags();
+    fits = std::holds_alternative<const std::uint8_t*>(columns[i]) != columns_[i].words.empty();
   }
   if (!fits) throw std::logic_error("a row that does not fit its chart");
   std::vector<const double*> values;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -13,25 +12,17 @@
 
 namespace holdfast::program {
 
-/// What a chart tells of every cell: a real number, or yes or no.
-struct GridColumn {
-  Column column;
-  /// For flags what 0 and 1 mean, one word each: "unstable stable"; "" for real numbers.
-  std::string flag_meanings = {};
-
-  bool holds_flags() const { return !flag_meanings.empty(); }
-};
-
 /// The values of one column along the fast axis, as many as that has: flags (0 or not) or reals.
 using GridValues = std::variant<const std::uint8_t*, const double*>;
 
 /// A job's result over two axes: a netCDF-4 file when the output's name ends in `.nc`, else the
 /// same bytes as a Table with the columns slow axis, fast axis, values. It appears at commit() or
-/// not at all.
+/// not at all. A column with words, of what 0 and 1 mean, holds flags; the others hold real
+/// numbers.
 ///
 ///     GridTable table(context, {{"proportional_gain", "N/m", "P"}, {-600.0, 0.0, 41}},
 ///                     {{"differential_gain", "N.s/m", "D"}, {-20.0, 0.0, 31}},
-///                     {{{"stable", "", "1: stable, 0: not", "integer"}, "unstable stable"},
+///                     {{{"stable", "", "1: stable, 0: not", "integer"}, {"unstable", "stable"}},
 ///                      {{"amplitude_m", "m", "steady amplitude"}}});
 ///     table.append_row({stable.data(), amplitudes.data()});   // 41 times, 31 values each
 ///     table.commit();
@@ -42,7 +33,7 @@ using GridValues = std::variant<const std::uint8_t*, const double*>;
 class GridTable {
  public:
   GridTable(const JobContext& context, const GridAxis& slow, const GridAxis& fast,
-            const std::vector<GridColumn>& columns);
+            const std::vector<CellColumn>& columns);
 
   /// The next row of the slow axis; one entry a column, each pointing to as many values as the fast
   /// axis has.
@@ -54,7 +45,7 @@ class GridTable {
   std::size_t rows_ = 0;
   std::size_t rows_done_ = 0;
   std::size_t cells_of_row_ = 0;
-  std::vector<GridColumn> columns_;
+  std::vector<CellColumn> columns_;
   std::vector<std::vector<double>> flags_;  // of a row, column by column
   std::unique_ptr<CellWriter> writer_;
 };

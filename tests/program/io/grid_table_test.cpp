@@ -54,9 +54,9 @@ struct Chart {
   std::vector<double> last;
 
   std::size_t cells() const { return slow.count() * fast.count(); }
-  static std::vector<GridColumn> columns() {
+  static std::vector<CellColumn> columns() {
     return {{{"amplitude_m", "m", "steady amplitude"}},
-            {{"stable", "", "1: stable, 0: not", "integer"}, "unstable stable"},
+            {{"stable", "", "1: stable, 0: not", "integer"}, {"unstable", "stable"}},
             {{"exponent", "1/s", "of \"growth\", the largest"}}};
   }
 };
@@ -112,7 +112,7 @@ void write_chart(const fs::path& output, const Chart& chart) {
 
 void write_table(const fs::path& output, const Chart& chart) {
   std::vector<Column> columns = {chart.slow.column, chart.fast.column};
-  for (const GridColumn& column : Chart::columns()) columns.push_back(column.column);
+  for (const CellColumn& column : Chart::columns()) columns.push_back(column.column);
   Table table(context_for(output), columns);
   for (std::size_t cell = 0; cell < chart.cells(); ++cell) {
     table.row(chart.slow.at(cell / chart.fast.count()), chart.fast.at(cell % chart.fast.count()),
@@ -135,7 +135,7 @@ TEST(GridTable, AsCsvHasTheBytesOfATableAndItsMetadata) {
 TEST(GridTable, AnyByteButZeroIsAFlagThatIsSet) {
   const TemporaryFolder folder;
   GridTable table(context_for(folder / "out.csv"), {{"p", "", ""}, Axis{0, 0, 1}},
-                  {{"d", "", ""}, Axis{0, 2, 3}}, {{{"stable", "", ""}, "no yes"}});
+                  {{"d", "", ""}, Axis{0, 2, 3}}, {{{"stable", "", ""}, {"no", "yes"}}});
   const std::array<std::uint8_t, 3> flags = {0, 1, 255};
   table.append_row({flags.data()});
   table.commit();
