@@ -257,7 +257,9 @@ TEST(EventLyapunov, GoesBesideATrajectoryAndChangesNothing) {
 TEST(EventLyapunov, ADivergingMotionCountsTheSamplesBeforeItLeft) {
   const auto which = kollar_case_of(0.011, 0.0, 0.011);  // an eigenvalue outside the unit circle
   auto motion = backlash_motion(which);
-  EXPECT_EQ(run_event_lyapunov(motion, {100000}).samples, motion.index());
+  const LyapunovResult result = run_event_lyapunov(motion, {100000});
+  EXPECT_EQ(result.outcome, LyapunovOutcome::diverged);
+  EXPECT_EQ(result.samples, motion.index());
 }
 
 }  // namespace

@@ -64,8 +64,9 @@ CondensedBoundary<Scalar, Size> condensed_boundary(
 
 /// The cyclic system of a sequence of affine maps, x_K = x₀, condensed to its ends.
 ///
-/// Of maps that linearise a motion block by block its solution is a step of Newton's method with
-/// multiple shooting; of a motion that is affine the first step leaves rounding alone.
+/// Of maps that linearise a motion block by block its solution is a step of Newton's method, solved
+/// without the product of the maps; of a motion that is affine the first step leaves rounding
+/// alone.
 ///
 ///     const CyclicSystem system(maps);
 ///     if (!system.is_singular()) x = system.first_state();

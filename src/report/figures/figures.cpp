@@ -32,9 +32,11 @@ Figure figure(const FigureKind& kind, const std::string& name, const std::string
 using namespace figure_kinds;
 
 // The loops of the paper's figures.
-constexpr const char* fine = "--set control.sampling_period=0.001 --set backlash.width=0.0005";
+constexpr const char* fine_settings =
+    "--set control.sampling_period=0.001 --set backlash.width=0.0005";
 constexpr const char* fast = "--set control.sampling_period=0.001 --set backlash.width=0.002";
-constexpr const char* coarse = "--set control.sampling_period=0.01 --set backlash.width=0.002";
+constexpr const char* coarse_settings =
+    "--set control.sampling_period=0.01 --set backlash.width=0.002";
 constexpr const char* slow = "--set control.sampling_period=0.011 --set backlash.width=0.002";
 
 // Whether the drive is in its backlash: as in the paper, whose velocities stay below 0.1 m/s, and
@@ -122,33 +124,33 @@ Figures figures_6_to_9() {
   return {
       figure(history, "fig06a", "Fig. 6a: the first second",
              "Conductor from rest; τ = 1 ms, r₀ = 0.5 mm. Positive is downward.",
-             {{"from", "0"}, {"to", "1"}, {"settings", fine}}),
+             {{"from", "0"}, {"to", "1"}, {"settings", fine_settings}}),
       figure(history, "fig06b", "Fig. 6b: the steady motion", "As Fig. 6a, nine seconds later.",
-             {{"from", "9"}, {"to", "10"}, {"settings", fine}}),
+             {{"from", "9"}, {"to", "10"}, {"settings", fine_settings}}),
       figure(kick, "fig07a", "Fig. 7a: a 3 mm perturbation, τ = 1 ms, r₀ = 0.5 mm",
              "The conductor is displaced by 3 mm at t = 0.95 s, away from its equilibrium.",
-             {{"kick", "0.95:-0.003"}, {"settings", fine}}),
+             {{"kick", "0.95:-0.003"}, {"settings", fine_settings}}),
       figure(kick, "fig07b", "Fig. 7b: a 3 mm perturbation, τ = 10 ms, r₀ = 2 mm",
              "The conductor is displaced by 3 mm at t = 0.84 s, away from its equilibrium.",
-             {{"kick", "0.84:-0.003"}, {"settings", coarse}}),
+             {{"kick", "0.84:-0.003"}, {"settings", coarse_settings}}),
       figure(contact, "fig08a", "Fig. 8a: relative velocity and backlash",
              "Steady motion, τ = 1 ms, r₀ = 0.5 mm. The drive enters its backlash where the "
              "relative velocity changes sign.",
              {{"from", "9"},
               {"to", "9.5"},
-              {"settings", fine},
+              {"settings", fine_settings},
               {"axes", paper_axes},
               {"contact", paper_contact}}),
       figure(contact, "fig08b", "Fig. 8b: half a period of it enlarged",
              "In at 9.065 s, out at 9.068 s, in again at 9.069 s, out at 9.095 s.",
              {{"from", "9.06"},
               {"to", "9.11"},
-              {"settings", fine},
+              {"settings", fine_settings},
               {"axes", paper_axes},
               {"contact", paper_contact}}),
       figure(phase, "fig09a", "Fig. 9a: phase diagram, τ = 1 ms, r₀ = 0.5 mm",
              "Steady motion of the conductor, from 30 s on.",
-             {{"duration", "30.5"}, {"settings", fine}}),
+             {{"duration", "30.5"}, {"settings", fine_settings}}),
       figure(phase, "fig09b", "Fig. 9b: phase diagram, τ = 1 ms, r₀ = 2 mm",
              "The larger backlash brings in a slow component: the curve closes after 0.5 s.",
              {{"duration", "31"}, {"settings", fast}}),

@@ -18,7 +18,7 @@
 namespace holdfast::program {
 namespace {
 
-constexpr const char* none = "–";
+constexpr const char* no_value = "–";
 
 /// A motion with all that is known of it.
 struct KnownMotion {
@@ -43,7 +43,7 @@ std::string counted(std::int64_t count, const std::string& what) {
 
 std::string period_text(const KnownMotion& motion) {
   const std::int64_t samples = motion.found.classification.period;
-  if (samples == 0) return none;
+  if (samples == 0) return no_value;
   const double tau = motion.loop.sampling.period;
   std::string text =
       rounded(static_cast<double>(samples) * tau, 6) + " s; " + counted(samples, "sample");

@@ -173,15 +173,16 @@ DrawnFigure write_phases(const JobContext& context, bool builtin) {
 }
 
 /// The values of backlash.law, and their words: gnuplot sets what follows an underscore lower.
-constexpr std::array<std::pair<const char*, const char*>, 5> laws = {{{"kollar", "kollar"},
-                                                                      {"immediate", "immediate"},
-                                                                      {"play", "play"},
-                                                                      {"dead_zone", "dead zone"},
-                                                                      {"none", "no backlash"}}};
+constexpr std::array<std::pair<const char*, const char*>, 5> law_words = {
+    {{"kollar", "kollar"},
+     {"immediate", "immediate"},
+     {"play", "play"},
+     {"dead_zone", "dead zone"},
+     {"none", "no backlash"}}};
 
 std::vector<StudiedLaw> study_laws(const JobContext& context) {
   Loops loops;
-  for (const auto& law : laws) {
+  for (const auto& law : law_words) {
     Case changed = context.case_data;
     changed.backlash.law = law.first;
     for (const std::size_t reading : {sampled_switching, exact_switching})
@@ -190,8 +191,8 @@ std::vector<StudiedLaw> study_laws(const JobContext& context) {
   const Motions motions = study(loops, context.threads);
   write_motions(context, "switching-law-motions", motions);
   std::vector<StudiedLaw> studied;
-  for (std::size_t k = 0; k < laws.size(); ++k)
-    studied.push_back({laws[k].second, motions[2 * k], motions[2 * k + 1]});
+  for (std::size_t k = 0; k < law_words.size(); ++k)
+    studied.push_back({law_words[k].second, motions[2 * k], motions[2 * k + 1]});
   return studied;
 }
 

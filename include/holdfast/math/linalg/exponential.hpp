@@ -93,14 +93,15 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 /// the norm asks for would cost as many digits. Work: up to 6 + s products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
-/// @param matrix  square, of fixed or dynamic size; one that is not finite has no finite result
+/// @param matrix  square, of fixed or dynamic size; not finite, or of a sum |M_ij| that is not: NaN
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {
   using Square = Matrix<Scalar, Size>;
+  const Scalar sum = matrix.cwiseAbs().sum();
+  if (!(sum <= std::numeric_limits<Scalar>::max())) return matrix * (sum - sum);
   const BalancedMatrix<Scalar, Size> similar(matrix);
   Square scaled = similar.balanced;
   Scalar norm = scaled.cwiseAbs().rowwise().sum().maxCoeff();
-  if (!(norm <= std::numeric_limits<Scalar>::max())) return matrix * (norm - norm);
   for (const detail::PadeApproximant& approximant : detail::pade_approximants) {
     if (approximant.suffices(norm)) {
       return similar.restored(detail::approximated(approximant, scaled));

@@ -74,7 +74,7 @@ class ReturnMap {
             bool gap_opens)
       : motion_(motion), samples_(samples), units_(units), gap_opens_(gap_opens) {}
 
-  /// A fixed point near a point, by Newton's method with multiple shooting (CyclicSystem), until no
+  /// A fixed point near a point, by Newton's method, its linear steps by CyclicSystem, until no
   /// more is gained.
   /// @param near  outside stick
   /// @return nothing where 1 is a multiplier, where the motion touches a guard, or where X_N − X_0
