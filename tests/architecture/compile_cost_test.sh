@@ -40,5 +40,14 @@ for object in "$@"; do
   [ -z "$found" ] || complain "$(basename "$object") instantiates $found"
 done
 
+# Who includes everything and uses nothing instantiates none of them: what asks for them in a header
+# is a template.
+unused=$(mktemp --suffix=.o)
+trap 'rm -f "$unused"' EXIT
+"$compiler" -std=c++17 -O0 -fkeep-inline-functions -I "$source/include" -isystem /usr/include/eigen3 \
+  -x c++ -c - -o "$unused" <<<'#include "holdfast/holdfast.hpp"'
+found=$("$nm" --defined-only -C "$unused" | grep -oE "$heavy[^>]*>" | sort -u | head -3 | tr '\n' ' ' || true)
+[ -z "$found" ] || complain "the umbrella header alone instantiates $found"
+
 printf '%d rooms, %d objects, %d failures\n' "$rooms" "$#" "$failures"
 [ "$rooms" -gt 10 ] && [ "$failures" -eq 0 ]

@@ -65,12 +65,12 @@ template <class Loop>
 struct Neighbourhoods;
 
 /// Those from which a motion surely tends to the orbit.
-template <>
-struct Neighbourhoods<IdealLoop<double>> {
+template <class Scalar>
+struct Neighbourhoods<IdealLoop<Scalar>> {
   using Orbit = PeriodicOrbit;
   using Point = AttractionBall;
 
-  IdealLoop<double> loop;
+  IdealLoop<Scalar> loop;
   Vector<double, 6> weights = DeviationScale(loop).weights();
 
   std::vector<Point> points_of(const Orbit& orbit) const { return attraction_balls(loop, orbit); }

@@ -26,8 +26,8 @@ namespace holdfast {
 namespace detail {
 
 /// Those within a millionth of an orbit's extent, coordinate by coordinate.
-template <>
-struct Neighbourhoods<ImplementedLoop> {
+template <class Plant>
+struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   using Orbit = EventOrbit;
 
   struct Point {
@@ -41,7 +41,7 @@ struct Neighbourhoods<ImplementedLoop> {
     }
   };
 
-  explicit Neighbourhoods(const ImplementedLoop& /*loop*/) {}
+  explicit Neighbourhoods(const ImplementedLoopOf<Plant>& /*loop*/) {}
 
   std::vector<Point> points_of(const Orbit& orbit) const {
     Vector<double, 4> extent = Vector<double, 4>::Zero();
@@ -129,8 +129,9 @@ class ApproachingMotion {
 
 /// Motions of an ImplementedLoop: each goes past the orbits that the rounds before have found, and
 /// is searched for its own where it comes to none of them.
+template <class LoopModel>
 struct SingleMotions {
-  using Loop = ImplementedLoop;
+  using Loop = LoopModel;
 
   Loop loop;
   Rational ratio;
@@ -183,7 +184,8 @@ template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,
                                  const OrbitLimits& limits, const Tiles& for_tiles) {
-  return detail::basins_by<detail::SingleMotions>(loop, initial_states, limits, for_tiles);
+  return detail::basins_by<detail::SingleMotions<ImplementedLoop>>(loop, initial_states, limits,
+                                                                   for_tiles);
 }
 
 }  // namespace holdfast
