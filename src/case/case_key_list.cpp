@@ -102,7 +102,7 @@ void add_cable(Keys& keys) {
                                               "how far above the equilibrium the line is laid");
 }
 
-void add_loop(Keys& keys) {
+void add_plant(Keys& keys) {
   KeysOf<&Case::plant> plant(keys, "plant");
   plant.number<&Plant::conductor_mass>("conductor_mass", "kg", positive, "m1");
   plant.number<&Plant::conductor_stiffness>("conductor_stiffness", "N/m", positive, "k1");
@@ -110,6 +110,9 @@ void add_loop(Keys& keys) {
   plant.number<&Plant::absorber_mass>("absorber_mass", "kg", positive, "m2");
   plant.number<&Plant::absorber_stiffness>("absorber_stiffness", "N/m", positive, "k2");
   plant.number<&Plant::absorber_damping>("absorber_damping", "N s/m", not_negative, "c2");
+}
+
+void add_control(Keys& keys) {
   KeysOf<&Case::control> control(keys, "control");
   CaseKey& gain = control.number<&Control::proportional_gain>(
       "proportional_gain", "N/m", any_number,
@@ -136,6 +139,9 @@ void add_loop(Keys& keys) {
   control.number<&Control::jitter>("jitter", "s", not_negative,
                                    "largest deviation of a sampling instant from its place");
   control.number<&Control::jitter_seed>("jitter_seed", "", seed, "of the random sampling instants");
+}
+
+void add_backlash(Keys& keys) {
   KeysOf<&Case::backlash> backlash(keys, "backlash");
   backlash.number<&Backlash::width>("width", "m", not_negative, "r0");
   backlash.word<&Backlash::law>("law", {"kollar", "immediate", "play", "dead_zone", "none"},
@@ -200,7 +206,9 @@ const std::vector<CaseKey>& case_keys() {
   static const Keys all = [] {
     Keys keys;
     add_cable(keys);
-    add_loop(keys);
+    add_plant(keys);
+    add_control(keys);
+    add_backlash(keys);
     add_forces(keys);
     add_initial(keys);
     return keys;

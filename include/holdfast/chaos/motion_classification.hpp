@@ -121,58 +121,85 @@ ChaosIndicators indicators_of_motion(const IdealLoop<Scalar>& loop,
   return chaos_indicators<5>(first, advance, displacement, options, tangent, contact);
 }
 
-/// The same of an EventMotion, whose states [x; u_{j−1}; 0; 0] have room for the tangent of
-/// VariationalFlow.
-/// @param gap_counts  whether a deviation of the gap is one of the motion
+/// A motion seen by chaos_indicators(): states [x; u_{j−1}; 0; 0], as those of the indicators of an
+/// IdealLoop with room for the tangent of VariationalFlow.
+template <class Contact>
+class TrajectoryWithTangent {
+  static constexpr int size = VariationalFlow<Contact>::size;
+
+ public:
+  /// @param gap_counts  whether a deviation of the gap is one of the motion
+  TrajectoryWithTangent(const EventMotion<Contact>& start, bool gap_counts)
+      : motion_(start), tangent_(motion_), gap_counts_(gap_counts) {}
+
+  /// The types of the callables are the same for every contact, so that chaos_indicators() is
+  /// compiled once.
+  ChaosIndicators indicators(const IndicatorOptions& options) {
+    using State = Vector<double, size>;
+    const std::function<void(State&)> advance = [this](State& state) { take(state); };
+    const std::function<double(const State&)> displacement = [this](const State& s) {
+      return motion_.readings().displacement(s.head(motion_.state().size()));
+    };
+    const std::function<Matrix<double, size>(const State&)> tangent = [this](const State&) {
+      return map();
+    };
+    const std::function<bool()> contact = [this] { return engaged_; };
+    return chaos_indicators<size>(state(), advance, displacement, options, tangent, contact);
+  }
+
+  /// The sample since which the drive has not left its gap.
+  std::int64_t last_engaged() const { return last_engaged_; }
+  bool accumulates() const { return motion_.counts().accumulates; }
+
+ private:
+  Vector<double, size> state() const {
+    Vector<double, size> state(motion_.state().size() + 3);
+    state << motion_.state(), motion_.previous_command(), 0.0, 0.0;
+    return state;
+  }
+
+  void take(Vector<double, size>& after) {
+    const std::int64_t left = times_engaged();
+    engaged_ = motion_.sense().engaged;
+    tangent_.begin_sample(motion_);
+    motion_.advance(tangent_);
+    if (motion_.contact().word() != ContactMode::gap || times_engaged() != left)
+      last_engaged_ = motion_.index();
+    after = state();
+  }
+
+  std::int64_t times_engaged() const {
+    return motion_.counts().entered[static_cast<std::size_t>(ContactMode::engaged)];
+  }
+
+  Matrix<double, size> map() const {
+    const Eigen::Index gap = motion_.state().size() + 1;
+    Matrix<double, size> map = tangent_.map();
+    if (gap_counts_) return map;
+    map.row(gap).setZero();
+    map.col(gap).setZero();
+    return map;
+  }
+
+  EventMotion<Contact> motion_;
+  VariationalFlow<Contact> tangent_;
+  bool gap_counts_;
+  bool engaged_ = true;
+  std::int64_t last_engaged_ = 0;
+};
+
+/// What the samples of a motion show.
 /// @return nothing where its changes of contact accumulate
 template <class Contact>
 std::optional<ChaosIndicators> indicators_of_motion(const EventMotion<Contact>& start,
-                                                    const IndicatorOptions& options,
-                                                    bool gap_counts = true) {
-  constexpr int size = VariationalFlow<Contact>::size;
-  using State = Vector<double, size>;
-  EventMotion<Contact> motion = start;
-  VariationalFlow<Contact> flow(motion);
-  bool engaged = true;
-  std::int64_t last_engaged = 0;  // since then the drive has not left its gap
-  const auto times_engaged = [&motion] {
-    return motion.counts().entered[static_cast<std::size_t>(ContactMode::engaged)];
-  };
-  const auto state = [&motion] {
-    State now(motion.state().size() + 3);
-    now << motion.state(), motion.previous_command(), 0.0, 0.0;
-    return now;
-  };
-  // The types of the callables are the same for every contact, so that chaos_indicators() is
-  // compiled once.
-  const std::function<void(State&)> advance = [&](State& after) {
-    const std::int64_t before = times_engaged();
-    engaged = motion.sense().engaged;
-    flow.begin_sample(motion);
-    motion.advance(flow);
-    if (motion.contact().word() != ContactMode::gap || times_engaged() != before)
-      last_engaged = motion.index();
-    after = state();
-  };
-  const std::function<double(const State&)> displacement = [&motion](const State& at) {
-    return motion.readings().displacement(at.head(motion.state().size()));
-  };
-  const std::function<Matrix<double, size>(const State&)> tangent = [&](const State&) {
-    Matrix<double, size> map = flow.map();
-    if (gap_counts) return map;
-    map.row(motion.state().size() + 1).setZero();
-    map.col(motion.state().size() + 1).setZero();
-    return map;
-  };
-  const std::function<bool()> contact = [&engaged] { return engaged; };
-  const ChaosIndicators indicators =
-      chaos_indicators<size>(state(), advance, displacement, options, tangent, contact);
-  if (!gap_counts) return indicators;
-  if (motion.counts().accumulates) return std::nullopt;
-  if (indicators.diverged_at || last_engaged > options.transient) return indicators;
+                                                    const IndicatorOptions& options) {
+  TrajectoryWithTangent<Contact> motion(start, true);
+  const ChaosIndicators indicators = motion.indicators(options);
+  if (motion.accumulates()) return std::nullopt;
+  if (indicators.diverged_at || motion.last_engaged() > options.transient) return indicators;
   // Where a gap lies that is never left is without effect: no direction of the motion, but a
   // neutral one of the tangent.
-  return indicators_of_motion(start, options, false);
+  return TrajectoryWithTangent<Contact>(start, false).indicators(options);
 }
 
 /// The harmonic that motions are measured by; null without one.

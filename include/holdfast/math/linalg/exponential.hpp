@@ -60,8 +60,9 @@ Square pade_half(const PadeApproximant& approximant, int parity,
   const auto sum = [&](int first, int from) {
     Square result = Square::Zero(n, n);
     for (int k = from; k < 4 && first + 2 * k <= approximant.degree; ++k) {
+      const int power = first + 2 * k;
       result += powers[static_cast<std::size_t>(k)] *
-                typename Square::Scalar(approximant.terms[static_cast<std::size_t>(first + 2 * k)]);
+                typename Square::Scalar(approximant.terms[static_cast<std::size_t>(power)]);
     }
     return result;
   };
@@ -97,8 +98,8 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {
   using Square = Matrix<Scalar, Size>;
-  const Scalar sum = matrix.cwiseAbs().sum();
-  if (!(sum <= std::numeric_limits<Scalar>::max())) return matrix * (sum - sum);
+  if (!(matrix.cwiseAbs().sum() <= std::numeric_limits<Scalar>::max()))
+    return Square::Constant(matrix.rows(), matrix.cols(), std::numeric_limits<Scalar>::quiet_NaN());
   const BalancedMatrix<Scalar, Size> similar(matrix);
   Square scaled = similar.balanced;
   Scalar norm = scaled.cwiseAbs().rowwise().sum().maxCoeff();
