@@ -274,10 +274,13 @@ std::vector<SectionPoint> modal_section(std::size_t mode, int parts, int half_pe
   ImplementedLoop loop{plant, {}, {}, Switching::sampled};
   loop.digital.gains = {0.0, 0.0};
   loop.digital.sampling = {pi<double> / std::sqrt(modes.eigenvalues()[column]) / parts, 0.0};
+  // Of one part the last sample ends at a turn, of which rounding decides whether it is seen.
+  const double end = (half_periods + 0.5) * parts * loop.digital.sampling.period;
   std::vector<SectionPoint> points;
   with_motion(loop, Vector<double, 4>(shape[0], 0.0, shape[1], 0.0), [&](auto motion) {
-    return run_section(motion, std::int64_t{parts} * half_periods + 1,
-                       [&](const SectionPoint& at) { points.push_back(at); });
+    return run_section(motion, std::int64_t{parts} * half_periods + 1, [&](const SectionPoint& at) {
+      if (at.time < end) points.push_back(at);
+    });
   });
   return points;
 }
