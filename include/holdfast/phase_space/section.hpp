@@ -140,6 +140,8 @@ class TurnFinder {
     double x = 0.0;
     Series left = velocity;
     left.head(std::min<Eigen::Index>(zeros, left.size())).setZero();
+    // The part before may have found the same turn at its end, on the other side of rounding.
+    if (std::abs(left[0]) <= velocity_rounding) left[0] = 0.0;
     // A polynomial has no more zeros than coefficients.
     for (Eigen::Index found = 0; found < velocity.size(); ++found) {
       // A zero at the end of a part is left to the next one, which knows how Δż goes on.
