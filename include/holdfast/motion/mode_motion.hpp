@@ -56,6 +56,7 @@ class ModeMotion {
   /// @param law    tells the plant whose energy bounds the motion
   /// @param mode   its number
   /// @param guard  one of the mode's
+  /// @param force  the excitation
   template <class Law>
   const Bound& bound(const Law& law, int mode, const GuardOf<states>& guard,
                      const ForceOverSamples& force) {

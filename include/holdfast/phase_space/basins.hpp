@@ -208,7 +208,13 @@ struct BatchedMotions {
 }  // namespace detail
 
 /// find_basins() of an IdealLoop with another way to move the motions on.
-/// @param travel  travel(motion, gains, ratio) gives what has MotionBatch's run() and can be copied
+/// @param travel          travel(motion, gains, ratio) gives what has MotionBatch's run() and can
+/// be
+///                        copied
+/// @param loop            the loop with its excitation and backlash
+/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit
+/// @param for_tiles       as find_basins() takes it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Travel, class Tiles>
 BasinMap find_basins_by(const Travel& travel, const IdealLoop<double>& loop,

@@ -178,7 +178,10 @@ struct SingleMotions {
 /// millionth of the extent of an orbit that another search has certified, keeps to its modes for
 /// two periods and comes nearer over both, over the second by 0.9 of the decay (in logarithms) that
 /// the largest multiplier asks.
-/// @param loop  as it is built
+/// @param loop            as it is built
+/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit
+/// @param for_tiles       as find_basins() of an IdealLoop takes it
 /// @throws InvalidParameter where loop, states or limits are not admissible
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,

@@ -65,6 +65,7 @@ class SamplingFamily {
   /// The loop's roots λ and how they move along the path, and 1 − Π(1 + λ_i), which leaves the
   /// inside where a real root passes −1. Stable ⇔ all inside the unit circle.
   /// @param loop  of `loop_at`
+  /// @param gains  P and D
   template <class Loop>
   TrackedPointSets tracked_at(const Loop& loop, const PdGains<double>& gains) const {
     return detail::tracked_roots(loop, rate(loop), gains, varies_period());
