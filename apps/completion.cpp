@@ -8,36 +8,36 @@
 namespace holdfast::program {
 namespace {
 
-/// What an option's value can be completed with.
-enum class Completed { nothing, words, files, key };
-
+/// An option and with what either shell completes its value.
 struct OptionWords {
   std::string name;  // "--switching"
   std::string description;
   bool takes_value;
-  Completed completed;
-  std::string words;  // "sampled exact"
+  std::string bash, zsh;
 };
 
 /// The words of "TEXT:{sampled,exact}", separated by blanks.
 std::string listed_words(const std::string& type) {
   const std::size_t begin = type.find('{'), end = type.find('}');
   if (begin == std::string::npos || end == std::string::npos) return "";
-  std::string words = type.substr(begin + 1, end - begin - 1);
-  for (char& character : words)
-    if (character == ',') character = ' ';
-  return words;
+  return replaced(type.substr(begin + 1, end - begin - 1), ",", " ");
 }
 
 OptionWords words_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+  const std::string type = option.get_type_name(), words = listed_words(type);
   OptionWords result{option.get_name(), one_line(option.get_description()),
-                     option.get_expected_max() > 0 && option.get_type_size() > 0,
-                     Completed::nothing, listed_words(type)};
-  if (!result.words.empty()) result.completed = Completed::words;
-  if (type.rfind("FILE", 0) == 0 || type.rfind("FOLDER", 0) == 0 || type.rfind("DIRECTORY", 0) == 0)
-    result.completed = Completed::files;
-  if (result.name == "--set" || result.name == "--axis") result.completed = Completed::key;
+                     option.get_expected_max() > 0 && option.get_type_size() > 0, "COMPREPLY=()",
+                     ""};
+  if (result.name == "--set" || result.name == "--axis") {
+    result.bash = "compopt -o nospace; COMPREPLY=($(compgen -W \"$keys\" -- \"$word\"))";
+    result.zsh = "_holdfast_keys";
+  } else if (type.rfind("FILE", 0) == 0) {
+    result.bash = "COMPREPLY=($(compgen -f -- \"$word\"))";
+    result.zsh = "_files";
+  } else if (!words.empty()) {
+    result.bash = "COMPREPLY=($(compgen -W \"" + words + "\" -- \"$word\"))";
+    result.zsh = "(" + words + ")";
+  }
   return result;
 }
 
@@ -54,30 +54,7 @@ std::string all_keys() {
   return keys;
 }
 
-std::string job_names(const CLI::App& program) {
-  std::string names;
-  for (const CLI::App* job : program.get_subcommands(nullptr))
-    names += (names.empty() ? "" : " ") + job->get_name();
-  return names;
-}
-
 bool has_name(const OptionWords& option) { return option.name.front() == '-'; }
-
-/// What bash says to the word behind an option; one without a name stands behind the job.
-std::string bash_value(const std::string& job, const OptionWords& option) {
-  const std::string pattern = "    " + job + ":" + (has_name(option) ? option.name : job) + ") ";
-  switch (option.completed) {
-    case Completed::words:
-      return pattern + "COMPREPLY=($(compgen -W \"" + option.words + "\" -- \"$word\")) ;;\n";
-    case Completed::files:
-      return pattern + "COMPREPLY=($(compgen -f -- \"$word\")) ;;\n";
-    case Completed::key:
-      return pattern + "compopt -o nospace; COMPREPLY=($(compgen -W \"$keys\" -- \"$word\")) ;;\n";
-    case Completed::nothing:
-      return pattern + "COMPREPLY=() ;;\n";
-  }
-  return "";
-}
 
 /// In single quotes of zsh's _arguments, where brackets and colons have a meaning.
 std::string zsh_text(const std::string& text) {
@@ -96,16 +73,16 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_argument(const OptionWords& option) {
   std::string text = "        '";
   text += has_name(option) ? "*" + option.name + "[" + zsh_text(option.description) + "]" : "1";
-  if (option.takes_value) {
-    text += ":value:";
-    if (option.completed == Completed::words) text += "(" + option.words + ")";
-    if (option.completed == Completed::files) text += "_files";
-    if (option.completed == Completed::key) text += "_holdfast_keys";
-  }
-  return text + "'";
+  return text + (option.takes_value ? ":value:" + option.zsh : "") + "'";
 }
 
 }  // namespace
+
+std::vector<std::string> job_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* job : program.get_subcommands(nullptr)) names.push_back(job->get_name());
+  return names;
+}
 
 std::string bash_completion(const CLI::App& program) {
   std::string values, options;
@@ -114,33 +91,17 @@ std::string bash_completion(const CLI::App& program) {
     std::string names;
     for (const OptionWords& option : options_of(*job)) {
       if (has_name(option)) names += (names.empty() ? "" : " ") + option.name;
-      if (option.takes_value) values += bash_value(job->get_name(), option);
+      // An option without a name stands behind the job.
+      const std::string& before = has_name(option) ? option.name : job->get_name();
+      if (option.takes_value)
+        values += "    " + job->get_name() + ":" + before + ") " + option.bash + " ;;\n";
     }
     options += names + "\" ;;\n";
   }
-  return "# bash completion of holdfast\n"
-         "_holdfast() {\n"
-         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
-         "  local job=${COMP_WORDS[1]} options\n"
-         "  local keys=\"" +
-         all_keys() +
-         "\"\n"
-         "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-         "    COMPREPLY=($(compgen -W \"" +
-         job_names(program) +
-         " --help --version\" -- \"$word\"))\n"
-         "    return\n"
-         "  fi\n"
-         "  case $job:$before in\n" +
-         values +
-         "    *)\n"
-         "  case $job in\n" +
-         options +
-         "  esac\n"
-         "      COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
-         "  esac\n"
-         "}\n"
-         "complete -F _holdfast holdfast\n";
+  return program_text("bash", {{"keys", all_keys()},
+                               {"jobs", CLI::detail::join(job_names(program), " ")},
+                               {"values", values},
+                               {"options", options}});
 }
 
 std::string zsh_completion(const CLI::App& program) {
@@ -153,28 +114,7 @@ std::string zsh_completion(const CLI::App& program) {
       arguments += zsh_argument(options[k]) + (k + 1 < options.size() ? " \\\n" : "\n");
     arguments += "      ;;\n";
   }
-  return "#compdef holdfast\n"
-         "_holdfast_keys() {\n"
-         "  compadd -S '' -- " +
-         all_keys() +
-         "\n}\n"
-         "_holdfast() {\n"
-         "  local -a jobs\n"
-         "  jobs=(\n" +
-         jobs +
-         "  )\n"
-         "  if (( CURRENT == 2 )); then\n"
-         "    _describe job jobs\n"
-         "    return\n"
-         "  fi\n"
-         "  local job=$words[2]\n"
-         "  shift words\n"
-         "  (( CURRENT-- ))\n"
-         "  case $job in\n" +
-         arguments +
-         "  esac\n"
-         "}\n"
-         "_holdfast \"$@\"\n";
+  return program_text("zsh", {{"keys", all_keys()}, {"jobs", jobs}, {"arguments", arguments}});
 }
 
 }  // namespace holdfast::program

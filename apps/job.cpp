@@ -2,30 +2,30 @@
 
 #include <algorithm>
 
+#include "case/model/cable_of_case.hpp"
 #include "case/model/resolved_plant.hpp"
+#include "case/plausibility/doubts.hpp"
 #include "io/file/input.hpp"
-#include "io/text/text.hpp"
-#include "process/errors.hpp"
-#include "process/exit.hpp"
+#include "jobs/job_texts.hpp"
+#include "process/group/mpi_launch.hpp"
 #include "process/worker_threads.hpp"
+#include "report/page/picture.hpp"
 
 namespace holdfast::program {
 namespace {
 
 // Options that are kept elsewhere in the context, or do not shape the result.
-bool is_common(const std::string& name) {
-  const std::vector<std::string> common = {"--help",   "--case",        "--set",     "--output",
-                                           "--quiet",  "--progress",    "--threads", "--tile",
-                                           "--resume", "--instructions"};
-  return std::find(common.begin(), common.end(), name) != common.end();
+bool is_common(const CLI::Option& option) {
+  const std::string name = option.get_name();
+  return option.get_group() == question::every_job || name == "--help" || name == "--tile" ||
+         name == "--resume";
 }
 
 std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& options) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const CLI::Option* option : options.get_options()) {
-    const std::string name = option->get_name();
-    if (is_common(name) || option->count() == 0) continue;
-    for (const std::string& text : option->results()) given.emplace_back(name, text);
+    if (is_common(*option)) continue;
+    for (const std::string& text : option->results()) given.emplace_back(option->get_name(), text);
   }
   return given;
 }
@@ -36,8 +36,7 @@ int at_most_cores(int threads) {
   return cores > 0 ? std::min(threads, cores) : threads;
 }
 
-}  // namespace
-
+/// Of one number: finite, from `lowest` to `highest`.
 CLI::Validator number_from(double lowest, double highest) {
   const std::string expected =
       "a number from " + format_number(lowest) + " to " + format_number(highest);
@@ -49,69 +48,91 @@ CLI::Validator number_from(double lowest, double highest) {
   return {check, "NUMBER"};
 }
 
-Job::Job(CLI::App& program, const std::string& name, const std::string& question,
-         const std::string& description)
-    : options_(program.add_subcommand(name, description)), common_(std::make_shared<Common>()) {
-  options_->group(question);
+CLI::Validator range_of(const toml::array& ends) {
+  if (ends[0].is_integer())
+    return CLI::Range(*ends[0].value<std::int64_t>(), *ends[1].value<std::int64_t>());
+  return number_from(*ends[0].value<double>(), *ends[1].value<double>());
+}
+
+std::vector<std::string> words_of(const toml::array* texts) {
+  std::vector<std::string> words;
+  if (texts != nullptr)
+    for (const toml::node& text : *texts) words.push_back(text_of(text));
+  return words;
+}
+
+/// Warns of what is not plausible, and keeps it for a page of answers.
+void doubt(JobContext& context, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    if (text.empty()) continue;
+    report_warning(text, context.quiet);
+    context.doubts.push_back(text);
+  }
+}
+
+}  // namespace
+
+CLI::App* add_subcommand(CLI::App& program, const std::string& name) {
+  const auto told = job_texts()["jobs"][name];
+  return program.add_subcommand(name, text_of(told["help"]))
+      ->group(text_of(job_texts()["questions"][text_of(told["question"])]));
+}
+
+Job::Job(CLI::App& program, const std::string& name)
+    : options_(add_subcommand(program, name)), common_(std::make_shared<Common>()) {
   options_->get_formatter()->column_width(34);
-  const std::string group = "Every job";
-  options_
-      ->add_option("--case", common_->case_file,
-                   "Case file (TOML, SI units); without it the built-in case")
-      ->type_name("FILE")
-      ->group(group);
-  options_->add_option("--set", common_->overrides, "Change one value of the case; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(group);
-  options_
-      ->add_option(
-          "--output", common_->output,
-          "Where the result goes; without it standard output. Charts and sweeps are netCDF-4 "
-          "where its name ends in .nc")
-      ->type_name("FILE")
-      ->group(group);
-  options_->add_flag("--quiet", common_->quiet, "No progress, no warnings")->group(group);
-  options_
-      ->add_flag("--progress", common_->progress,
-                 "Progress even where standard error is no terminal")
-      ->group(group);
-  options_
-      ->add_option("--threads", common_->threads,
-                   "Number of threads, 0: all; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024))
-      ->group(group);
-  options_
-      ->add_option(
-          "--instructions", common_->instructions,
-          "Instruction set of charts, sweeps and basins: baseline, avx2 or avx512; without "
-          "it the best that the processor has. Results agree to rounding")
-      ->type_name("SET")
-      ->check(CLI::IsMember({"baseline", "avx2", "avx512"}))
-      ->group(group);
+  options_->option_defaults()->group(question::every_job);
+  add("--case", common_->case_file);
+  add("--set", common_->overrides);
+  add("--output", common_->output);
+  add("--quiet", common_->quiet);
+  add("--progress", common_->progress);
+  add("--yes", common_->yes);
+  add("--threads", common_->threads);
+  add("--instructions", common_->instructions);
+  options_->option_defaults()->group("Options");
 }
 
-CLI::Option* Job::add_text(const std::string& name, std::string& value,
-                           const std::string& description) const {
-  return options_->add_option(name, value, description)->capture_default_str();
+CLI::Option* Job::told(CLI::Option* option) const {
+  const std::string name = option->get_name();
+  const toml::table* of_job = job_texts()["jobs"][options_->get_name()][name].as_table();
+  const toml::table& told = of_job ? *of_job : *job_texts()["options"][name].as_table();
+  option->description(text_of(told["help"]));
+  if (const auto type = told["type"].value<std::string>()) option->type_name(*type);
+  if (const toml::array* ends = told["range"].as_array()) option->check(range_of(*ends));
+  const std::vector<std::string> words = words_of(told["words"].as_array());
+  if (!words.empty()) option->check(CLI::IsMember(words));
+  for (const std::string& other : words_of(told["excludes"].as_array()))
+    option->excludes(options_->get_option(other));
+  return option;
 }
 
-CLI::Option* Job::add_number(const std::string& name, double& value, const std::string& description,
-                             double lowest, double highest) const {
-  return options_->add_option(name, value, description)
-      ->check(number_from(lowest, highest))
-      ->type_name("")
-      ->capture_default_str();
+CLI::Option* Job::add(const std::string& name, bool& given) const {
+  return told(options_->add_flag(name, given));
 }
 
-JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_file) const {
+CLI::Option* Job::add(const std::string& name, std::vector<std::string>& texts) const {
+  return told(options_->add_option(name, texts)->expected(1)->take_all());
+}
+
+CLI::Option* Job::add(const std::string& name, Switching& switching) const {
+  const auto take = [&switching](const std::string& word) {
+    switching = word == "exact" ? Switching::exact : Switching::sampled;
+  };
+  return told(options_->add_option_function<std::string>(name, take)->default_str("sampled"));
+}
+
+bool Job::is_told(const std::string& fact, bool otherwise) const {
+  return job_texts()["jobs"][options_->get_name()][fact].value_or(otherwise);
+}
+
+JobContext Job::context(const std::optional<std::string>& case_file) const {
   if (case_file && common_->case_file)
     throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");
   const std::optional<std::string>& file = case_file ? case_file : common_->case_file;
   JobContext context;
   context.job = options_->get_name();
+  context.quiet = common_->quiet;
   CaseSource& source = context.case_source;
   source.overrides = common_->overrides;
   if (file) {
@@ -123,24 +144,55 @@ JobContext Job::context(PlantNeed need, const std::optional<std::string>& case_f
   if (common_->output) context.output = *common_->output;
   if (file) require_not_overwritten(*file, context.output);
   require_not_overwritten(context.case_data.excitation.record, context.output);
+  if (common_->output && !is_told("writes_folder", false))
+    require_output_name(*common_->output, has_picture(context.job));
   report_warning(wind_warning(context.case_data), common_->quiet);
-  if (need == PlantNeed::whole) report_warning(settle_plant(context.case_data), common_->quiet);
+  doubt(context, doubts_about(context.case_data, quantities_of_case()));
+  doubt(context, {contradicted_conductor_text(context.case_data)});
+  const bool needs_plant = is_told("needs_plant", true);
+  if (needs_plant) report_warning(settle_plant(context.case_data), common_->quiet);
+  // What follows from one mistake in the plant would look like another.
+  if (context.doubts.empty() && (needs_plant || !plant_is_reduced(context.case_data)))
+    doubt(context, doubts_about(context.case_data, quantities_of_plant()));
   context.options = given_options(*options_);
-  context.quiet = common_->quiet;
   context.progress = common_->progress;
-  context.threads = at_most_cores(common_->threads);
-  context.on_packs = common_->on_packs;
+  context.yes = common_->yes;
+  context.threads = at_most_cores(common_->threads.value_or(0));
+  context.on_packs = is_told("on_packs", false);
   context.instructions = chosen_instruction_set(common_->instructions);
+  if (!common_->ticking)
+    common_->ticking.emplace(context.job, mpi_launch().rank == 0 && progress_wanted(context));
   return context;
+}
+
+void Job::does(const std::function<void()>& work) const {
+  options_->final_callback([job = *this, work] {
+    const std::optional<std::string>& output = job.common_->output;
+    const bool drawn = output && is_picture_name(*output) && has_picture(job.options_->get_name());
+    drawn ? job.draw() : work();
+  });
+}
+
+void Job::draw() const {
+  const bool quiet = std::exchange(common_->quiet, true);  // the job itself warns
+  PictureRequest request{context(), {options_->get_name()}, {}, case_arguments()};
+  common_->quiet = quiet;
+  for (const CLI::Option* option : options_->get_options()) {
+    const std::string name = option->get_name();
+    if (name == "--output" || name == "--help") continue;
+    for (const std::string& text : option->results()) request.own.push_back(name + "=" + text);
+    request.options.emplace_back(
+        name, option->count() > 0 ? option->results().back() : option->get_default_str());
+  }
+  write_picture(request, do_job);
 }
 
 std::vector<std::string> Job::case_arguments() const {
   std::vector<std::string> arguments;
   if (common_->case_file) arguments.insert(arguments.end(), {"--case", *common_->case_file});
-  for (const std::string& setting : common_->overrides) {
+  for (const std::string& setting : common_->overrides)
     arguments.insert(arguments.end(), {"--set", setting});
-  }
-  if (instructions_given())
+  if (has("--instructions"))
     arguments.insert(arguments.end(), {"--instructions", common_->instructions});
   return arguments;
 }

@@ -1,52 +1,68 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "holdfast/motion/implemented_loop.hpp"
+#include "io/text/table.hpp"
+#include "io/text/text.hpp"
+#include "jobs/columns.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+#include "process/interrupt.hpp"
 #include "process/job_context.hpp"
+#include "process/progress.hpp"
+
+// What every job needs: its command line here, and with it the table that it writes, and how it
+// warns, refuses, shows progress and ends.
 
 namespace holdfast::program {
 
-/// Whether a job needs the two-mass plant of the case.
-enum class PlantNeed { whole, none };
-
 /// One job of the program on its command line: its own options and those that every job
-/// understands.
+/// understands. What texts/jobs.toml says of the job and of each option holds here: help, what is
+/// admissible, which options exclude it.
 class Job {
  public:
-  /// @param question  the heading under which `holdfast --help` lists the job
-  Job(CLI::App& program, const std::string& name, const std::string& question,
-      const std::string& description);
+  Job(CLI::App& program, const std::string& name);
 
-  /// Where the job adds its own options.
-  CLI::App* operator->() const { return options_; }
+  /// An option that holds one word or number, with its default.
+  template <class Value>
+  CLI::Option* add(const std::string& name, Value& value) const {
+    return told(options_->add_option(name, value)->capture_default_str());
+  }
+  /// The same without a default.
+  template <class Value>
+  CLI::Option* add(const std::string& name, std::optional<Value>& value) const {
+    return told(options_->add_option(name, value));
+  }
+  /// A flag.
+  CLI::Option* add(const std::string& name, bool& given) const;
+  /// An option that may be repeated.
+  CLI::Option* add(const std::string& name, std::vector<std::string>& texts) const;
+  /// "sampled" or "exact".
+  CLI::Option* add(const std::string& name, Switching& switching) const;
 
-  /// An option that holds one word or number as text, with its default.
-  CLI::Option* add_text(const std::string& name, std::string& value,
-                        const std::string& description) const;
-
-  /// The same for a finite number from `lowest` to `highest`.
-  CLI::Option* add_number(const std::string& name, double& value, const std::string& description,
-                          double lowest, double highest) const;
-
-  /// The job computes on packs: what it writes names the instruction set.
-  void computes_on_packs() const { common_->on_packs = true; }
-
-  /// Whether the command line has it.
-  bool instructions_given() const { return !common_->instructions.empty(); }
+  /// Whether the command line has the option.
+  bool has(const std::string& name) const { return options_->count(name) > 0; }
 
   /// Checked case, output and the options that were given; call once the command line is read.
   /// A plant that the case does not give is reduced from its conductor, unless the job does
   /// without.
   /// @param case_file  in place of --case, which must not be given then
-  JobContext context(PlantNeed need = PlantNeed::whole,
-                     const std::optional<std::string>& case_file = std::nullopt) const;
+  JobContext context(const std::optional<std::string>& case_file = std::nullopt) const;
 
   /// The --case, --set and --instructions options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;
+
+  /// What it does; where --output names a picture, it is drawn of the table that this writes.
+  void does(const std::function<void()>& work) const;
 
  private:
   struct Common {
@@ -55,17 +71,43 @@ class Job {
     std::optional<std::string> output;
     bool quiet = false;
     bool progress = false;
-    int threads = 0;
-    std::string instructions;  // empty: the best that the processor has
-    bool on_packs = false;     // the job computes on packs
+    bool yes = false;
+    std::optional<int> threads;      // none, 0: all
+    std::string instructions;        // empty: the best that the processor has
+    std::optional<Ticking> ticking;  // from when the context is made to the program's end
   };
+
+  void draw() const;
+  CLI::Option* told(CLI::Option* option) const;
+  bool is_told(const std::string& fact, bool otherwise) const;
 
   CLI::App* options_;
   std::shared_ptr<Common> common_;
 };
 
-/// A check for an option that is one number: finite, from `lowest` to `highest`.
-CLI::Validator number_from(double lowest, double highest);
+/// Adds a job whose question is a struct: `add_to(job)` adds its members as options, and
+/// `run(context)` answers it, or `run(job)` where it makes a context of its own.
+template <class Question>
+void add_job(CLI::App& program, const std::string& name) {
+  const Job job(program, name);
+  const auto question = std::make_shared<Question>();
+  question->add_to(job);
+  job.does([job, question] {
+    if constexpr (std::is_invocable_v<decltype(&Question::run), Question&, const Job&>)
+      question->run(job);
+    else
+      question->run(job.context());
+  });
+}
+
+/// The same without options.
+inline void add_job(CLI::App& program, const std::string& name, void (*run)(const JobContext&)) {
+  const Job job(program, name);
+  job.does([job, run] { run(job.context()); });
+}
+
+/// A job, or a text about the program itself, by its name in texts/jobs.toml.
+CLI::App* add_subcommand(CLI::App& program, const std::string& name);
 
 /// Does one command line, without the program's name; throws what is wrong with it or what its job
 /// throws.
@@ -82,16 +124,9 @@ AddJob add_case, add_reduce, add_statics, add_modes, add_decay, add_peaks, add_f
     add_simulate, add_spectrum, add_deviation, add_coverage, add_verdict, add_orbit, add_basins,
     add_diagram, add_section, add_lyapunov, add_sweep, add_answers, add_report;
 
+/// Heading of the help where the options stand that every job has.
 namespace question {
-inline constexpr const char* case_file = "What does my case say?";
-inline constexpr const char* cable = "What plant is my cable with its absorber?";
-inline constexpr const char* gains = "Which gains are stable, and which are best?";
-inline constexpr const char* delay = "How slow may the computer be?";
-inline constexpr const char* motion = "How does it move?";
-inline constexpr const char* attractor = "What is this irregular motion?";
-inline constexpr const char* map = "For which delays, backlashes, frequencies does it still help?";
-inline constexpr const char* all = "All of it at once";
-inline constexpr const char* program = "The program itself";
-}  // namespace question
+inline constexpr const char* every_job = "Every job";
+}
 
 }  // namespace holdfast::program

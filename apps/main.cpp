@@ -1,5 +1,4 @@
 #include "job.hpp"
-#include "process/interrupt.hpp"
 
 int main(int argument_count, char** arguments) {
   holdfast::program::install_signal_handlers();

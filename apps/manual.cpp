@@ -6,6 +6,7 @@
 #include "case/case_keys.hpp"
 #include "holdfast/core/version.hpp"
 #include "io/text/text.hpp"
+#include "job.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -28,8 +29,6 @@ std::string roff(std::string_view text) {
   return safe;
 }
 
-std::string heading(const std::string& title) { return ".SH " + title + "\n"; }
-
 std::string item(const std::string& term, const std::string& text) {
   return ".TP\n" + term + "\n" + roff(text) + "\n";
 }
@@ -46,7 +45,9 @@ std::string item_of(const CLI::Option& option) {
   return item(term, text + ".");
 }
 
-bool is_of_every_job(const CLI::Option& option) { return option.get_group() == "Every job"; }
+bool is_of_every_job(const CLI::Option& option) {
+  return option.get_group() == question::every_job;
+}
 
 std::string options_of(const CLI::App& job, bool of_every_job) {
   std::string text;
@@ -57,9 +58,8 @@ std::string options_of(const CLI::App& job, bool of_every_job) {
   return text;
 }
 
-std::string jobs_section(const CLI::App& program) {
-  std::string text = heading("JOBS");
-  std::string question;
+std::string text_of_jobs(const CLI::App& program) {
+  std::string text, question;
   for (const CLI::App* job : program.get_subcommands(nullptr)) {
     if (job->get_group() != question) text += ".SS \"" + roff(question = job->get_group()) + "\"\n";
     text += ".PP\n" + bold("holdfast " + job->get_name()) + "\n.RS\n" +
@@ -68,11 +68,8 @@ std::string jobs_section(const CLI::App& program) {
   return text;
 }
 
-std::string case_section() {
-  std::string text = heading("CASE FILE") +
-                     "TOML, SI units. Every key may be left out: the built-in case stands in, and "
-                     "of [wind] only what has a default.\n";
-  std::string table;
+std::string text_of_keys() {
+  std::string text, table;
   for (const CaseKey& key : case_keys()) {
     if (key.table() != table) text += ".SS \"[" + roff(table = key.table()) + "]\"\n";
     std::string meaning = key.description + ". Admissible: " + key.admissible() + ".";
@@ -84,39 +81,14 @@ std::string case_section() {
   return text;
 }
 
-std::string closing_sections() {
-  return heading("EXIT STATUS") + item("0", "Done.") +
-         item("1", "The computation has no answer; standard error says why.") +
-         item("2", "Wrong input; one line on standard error says which and what is admissible.") +
-         item("130", "Interrupted.") + heading("OUTPUT") +
-         roff(
-             "Tables are CSV (RFC 4180) with a header row and the shortest digits that read back "
-             "the same. A named file appears whole or not at all, and beside it "
-             "FILE-metadata.json with columns, units, the full case, options and version. Text "
-             "has no colour, whatever NO_COLOR says.") +
-         "\n" + heading("SEE ALSO") +
-         roff(
-             "L. E. Kollár, Dynamics of digitally controlled forced vibration of suspended "
-             "cables, Nonlinear Dynamics, 2022.") +
-         "\n";
-}
-
 }  // namespace
 
-std::string manual_page(const CLI::App& program, const std::string& examples) {
-  const std::string version(version_string);
-  return ".TH HOLDFAST 1 \"\" \"holdfast " + version + "\" \"User Commands\"\n" + heading("NAME") +
-         "holdfast \\- suspended cables under digital vibration control\n" + heading("SYNOPSIS") +
-         bold("holdfast") + " " + italic("JOB") + " [" + italic("options") + "]\n" +
-         heading("DESCRIPTION") +
-         roff(
-             "A motor-driven absorber hangs on a conductor and pushes back. Its computer samples, "
-             "so the force comes late; its belt has backlash, so the force sometimes does not "
-             "come at all. holdfast says which gains are stable, how slow the computer may be, "
-             "how much play the belt may have, and what kind of motion results.") +
-         "\n" + heading("EXAMPLES") + ".nf\n" + roff(examples) + ".fi\n" + jobs_section(program) +
-         heading("OPTIONS OF EVERY JOB") + options_of(*program.get_subcommand("simulate"), true) +
-         case_section() + closing_sections();
+std::string manual_page(const CLI::App& program) {
+  return program_text("manual", {{"version", std::string(version_string)},
+                                 {"examples", roff(examples_of("holdfast"))},
+                                 {"jobs", text_of_jobs(program)},
+                                 {"options", options_of(*program.get_subcommand("simulate"), true)},
+                                 {"keys", text_of_keys()}});
 }
 
 }  // namespace holdfast::program

@@ -1,15 +1,11 @@
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <sstream>
 #include <system_error>
 
 #include "io/file/build_record.hpp"
 #include "io/file/output.hpp"
-#include "io/text/text.hpp"
 #include "job.hpp"
-#include "process/errors.hpp"
-#include "process/exit.hpp"
 #include "texts.hpp"
 
 namespace holdfast::program {
@@ -23,23 +19,16 @@ void print(const std::string& text) {
 
 /// Texts about the program itself, which take no case.
 void add_texts(CLI::App& program) {
-  CLI::App* completion =
-      program.add_subcommand("completion", "Completion of command lines, for a shell to read");
+  CLI::App* completion = add_subcommand(program, "completion");
   const auto shell = std::make_shared<std::string>("bash");
   completion->add_option("SHELL", *shell, "Which shell")
       ->check(CLI::IsMember({"bash", "zsh"}))
       ->required();
-  completion->group(question::program)->final_callback([&program, shell] {
+  completion->final_callback([&program, shell] {
     print(*shell == "zsh" ? zsh_completion(program) : bash_completion(program));
   });
-  program
-      .add_subcommand("bill-of-materials",
-                      "What the program was built with, for machines: CycloneDX as JSON")
-      ->group(question::program)
-      ->final_callback([] { print(bill_of_materials()); });
-  program.add_subcommand("manual", "The manual page, for man to read")
-      ->group(question::program)
-      ->final_callback([&program] { print(manual_page(program, examples_of("holdfast"))); });
+  add_subcommand(program, "bill-of-materials")->final_callback([] { print(bill_of_materials()); });
+  add_subcommand(program, "manual")->final_callback([&program] { print(manual_page(program)); });
 }
 
 void add_jobs(CLI::App& program) {
@@ -53,12 +42,6 @@ void add_jobs(CLI::App& program) {
   add_texts(program);
 }
 
-std::vector<std::string> words_of_jobs(const CLI::App& program) {
-  std::vector<std::string> names;
-  for (const CLI::App* job : program.get_subcommands(nullptr)) names.push_back(job->get_name());
-  return names;
-}
-
 /// The job whose name begins with the word, else the one whose name is most like it.
 std::string nearest_job(const std::vector<std::string>& jobs, const std::string& word) {
   const auto begun = std::find_if(
@@ -66,13 +49,52 @@ std::string nearest_job(const std::vector<std::string>& jobs, const std::string&
   return begun != jobs.end() ? *begun : nearest_name(jobs, word);
 }
 
+/// The option of every job that a word is or begins with (`--set=...`); null where there is none.
+const CLI::Option* option_of_every_job(const CLI::App& program, const std::string& word) {
+  const CLI::App& any_job = *program.get_subcommand("simulate");
+  const std::string name = word.substr(0, word.find('='));
+  const auto options = any_job.get_options([&](const CLI::Option* option) {
+    return option->get_group() == question::every_job && option->check_name(name);
+  });
+  return options.empty() ? nullptr : options.front();
+}
+
+/// The job before its options: those of every job may stand before it (`--case my.toml answers`).
+std::vector<std::string> with_job_first(const CLI::App& program, std::vector<std::string> words) {
+  std::size_t place = 0;
+  while (place < words.size() && words[place].rfind("--", 0) == 0) {
+    const CLI::Option* option = option_of_every_job(program, words[place]);
+    if (option == nullptr) return words;  // --help, --version, or what no job has
+    const bool takes_value = option->get_expected_max() > 0 && option->get_type_size() > 0;
+    const bool value_follows = takes_value && words[place].find('=') == std::string::npos;
+    place += value_follows ? 2 : 1;
+  }
+  if (place == 0 || place >= words.size()) return words;
+  const auto first = words.begin();
+  std::rotate(first, first + static_cast<std::ptrdiff_t>(place),
+              first + static_cast<std::ptrdiff_t>(place) + 1);
+  return words;
+}
+
+/// What is wrong with an option that stands in the job's place.
+[[noreturn]] void refuse_option_before_job(const CLI::App& program, const std::string& word) {
+  if (option_of_every_job(program, word) != nullptr)
+    throw WrongInput("which job? Here are options alone; holdfast --help lists the jobs");
+  throw WrongInput("option " + word +
+                   " before the job: only those of every job may stand there, such as --case and "
+                   "--set; a job's own stand behind its name");
+}
+
 /// The first word is the job; CLI11 would only say that something was not expected.
 void check_job_name(const CLI::App& program, const std::vector<std::string>& arguments) {
   if (arguments.empty()) throw WrongInput("which job? holdfast --help lists them");
   const std::string& word = arguments.front();
-  const std::vector<std::string> jobs = words_of_jobs(program);
-  const bool is_job = std::find(jobs.begin(), jobs.end(), word) != jobs.end();
-  if (is_job || word.rfind('-', 0) == 0) return;
+  if (word.rfind('-', 0) == 0) {
+    if (program.get_option_no_throw(word) != nullptr) return;
+    refuse_option_before_job(program, word);
+  }
+  const std::vector<std::string> jobs = job_names(program);
+  if (std::find(jobs.begin(), jobs.end(), word) != jobs.end()) return;
   throw WrongInput("unknown job " + word + "; did you mean " + nearest_job(jobs, word) +
                    "? (holdfast --help lists the jobs)");
 }
@@ -91,9 +113,20 @@ std::string nearest_option(const CLI::App& job, const std::string& word) {
   return nearest_name(names, word);
 }
 
+/// The jobs that have an option of that name, as a list.
+std::string jobs_with(const CLI::App& program, const std::string& option) {
+  std::vector<std::string> names;
+  for (const CLI::App* job : program.get_subcommands(nullptr))
+    if (job->get_option_no_throw(option) != nullptr) names.push_back(job->get_name());
+  return CLI::detail::join(names, ", ");
+}
+
 /// What was probably meant by the first word of a command line that its job does not expect.
 std::string unexpected_text(const CLI::App& job) {
   const std::string word = job.remaining().empty() ? "" : job.remaining().front();
+  const std::string others = jobs_with(*job.get_parent(), word);
+  if (!others.empty())
+    return job.get_name() + " has no option " + word + ", which belongs to " + others;
   if (word.rfind('-', 0) == 0)
     return "unknown option " + word + "; did you mean " + nearest_option(job, word) +
            "? (holdfast " + job.get_name() + " --help lists the options)";
@@ -104,10 +137,16 @@ std::string unexpected_text(const CLI::App& job) {
   return "unexpected word " + word + "; a name with blanks needs quotes";
 }
 
+/// What the parser found wrong; that an option stands twice it says as a count of values.
+std::string text_of(const CLI::ParseError& outcome) {
+  const std::string text = one_line(outcome.what());
+  const std::size_t twice = text.find(": At Most 1 required");
+  return twice == std::string::npos ? text : text.substr(0, twice) + " is given more than once";
+}
+
 }  // namespace
 
 void do_job(const std::vector<std::string>& arguments) {
-  const std::vector<std::string> words = with_help_as_option(arguments);
   CLI::App program("holdfast: suspended cables under digital vibration control", "holdfast");
   program.set_version_flag("-v,--version", version_text);
   program.formatter(std::make_shared<ExamplesFirst>());
@@ -115,6 +154,7 @@ void do_job(const std::vector<std::string>& arguments) {
   program.get_formatter()->column_width(20);
   program.get_formatter()->label("SUBCOMMAND", "JOB");
   add_jobs(program);
+  const std::vector<std::string> words = with_job_first(program, with_help_as_option(arguments));
   check_job_name(program, words);
   try {
     program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
@@ -123,7 +163,7 @@ void do_job(const std::vector<std::string>& arguments) {
     throw WrongInput(jobs.empty() ? one_line(outcome.what()) : unexpected_text(*jobs.front()));
   } catch (const CLI::ParseError& outcome) {
     // Help and version arrive as exceptions of exit code 0 and print themselves.
-    if (outcome.get_exit_code() != 0) throw WrongInput(one_line(outcome.what()));
+    if (outcome.get_exit_code() != 0) throw WrongInput(text_of(outcome));
     std::ostringstream text;
     program.exit(outcome, text, text);
     print(text.str());

@@ -1,6 +1,6 @@
-// What it costs that the program chooses its kernels when it starts. The same work twice: on the
-// templates compiled for the processor as a whole (dispatched_bench_native_SET), and as the program
-// does it (dispatched_bench_SET), all around the kernels being compiled for the baseline. Each
+// What it costs that the program chooses its kernels when it starts. The same work twice:
+// everything compiled for the processor (dispatched_bench_native_SET), and as in the program
+// (dispatched_bench_SET), where all around the kernels is compiled for the baseline. Each
 // prints nanoseconds of processor time of four computations, medians; tools/bench_dispatch runs the
 // two in turn and prints their ratios.
 #include <algorithm>
@@ -9,14 +9,14 @@
 #include <ctime>
 #include <vector>
 
-#include "holdfast/stability/chart/loop_chart_rows.hpp"
+#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "sweep_cells.hpp"
 #ifdef HOLDFAST_BENCH_KERNELS
 #include "kernels/pack_kernels.hpp"
-#include "kernels/rows_on_packs.hpp"
 #else
 #include "holdfast/simd/pack.hpp"
+#include "kernels/kernels_on.hpp"
 #include "processor.hpp"
 #endif
 
@@ -27,19 +27,12 @@ using namespace holdfast;
 volatile double sink = 0.0;
 
 #ifdef HOLDFAST_BENCH_KERNELS
-using program::PackKernels;
-
-const PackKernels& kernels() { return program::HOLDFAST_BENCH_KERNELS(); }
-
-auto stability_rows(const LoopChart& chart) {
-  return StabilityChartRows<double, program::HurwitzOnPacks>(chart,
-                                                             program::HurwitzOnPacks(kernels()));
-}
-
-auto radius_rows(const LoopChart& chart) {
-  return RadiusChartRows<double, 6, program::RadiusOnPacks<6>>(
-      chart, program::RadiusOnPacks<6>(kernels()));
-}
+const program::PackKernels& kernels() { return program::HOLDFAST_BENCH_KERNELS(); }
+bool processor_suffices() { return true; }
+#else
+const program::PackKernels& kernels() { return program::KernelsOn<simd::Pack<double>>::all; }
+bool processor_suffices() { return bench::processor_suffices(); }
+#endif
 
 class Source final : public program::MotionSource {
  public:
@@ -59,22 +52,6 @@ void metrics(const std::vector<SweepMotion>& motions, double duration,
   kernels().metrics(motions.data(), spans.data(), motions.size(), results.data(), source);
 }
 
-bool processor_suffices() { return true; }
-#else
-using Pack = simd::Pack<double>;
-
-auto stability_rows(const LoopChart& chart) { return StabilityChartRows<Pack>(chart); }
-
-auto radius_rows(const LoopChart& chart) { return RadiusChartRows<Pack, 6>(chart); }
-
-void metrics(const std::vector<SweepMotion>& motions, double duration,
-             std::vector<MotionMetrics>& results) {
-  motion_metrics<Pack>(motions.data(), motions.size(), duration, results.data());
-}
-
-bool processor_suffices() { return bench::processor_suffices(); }
-#endif
-
 constexpr std::int64_t side = 1000;
 
 LoopChart gains_chart() {
@@ -89,22 +66,14 @@ LoopChart period_chart() {
           {LoopParameter::differential_gain, {-40.0, 20.0, side}}};
 }
 
-void flags(const LoopChart& chart) {
-  auto rows = stability_rows(chart);
-  std::vector<std::uint8_t> row(side);
-  for (std::int64_t k = 0; k < side; ++k) {
-    rows.fill(k, row.data());
-    sink = row[0];
-  }
-}
-
-void radii(const LoopChart& chart) {
-  auto rows = radius_rows(chart);
+void rows(const LoopChart& chart, bool radius) {
+  const auto kernel = kernels().chart(chart, radius);
   constexpr std::int64_t tile = 32;
-  std::vector<double> values(side * tile);
+  std::vector<std::uint8_t> flags(side * tile);
+  std::vector<double> radii(side * tile);
   for (std::int64_t k = 0; k < side; k += tile) {
-    rows.fill(k, std::min(tile, side - k), values.data());
-    sink = values[0];
+    kernel->fill(k, std::min(tile, side - k), flags.data(), radii.data());
+    sink = flags[0] + radii[0];
   }
 }
 
@@ -131,11 +100,10 @@ void line(const char* name, double units, const Work& work) {
 
 int main() {
   if (!processor_suffices()) return 0;
-  const LoopChart gains = gains_chart(), periods = period_chart();
   constexpr double cells = static_cast<double>(side * side);
-  line("chart_of_gains", cells, [&] { flags(gains); });
-  line("chart_cell_by_cell", cells, [&] { flags(periods); });
-  line("radius", cells, [&] { radii(gains); });
+  line("chart_of_gains", cells, [] { rows(gains_chart(), false); });
+  line("chart_cell_by_cell", cells, [] { rows(period_chart(), false); });
+  line("radius", cells, [] { rows(gains_chart(), true); });
   const auto motions = bench::sweep_cells();
   std::vector<MotionMetrics> results(motions.size());
   constexpr double duration = 10.0;

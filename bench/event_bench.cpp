@@ -14,7 +14,7 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "medians.hpp"
 #ifdef HOLDFAST_HAS_SUNDIALS
-#include "support/switching_reference.hpp"
+#include "support/reference/switching_reference.hpp"
 #endif
 
 namespace {
@@ -29,8 +29,9 @@ volatile double sink = 0.0;
 
 const Vector<double, 4> rest = Vector<double, 4>::Zero();
 
-EventMotion<ExactBacklash> exact_motion(const IdealLoop<double>& loop, double width) {
-  return {implemented_loop(loop).digital, ExactBacklash(loop.plant, width), rest};
+EventMotion<> exact_motion(const IdealLoop<double>& loop, double width) {
+  return {implemented_loop(loop).digital,
+          DriveContact<>(loop.plant, {ContactLaw::play, width}, Switching::exact, rest), rest};
 }
 
 template <class Motion>

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "holdfast/orbit/orbit_verification.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/simd/basins.hpp"

@@ -47,23 +47,22 @@ class Meter {
  public:
   void operator()(const MotionSample<double>& sample) {
     const double velocity = relative_velocity(sample.state);
-    extremum_.observe(sample.state[0]);
-    load_.observe(sample.control_force, relative_displacement(sample.state));
+    seen_.observe_extremum(sample.state[0]);
+    seen_.observe_load(sample.control_force, relative_displacement(sample.state));
     if (not_before(sample.time, 0.5 * duration)) {
-      steady_.observe(sample.state[0], sample.control_force, sample.engaged,
-                      is_reversal(before_, velocity));
+      seen_.observe_steady(sample.state[0], sample.control_force, sample.engaged,
+                           is_reversal(before_, velocity));
     }
     before_ = velocity;
   }
   double sum() const {
-    return extremum_.size() + load_.force() + load_.stroke() + steady_.peak + steady_.squares +
-           steady_.force_squares + steady_.engaged + steady_.reversals;
+    return seen_.first_peak + seen_.force_peak + (seen_.highest - seen_.lowest) +
+           seen_.steady_peak + seen_.squares + seen_.force_squares + seen_.engaged +
+           seen_.reversals;
   }
 
  private:
-  FirstExtremum<double> extremum_;
-  LoadExtent<double> load_;
-  SteadySums<double> steady_;
+  MetricObserver<double> seen_;
   double before_ = 0.0;
 };
 
@@ -137,7 +136,7 @@ void by_odeint(const SweepMotion& motion, std::int64_t samples, Meter& meter) {
 }
 #endif
 
-/// Operations of the kernel per sample of a pack (holdfast/sweep/metric_track.hpp): 42 of the
+/// Operations of the kernel per sample of a pack (holdfast/sweep/metric_group.hpp): 42 of the
 /// motion, 15 of the backlash, 4 of the metrics, 8 more in the steady half.
 constexpr double kernel_operations = 42 + 15 + 4 + 0.5 * 8;
 constexpr std::int64_t limit_rounds = 2'000'000;

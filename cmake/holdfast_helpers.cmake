@@ -34,6 +34,15 @@ function(holdfast_compile_for target architecture)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>)
 endfunction()
 
+# The same for a target that is linked with units of the baseline. All have to agree on how numbers of
+# Eigen are aligned, and on who aligns them: malloc of x86-64 does so to 16 bytes, where a wider set
+# would have Eigen do it, and free what it did not allocate.
+function(holdfast_compile_kernels_for target architecture)
+  holdfast_compile_for(${target} ${architecture})
+  target_compile_definitions(${target} PRIVATE
+    EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endfunction()
+
 # Makes the target holdfast::<adapter> where the option HOLDFAST_WITH_<ADAPTER> is on and its package
 # is there; says what is left out otherwise.
 macro(holdfast_add_adapter adapter part what debian_package)

@@ -26,9 +26,7 @@ function(holdfast_add_kernels target level architecture)
   target_include_directories(${kernels} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${kernels} PRIVATE holdfast::simd holdfast_warnings)
   set_target_properties(${kernels} PROPERTIES CXX_CLANG_TIDY "")  # read as baseline.cpp
-  holdfast_compile_for(${kernels} ${architecture})
-  # All units have to agree on how numbers of Eigen are aligned.
-  target_compile_definitions(${kernels} PRIVATE EIGEN_MAX_ALIGN_BYTES=16)
+  holdfast_compile_kernels_for(${kernels} ${architecture})
   string(TOUPPER ${level} name)
   target_compile_definitions(${target} PRIVATE HOLDFAST_HAS_${name})
   target_link_libraries(${target} PRIVATE ${kernels})

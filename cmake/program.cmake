@@ -18,15 +18,18 @@ function(holdfast_find_program_packages result)
   endforeach()
 endfunction()
 
-# The built-in case is compiled in, and compiled again when its file changes.
-function(holdfast_embed_case case_file source_file)
+# A text that is compiled in as holdfast::program::VARIABLE, and again when its file changes. Gives
+# the name of the source.
+function(holdfast_embed_text text_file variable result)
+  set(source_file ${CMAKE_CURRENT_BINARY_DIR}/generated/${variable}.cpp)
   add_custom_command(
     OUTPUT ${source_file}
-    COMMAND ${CMAKE_COMMAND} -D CASE_FILE=${case_file} -D SOURCE_FILE=${source_file}
-            -P ${PROJECT_SOURCE_DIR}/cmake/embed_case.cmake
-    DEPENDS ${case_file} ${PROJECT_SOURCE_DIR}/cmake/embed_case.cmake
-    COMMENT "Embedding ${case_file}"
+    COMMAND ${CMAKE_COMMAND} -D TEXT_FILE=${text_file} -D VARIABLE=${variable}
+            -D SOURCE_FILE=${source_file} -P ${PROJECT_SOURCE_DIR}/cmake/embed_text.cmake
+    DEPENDS ${text_file} ${PROJECT_SOURCE_DIR}/cmake/embed_text.cmake
+    COMMENT "Embedding ${text_file}"
     VERBATIM)
+  set(${result} ${source_file} PARENT_SCOPE)
 endfunction()
 
 # Charts as netCDF. The library is loaded when a job asks for it rather than linked, since loading it
@@ -91,14 +94,18 @@ function(holdfast_add_program)
   file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
   list(FILTER library_sources EXCLUDE REGEX "/src/(process/mpi|kernels/wide)/[^/]*$")
   file(GLOB_RECURSE program_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp)
-  set(case_source ${PROJECT_BINARY_DIR}/generated/builtin_case.cpp)
-  holdfast_embed_case(${PROJECT_SOURCE_DIR}/data/kollar2022.toml ${case_source})
+  holdfast_embed_text(${PROJECT_SOURCE_DIR}/data/kollar2022.toml builtin_case_text source)
+  list(APPEND library_sources ${source})
+  foreach(name IN ITEMS figures page comparison program jobs)
+    holdfast_embed_text(${PROJECT_SOURCE_DIR}/texts/${name}.toml ${name}_texts source)
+    list(APPEND library_sources ${source})
+  endforeach()
 
   set(library holdfast::holdfast)
   if(TARGET holdfast::compiled)
     set(library holdfast::compiled)
   endif()
-  add_library(holdfast_program STATIC ${library_sources} ${case_source})
+  add_library(holdfast_program STATIC ${library_sources})
   target_include_directories(holdfast_program PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(holdfast_program PUBLIC HOLDFAST_VERSION="${PROJECT_VERSION}")
   target_link_libraries(holdfast_program
@@ -118,7 +125,7 @@ function(holdfast_add_program)
   holdfast_use_kernels(holdfast_program)  # last of what is linked
 
   holdfast_compile_quickly(holdfast_program)
-  holdfast_compile_loops_on_packs(kernels/baseline.cpp jobs/charts/chart_rows.cpp)
+  holdfast_compile_loops_on_packs(kernels/baseline.cpp)
 
   # The name `holdfast` belongs to the library's target, so the executable's target has another.
   add_executable(holdfast_executable ${program_sources})

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/chart/chart.hpp"
@@ -22,10 +21,8 @@ int main() {
   const Sampling<double> sampling{0.008, 0.002};  // τ and δ (s)
   const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
 
-  // The chart is tested in the left half-plane, where a stable loop is a Hurwitz polynomial.
   const GainGrid grid{{-1500.0, 500.0, 11}, {-30.0, 15.0, 46}};
-  const auto in_half = polynomial.transformed(in_half_plane<double, 6>);
-  const std::vector<std::uint8_t> stable = stability_chart(in_half, grid);
+  const std::vector<std::uint8_t> stable = stability_chart(polynomial, grid);
 
   std::printf("P (N/m)    D = -30 to 15 N s/m, # stable\n");
   for (std::int64_t row = 0; row < grid.proportional.count; ++row) {

@@ -46,7 +46,7 @@ int main() {
   if (found.outcome != OrbitOutcome::certified) return 1;
   std::printf("orbit of %.2f s, amplitude %.2f mm, engaged %.0f %% of the time\n",
               found.orbit->period(), 1e3 * found.orbit->largest_displacement,
-              100.0 * found.orbit->engaged_time_fraction());
+              100.0 * found.orbit->time_share[0]);
   std::printf("largest multiplier %.4f, %zu of them\n", found.orbit->largest_multiplier(),
               found.orbit->multipliers.size());
 }

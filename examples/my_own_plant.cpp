@@ -14,7 +14,8 @@ using namespace holdfast;
 
 // Four states, [z₁, ż₁, z₂, ż₂] with the law u = P z₁ + D ż₁: a template with these three members
 // is a plant for `sampled_loop`, and so for charts, boundaries and responses; margins and motions
-// take a TwoMass alone. Here the motor pushes against the ground instead of the absorber.
+// take a TwoMass or a LinearPlant. Here the motor pushes against the ground instead of the
+// absorber.
 template <class Scalar>
 struct GroundedMotor {
   TwoMass<Scalar> masses;

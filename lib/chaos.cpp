@@ -10,12 +10,7 @@
 
 namespace holdfast {
 
-template BlockSpectrum<double>::BlockSpectrum(std::shared_ptr<const ItineraryBlocks>,
-                                              LyapunovScope);
-template void BlockSpectrum<double>::restart(const Blocks&);
-template std::array<LyapunovSpectrum<double, 5>, 1> BlockSpectrum<double>::spectra(
-    const Blocks&) const;
-template void BlockSpectrum<double>::close_block();
+template class BlockSpectrum<double>;
 
 template EventClassification classify_motion(const ImplementedLoop&, const Vector<double, 4>&,
                                              const OrbitLimits&);
@@ -23,16 +18,17 @@ template EventClassification classify_motion(const ImplementedLoop&, const Vecto
 template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<>>&, const LyapunovRun&,
                                            const std::function<void()>&);
 
+template EventClassificationOf<Eigen::Dynamic> classify_motion(
+    const ImplementedLoopOf<ControlledPlant>&, const Vector<double, Eigen::Dynamic>&,
+    const OrbitLimits&);
+
+template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<ControlledPlant>>&,
+                                           const LyapunovRun&, const std::function<void()>&);
+
 template ItineraryBlocks::ItineraryBlocks(const Matrix<double, 5>&, const Matrix<double, 5>&);
 
-template int LyapunovSpectrum<double, 5>::rank_of(const Matrix<double, 5>&);
-template void LyapunovSpectrum<double, 5>::push(const Matrix<double, 5>&, int);
-template Vector<double, 5> LyapunovSpectrum<double, 5>::exponents() const;
-template Vector<double, 5> LyapunovSpectrum<double, 5>::cautious_standard_errors() const;
-template int LyapunovSpectrum<double, 7>::rank_of(const Matrix<double, 7>&);
-template void LyapunovSpectrum<double, 7>::push(const Matrix<double, 7>&, int);
-template Vector<double, 7> LyapunovSpectrum<double, 7>::exponents() const;
-template Vector<double, 7> LyapunovSpectrum<double, 7>::cautious_standard_errors() const;
+template class LyapunovSpectrum<double, 5>;
+template class LyapunovSpectrum<double, 7>;
 
 template SampledClassification classify_motion(const IdealLoop<double>&, const Vector<double, 4>&,
                                                const OrbitLimits&);

@@ -9,8 +9,8 @@
 
 namespace holdfast {
 
-template SubintervalStepOf<4>::SubintervalStepOf(const AffineDynamicsOf<4>&,
-                                                 const std::vector<Harmonic>&, double, double);
+template SubintervalStep<4>::SubintervalStep(const AffineDynamicsOf<4>&,
+                                             const std::vector<Harmonic>&, double, double);
 template NextEvent<4> next_event(const AffineDynamicsOf<4>&, const GuardsOf<4>&,
                                  const ModeStretch<4>&);
 template HeldStep<double, 4, 1> VariationalFlow<DriveContact<>>::exponential(int, double) const;

@@ -8,10 +8,9 @@
 
 namespace holdfast {
 
-template ItineraryMaps<double>::ItineraryMaps(const IdealLoop<double>&, const Rational&);
-template double ItineraryMaps<double>::spread_of(const Matrix<double, 5>&) const;
-template std::vector<AffineMap<double>> affine_blocks(const ItineraryMaps<double>&,
-                                                      const Itinerary&);
+template std::size_t ItineraryMaps<double>::samples_of_block() const;
+template std::vector<Matrix<double, 5>> maps_of_blocks(const ItineraryMaps<double>&,
+                                                       const Itinerary&);
 
 template OrbitResult detail::orbit_of_motion(const IdealLoop<double>&, const Rational&,
                                              const OrbitLimits&,
@@ -19,17 +18,14 @@ template OrbitResult detail::orbit_of_motion(const IdealLoop<double>&, const Rat
 template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<double, 4>&,
                                          const OrbitLimits&);
 
-template OrbitCandidate orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
-                                           const ItineraryMaps<double>&, const Itinerary&,
-                                           const Backlash<double>&);
+template OrbitResult orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
+                                        const ItineraryMaps<double>&, const Itinerary&,
+                                        const Backlash<double>&);
 
-template CondensedBoundary<double> condensed_boundary(const std::vector<AffineMap<double>>&);
-template CondensedBoundary<double, Eigen::Dynamic> condensed_boundary(
-    const std::vector<AffineMap<double, Eigen::Dynamic>>&);
 template class CyclicSystem<double>;
 template class CyclicSystem<double, Eigen::Dynamic>;
 template std::optional<PeriodicSolution<double>> periodic_solution(
-    const ItineraryMaps<double>&, const Itinerary&, const std::vector<AffineMap<double>>&);
+    const ItineraryMaps<double>&, const Itinerary&, const std::vector<Matrix<double, 5>>&);
 
 template std::vector<AttractionBall> attraction_balls(const IdealLoop<double>&,
                                                       const PeriodicOrbit&);

@@ -4,6 +4,8 @@
 namespace holdfast {
 
 template EventOrbitResult<DriveContact<>> find_event_orbit(const EventMotion<DriveContact<>>&,
-                                                           const Rational&, const OrbitLimits&);
+                                                           const OrbitLimits&);
+template EventOrbitResult<DriveContact<ControlledPlant>> find_event_orbit(
+    const EventMotion<DriveContact<ControlledPlant>>&, const OrbitLimits&);
 
 }  // namespace holdfast

@@ -10,9 +10,9 @@
 namespace holdfast {
 
 template std::vector<BoundaryPoint<double>> stability_boundary(const AffinePolynomial<double, 4>&,
-                                                               const ProportionalRange&);
+                                                               const Interval<double>&);
 template std::vector<BoundaryPoint<double>> stability_boundary(const AffinePolynomial<double, 5>&,
-                                                               const ProportionalRange&);
+                                                               const Interval<double>&);
 template std::vector<BoundaryFeature<double>> boundary_features(const AffinePolynomial<double, 4>&,
                                                                 const GainWindow&);
 template std::vector<BoundaryFeature<double>> boundary_features(const AffinePolynomial<double, 5>&,
@@ -21,27 +21,15 @@ template std::vector<Interval<double>> stable_intervals(const Vector<double, 5>&
                                                         const Vector<double, 5>&);
 template std::vector<Interval<double>> stable_intervals(const Vector<double, 6>&,
                                                         const Vector<double, 6>&);
-template std::vector<Interval<double>> stable_differential_gains(const AffinePolynomial<double, 4>&,
-                                                                 const double&);
-template std::vector<Interval<double>> stable_differential_gains(const AffinePolynomial<double, 5>&,
-                                                                 const double&);
-template std::vector<Interval<double>> stable_proportional_gains(const AffinePolynomial<double, 4>&,
-                                                                 const double&);
-template std::vector<Interval<double>> stable_proportional_gains(const AffinePolynomial<double, 5>&,
-                                                                 const double&);
 template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 4>&,
                                                       const GainWindow&);
 template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 5>&,
                                                       const GainWindow&);
-template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 4>&,
-                                                        const GainWindow&);
-template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 5>&,
-                                                        const GainWindow&);
 template std::vector<GainCrossing> circle_crossings(const LoopMap<double>&, FreeGain,
                                                     const PdGains<double>&);
 template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, FreeGain,
                                                     const PdGains<double>&);
 template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
-                                                               const ProportionalRange&);
+                                                               const Interval<double>&);
 
 }  // namespace holdfast

@@ -1,6 +1,5 @@
 // Explicit instantiations of stability/design for double.
 
-#include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
@@ -9,10 +8,6 @@
 
 namespace holdfast {
 
-template std::vector<Interval<double>> feasible_differential_gains(const TwoMass<double>&,
-                                                                   const MaxDelayOptions&, double);
-template std::optional<double> feasible_differential_gain(const TwoMass<double>&,
-                                                          const MaxDelayOptions&, double);
 template MaxDelay max_sampling_period(const TwoMass<double>&, const MaxDelayOptions&);
 template MinimumAmplitude minimum_amplitude(const TwoMass<double>&, const AmplitudeOptions&, double,
                                             double);
@@ -20,10 +15,6 @@ template MinimaxAmplitude minimax_amplitude(const TwoMass<double>&, const Amplit
                                             const FrequencyBand&);
 template MinimumRadius minimum_radius(const SampledLoop<double>&, double, double);
 template MinimumRadiusGains minimum_radius_gains(const SampledLoop<double>&);
-template std::vector<Interval<double>> feasible_differential_gains(const LinearPlant<double>&,
-                                                                   const MaxDelayOptions&, double);
-template std::optional<double> feasible_differential_gain(const LinearPlant<double>&,
-                                                          const MaxDelayOptions&, double);
 template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelayOptions&);
 template MinimumAmplitude minimum_amplitude(const LinearPlant<double>&, const AmplitudeOptions&,
                                             double, double);

@@ -10,12 +10,6 @@ template AffinePolynomial<double, 4> characteristic_polynomial(const TwoMass<dou
 template AffinePolynomial<double, 5> characteristic_polynomial(const SampledLoop<double>&);
 template struct LoopPolynomial<double>;
 template LoopPolynomial<double> loop_polynomial(const SampledLoop<double>&);
-template std::vector<Interval<double>> differential_gains_within_radius(const SampledLoop<double>&,
-                                                                        const double&,
-                                                                        const double&);
-template LoopDerivative derivative_by_period(const TwoMass<double>&, const SampledLoop<double>&);
-template LoopDerivative derivative_by_delay(const TwoMass<double>&, const SampledLoop<double>&);
-template LoopDerivative derivative_by_plant(const TwoMass<double>&, const PlantDerivative&,
-                                            const Sampling<double>&);
+template LoopDerivative derivative_by_plant(const PlantDerivative&, const Sampling<double>&);
 
 }  // namespace holdfast

@@ -8,7 +8,7 @@
 namespace holdfast {
 
 template LoopSensitivity boundary_gain_sensitivity(const TwoMass<double>&, const Sampling<double>&,
-                                                   const PdGains<double>&, BoundaryGain, double);
+                                                   const PdGains<double>&, FreeGain, double);
 template LoopSensitivity radius_sensitivity(const TwoMass<double>&, const Sampling<double>&,
                                             const PdGains<double>&);
 template MinimumRadiusSensitivity minimum_radius_sensitivity(const TwoMass<double>&,

@@ -1,25 +1,210 @@
-#include <memory>
+#include <limits>
 
+#include "case/axes/axis.hpp"
+#include "case/axes/grid.hpp"
+#include "case/case_keys.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/phase_space/basins.hpp"
+#include "holdfast/phase_space/event_basins.hpp"
+#include "io/file/output.hpp"
+#include "io/grid/grid_output.hpp"
 #include "job.hpp"
-#include "jobs/attractor/basin_tables.hpp"
-#include "motion_options.hpp"
+#include "jobs/charts/row_blocks.hpp"
+#include "kernels/pack_kernels.hpp"
 
 namespace holdfast::program {
+namespace {
 
-void add_basins(CLI::App& program) {
-  const Job job(program, "basins", question::attractor,
-                "Which attractor each initial state of a grid comes to");
-  const auto options = std::make_shared<BasinOptions>();
-  job->add_option("--axis", options->axes,
-                  "KEY=MIN:MAX:COUNT, twice, of initial.z1, initial.v1, initial.z2, initial.v2")
-      ->expected(1)
-      ->take_all();
-  add_largest_period(job, options->largest_period);
-  job->add_flag("--fractions", options->fractions,
-                "A row for each attractor instead: its share of the states, with its error");
-  add_switching(job, options->switching);
-  job.computes_on_packs();
-  job->final_callback([job, options] { write_basins(job.context(), *options); });
+constexpr double most_states = 1e7;
+
+class AttractorSetTest final : public AttractionTest {
+ public:
+  explicit AttractorSetTest(const AttractorSet<IdealLoop<double>>& attractor_set)
+      : attractor_set_(attractor_set) {}
+  int attracted_by(const ForcedMotionMemory<double>& memory) const override {
+    return attractor_set_.attracted_by(memory);
+  }
+
+ private:
+  const AttractorSet<IdealLoop<double>>& attractor_set_;
+};
+
+/// MotionBatch on the packs of an instruction set.
+class TravelOnPacks : public CopiedKernel<TravelKernel> {
+ public:
+  using CopiedKernel::CopiedKernel;
+  void run(ActiveTrajectory* motions, std::size_t count, std::int64_t samples,
+           const AttractorSet<IdealLoop<double>>& attractor_set) {
+    (*this)->run(motions, count, samples, AttractorSetTest(attractor_set));
+  }
+};
+
+KeyAxis initial_axis(const std::string& text) {
+  KeyAxis axis = parse_key_axis("--axis", text);
+  if (axis.key.rfind("initial.", 0) != 0 || find_case_key(axis.key) == nullptr) {
+    throw WrongInput("--axis " + text +
+                     ": expected a key of the initial state, initial.z1, initial.v1, initial.z2 or "
+                     "initial.v2");
+  }
+  return axis;
 }
+
+/// No state of the grid is worse than one at an end of an axis.
+void require_admissible_ends(const KeyAxis& axis, const JobContext& context) {
+  for (const double end : {axis.axis.min, axis.axis.max}) {
+    Case at_end = context.case_data;
+    set_case_value(at_end, axis.key, end);
+    const CaseFault fault = first_fault(at_end);
+    if (!fault.message.empty())
+      throw WrongInput("--axis " + axis.key + " = " + format_number(end) + ": " + fault.message);
+  }
+}
+
+struct StateGrid {
+  KeyAxis slow;
+  KeyAxis fast;
+
+  std::vector<Vector<double, 4>> states(const Case& the_case) const {
+    std::vector<Vector<double, 4>> all;
+    Case changed = the_case;
+    for (std::int64_t row = 0; row < slow.axis.count; ++row) {
+      set_case_value(changed, slow.key, slow.axis.at(row));
+      for (std::int64_t column = 0; column < fast.axis.count; ++column) {
+        set_case_value(changed, fast.key, fast.axis.at(column));
+        all.push_back(initial_state_of(changed));
+      }
+    }
+    return all;
+  }
+};
+
+StateGrid grid_of(const std::vector<std::string>& axes) {
+  if (axes.size() != 2)
+    throw WrongInput(
+        "--axis: basins need two axes over initial.*, for example --axis "
+        "initial.z1=-0.005:0.005:101 --axis initial.z2=-0.005:0.005:101");
+  StateGrid grid{initial_axis(axes[0]), initial_axis(axes[1])};
+  if (grid.slow.key == grid.fast.key) throw WrongInput("--axis: both axes are " + grid.slow.key);
+  const double count =
+      static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
+  if (count > most_states)
+    throw WrongInput("--axis: " + format_number(count) + " initial states are more than " +
+                     format_number(most_states));
+  return grid;
+}
+
+double number_of(const BasinLabel& label) {
+  if (label.outcome == OrbitOutcome::diverges) return 0.0;
+  return label.attractor < 0 ? -1.0 : static_cast<double>(label.attractor + 1);
+}
+
+template <class Orbit>
+double period_of(const BasinsOf<Orbit>& map, const BasinLabel& label) {
+  if (label.attractor < 0) return std::numeric_limits<double>::quiet_NaN();
+  return map.attractors[static_cast<std::size_t>(label.attractor)].orbit.period();
+}
+
+template <class Orbit>
+void write_states(const JobContext& context, const StateGrid& grid, const BasinsOf<Orbit>& map) {
+  // In netCDF a number is a double.
+  const std::string whole = is_netcdf_name(context.output) ? "double" : "integer";
+  GridOutput output(context, {{grid_axis(grid.slow), grid_axis(grid.fast)},
+                              cell_columns_of("basins", {{"whole", whole}})});
+  std::vector<double> numbers, periods;
+  for (const BasinLabel& label : map.labels) {
+    numbers.push_back(number_of(label));
+    periods.push_back(period_of(map, label));
+  }
+  output.append(static_cast<std::int64_t>(numbers.size()), {numbers.data(), periods.data()});
+  output.commit();
+}
+
+template <class Orbit>
+void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
+  Table table(context, columns_of("basin fractions"));
+  const auto all = static_cast<double>(map.labels.size());
+  int number = 0;
+  for (const auto& attractor : map.attractors) {
+    const Orbit& orbit = attractor.orbit;
+    table.row(++number, orbit.period_samples(), orbit.period(), orbit.amplitude(),
+              orbit.largest_multiplier(), attractor.states, attractor.fraction,
+              attractor.standard_error, attractor.mirror_image ? *attractor.mirror_image + 1 : 0);
+  }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const double kind : {0.0, -1.0}) {
+    std::size_t states = 0;
+    for (const BasinLabel& label : map.labels) states += number_of(label) == kind ? 1 : 0;
+    if (states == 0) continue;
+    const double fraction = static_cast<double>(states) / all;
+    table.row(static_cast<int>(kind), 0, none, none, none, states, fraction,
+              std::sqrt(fraction * (1.0 - fraction) / all), 0);
+  }
+  table.commit();
+}
+
+void require_attractors(const std::optional<Rational>& ratio, std::int64_t largest_period) {
+  if (!ratio) {
+    throw NoAnswer(
+        "sampling and excitation never coincide, so no motion is periodic and attractors cannot be "
+        "told apart by their orbits");
+  }
+  if (ratio->denominator > largest_period) {
+    throw NoAnswer("sampling and excitation coincide only every " +
+                   std::to_string(ratio->denominator) +
+                   " samples; give --max-period at least as many");
+  }
+}
+
+/// Which attractor every initial state of a grid comes to: its number from 1 on in the order of the
+/// rows, 0 where the motion diverges, −1 where no orbit is found; and its period.
+struct BasinsQuestion {
+  std::vector<std::string> axes;          ///< KEY=MIN:MAX:COUNT, two of initial.*
+  std::int64_t largest_period = 100'000;  ///< samples
+  bool fractions = false;  ///< a row for each attractor instead of one for each state
+  Switching switching = Switching::sampled;
+
+  void add_to(const Job& job) {
+    job.add("--axis", axes);
+    job.add("--max-period", largest_period);
+    job.add("--fractions", fractions);
+    job.add("--switching", switching);
+  }
+
+  void run(const JobContext& context) const {
+    const StateGrid grid = grid_of(axes);
+    for (const KeyAxis& axis : {grid.slow, grid.fast}) require_admissible_ends(axis, context);
+    const auto states = grid.states(context.case_data);
+    const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
+    // Deals tiles of states out to threads.
+    const auto tiles = [&](std::size_t count, std::size_t tile, const auto& job) {
+      parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
+                    context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
+                      throw_if_interrupted();
+                      job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
+                    });
+    };
+    const auto write = [&](const auto& map) {
+      fractions ? write_fractions(context, map) : write_states(context, grid, map);
+    };
+    if (is_of_the_paper(context.case_data, switching)) {
+      const IdealLoop<double> loop = ideal_loop_of(context.case_data);
+      require_attractors(forcing_ratio(loop), largest_period);
+      const auto travel = [&](const auto& motion) {
+        return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
+      };
+      write(find_basins_by(travel, loop, states, limits, tiles));
+    } else {
+      const ImplementedLoop loop = implemented_loop_of(context.case_data, switching);
+      require_attractors(forcing_ratio(loop.digital), largest_period);
+      write(find_basins(loop, states, limits, tiles));
+    }
+  }
+};
+
+}  // namespace
+
+void add_basins(CLI::App& program) { add_job<BasinsQuestion>(program, "basins"); }
 
 }  // namespace holdfast::program

@@ -1,10 +1,5 @@
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
+#include <limits>
 #include <utility>
-#include <vector>
 
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
@@ -13,51 +8,57 @@
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "io/text/names.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
-#include "motion_options.hpp"
-#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
 
-struct OrbitOptions {
+struct OrbitQuestion {
   std::int64_t largest_period = OrbitLimits{}.largest_period;
   bool trace = false;
   bool certificate = false;
   std::optional<std::string> follow;
   Switching switching = Switching::sampled;
+
+  void add_to(const Job& job) {
+    job.add("--max-period", largest_period);
+    job.add("--trace", trace);
+    job.add("--certificate", certificate);
+    job.add("--follow", follow);
+    job.add("--switching", switching);
+  }
+  void run(const JobContext& context) const;
 };
 
-/// Calls `visit` with the orbit: of the paper's model where that is all there is to the case, else
-/// of the loop with all that the case says of it.
+/// Margins of switching between the samples say nothing of a law that decides at the samples alone:
+/// not infinitely far, but not known.
+void forget_margins(PeriodicOrbit& /*orbit*/) {}
+void forget_margins(EventOrbit& orbit) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  orbit.margins = {unknown, unknown, unknown, unknown, unknown, unknown};
+}
+
+/// Calls `visit` with the orbit of either model.
 template <class Visit>
-void with_orbit(const JobContext& context, const OrbitOptions& options, const Visit& visit) {
-  if (is_of_the_paper(context.case_data, options.switching))
-    visit(certified_orbit(context, options.largest_period));
-  else
-    visit(certified_orbit(context, implemented_loop_of(context.case_data, options.switching),
-                          options.largest_period));
+void with_orbit(const JobContext& context, const OrbitQuestion& options, const Visit& visit) {
+  const std::string& law = context.case_data.backlash.law;
+  const bool at_samples =
+      options.switching == Switching::sampled && (law == "immediate" || law == "play");
+  with_loop_of(context.case_data, options.switching, [&](const auto& loop) {
+    auto orbit = certified_orbit(context, loop, options.largest_period);
+    if (at_samples) forget_margins(orbit);
+    visit(orbit);
+  });
 }
 
 double border_distance(const PeriodicOrbit& orbit) { return orbit.borders.displacement.distance; }
 /// That of a turn inside the gap from its ends.
 double border_distance(const EventOrbit& orbit) { return orbit.margins.border_distance; }
 
-void write_orbit(const JobContext& context, const OrbitOptions& options) {
-  Table table(
-      context,
-      {{"period_samples", "", "samples of one period", "integer"},
-       {"period_s", "s", "period"},
-       {"forcing_periods", "", "periods of the excitation in one of the orbit", "integer"},
-       {"largest_multiplier", "", "largest modulus of a multiplier of one period"},
-       {"closure_error", "m", "state after one period less the first one, norm in SI numbers"},
-       {"border_distance_m", "m",
-        "smallest distance of z2 - z1 from a change of contact at an end of the gap"},
-       {"engaged_fraction", "", "share of the samples at which the drive transmits"}});
+void write_orbit(const JobContext& context, const OrbitQuestion& options) {
+  Table table(context, columns_of("orbit"));
   with_orbit(context, options, [&](const auto& orbit) {
     table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
               orbit.largest_multiplier(), orbit.closure_error, border_distance(orbit),
@@ -136,10 +137,8 @@ void write_quantities(Table& table, const JobContext&, const EventOrbit& orbit) 
 }
 
 /// The whole certificate, one quantity a row.
-void write_certificate(const JobContext& context, const OrbitOptions& options) {
-  Table table(context, {{"quantity", "", "what is certified", "string"},
-                        {"value", "", "in the unit of the row"},
-                        {"unit", "", "of the value", "string"}});
+void write_certificate(const JobContext& context, const OrbitQuestion& options) {
+  Table table(context, columns_of("certificate"));
   with_orbit(context, options, [&](const auto& orbit) { write_quantities(table, context, orbit); });
   table.commit();
 }
@@ -154,7 +153,7 @@ MotionRow sample_of(const EventOrbit& orbit, std::size_t j) {
 }
 
 /// The orbit's samples, with the columns of `simulate`: one period and the sample that closes it.
-void write_orbit_trace(const JobContext& context, const OrbitOptions& options) {
+void write_orbit_trace(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, motion_columns(options.switching));
   with_orbit(context, options, [&](const auto& orbit) {
     for (std::size_t k = 0; k <= orbit.states.size(); ++k) {
@@ -222,18 +221,9 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
                        const std::string& axis) {
   const auto [key, range] = parse_key_range(axis);
   const double value = followed_value(context.case_data, key, axis, range);
-  Table table(context, {{"side", "", "below or above the case's value", "string"},
-                        {"outcome", "",
-                         "border_collision: a sample reaches a switching surface; unit_circle: a "
-                         "multiplier does; range_end: neither",
-                         "string"},
-                        {"position", "", "of the key, in its unit"},
-                        {"distance", "", "from the case's value"},
-                        {"surface", "", "reversal, gap_lower or gap_upper", "string"},
-                        {"sample", "", "of the orbit; -1 without a collision", "integer"},
-                        {"largest_multiplier", "", "modulus there"},
-                        {"multiplier_angle_rad", "rad", "0: fold, pi: flip, else a pair"}});
-  const PeriodicOrbit orbit = certified_orbit(context, largest_period);
+  Table table(context, columns_of("branch ends"));
+  const PeriodicOrbit orbit =
+      certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
   const auto path = [&, name = key](double position) {
     return ideal_loop_of(case_with(context.case_data, name, position));
   };
@@ -248,42 +238,24 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
   table.commit();
 }
 
-void run(const JobContext& context, const OrbitOptions& options) {
-  if (options.follow && !is_of_the_paper(context.case_data, options.switching))
+void OrbitQuestion::run(const JobContext& context) const {
+  if (follow && !is_of_the_paper(context.case_data, switching))
     throw WrongInput(
         "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
         "computer only");
-  if (options.trace) {
-    write_orbit_trace(context, options);
-  } else if (options.certificate) {
-    write_certificate(context, options);
-  } else if (options.follow) {
-    write_branch_ends(context, options.largest_period, *options.follow);
+  if (trace) {
+    write_orbit_trace(context, *this);
+  } else if (certificate) {
+    write_certificate(context, *this);
+  } else if (follow) {
+    write_branch_ends(context, largest_period, *follow);
   } else {
-    write_orbit(context, options);
+    write_orbit(context, *this);
   }
 }
 
 }  // namespace
 
-void add_orbit(CLI::App& program) {
-  const Job job(program, "orbit", question::attractor,
-                "The exact periodic orbit that the motion comes to, with its certificate");
-  const auto options = std::make_shared<OrbitOptions>();
-  add_largest_period(job, options->largest_period);
-  CLI::Option* trace =
-      job->add_flag("--trace", options->trace, "Its samples over one period, as simulate's");
-  CLI::Option* certificate =
-      job->add_flag("--certificate", options->certificate,
-                    "All of its certificate: multipliers, distances to the switching surfaces, "
-                    "radius of capture, the same orbit in extended precision")
-          ->excludes(trace);
-  job->add_option("--follow", options->follow,
-                  "KEY=MIN:MAX: where the orbit ends along one key of the case, and why")
-      ->excludes(trace)
-      ->excludes(certificate);
-  add_switching(job, options->switching);
-  job->final_callback([job, options] { run(job.context(), *options); });
-}
+void add_orbit(CLI::App& program) { add_job<OrbitQuestion>(program, "orbit"); }
 
 }  // namespace holdfast::program

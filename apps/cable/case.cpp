@@ -1,10 +1,6 @@
-#include <cmath>
 #include <filesystem>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "case/case_file.hpp"
 #include "case/case_keys.hpp"
@@ -12,53 +8,38 @@
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "io/file/output.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
 #include "job.hpp"
-#include "process/errors.hpp"
+#include "jobs/job_texts.hpp"
 
 namespace holdfast::program {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What follows from the case.
-struct Derived {
-  const char* name;
-  double value;
-  const char* unit;
-  const char* meaning;
-};
-
-using Derivations = std::vector<Derived>;
+/// What follows from the case, by its name in texts/jobs.toml.
+using Derivations = std::vector<std::pair<const char*, double>>;
 
 void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
   const auto excitation = excitation_of(the_case);
-  derived.push_back({"force_amplitude", excitation.amplitude, "N",
-                     "of the harmonic force, from [excitation] or [wind]"});
-  derived.push_back({"force_frequency", excitation.frequency, "Hz", "of the same"});
+  derived.emplace_back("force_amplitude", excitation.amplitude);
+  derived.emplace_back("force_frequency", excitation.frequency);
   const case_tables::Excitation& given = the_case.excitation;
   if (given.noise_rms > 0.0)
-    derived.push_back({"noise_period",
-                       given.noise_lines / (given.noise_highest - given.noise_lowest), "s",
-                       "after it the noise repeats: lines over bandwidth"});
-  derived.push_back({"static_displacement", excitation.amplitude / plant.conductor_stiffness, "m",
-                     "the force over the conductor's stiffness, F/k1"});
+    derived.emplace_back("noise_period",
+                         given.noise_lines / (given.noise_highest - given.noise_lowest));
+  derived.emplace_back("static_displacement", excitation.amplitude / plant.conductor_stiffness);
 }
 
 void add_gains(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
-  derived.push_back({"proportional_gain", gains_of(the_case).proportional, "N/m", "P in force"});
-  derived.push_back(
-      {"tuned_proportional_gain",
-       tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
-                               excitation_of(the_case).frequency),
-       "N/m", "k2 - m2 (2 pi f)^2, Eq. 6: the absorber's own frequency becomes that of the force"});
+  derived.emplace_back("proportional_gain", gains_of(the_case).proportional);
+  derived.emplace_back("tuned_proportional_gain",
+                       tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
+                                               excitation_of(the_case).frequency));
 }
 
 void add_modes(Derivations& derived, const TwoMass<double>& plant) {
@@ -71,33 +52,26 @@ void add_modes(Derivations& derived, const TwoMass<double>& plant) {
   const auto damping = [&](std::size_t k) {
     return damped.size() == 2 ? damped[k].damping_ratio() : unknown;
   };
-  derived.push_back({"first_natural_frequency", frequency(0), "Hz",
-                     "of conductor and absorber together, without damping and control"});
-  derived.push_back({"second_natural_frequency", frequency(1), "Hz", "the same"});
-  derived.push_back(
-      {"first_damping_ratio", damping(0), "",
-       "of the slower mode of the damped plant; nan: one of them does not oscillate"});
-  derived.push_back({"second_damping_ratio", damping(1), "", "of the faster one"});
+  derived.emplace_back("first_natural_frequency", frequency(0));
+  derived.emplace_back("second_natural_frequency", frequency(1));
+  derived.emplace_back("first_damping_ratio", damping(0));
+  derived.emplace_back("second_damping_ratio", damping(1));
 }
 
 void add_clock(Derivations& derived, const Case& the_case) {
   const double period = the_case.control.sampling_period;
   const auto ratio = forcing_ratio(implemented_loop_of(the_case, Switching::sampled).digital);
-  derived.push_back({"sampling_rate", 1.0 / period, "Hz", "of the computer"});
-  derived.push_back({"samples_per_forcing_period",
-                     1.0 / (excitation_of(the_case).frequency * period), "",
-                     "below 2 the computer does not see the vibration"});
-  derived.push_back(
-      {"samples_to_coincidence", ratio ? static_cast<double>(ratio->denominator) : unknown, "",
-       "after so many, sampling and forcing are as before: every period is a multiple "
-       "of it; nan: never"});
+  derived.emplace_back("sampling_rate", 1.0 / period);
+  derived.emplace_back("samples_per_forcing_period",
+                       1.0 / (excitation_of(the_case).frequency * period));
+  derived.emplace_back("samples_to_coincidence",
+                       ratio ? static_cast<double>(ratio->denominator) : unknown);
 }
 
 void add_stability(Derivations& derived, const Case& the_case) {
   const auto loop = loop_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
-  derived.push_back({"spectral_radius", spectral_radius(loop.engaged_map(gains)), "",
-                     "of the sampled loop without backlash; stable below 1"});
+  derived.emplace_back("spectral_radius", spectral_radius(loop.engaged_map(gains)));
   const auto stable =
       stable_differential_gains(characteristic_polynomial(loop), gains.proportional);
   double lower = unknown, upper = unknown;
@@ -106,9 +80,8 @@ void add_stability(Derivations& derived, const Case& the_case) {
     if (nearest) lower = interval.lower;
     if (nearest) upper = interval.upper;
   }
-  derived.push_back({"stable_from", lower, "N.s/m",
-                     "lower end of the stable D at the P in force, about the case's D; nan: none"});
-  derived.push_back({"stable_to", upper, "N.s/m", "their upper end"});
+  derived.emplace_back("stable_from", lower);
+  derived.emplace_back("stable_to", upper);
 }
 
 Derivations derivations_of(const Case& the_case) {
@@ -136,57 +109,64 @@ std::string origin_of(const CaseKey& key, const Case& the_case) {
 /// Every key of the case with its value and where that comes from, then what follows from them.
 void write_case_table(const JobContext& context) {
   const Case& the_case = context.case_data;
-  Table table(context, {{"key", "", "of the case file, or what follows from the case", "string"},
-                        {"value", "", "in the unit beside it", "string"},
-                        {"unit", "", "SI", "string"},
-                        {"origin", "", "built-in, the file and line, --set, or derived", "string"},
-                        {"meaning", "", "with what is admissible", "string"}});
+  Table table(context, columns_of("case"));
   for (const CaseKey& key : case_keys()) {
     const std::string value = case_value_text(key, the_case);
     if (value.empty()) continue;
     table.row(key.name, value, key.unit, origin_of(key, the_case),
               key.description + "; admissible: " + key.admissible());
   }
-  for (const Derived& derived : derivations_of(the_case))
-    table.row(derived.name, format_number(derived.value), derived.unit, "derived", derived.meaning);
+  for (const auto& [name, value] : derivations_of(the_case)) {
+    const toml::array& told = *job_texts()["derived"][name].as_array();
+    table.row(name, format_number(value), text_of(told[0]), "derived", text_of(told[1]));
+  }
   table.commit();
 }
 
-struct CaseOptions {
-  std::optional<std::string> begun;
-  std::optional<std::string> checked;
-};
+/// What makes the plant of the case itself.
+CaseForm form_of(const Case& the_case) {
+  return the_case.plant_given && !plant_is_reduced(the_case) ? CaseForm::plant
+                                                             : CaseForm::conductor;
+}
 
 /// A case file that is there already is somebody's work.
-void write_case_file(const JobContext& context, const std::string& name) {
+void write_case_file(const Case& the_case, const std::string& name, CaseForm form) {
   if (name != "-" && std::filesystem::exists(name))
     throw WrongInput("--init " + name + ": there is such a file already");
   OutputFile file(name);
-  file.write(case_to_toml(context.case_data));
+  file.write(case_to_begin_with(the_case, form));
   file.commit();
 }
 
-void run(const Job& job, const CaseOptions& options) {
-  if (options.begun && options.checked)
-    throw WrongInput("--init begins a case file and --check explains one: give one of them");
-  const JobContext context = job.context(PlantNeed::whole, options.checked);
-  if (options.begun) return write_case_file(context, *options.begun);
-  write_case_table(context);
-}
+struct CaseQuestion {
+  std::optional<std::string> begun, checked, from;
+  bool wind = false;
+
+  void add_to(const Job& job) {
+    job.add("--init", begun);
+    job.add("--check", checked);
+    job.add("--from", from);
+    job.add("--wind", wind);
+  }
+
+  void run(const Job& job) const {
+    if (begun && checked)
+      throw WrongInput("--init begins a case file and --check explains one: give one of them");
+    if (!begun && (from || wind))
+      throw WrongInput(std::string(from ? "--from" : "--wind") + ": of --init FILE alone");
+    const JobContext context = job.context(checked);
+    if (!begun) return write_case_table(context);
+    Case the_case = context.case_data;
+    if (wind && !the_case.wind) the_case.wind = wind_for(the_case);
+    const CaseForm form = !from              ? form_of(the_case)
+                          : *from == "plant" ? CaseForm::plant
+                                             : CaseForm::conductor;
+    write_case_file(the_case, *begun, form);
+  }
+};
 
 }  // namespace
 
-void add_case(CLI::App& program) {
-  const Job job(program, "case", question::case_file,
-                "Begins a case file, or explains every value of one and what follows from it");
-  const auto options = std::make_shared<CaseOptions>();
-  job->add_option("--init", options->begun,
-                  "Write the case, built-in or --case with --set, as a commented case file")
-      ->type_name("FILE");
-  job->add_option("--check", options->checked,
-                  "Explain this case file: every value, where it comes from, what it means")
-      ->type_name("FILE");
-  job->final_callback([job, options] { run(job, *options); });
-}
+void add_case(CLI::App& program) { add_job<CaseQuestion>(program, "case"); }
 
 }  // namespace holdfast::program

@@ -1,23 +1,16 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
+#include "case/plausibility/quantities.hpp"
 #include "holdfast/ceres/decay_fit_options.hpp"
 #include "io/file/input.hpp"
-#include "io/text/decay_file.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
+#include "io/text/record_file.hpp"
 #include "job.hpp"
 #include "jobs/cable/damping_fit.hpp"
-#include "process/errors.hpp"
-#include "process/exit.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -49,14 +42,22 @@ const FitParameter& description_of(fit::PlantParameter parameter) {
   return known_parameters[static_cast<std::size_t>(parameter)];
 }
 
-struct FitOptions {
+struct FitQuestion {
   std::optional<std::string> data;
   std::string parameters = "absorber_damping";
   std::optional<std::string> target;
   bool plain = false;
+
+  void add_to(const Job& job) {
+    job.add("--data", data);
+    job.add("--parameters", parameters);
+    job.add("--target", target);
+    job.add("--plain", plain);
+  }
+  void run(const Job& job) const;
 };
 
-fit::DecayFitOptions question_of(const FitOptions& options) {
+fit::DecayFitOptions question_of(const FitQuestion& options) {
   fit::DecayFitOptions question;
   question.free.clear();
   for (const std::string_view name : split(options.parameters, ',')) {
@@ -117,8 +118,20 @@ std::string course_warning(const fit::DecayMinimum& best, const DecayRecord& rec
          " % of its start: released at rest at its first row, it moves otherwise";
 }
 
+/// A record of a motion beyond the absorber's reach is likely one in millimetres.
+std::string unit_warning(const std::string& file, const DecayRecord& record, const Case& the_case) {
+  double largest = 0.0;
+  for (const double displacement : record.displacements)
+    largest = std::max(largest, std::abs(displacement));
+  const double reach = reach_of_absorber(the_case);
+  if (largest <= reach) return "";
+  return file + ": displacement_m reaches " + format_rounded(largest) +
+         " m, where the absorber's " + "place has a reach of " + format_rounded(reach) +
+         " m: is it in mm, " + format_rounded(1e-3 * largest) + " m?";
+}
+
 /// All minima; where nothing but the case is given, those of `reduce`.
-std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitOptions& options,
+std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitQuestion& options,
                                          fit::DecayFitOptions& question) {
   const TwoMass<double> plant = start_of(context.case_data);
   require_starts(question, plant);
@@ -131,50 +144,27 @@ std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitOpt
   }
   const DecayRecord record =
       options.data ? read_decay_file(*options.data) : record_for_fit(context.case_data);
+  if (options.data)
+    report_warning(unit_warning(*options.data, record, context.case_data), context.quiet);
   const auto minima = fit_record(record, plant, question).minima;
   if (!fit::is_measured(question.target))
     report_warning(course_warning(minima.front(), record), context.quiet);
   return minima;
 }
 
-void run(const JobContext& context, const FitOptions& options) {
-  fit::DecayFitOptions question = question_of(options);
-  if (options.data) require_not_overwritten(*options.data, context.output);
-  Table table(
-      context,
-      {{"quantity", "", "key of the case file; residual: root mean square", "string"},
-       {"value", "", "in the unit beside it"},
-       {"standard_error", "",
-        "same unit: from the scatter about the history; of measures, from their misfit or 1 "
-        "% of each"},
-       {"unit", "", "SI; none: relative", "string"}});
-  const auto minima = minima_of(context, options, question);
+void FitQuestion::run(const Job& job) const {
+  require_ceres();
+  const JobContext context = job.context();
+  fit::DecayFitOptions question = question_of(*this);
+  if (data) require_not_overwritten(*data, context.output);
+  Table table(context, columns_of("fit"));
+  const auto minima = minima_of(context, *this, question);
   for (std::size_t k = 0; k < minima.size(); ++k) write_minimum(table, question, minima[k], k + 1);
   table.commit();
 }
 
 }  // namespace
 
-void add_fit(CLI::App& program) {
-  const Job job(program, "fit", question::cable,
-                "Damping of the absorber (or more) from a decay record");
-  const auto options = std::make_shared<FitOptions>();
-  job->add_option("--data", options->data,
-                  "CSV file with columns time_s,displacement_m, the first row at rest; without it "
-                  "the continuous cable of the case")
-      ->type_name("FILE");
-  job.add_text("--parameters", options->parameters, "Keys of [plant] to be fitted, between commas");
-  job->add_option("--target", options->target,
-                  "What is met: history, peak (first peak and period), measures (and logarithmic "
-                  "decrement); default: history, but for absorber_damping alone without --data "
-                  "peak where the plant meets it to a tenth")
-      ->check(CLI::IsMember({"history", "peak", "measures"}))
-      ->type_name("");
-  job->add_flag("--plain", options->plain, "Least squares, without the robust loss");
-  job->final_callback([job, options] {
-    require_ceres();
-    run(job.context(PlantNeed::none), *options);
-  });
-}
+void add_fit(CLI::App& program) { add_job<FitQuestion>(program, "fit"); }
 
 }  // namespace holdfast::program

@@ -1,10 +1,7 @@
 #include "holdfast/stability/margins/margins.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "io/text/table.hpp"
-#include "io/text/text.hpp"
 #include "job.hpp"
-#include "jobs/charts/boundary_names.hpp"
-#include "process/errors.hpp"
+#include "jobs/charts/names.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -35,20 +32,7 @@ void tell_margins(const JobContext& context) {
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(1.0 - margins.unit_circle));
-  Table table(
-      context,
-      {{"quantity", "", "what alone is moved; the delay keeps its share of the period", "string"},
-       {"unit", "", "of value, position and distance", "string"},
-       {"value", "", "in the case"},
-       {"side", "", "below or above the value", "string"},
-       {"outcome", "",
-        "boundary: a root reaches the unit circle; none: stable to the end of the range; "
-        "beyond_search: stable as far as was looked",
-        "string"},
-       {"position", "", "the quantity there"},
-       {"distance", "", "from the value; inf without a boundary"},
-       {"curve", "", "which root crosses", "string"},
-       {"frequency_Hz", "Hz", "of the motion at the boundary; nan without one"}});
+  Table table(context, columns_of("margins"));
   write(table, "differential_gain", "N.s/m", gains.differential, margins.differential_gain);
   write(table, "proportional_gain", "N/m", gains.proportional, margins.proportional_gain);
   write(table, "sampling_period", "s", sampling.period, margins.sampling_period);
@@ -58,10 +42,6 @@ void tell_margins(const JobContext& context) {
 
 }  // namespace
 
-void add_margins(CLI::App& program) {
-  const Job job(program, "margins", question::gains,
-                "How far D, P, the sampling period and the delay are from instability");
-  job->final_callback([job] { tell_margins(job.context()); });
-}
+void add_margins(CLI::App& program) { add_job(program, "margins", tell_margins); }
 
 }  // namespace holdfast::program

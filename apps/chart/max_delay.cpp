@@ -1,66 +1,72 @@
-#include "holdfast/stability/design/max_delay.hpp"
 #include "case/axes/axis.hpp"
+#include "case/model/held_force.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/control/gains.hpp"
-#include "io/text/table.hpp"
 #include "job.hpp"
-#include "process/interrupt.hpp"
-#include "process/progress.hpp"
+#include "jobs/design/best_gains.hpp"
 
 namespace holdfast::program {
 namespace {
 
-struct MaxDelayArguments {
+struct MaxDelayQuestion {
   std::string frequency = "3:60:58";
   std::string criterion = "attenuates";
-};
 
-MaxDelayOptions question_of(const Case& the_case, const MaxDelayArguments& options) {
-  MaxDelayOptions question;
-  question.criterion =
-      options.criterion == "stable" ? DelayCriterion::stable : DelayCriterion::attenuates;
-  question.hold = force_hold_of(the_case);
-  question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
-  return question;
-}
-
-void run(const JobContext& context, const MaxDelayArguments& options) {
-  const TwoMass<double> plant = plant_of(context.case_data);
-  const Axis axis = parse_axis("--frequency", options.frequency);
-  MaxDelayOptions question = question_of(context.case_data, options);
-  Table table(context,
-              {{"frequency_Hz", "Hz", "excitation frequency f"},
-               {"proportional_gain", "N/m", "P, tuned to the frequency by Eq. 6"},
-               {"max_sampling_period_s", "s", "every shorter period serves; inf: no limit found"},
-               {"differential_gain", "N.s/m", "a D that serves at that period"}});
-  Progress progress(static_cast<std::uint64_t>(axis.count), "max-delay", progress_wanted(context));
-  for (std::int64_t i = 0; i < axis.count; ++i) {
-    throw_if_interrupted();
-    question.frequency = axis.at(i);
-    question.proportional_gain =
-        tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, question.frequency);
-    const MaxDelay answer = max_sampling_period(plant, question);
-    table.row(question.frequency, question.proportional_gain, answer.sampling_period,
-              answer.differential_gain);
-    progress.advance();
+  void add_to(const Job& job) {
+    job.add("--frequency", frequency);
+    job.add("--criterion", criterion);
   }
-  table.commit();
-}
+
+  void run(const JobContext& context) {
+    const TwoMass<double> plant = plant_of(context.case_data);
+    const Axis axis = parse_axis("--frequency", frequency);
+    Table table(context, columns_of("max-delay"));
+    Progress progress(static_cast<std::uint64_t>(axis.count), "max-delay",
+                      progress_wanted(context));
+    for (std::int64_t i = 0; i < axis.count; ++i) {
+      throw_if_interrupted();
+      MaxDelayOptions question = tuned_delay_question(context.case_data, axis.at(i));
+      if (criterion == "stable") question.criterion = DelayCriterion::stable;
+      const MaxDelay answer = max_sampling_period(plant, question);
+      if (answer.outcome == MaxDelayOutcome::beyond_search)
+        report_warning("at " + format_rounded(question.frequency) +
+                           " Hz the search ended without a limit at a period of " +
+                           format_rounded(answer.sampling_period) +
+                           " s; longer ones are not judged",
+                       context.quiet);
+      note(plant, question, answer, context);
+      table.row(question.frequency, question.proportional_gain, answer.sampling_period,
+                answer.differential_gain);
+      progress.advance();
+    }
+    table.commit();
+    if (on_boundary_ > 0)
+      report_warning("of " + std::to_string(axis.count) + " D " + std::to_string(on_boundary_) +
+                         " lie on the boundary of stability, each a limit at its longest period; "
+                         "at a shorter one holdfast design finds a D with a margin",
+                     context.quiet);
+    report_warning(held_force_, context.quiet);
+  }
+
+ private:
+  /// Notes where D is a limit, and where the hold of the force decides what is attenuated.
+  void note(const TwoMass<double>& plant, const MaxDelayOptions& question, const MaxDelay& answer,
+            const JobContext& context) {
+    if (!(answer.sampling_period > 0.0 && std::isfinite(answer.sampling_period))) return;
+    const PdGains<double> gains{question.proportional_gain, answer.differential_gain};
+    const auto loop = sampled_loop(plant, question.sampling(answer.sampling_period));
+    if (loop_polynomial(loop).excess(gains) > -1e-9) ++on_boundary_;
+    if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
+      held_force_ =
+          held_force_warning(context.case_data, answer.sampling_period, question.frequency,
+                             "what attenuates is judged by the force as it is held");
+  }
+
+  std::int64_t on_boundary_ = 0;
+  std::string held_force_;
+};
 
 }  // namespace
 
-void add_max_delay(CLI::App& program) {
-  const Job job(
-      program, "max-delay", question::delay,
-      "Largest sampling period against excitation frequency, P tuned by Eq. 6; the processing "
-      "delay keeps its fraction of the period");
-  const auto options = std::make_shared<MaxDelayArguments>();
-  job.add_text("--frequency", options->frequency, "Excitation frequencies, MIN:MAX:COUNT, Hz");
-  job->add_option("--criterion", options->criterion,
-                  "stable: some D stabilises; attenuates: some stabilising D beats no control")
-      ->check(CLI::IsMember({"stable", "attenuates"}))
-      ->capture_default_str();
-  job->final_callback([job, options] { run(job.context(), *options); });
-}
+void add_max_delay(CLI::App& program) { add_job<MaxDelayQuestion>(program, "max-delay"); }
 
 }  // namespace holdfast::program

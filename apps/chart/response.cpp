@@ -1,4 +1,5 @@
 #include "case/axes/axis.hpp"
+#include "case/model/held_force.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "job.hpp"
@@ -7,38 +8,36 @@
 namespace holdfast::program {
 namespace {
 
-struct ResponseOptions {
+struct ResponseQuestion {
   std::string p = "-1000:200:61";
   std::string d = "-40:20:61";
-};
 
-void run(const JobContext& context, const ResponseOptions& options) {
-  const SampledLoop<double> loop = loop_of(context.case_data);
-  const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
-  const double omega = excitation.angular_frequency();
-  const auto input =
-      harmonic_input(plant_of(context.case_data), loop, force_hold_of(context.case_data), omega);
-  const SteadyResponse<double> response(loop, input, omega);
-  const GainGrid grid{parse_axis("--p", options.p), parse_axis("--d", options.d)};
-  GridTable table(
-      context, {{"proportional_gain", "N/m", "P"}, grid.proportional},
-      {{"differential_gain", "N.s/m", "D"}, grid.differential},
-      {{{"stable", "", "1: asymptotically stable, 0: not", "integer"}, {"unstable", "stable"}},
-       {{"amplitude_m", "m", "steady amplitude of z1 without backlash; nan where unstable"}},
-       {{"ratio_to_uncontrolled", "", "amplitude over that without control; nan where unstable"}}});
-  append_response_chart(context, loop, response, excitation.amplitude, grid, table);
-  table.commit();
-}
+  void add_to(const Job& job) {
+    job.add("--p", p);
+    job.add("--d", d);
+  }
+
+  void run(const JobContext& context) const {
+    const SampledLoop<double> loop = loop_of(context.case_data);
+    const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
+    const double omega = excitation.angular_frequency();
+    const TwoMass<double> plant = plant_of(context.case_data);
+    const auto input = harmonic_input(plant, loop, force_hold_of(context.case_data), omega);
+    const auto response = SteadyResponse<double>(loop, input, omega)
+                              .relative_to(true_amplitude_per_force(plant, omega));
+    report_warning(held_force_warning(context.case_data,
+                                      "amplitudes are those of the force as it "
+                                      "is held, ratios to the true force's"),
+                   context.quiet);
+    const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
+    GridOutput output(context, {gain_axes(grid), cell_columns_of("response")});
+    append_response_chart(context, loop, response, excitation.amplitude, grid, output);
+    output.commit();
+  }
+};
 
 }  // namespace
 
-void add_response(CLI::App& program) {
-  const Job job(program, "response", question::gains,
-                "Steady amplitude over the gains, without backlash, in closed form");
-  const auto options = std::make_shared<ResponseOptions>();
-  job.add_text("--p", options->p, "Proportional gains P, MIN:MAX:COUNT, N/m");
-  job.add_text("--d", options->d, "Differential gains D, MIN:MAX:COUNT, N s/m");
-  job->final_callback([job, options] { run(job.context(), *options); });
-}
+void add_response(CLI::App& program) { add_job<ResponseQuestion>(program, "response"); }
 
 }  // namespace holdfast::program

@@ -1,7 +1,4 @@
-#include <cmath>
-#include <string>
-#include <vector>
-
+#include "holdfast/stability/sensitivity/sensitivity.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -11,9 +8,8 @@
 #include "holdfast/stability/sensitivity/amplitude_sensitivity.hpp"
 #include "holdfast/stability/sensitivity/max_delay_sensitivity.hpp"
 #include "holdfast/stability/sensitivity/minimum_radius_sensitivity.hpp"
-#include "holdfast/stability/sensitivity/sensitivity.hpp"
-#include "io/text/table.hpp"
 #include "job.hpp"
+#include "jobs/charts/names.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -48,7 +44,7 @@ void add_stable_interval(const Question& q, std::vector<Sensitivities>& answers)
     if (!std::isfinite(d)) return;
     answers.push_back(
         {name, "N.s/m", d,
-         boundary_gain_sensitivity(q.plant, q.sampling, {p, d}, BoundaryGain::differential)});
+         boundary_gain_sensitivity(q.plant, q.sampling, {p, d}, FreeGain::differential)});
   };
   for (const Interval<double>& interval : stable_differential_gains(polynomial, p)) {
     if (!interval.contains(q.gains.differential)) continue;
@@ -67,7 +63,10 @@ void add_minimum_radius(const Question& q, std::vector<Sensitivities>& answers) 
 }
 
 void add_minimum_amplitude(const Question& q, std::vector<Sensitivities>& answers) {
-  const AmplitudeOptions question{q.sampling, q.hold};
+  // No gain on the boundary: it decays at least half as fast as the fastest, its radius being held.
+  const MinimumRadius fastest =
+      minimum_radius(sampled_loop(q.plant, q.sampling), q.gains.proportional);
+  const AmplitudeOptions question{q.sampling, q.hold, std::sqrt(std::min(1.0, fastest.radius))};
   const auto least = minimum_amplitude(q.plant, question, q.frequency, q.gains.proportional);
   if (!std::isfinite(least.differential_gain)) return;
   const auto moved = amplitude_sensitivity(q.plant, question, q.frequency, q.gains.proportional);
@@ -89,8 +88,8 @@ void add_largest_period(const Question& q, DelayCriterion criterion, const char*
   const auto moved = max_delay_sensitivity(q.plant, question, answer);
   LoopSensitivity sensitivity = moved.sampling_period;
   // The answer keeps the case's δ/τ, which moves with both.
-  sensitivity.processing_delay = moved.by_delay_fraction / q.sampling.period;
-  sensitivity.sampling_period =
+  sensitivity[LoopParameter::processing_delay] = moved.by_delay_fraction / q.sampling.period;
+  sensitivity[LoopParameter::sampling_period] =
       -question.delay_fraction * moved.by_delay_fraction / q.sampling.period;
   answers.push_back({name, "s", answer.sampling_period, sensitivity});
 }
@@ -106,55 +105,39 @@ std::vector<Sensitivities> answers_of(const Question& q) {
   return answers;
 }
 
-/// The keys of the case file in the order of `LoopSensitivity`.
-const char* const sensitivity_keys[loop_parameters] = {
-    "plant.conductor_mass",     "plant.conductor_stiffness", "plant.conductor_damping",
-    "plant.absorber_mass",      "plant.absorber_stiffness",  "plant.absorber_damping",
-    "control.sampling_period",  "control.processing_delay",  "control.proportional_gain",
-    "control.differential_gain"};
-
 void write(Table& table, const Question& q, const Sensitivities& answer, bool tuned) {
   const LoopSensitivity moved =
       tuned ? with_tuned_gain(answer.sensitivity, q.frequency) : answer.sensitivity;
-  const auto slopes = entries_of(moved);
-  const auto relative = entries_of(logarithmic(moved, q.plant, q.sampling, q.gains, answer.value));
+  const auto relative = logarithmic(moved, {q.plant, q.sampling, q.gains}, answer.value);
   for (int k = 0; k < loop_parameters; ++k) {
+    const char* key = name_in(parameter_keys, static_cast<LoopParameter>(k));
     // Adding zero leaves no "-0" in the table.
-    table.row(answer.name, answer.value, answer.unit, sensitivity_keys[k],
-              find_case_key(sensitivity_keys[k])->unit, slopes[k] + 0.0, relative[k] + 0.0);
+    table.row(answer.name, answer.value, answer.unit, key, find_case_key(key)->unit,
+              moved.entries[k] + 0.0, relative.entries[k] + 0.0);
   }
 }
 
 /// One row for every answer and parameter, ∂answer/∂parameter and ∂ ln|answer|/∂ ln|parameter|.
 /// Answers that the case does not have (no stable gain, no largest period) have no rows.
-void run(const JobContext& context, bool tuned) {
-  const Case& the_case = context.case_data;
-  const Question question{plant_of(the_case), sampling_of(the_case), gains_of(the_case),
-                          excitation_of(the_case).frequency, force_hold_of(the_case)};
-  Table table(context, {{"answer", "", "what moves", "string"},
-                        {"value", "", "of the answer"},
-                        {"unit", "", "of the answer", "string"},
-                        {"parameter", "", "key of the case file", "string"},
-                        {"parameter_unit", "", "of the parameter", "string"},
-                        {"derivative", "", "of the answer by the parameter, in their units"},
-                        {"relative", "", "per cent of the answer per per cent of the parameter"}});
-  const bool follows = tuned || the_case.control.proportional_gain_tuned;
-  for (const Sensitivities& answer : answers_of(question)) write(table, question, answer, follows);
-  table.commit();
-}
+struct SensitivityQuestion {
+  bool tuned = false;
+
+  void add_to(const Job& job) { job.add("--tuned", tuned); }
+
+  void run(const JobContext& context) const {
+    const Case& the_case = context.case_data;
+    const Question question{plant_of(the_case), sampling_of(the_case), gains_of(the_case),
+                            excitation_of(the_case).frequency, force_hold_of(the_case)};
+    Table table(context, columns_of("sensitivity"));
+    const bool follows = tuned || the_case.control.proportional_gain_tuned;
+    for (const Sensitivities& answer : answers_of(question))
+      write(table, question, answer, follows);
+    table.commit();
+  }
+};
 
 }  // namespace
 
-void add_sensitivity(CLI::App& program) {
-  const Job job(program, "sensitivity", question::gains,
-                "How the answers move with each parameter: stable gains, best gains, largest "
-                "sampling period");
-  const auto tuned = std::make_shared<bool>(false);
-  job->add_flag(
-      "--tuned", *tuned,
-      "P follows the absorber's stiffness and mass by Eq. 6 instead of being held, as it does "
-      "in a case whose gain is \"tuned\"");
-  job->final_callback([job, tuned] { run(job.context(), *tuned); });
-}
+void add_sensitivity(CLI::App& program) { add_job<SensitivityQuestion>(program, "sensitivity"); }
 
 }  // namespace holdfast::program

@@ -1,30 +1,14 @@
-#include <string>
-#include <vector>
-
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
-#include "io/text/names.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
-#include "process/errors.hpp"
+#include "jobs/charts/names.hpp"
 
 namespace holdfast::program {
 namespace {
-
-constexpr Named<LoopParameter> parameter_keys[] = {
-    {LoopParameter::proportional_gain, "control.proportional_gain"},
-    {LoopParameter::differential_gain, "control.differential_gain"},
-    {LoopParameter::sampling_period, "control.sampling_period"},
-    {LoopParameter::processing_delay, "control.processing_delay"},
-    {LoopParameter::conductor_mass, "plant.conductor_mass"},
-    {LoopParameter::conductor_stiffness, "plant.conductor_stiffness"},
-    {LoopParameter::conductor_damping, "plant.conductor_damping"},
-    {LoopParameter::absorber_mass, "plant.absorber_mass"},
-    {LoopParameter::absorber_stiffness, "plant.absorber_stiffness"},
-    {LoopParameter::absorber_damping, "plant.absorber_damping"}};
 
 LoopParameter parameter_of(const std::string& key) {
   std::string known;
@@ -48,81 +32,66 @@ KeyAxis admissible_axis(const std::string& text) {
   return axis;
 }
 
-struct StabilityOptions {
+struct StabilityQuestion {
   std::string p = "-1000:200:121";
   std::string d = "-40:20:121";
   std::vector<std::string> axes;
   bool continuous = false;
   bool radius = false;
+
+  void add_to(const Job& job) {
+    job.add("--p", p);
+    job.add("--d", d);
+    job.add("--continuous", continuous);
+    job.add("--axis", axes);
+    job.add("--radius", radius);
+  }
+  void run(const JobContext& context) const {
+    axes.empty() ? run_over_gains(context) : run_over_axes(context);
+  }
+
+ private:
+  std::vector<CellColumn> columns() const {
+    if (!radius) return cell_columns_of("stability");
+    return cell_columns_of(continuous ? "continuous stability" : "sampled stability");
+  }
+  void run_over_gains(const JobContext& context) const;
+  void run_over_axes(const JobContext& context) const;
 };
 
-std::vector<CellColumn> columns(const StabilityOptions& options) {
-  std::vector<CellColumn> result = {
-      {{"stable", "", "1: asymptotically stable, 0: not", "integer"}, {"unstable", "stable"}}};
-  if (!options.radius) return result;
-  if (options.continuous) {
-    result.push_back({{"spectral_abscissa", "1/s", "largest real part of a characteristic root"}});
-  } else {
-    result.push_back({{"spectral_radius", "", "largest modulus of a characteristic root"}});
-  }
-  return result;
-}
-
-void run_over_gains(const JobContext& context, const StabilityOptions& options) {
-  const GainGrid grid{parse_axis("--p", options.p), parse_axis("--d", options.d)};
-  GridTable table(context, {{"proportional_gain", "N/m", "P"}, grid.proportional},
-                  {{"differential_gain", "N.s/m", "D"}, grid.differential}, columns(options));
-  if (options.continuous) {
-    append_continuous_chart(context, plant_of(context.case_data), grid, options.radius, table);
+void StabilityQuestion::run_over_gains(const JobContext& context) const {
+  const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
+  GridOutput output(context, {gain_axes(grid), columns()});
+  if (continuous) {
+    append_continuous_chart(context, plant_of(context.case_data), grid, radius, output);
   } else {
     const LoopChart chart{operating_point_of(context.case_data),
                           {LoopParameter::proportional_gain, grid.proportional},
                           {LoopParameter::differential_gain, grid.differential}};
-    append_sampled_chart(context, chart, options.radius, table);
+    append_sampled_chart(context, chart, radius, output);
   }
-  table.commit();
+  output.commit();
 }
 
 /// A sampling period on an axis takes the processing delay with it in proportion; a tuned P stays
 /// that of the case.
-void run_over_axes(const JobContext& context, const StabilityOptions& options) {
-  if (options.axes.size() != 2) {
-    throw WrongInput("--axis: a chart needs two axes, not " + std::to_string(options.axes.size()));
+void StabilityQuestion::run_over_axes(const JobContext& context) const {
+  if (axes.size() != 2) {
+    throw WrongInput("--axis: a chart needs two axes, not " + std::to_string(axes.size()));
   }
-  const KeyAxis slow = admissible_axis(options.axes[0]), fast = admissible_axis(options.axes[1]);
+  const KeyAxis slow = admissible_axis(axes[0]), fast = admissible_axis(axes[1]);
   if (slow.key == fast.key) throw WrongInput("--axis: both axes are " + slow.key);
   const LoopChart chart{operating_point_of(context.case_data),
                         {parameter_of(slow.key), slow.axis},
                         {parameter_of(fast.key), fast.axis}};
   validate(chart);
-  GridTable table(context, grid_axis(slow), grid_axis(fast), columns(options));
-  append_sampled_chart(context, chart, options.radius, table);
-  table.commit();
+  GridOutput output(context, {{grid_axis(slow), grid_axis(fast)}, columns()});
+  append_sampled_chart(context, chart, radius, output);
+  output.commit();
 }
 
 }  // namespace
 
-void add_stability(CLI::App& program) {
-  const Job job(program, "stability", question::gains, "Chart of stable gains (P, D)");
-  const auto options = std::make_shared<StabilityOptions>();
-  CLI::Option* p = job.add_text("--p", options->p, "Proportional gains P, MIN:MAX:COUNT, N/m");
-  CLI::Option* d = job.add_text("--d", options->d, "Differential gains D, MIN:MAX:COUNT, N s/m");
-  CLI::Option* continuous =
-      job->add_flag("--continuous", options->continuous, "Without sampling: the continuous loop");
-  job->add_option("--axis", options->axes,
-                  "KEY=MIN:MAX:COUNT, twice: a chart over two keys of [control] or [plant] instead")
-      ->expected(1)
-      ->take_all()
-      ->excludes(p)
-      ->excludes(d)
-      ->excludes(continuous);
-  job->add_flag("--radius", options->radius,
-                "Add the spectral radius (continuous: spectral abscissa)");
-  job.computes_on_packs();
-  job->final_callback([job, options] {
-    options->axes.empty() ? run_over_gains(job.context(), *options)
-                          : run_over_axes(job.context(), *options);
-  });
-}
+void add_stability(CLI::App& program) { add_job<StabilityQuestion>(program, "stability"); }
 
 }  // namespace holdfast::program

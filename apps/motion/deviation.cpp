@@ -1,52 +1,64 @@
 #include "holdfast/phase_space/deviation.hpp"
+#include "case/case_keys.hpp"
 #include "case/model/motion_of_case.hpp"
-#include "io/text/table.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "motion_options.hpp"
+#include "jobs/orbit/neighbours.hpp"
 
 namespace holdfast::program {
 namespace {
 
-struct DeviationOptions {
+struct DeviationQuestion {
   double offset = 1e-5;
   double duration = 10.0;
   Switching switching = Switching::sampled;
-};
 
-void run(const JobContext& context, const DeviationOptions& options) {
-  Table table(context, {{"time_s", "s", "t = j tau"},
-                        {"z1_deviation_m", "m", "z1 of the neighbour minus z1 of the case"},
-                        {"state_deviation", "",
-                         "Euclidean norm of the difference of [z1, v1, z2, v2] in SI units"}});
-  const std::int64_t samples = samples_of(context.case_data, options.duration);
-  with_motion_of(context.case_data, {options.switching}, [&](auto first) {
-    auto second = first;
-    second.displace_conductor(options.offset);
-    const auto outcome =
-        run_deviation(first, second, samples, [&table](const Deviation& deviation) {
-          table.row(deviation.time, deviation.displacement, deviation.state);
-        });
-    require_completed(outcome, first.time());
-    require_resolved(first, context.quiet);
-  });
-  table.trust(
-      trusted_digits_of_deviation(context.case_data, options.switching, options.offset, samples));
-  table.commit();
-}
+  void add_to(const Job& job) {
+    job.add("--offset", offset);
+    job.add("--duration", duration);
+    job.add("--switching", switching);
+  }
+
+  void run(const JobContext& context) const {
+    if (offset == 0.0)
+      throw WrongInput(
+          "--offset is 0: the neighbour would be the motion itself; the default is 1e-5 m");
+    require_within_span("--offset", offset, context.case_data);
+    Table table(context, columns_of("deviation"));
+    const std::int64_t samples = samples_of(context.case_data, duration);
+    require_text_meant(context, samples, "rows", "a shorter --duration leaves fewer");
+    double last = 0.0;
+    with_motion_of(context.case_data, {switching}, [&](auto first) {
+      auto second = first;
+      second.displace_conductor(offset);
+      const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
+        table.row(deviation.time, deviation.displacement, deviation.state);
+        last = deviation.state;
+      });
+      require_completed(outcome, first.time());
+      require_resolved(first, context.quiet);
+    });
+    table.trust(trusted_digits_of_deviation(context.case_data, switching, offset, samples));
+    table.commit();
+    if (last >= std::abs(offset)) tell_why_apart(context, last);
+  }
+
+  /// Neighbours that have not come together in the duration: why, by the orbits they come to.
+  void tell_why_apart(const JobContext& context, double last) const {
+    if (!is_of_the_paper(context.case_data, switching)) return;
+    const Vector<double, 4> first = initial_state_of(context.case_data);
+    Vector<double, 4> second = first;
+    second[0] += offset;
+    report_warning("after " + format_rounded(duration) + " s the motions are still " +
+                       format_rounded(last) +
+                       " apart: " + apart_text(ideal_loop_of(context.case_data), first, second),
+                   context.quiet);
+  }
+};
 
 }  // namespace
 
-void add_deviation(CLI::App& program) {
-  const Job job(program, "deviation", question::attractor,
-                "How far two motions part that start close to each other");
-  const auto options = std::make_shared<DeviationOptions>();
-  job.add_number("--offset", options->offset, "Start of the neighbour: z1 displaced by this, m",
-                 -1e6, 1e6);
-  add_duration(job, options->duration);
-  add_switching(job, options->switching);
-  job->final_callback([job, options] { run(job.context(), *options); });
-}
+void add_deviation(CLI::App& program) { add_job<DeviationQuestion>(program, "deviation"); }
 
 }  // namespace holdfast::program

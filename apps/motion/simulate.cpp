@@ -1,72 +1,69 @@
 #include "case/axes/axis.hpp"
+#include "case/case_keys.hpp"
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/table.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "motion_options.hpp"
-#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
-
-struct SimulateOptions {
-  double duration = 10.0;
-  double from = 0.0;
-  std::optional<std::string> kick;
-  bool no_control = false;
-  Switching switching = Switching::sampled;
-};
-
-std::optional<Kick> kick_of(const SimulateOptions& options) {
-  if (!options.kick) return std::nullopt;
-  const KickOption kick = parse_kick("--kick", *options.kick);
-  return Kick{kick.time, kick.displacement};
-}
 
 ContactMode mode_of(const EventSample& sample) { return sample.mode; }
 ContactMode mode_of(const MotionSample<double>& sample) {
   return sample.engaged ? ContactMode::engaged : ContactMode::gap;
 }
 
-void run(const JobContext& context, const SimulateOptions& options) {
-  const std::optional<Kick> kick = kick_of(options);
-  if (options.from > options.duration)
-    throw WrongInput("--from lies after --duration: no row is left");
-  if (kick && kick->time > options.duration) throw WrongInput("--kick acts after --duration");
-  const std::int64_t samples = samples_of(context.case_data, options.duration);
-  Table table(context, motion_columns(options.switching));
-  const MotionChoice choice{options.switching, !options.no_control};
-  auto digits = digits_beside(context.case_data, choice, kick, options.from);
-  with_motion_of(context.case_data, choice, [&](auto motion) {
-    run_to_completion(motion, samples, kick, [&](const auto& sample) {
-      if (digits) (*digits)(sample);
-      if (!not_before(sample.time, options.from)) return;
-      write_motion_row(table, options.switching,
-                       {sample.time, sample.state, sample.control_force, mode_of(sample)});
+struct SimulateQuestion {
+  double duration = 10.0;
+  double from = 0.0;
+  std::optional<std::string> kick;
+  bool no_control = false;
+  Switching switching = Switching::sampled;
+
+  void add_to(const Job& job) {
+    job.add("--duration", duration);
+    job.add("--from", from);
+    job.add("--kick", kick);
+    job.add("--no-control", no_control);
+    job.add("--switching", switching);
+  }
+
+  void run(const JobContext& context) const {
+    const std::optional<Kick> kicked = parsed_kick();
+    if (from > duration) throw WrongInput("--from lies after --duration: no row is left");
+    if (kicked) require_within_span("--kick", kicked->displacement, context.case_data);
+    if (kicked && kicked->time > duration) throw WrongInput("--kick acts after --duration");
+    const std::int64_t samples = samples_of(context.case_data, duration);
+    require_text_meant(context, samples_of(context.case_data, duration - from), "rows",
+                       "a later --from or a shorter --duration leaves fewer");
+    Table table(context, motion_columns(switching));
+    const MotionChoice choice{switching, !no_control};
+    auto digits = digits_beside(context.case_data, choice, kicked, from);
+    with_motion_of(context.case_data, choice, [&](auto motion) {
+      run_to_completion(motion, samples, kicked, [&](const auto& sample) {
+        if (digits) (*digits)(sample);
+        if (!not_before(sample.time, from)) return;
+        write_motion_row(table, switching,
+                         {sample.time, sample.state, sample.control_force, mode_of(sample)});
+      });
+      require_resolved(motion, context.quiet);
     });
-    require_resolved(motion, context.quiet);
-  });
-  if (digits) tell_trust(context, table, digits->result());
-  table.commit();
-}
+    if (digits) tell_trust(context, table, digits->result());
+    table.commit();
+  }
+
+  std::optional<Kick> parsed_kick() const {
+    if (!kick) return std::nullopt;
+    const KickOption parsed = parse_kick("--kick", *kick);
+    return Kick{parsed.time, parsed.displacement};
+  }
+};
 
 }  // namespace
 
-void add_simulate(CLI::App& program) {
-  const Job job(program, "simulate", question::motion,
-                "Time history of the loop from its initial state");
-  const auto options = std::make_shared<SimulateOptions>();
-  add_duration(job, options->duration);
-  add_from(job, options->from);
-  job->add_option("--kick", options->kick,
-                  "Displace the conductor once: TIME:DISPLACEMENT, s and m");
-  job->add_flag("--no-control", options->no_control, "Without control force");
-  add_switching(job, options->switching);
-  job->final_callback([job, options] { run(job.context(), *options); });
-}
+void add_simulate(CLI::App& program) { add_job<SimulateQuestion>(program, "simulate"); }
 
 }  // namespace holdfast::program

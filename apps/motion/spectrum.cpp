@@ -1,22 +1,28 @@
 #include "holdfast/math/signal/spectrum.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/motion_of_case.hpp"
+#include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/table.hpp"
 #include "job.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
-#include "motion_options.hpp"
-#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
 
-struct SpectrumOptions {
+struct SpectrumQuestion {
   double duration = 60.0;
   std::optional<double> discard;
   std::string window = "rectangular";
   Switching switching = Switching::sampled;
+
+  void add_to(const Job& job) {
+    job.add("--duration", duration);
+    job.add("--discard", discard);
+    job.add("--window", window);
+    job.add("--switching", switching);
+  }
+  void run(const JobContext& context) const;
 };
 
 /// A motion's z1 without its transient.
@@ -26,7 +32,7 @@ struct SteadyRecord {
 };
 
 /// z1 of the samples after the discarded time, cut to whole forcing and sampling periods.
-SteadyRecord steady_record(const JobContext& context, const SpectrumOptions& options) {
+SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& options) {
   const double period = context.case_data.control.sampling_period;
   const double discard = options.discard.value_or(options.duration / 2.0);
   if (!(discard < options.duration)) throw WrongInput("--discard leaves nothing of --duration");
@@ -35,6 +41,19 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumOptions& opt
       whole_period_samples(samples - samples_within(discard, period),
                            excitation_of(context.case_data).frequency, period);
   if (kept < 2) throw WrongInput("--duration and --discard leave fewer than two samples");
+  constexpr std::int64_t most = 100'000'000;
+  if (kept > most)
+    throw NoAnswer("a record of " + std::to_string(kept) + " samples is longer than the " +
+                   std::to_string(most) +
+                   " whose spectrum is taken: a shorter --duration less "
+                   "--discard, or a longer control.sampling_period, has fewer");
+  const HarmonicExcitation<double> force = excitation_of(context.case_data);
+  const double length = static_cast<double>(kept) * period;
+  if (force.amplitude > 0.0 && !not_before(length, 1.0 / force.frequency))
+    throw WrongInput("--duration and --discard leave " + format_rounded(length) +
+                     " s, less than one period of the excitation, " +
+                     format_rounded(1.0 / force.frequency) +
+                     " s: no line of a spectrum is at its frequency");
   const double from = static_cast<double>(samples - kept) * period;
   auto digits = digits_beside(context.case_data, {options.switching}, {}, from);
   std::vector<double> record;
@@ -49,14 +68,12 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumOptions& opt
   return {record, digits ? digits->result() : TrustedDigits{}};
 }
 
-void run(const JobContext& context, const SpectrumOptions& options) {
-  Table table(context,
-              {{"frequency_Hz", "Hz", "frequency of the line"},
-               {"amplitude_m", "m", "amplitude of z1: a sine of amplitude a on a line shows a"}});
-  const auto window = options.window == "hann" ? SpectralWindow::hann : SpectralWindow::rectangular;
-  const SteadyRecord record = steady_record(context, options);
+void SpectrumQuestion::run(const JobContext& context) const {
+  Table table(context, columns_of("spectrum"));
+  const auto weighting = window == "hann" ? SpectralWindow::hann : SpectralWindow::rectangular;
+  const SteadyRecord record = steady_record(context, *this);
   const auto lines =
-      amplitude_spectrum(record.displacement, context.case_data.control.sampling_period, window);
+      amplitude_spectrum(record.displacement, context.case_data.control.sampling_period, weighting);
   for (const SpectralLine& line : lines) table.row(line.frequency, line.amplitude);
   tell_trust(context, table, record.trusted);
   table.commit();
@@ -64,20 +81,6 @@ void run(const JobContext& context, const SpectrumOptions& options) {
 
 }  // namespace
 
-void add_spectrum(CLI::App& program) {
-  const Job job(program, "spectrum", question::attractor,
-                "Amplitude spectrum of z1 over a whole number of forcing periods");
-  const auto options = std::make_shared<SpectrumOptions>();
-  add_duration(job, options->duration);
-  job->add_option("--discard", options->discard,
-                  "Transient left out at the start, s (default: half)")
-      ->check(number_from(0.0, 1e12))
-      ->type_name("");
-  job->add_option("--window", options->window, "Weighting of the record: rectangular or hann")
-      ->check(CLI::IsMember({"rectangular", "hann"}))
-      ->capture_default_str();
-  add_switching(job, options->switching);
-  job->final_callback([job, options] { run(job.context(), *options); });
-}
+void add_spectrum(CLI::App& program) { add_job<SpectrumQuestion>(program, "spectrum"); }
 
 }  // namespace holdfast::program

@@ -1,22 +1,23 @@
 #include "report/page/report.hpp"
 
 #include "job.hpp"
-#include "process/errors.hpp"
 
 namespace holdfast::program {
+namespace {
 
-void add_report(CLI::App& program) {
-  const Job job(
-      program, "report", question::all,
-      "A folder with every table and picture of the case, and one report.html that shows them");
-  job.computes_on_packs();
-  job->final_callback([job] {
+struct ReportQuestion {
+  void add_to(const Job&) {}
+
+  void run(const Job& job) const {
     const JobContext context = job.context();
-    if (!context.output || *context.output == "-") {
+    if (!context.output || *context.output == "-")
       throw WrongInput("--output DIRECTORY is needed: a report is a folder");
-    }
     write_report(context, job.case_arguments(), do_job);
-  });
-}
+  }
+};
+
+}  // namespace
+
+void add_report(CLI::App& program) { add_job<ReportQuestion>(program, "report"); }
 
 }  // namespace holdfast::program

@@ -7,7 +7,6 @@
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
-#include "holdfast/chaos/leading_exponent.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/chaos/motion_classification.hpp"

@@ -2,6 +2,7 @@
 
 /// The sampled-data loop: gains, hold, delay, quantisation, clock.
 
+#include "holdfast/control/controlled_plant.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/gains.hpp"

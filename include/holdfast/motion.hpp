@@ -3,8 +3,8 @@
 /// Motions of the loop: sampled map and event-driven flow.
 
 #include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/divergence.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/event_sample.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/instant.hpp"

@@ -6,7 +6,6 @@
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/metric_group.hpp"
 #include "holdfast/sweep/metric_observer.hpp"
-#include "holdfast/sweep/metric_track.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"

@@ -1,5 +1,8 @@
 #include "case/case.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
@@ -14,14 +17,35 @@ case_tables::Excitation effective_excitation(const Case& the_case) {
   return force;
 }
 
+case_tables::Wind wind_for(const Case& the_case) {
+  constexpr double pi = 3.14159265358979323846, filled = 0.75;
+  const auto to_three_digits = [](double value) {
+    const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
+    return std::round(value * scale) / scale;
+  };
+  const case_tables::Conductor& cable = the_case.conductor;
+  const double frequency = the_case.excitation.frequency;
+  const double wave_speed = cable.span * std::sqrt(cable.gravity / (8.0 * cable.sag));
+  case_tables::Wind wind;
+  wind.diameter = to_three_digits(std::sqrt(4.0 * cable.area / (filled * pi)));
+  wind.speed = to_three_digits(frequency * wind.diameter / wind.strouhal);
+  wind.effective_length = to_three_digits(std::min(wave_speed / (2.0 * frequency), cable.span));
+  return wind;
+}
+
 std::string wind_warning(const Case& the_case) {
   if (!the_case.wind) return {};
   const double frequency = effective_excitation(the_case).frequency;
   if (frequency >= 3.0 && frequency <= 150.0) return {};
   const std::string found = "the wind sheds vortices at " + format_number(frequency) +
                             " Hz, outside the 3 to 150 Hz of aeolian vibration: ";
-  if (frequency < 3.0)
+  // Of the taut string as long and as tight as the span: sqrt(H/m)/(2 L) with H = m g L²/(8 f).
+  const double first_mode = std::sqrt(the_case.conductor.gravity / (32.0 * the_case.conductor.sag));
+  if (frequency < std::min(first_mode, 3.0))
     return found + "so slow a force is a breeze that sways the whole span, not one loop of it";
+  if (frequency < 3.0)
+    return found + "it shakes about mode " + format_number(std::round(frequency / first_mode)) +
+           " of the span, as the wind does with stay cables; the limits of lines do not apply";
   return found + "so fast a vibration is damped by the conductor itself";
 }
 

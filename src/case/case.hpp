@@ -133,6 +133,10 @@ struct Case {
 /// effective_length·lift_coefficient (N).
 case_tables::Excitation effective_excitation(const Case& the_case);
 
+/// A wind for a case without one: it sheds vortices at the frequency of [excitation] from a strand
+/// of the conductor's area, in step over one half-wave of that frequency.
+case_tables::Wind wind_for(const Case& the_case);
+
 /// Why the wind's vortices are not those of aeolian vibration (3 to 150 Hz), in words for a
 /// warning; empty where they are, or there is no wind.
 std::string wind_warning(const Case& the_case);

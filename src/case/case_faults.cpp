@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/plausibility/doubts.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -125,8 +126,8 @@ CaseFault conductor_fault(const Case& the_case) {
 }
 
 CaseFault first_fault(const Case& the_case) {
-  for (const auto find : {control_fault, jitter_fault, contact_fault, conductor_fault,
-                          reduction_fault, force_fault, noise_fault}) {
+  for (const auto find : {control_fault, jitter_fault, contact_fault, impossible_fault,
+                          conductor_fault, reduction_fault, force_fault, noise_fault}) {
     CaseFault fault = find(the_case);
     if (!fault.message.empty()) return fault;
   }
@@ -136,6 +137,13 @@ CaseFault first_fault(const Case& the_case) {
 void check_case(const Case& the_case) {
   const CaseFault fault = first_fault(the_case);
   if (!fault.message.empty()) throw WrongInput(fault.message);
+}
+
+void require_within_span(const std::string& option, double displacement, const Case& the_case) {
+  const double span = the_case.conductor.span;
+  if (std::abs(displacement) < span) return;
+  throw WrongInput(option + ": a displacement of " + format_number(displacement) +
+                   " m is beyond the span, " + quantity("conductor.span", span, "m"));
 }
 
 }  // namespace holdfast::program

@@ -7,6 +7,7 @@
 
 #include "case/builtin_case.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/plausibility/doubts.hpp"
 #include "case/toml_values.hpp"
 #include "io/file/input.hpp"
 #include "io/text/text.hpp"
@@ -66,6 +67,7 @@ class CaseReader {
   void set_file(const CaseKey& key, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
   const Given* last_given(const std::vector<std::string>& keys) const;
+  const Given* blamed(const std::vector<std::string>& keys) const;
   void check_wind() const;
   void settle_frequencies();
   void check_faults() const;
@@ -245,6 +247,18 @@ const Given* CaseReader::last_given(const std::vector<std::string>& keys) const 
   return found == given_.rend() ? nullptr : &*found;
 }
 
+/// Of the keys of a fault the last override, else the first of them that the file gives: in a file
+/// the order of the lines says nothing.
+const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
+  const Given* last = last_given(keys);
+  if (last == nullptr || last->layer == Layer::override) return last;
+  for (const std::string& key : keys) {
+    const Given* given = last_given({key});
+    if (given != nullptr && given->layer == last->layer) return given;
+  }
+  return last;
+}
+
 void CaseReader::check_wind() const {
   if (!case_.wind) return;
   for (const CaseKey& key : case_keys()) {
@@ -284,8 +298,12 @@ void CaseReader::settle_frequencies() {
 void CaseReader::check_faults() const {
   const CaseFault fault = first_fault(case_);
   if (fault.message.empty()) return;
-  const Given* given = last_given(fault.keys);
-  throw WrongInput(given == nullptr ? fault.message : given->place + ": " + fault.message);
+  const Given* last = last_given(fault.keys);
+  std::vector<std::string> suspects = fault.keys;  // an override goes before what it meets
+  if (last != nullptr && last->layer == Layer::override) suspects = {last->key};
+  const UnitGuess guess = guessed_unit(case_, suspects, quantities_of_case());
+  const Given* given = blamed(guess.keys.empty() ? fault.keys : guess.keys);
+  throw WrongInput((given == nullptr ? "" : given->place + ": ") + fault.message + guess.text);
 }
 
 Case CaseReader::finish(const std::vector<std::string>& overrides) {

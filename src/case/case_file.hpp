@@ -37,6 +37,16 @@ std::string case_default(const CaseKey& key);
 /// The full case as a commented case file; load_case() of it gives the same case.
 std::string case_to_toml(const Case& the_case);
 
+/// Of what a case file to begin with makes the plant.
+enum class CaseForm {
+  conductor,  ///< [conductor], [absorber] and [reduction]; of [plant] what was given beside them
+  plant       ///< [plant] alone, unless the user gave both
+};
+
+/// A commented case file to begin with. As conductor its plant follows each change of the
+/// conductor: frequencies of [reduction] that were not given stand there as comments, computed.
+std::string case_to_begin_with(const Case& the_case, CaseForm form);
+
 /// The full case, a JSON object for each table.
 nlohmann::ordered_json case_to_json(const Case& the_case);
 

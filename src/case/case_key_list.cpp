@@ -8,16 +8,7 @@
 namespace holdfast::program {
 namespace {
 
-using case_tables::Absorber;
-using case_tables::Backlash;
-using case_tables::Conductor;
-using case_tables::Control;
-using case_tables::Excitation;
-using case_tables::Initial;
-using case_tables::Plant;
-using case_tables::Reduction;
-using case_tables::Wind;
-using Keys = std::vector<CaseKey>;
+using Words = std::vector<std::string>;
 
 constexpr AdmissibleRange positive{0.0, std::numeric_limits<double>::infinity(), true};
 constexpr AdmissibleRange not_negative{0.0};
@@ -27,193 +18,164 @@ constexpr AdmissibleRange some_lines{1.0, 10000.0, false, false, true};
 /// Whole numbers that a double tells apart.
 constexpr AdmissibleRange seed{0.0, 9007199254740992.0, false, false, true};
 
+template <class Table>
+struct KeysOf : Table {};
+template <class Table>
+struct KeysOf<std::optional<Table>> : Table {};
+
 /// Where the member of a table lies in a case; null for [wind] where the case has none.
 template <auto Table, auto Member>
 auto* where(Case& the_case) {
   auto& table = the_case.*Table;
-  if constexpr (std::is_same_v<decltype(table), std::optional<Wind>&>)
+  if constexpr (std::is_same_v<decltype(table), std::optional<case_tables::Wind>&>)
     return table ? &((*table).*Member) : nullptr;
   else
     return &(table.*Member);
 }
 
-/// Adds the keys of one table to the list.
-template <auto Table>
-class KeysOf {
- public:
-  KeysOf(Keys& keys, std::string table) : keys_(keys), table_(std::move(table)) {}
+/// The name of a key and where its value lies.
+#define KEY(table, member) \
+#table "." #member, where < &Case::table, &KeysOf < decltype(Case::table)> ::member>
 
-  CaseKey& add(const char* name, const char* description) {
-    CaseKey& key = keys_.emplace_back();
-    key.name = table_ + "." + name;
-    key.description = description;
-    return key;
-  }
+CaseKey number(const char* name, double* (*place)(Case&), const char* unit,
+               const AdmissibleRange& range, const char* description) {
+  CaseKey key{name, unit, description, range, {}};
+  key.number = place;
+  return key;
+}
 
-  template <auto Member>
-  CaseKey& number(const char* name, const char* unit, const AdmissibleRange& range,
+CaseKey word(const char* name, std::string* (*place)(Case&), Words words, const char* description) {
+  CaseKey key{name, "", description, {}, std::move(words)};
+  key.word = place;
+  return key;
+}
+
+CaseKey file(const char* name, std::string* (*place)(Case&), const char* description) {
+  CaseKey key{name, "", description, {}, {}};
+  key.file = place;
+  return key;
+}
+
+CaseKey harmonics(const char* name, std::vector<std::array<double, 3>>* (*place)(Case&),
                   const char* description) {
-    CaseKey& key = add(name, description);
-    key.unit = unit;
-    key.range = range;
-    key.number = where<Table, Member>;
-    return key;
-  }
+  CaseKey key{name, "", description, {}, {}};
+  key.harmonics = place;
+  return key;
+}
 
-  template <auto Member>
-  void word(const char* name, std::vector<std::string> words, const char* description) {
-    CaseKey& key = add(name, description);
-    key.words = std::move(words);
-    key.word = where<Table, Member>;
-  }
+/// A number that a word may stand for.
+CaseKey or_word(const char* word, CaseKey key, bool* (*tuned)(Case&) = nullptr) {
+  key.words = {word};
+  key.tuned = tuned;
+  return key;
+}
 
- private:
-  Keys& keys_;
-  std::string table_;
+CaseKey required(CaseKey key) {
+  key.required = true;
+  return key;
+}
+
+CaseKey replaced_by_wind(CaseKey key) {
+  key.replaced_by_wind = true;
+  return key;
+}
+
+const std::vector<CaseKey> listed_keys = {
+    number(KEY(conductor, mass_per_length), "kg/m", positive,
+           "mass of the conductor per unit length"),
+    number(KEY(conductor, span), "m", positive, "distance between the supports, which are level"),
+    number(KEY(conductor, sag), "m", positive, "sag at mid-span, below half the span"),
+    number(KEY(conductor, area), "m2", positive, "cross section"),
+    number(KEY(conductor, youngs_modulus), "Pa", positive, "Young's modulus"),
+    number(KEY(conductor, damping_ratio), "", below_one, "fraction of critical damping"),
+    number(KEY(conductor, gravity), "m/s2", positive, "gravitational acceleration"),
+
+    number(KEY(absorber, mass), "kg", positive, "mass of the absorber"),
+    number(KEY(absorber, position), "m", positive,
+           "distance from the left support, inside the span"),
+
+    number(KEY(reduction, first_frequency), "Hz", positive,
+           "lower natural frequency that the plant shall have"),
+    number(KEY(reduction, second_frequency), "Hz", positive,
+           "higher natural frequency that the plant shall have"),
+    word(KEY(reduction, stiffness_reading), {"tangent", "secant", "least_squares"},
+         "how a straight line is laid through the static deflection"),
+    number(KEY(reduction, reading_below), "m", not_negative,
+           "how far below the equilibrium the line is laid"),
+    number(KEY(reduction, reading_above), "m", not_negative,
+           "how far above the equilibrium the line is laid"),
+
+    number(KEY(plant, conductor_mass), "kg", positive, "m1"),
+    number(KEY(plant, conductor_stiffness), "N/m", positive, "k1"),
+    number(KEY(plant, conductor_damping), "N s/m", not_negative, "c1"),
+    number(KEY(plant, absorber_mass), "kg", positive, "m2"),
+    number(KEY(plant, absorber_stiffness), "N/m", positive, "k2"),
+    number(KEY(plant, absorber_damping), "N s/m", not_negative, "c2"),
+
+    or_word("tuned",
+            number(KEY(control, proportional_gain), "N/m", any_number,
+                   "P; \"tuned\" takes k2 - m2 (2 pi frequency)^2, Eq. 6"),
+            where<&Case::control, &case_tables::Control::proportional_gain_tuned>),
+    number(KEY(control, differential_gain), "N s/m", any_number, "D"),
+    number(KEY(control, sampling_period), "s", positive, "time between samples"),
+    number(KEY(control, processing_delay), "s", not_negative,
+           "from taking a sample to applying its force, up to a period"),
+    number(KEY(control, displacement_quantum), "m", not_negative,
+           "step of the measured displacement; 0: none"),
+    number(KEY(control, velocity_quantum), "m/s", not_negative,
+           "step of the measured velocity; 0: none"),
+    word(KEY(control, velocity), {"measured", "difference"},
+         "whether the velocity is measured or the difference of two displacements"),
+    or_word("none", number(KEY(control, largest_force), "N", positive,
+                           "of the drive, at which the command is cut off; \"none\": no limit")),
+    number(KEY(control, jitter), "s", not_negative,
+           "largest deviation of a sampling instant from its place"),
+    number(KEY(control, jitter_seed), "", seed, "of the random sampling instants"),
+
+    number(KEY(backlash, width), "m", not_negative, "r0"),
+    word(KEY(backlash, law), {"kollar", "immediate", "play", "dead_zone", "none"},
+         "the rule by which the drive enters and leaves the gap"),
+    number(KEY(backlash, contact_stiffness), "N/m", not_negative, "of the stops of a dead zone"),
+    number(KEY(backlash, contact_damping), "N s/m", not_negative, "of the stops of a dead zone"),
+
+    replaced_by_wind(number(KEY(excitation, amplitude), "N", not_negative,
+                            "of the harmonic force on the conductor")),
+    replaced_by_wind(number(KEY(excitation, frequency), "Hz", positive,
+                            "of the harmonic force on the conductor")),
+    word(KEY(excitation, hold), {"sampled", "exact"}, "whether the force is held over each sample"),
+    harmonics(KEY(excitation, harmonics),
+              "[amplitude (N), frequency (Hz), phase (rad)] of each further harmonic"),
+    file(KEY(excitation, record), "CSV file of a further force, columns time_s and force_N"),
+    word(KEY(excitation, record_interpolation), {"linear", "held"},
+         "between the rows of the record"),
+    number(KEY(excitation, noise_rms), "N", not_negative,
+           "root mean square of a further random force; 0: none"),
+    number(KEY(excitation, noise_lowest), "Hz", positive,
+           "lower end of the band of the random force"),
+    number(KEY(excitation, noise_highest), "Hz", positive,
+           "upper end of the band of the random force"),
+    number(KEY(excitation, noise_lines), "", some_lines,
+           "number of harmonics that the random force is made of"),
+    number(KEY(excitation, noise_seed), "", seed, "of the phases of the random force"),
+
+    required(number(KEY(wind, speed), "m/s", positive, "speed across the conductor")),
+    required(number(KEY(wind, diameter), "m", positive, "of the conductor")),
+    required(number(KEY(wind, effective_length), "m", positive,
+                    "length over which vortices are shed in step")),
+    number(KEY(wind, strouhal), "", positive, "Strouhal number"),
+    number(KEY(wind, lift_coefficient), "", not_negative, "lift coefficient"),
+    number(KEY(wind, air_density), "kg/m3", positive, "density of the air"),
+
+    number(KEY(initial, z1), "m", any_number, "displacement of the conductor, downward"),
+    number(KEY(initial, v1), "m/s", any_number, "velocity of the conductor"),
+    number(KEY(initial, z2), "m", any_number, "displacement of the absorber, downward"),
+    number(KEY(initial, v2), "m/s", any_number, "velocity of the absorber"),
 };
 
-void add_cable(Keys& keys) {
-  KeysOf<&Case::conductor> conductor(keys, "conductor");
-  conductor.number<&Conductor::mass_per_length>("mass_per_length", "kg/m", positive,
-                                                "mass of the conductor per unit length");
-  conductor.number<&Conductor::span>("span", "m", positive,
-                                     "distance between the supports, which are level");
-  conductor.number<&Conductor::sag>("sag", "m", positive, "sag at mid-span, below half the span");
-  conductor.number<&Conductor::area>("area", "m2", positive, "cross section");
-  conductor.number<&Conductor::youngs_modulus>("youngs_modulus", "Pa", positive, "Young's modulus");
-  conductor.number<&Conductor::damping_ratio>("damping_ratio", "", below_one,
-                                              "fraction of critical damping");
-  conductor.number<&Conductor::gravity>("gravity", "m/s2", positive, "gravitational acceleration");
-  KeysOf<&Case::absorber> absorber(keys, "absorber");
-  absorber.number<&Absorber::mass>("mass", "kg", positive, "mass of the absorber");
-  absorber.number<&Absorber::position>("position", "m", positive,
-                                       "distance from the left support, inside the span");
-  KeysOf<&Case::reduction> reduction(keys, "reduction");
-  reduction.number<&Reduction::first_frequency>(
-      "first_frequency", "Hz", positive, "lower natural frequency that the plant shall have");
-  reduction.number<&Reduction::second_frequency>(
-      "second_frequency", "Hz", positive, "higher natural frequency that the plant shall have");
-  reduction.word<&Reduction::stiffness_reading>(
-      "stiffness_reading", {"tangent", "secant", "least_squares"},
-      "how a straight line is laid through the static deflection");
-  reduction.number<&Reduction::reading_below>("reading_below", "m", not_negative,
-                                              "how far below the equilibrium the line is laid");
-  reduction.number<&Reduction::reading_above>("reading_above", "m", not_negative,
-                                              "how far above the equilibrium the line is laid");
-}
-
-void add_plant(Keys& keys) {
-  KeysOf<&Case::plant> plant(keys, "plant");
-  plant.number<&Plant::conductor_mass>("conductor_mass", "kg", positive, "m1");
-  plant.number<&Plant::conductor_stiffness>("conductor_stiffness", "N/m", positive, "k1");
-  plant.number<&Plant::conductor_damping>("conductor_damping", "N s/m", not_negative, "c1");
-  plant.number<&Plant::absorber_mass>("absorber_mass", "kg", positive, "m2");
-  plant.number<&Plant::absorber_stiffness>("absorber_stiffness", "N/m", positive, "k2");
-  plant.number<&Plant::absorber_damping>("absorber_damping", "N s/m", not_negative, "c2");
-}
-
-void add_control(Keys& keys) {
-  KeysOf<&Case::control> control(keys, "control");
-  CaseKey& gain = control.number<&Control::proportional_gain>(
-      "proportional_gain", "N/m", any_number,
-      "P; \"tuned\" takes k2 - m2 (2 pi frequency)^2, Eq. 6");
-  gain.words = {"tuned"};
-  gain.tuned = where<&Case::control, &Control::proportional_gain_tuned>;
-  control.number<&Control::differential_gain>("differential_gain", "N s/m", any_number, "D");
-  control.number<&Control::sampling_period>("sampling_period", "s", positive,
-                                            "time between samples");
-  control.number<&Control::processing_delay>(
-      "processing_delay", "s", not_negative,
-      "from taking a sample to applying its force, up to a period");
-  control.number<&Control::displacement_quantum>("displacement_quantum", "m", not_negative,
-                                                 "step of the measured displacement; 0: none");
-  control.number<&Control::velocity_quantum>("velocity_quantum", "m/s", not_negative,
-                                             "step of the measured velocity; 0: none");
-  control.word<&Control::velocity>(
-      "velocity", {"measured", "difference"},
-      "whether the velocity is measured or the difference of two displacements");
-  CaseKey& largest_force = control.number<&Control::largest_force>(
-      "largest_force", "N", positive,
-      "of the drive, at which the command is cut off; \"none\": no limit");
-  largest_force.words = {"none"};
-  control.number<&Control::jitter>("jitter", "s", not_negative,
-                                   "largest deviation of a sampling instant from its place");
-  control.number<&Control::jitter_seed>("jitter_seed", "", seed, "of the random sampling instants");
-}
-
-void add_backlash(Keys& keys) {
-  KeysOf<&Case::backlash> backlash(keys, "backlash");
-  backlash.number<&Backlash::width>("width", "m", not_negative, "r0");
-  backlash.word<&Backlash::law>("law", {"kollar", "immediate", "play", "dead_zone", "none"},
-                                "the rule by which the drive enters and leaves the gap");
-  backlash.number<&Backlash::contact_stiffness>("contact_stiffness", "N/m", not_negative,
-                                                "of the stops of a dead zone");
-  backlash.number<&Backlash::contact_damping>("contact_damping", "N s/m", not_negative,
-                                              "of the stops of a dead zone");
-}
-
-void add_forces(Keys& keys) {
-  KeysOf<&Case::excitation> excitation(keys, "excitation");
-  excitation
-      .number<&Excitation::amplitude>("amplitude", "N", not_negative,
-                                      "of the harmonic force on the conductor")
-      .replaced_by_wind = true;
-  excitation
-      .number<&Excitation::frequency>("frequency", "Hz", positive,
-                                      "of the harmonic force on the conductor")
-      .replaced_by_wind = true;
-  excitation.word<&Excitation::hold>("hold", {"sampled", "exact"},
-                                     "whether the force is held over each sample");
-  excitation
-      .add("harmonics", "[amplitude (N), frequency (Hz), phase (rad)] of each further harmonic")
-      .harmonics = where<&Case::excitation, &Excitation::harmonics>;
-  excitation.add("record", "CSV file of a further force, columns time_s and force_N").file =
-      where<&Case::excitation, &Excitation::record>;
-  excitation.word<&Excitation::record_interpolation>("record_interpolation", {"linear", "held"},
-                                                     "between the rows of the record");
-  excitation.number<&Excitation::noise_rms>("noise_rms", "N", not_negative,
-                                            "root mean square of a further random force; 0: none");
-  excitation.number<&Excitation::noise_lowest>("noise_lowest", "Hz", positive,
-                                               "lower end of the band of the random force");
-  excitation.number<&Excitation::noise_highest>("noise_highest", "Hz", positive,
-                                                "upper end of the band of the random force");
-  excitation.number<&Excitation::noise_lines>(
-      "noise_lines", "", some_lines, "number of harmonics that the random force is made of");
-  excitation.number<&Excitation::noise_seed>("noise_seed", "", seed,
-                                             "of the phases of the random force");
-  KeysOf<&Case::wind> wind(keys, "wind");
-  wind.number<&Wind::speed>("speed", "m/s", positive, "speed across the conductor").required = true;
-  wind.number<&Wind::diameter>("diameter", "m", positive, "of the conductor").required = true;
-  wind.number<&Wind::effective_length>("effective_length", "m", positive,
-                                       "length over which vortices are shed in step")
-      .required = true;
-  wind.number<&Wind::strouhal>("strouhal", "", positive, "Strouhal number");
-  wind.number<&Wind::lift_coefficient>("lift_coefficient", "", not_negative, "lift coefficient");
-  wind.number<&Wind::air_density>("air_density", "kg/m3", positive, "density of the air");
-}
-
-void add_initial(Keys& keys) {
-  KeysOf<&Case::initial> initial(keys, "initial");
-  initial.number<&Initial::z1>("z1", "m", any_number, "displacement of the conductor, downward");
-  initial.number<&Initial::v1>("v1", "m/s", any_number, "velocity of the conductor");
-  initial.number<&Initial::z2>("z2", "m", any_number, "displacement of the absorber, downward");
-  initial.number<&Initial::v2>("v2", "m/s", any_number, "velocity of the absorber");
-}
+#undef KEY
 
 }  // namespace
 
-const std::vector<CaseKey>& case_keys() {
-  static const Keys all = [] {
-    Keys keys;
-    add_cable(keys);
-    add_plant(keys);
-    add_control(keys);
-    add_backlash(keys);
-    add_forces(keys);
-    add_initial(keys);
-    return keys;
-  }();
-  return all;
-}
+const std::vector<CaseKey>& case_keys() { return listed_keys; }
 
 }  // namespace holdfast::program

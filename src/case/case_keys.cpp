@@ -13,26 +13,11 @@ namespace {
 
 using Keys = std::vector<CaseKey>;
 
-/// `greater than 0 s`, `any finite number rad`.
-std::string in_words(const AdmissibleRange& range, const std::string& unit) {
-  std::string words;
-  if (std::isfinite(range.lowest)) {
-    words = (range.lowest_open ? "greater than " : "at least ") + format_number(range.lowest);
-  }
-  if (std::isfinite(range.highest)) {
-    words += words.empty() ? "" : " and ";
-    words += (range.highest_open ? "less than " : "at most ") + format_number(range.highest);
-  }
-  if (words.empty()) words = "any finite number";
-  if (!unit.empty()) words += " " + unit;
-  return range.whole ? "a whole number, " + words : words;
-}
-
 std::string harmonics_in_words() {
   std::string parts;
   for (const HarmonicPart& part : harmonic_parts()) {
-    parts += (parts.empty() ? "" : ", ") + std::string(part.name) + " " +
-             in_words(part.range, part.unit);
+    parts +=
+        (parts.empty() ? "" : ", ") + std::string(part.name) + " " + part.range.in_words(part.unit);
   }
   return "[[amplitude, frequency, phase], ...]: " + parts + " (may be left out)";
 }
@@ -118,6 +103,20 @@ bool AdmissibleRange::contains(double value) const {
   return above && below && !(whole && value != std::trunc(value));
 }
 
+std::string AdmissibleRange::in_words(const std::string& unit) const {
+  std::string words;
+  if (std::isfinite(lowest)) {
+    words = (lowest_open ? "greater than " : "at least ") + format_number(lowest);
+  }
+  if (std::isfinite(highest)) {
+    words += words.empty() ? "" : " and ";
+    words += (highest_open ? "less than " : "at most ") + format_number(highest);
+  }
+  if (words.empty()) words = "any finite number";
+  if (!unit.empty()) words += " " + unit;
+  return whole ? "a whole number, " + words : words;
+}
+
 std::string CaseKey::table() const { return name.substr(0, name.find('.')); }
 
 std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1); }
@@ -125,7 +124,7 @@ std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1)
 std::string CaseKey::admissible() const {
   if (file != nullptr) return "the name of a file in quotes, or \"\" for none";
   if (harmonics != nullptr) return harmonics_in_words();
-  std::string text = number != nullptr ? in_words(range, unit) : "";
+  std::string text = number != nullptr ? range.in_words(unit) : "";
   for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
   return text;
 }

@@ -19,6 +19,8 @@ struct AdmissibleRange {
   bool whole = false;  // only whole numbers
 
   bool contains(double value) const;
+  /// `greater than 0 s`, `any finite number rad`.
+  std::string in_words(const std::string& unit) const;
 };
 
 /// One of the three numbers of a further harmonic of the excitation.
@@ -99,5 +101,8 @@ CaseFault conductor_fault(const Case& the_case);
 
 /// Throws WrongInput when first_fault() finds one.
 void check_case(const Case& the_case);
+
+/// Throws WrongInput for a displacement of the conductor (m) that an option gives beyond the span.
+void require_within_span(const std::string& option, double displacement, const Case& the_case);
 
 }  // namespace holdfast::program

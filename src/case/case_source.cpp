@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "case/case_file.hpp"
-#include "case/force_record_file.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
+#include "io/text/record_file.hpp"
 
 namespace holdfast::program {
 

@@ -5,6 +5,7 @@
 
 #include "case/builtin_case.hpp"
 #include "case/case_file.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
@@ -90,6 +91,23 @@ std::string table_comment(const std::string& table) {
   return "";
 }
 
+/// How a key stands in a case file to begin with.
+enum class Standing { left_out, comment, value };
+
+Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
+  if (!is_in_force(key, the_case)) return Standing::left_out;
+  const bool is_given = the_case.places.count(key.name) > 0;
+  const bool reduced = plant_is_reduced(the_case), from_conductor = form == CaseForm::conductor;
+  const std::string table = key.table();
+  if (table == "plant" && from_conductor)
+    return is_given && reduced ? Standing::value : Standing::left_out;
+  const bool of_cable = table == "conductor" || table == "absorber" || table == "reduction";
+  if (of_cable && !from_conductor)
+    return the_case.conductor_given && !reduced ? Standing::value : Standing::left_out;
+  const bool computed = from_conductor && !is_given && table == "reduction" && key.unit == "Hz";
+  return computed ? Standing::comment : Standing::value;
+}
+
 std::string toml_line(const CaseKey& key, Case& the_case) {
   std::string line = key.short_name() + " = " + toml_value(key, the_case);
   constexpr std::size_t comment_column = 32;
@@ -99,6 +117,23 @@ std::string toml_line(const CaseKey& key, Case& the_case) {
   line += key.description;
   if (key.word != nullptr) line += ": " + key.admissible();
   return line + "\n";
+}
+
+/// The case, its keys standing as `standing` tells.
+template <class StandingOf>
+std::string written_case(Case the_case, const StandingOf& standing) {
+  std::string text = "# A case of holdfast, SI units.\n";
+  std::string table;
+  for (const CaseKey& key : case_keys()) {
+    const Standing stands = standing(key);
+    if (stands == Standing::left_out) continue;
+    if (key.table() != table) {
+      table = key.table();
+      text += "\n[" + table + "]\n" + table_comment(table);
+    }
+    text += (stands == Standing::comment ? "# " : "") + toml_line(key, the_case);
+  }
+  return text;
 }
 
 }  // namespace
@@ -116,18 +151,14 @@ std::string case_default(const CaseKey& key) {
 }
 
 std::string case_to_toml(const Case& the_case) {
-  Case copy = the_case;
-  std::string text = "# A case of holdfast, SI units.\n";
-  std::string table;
-  for (const CaseKey& key : case_keys()) {
-    if (!is_in_force(key, the_case)) continue;
-    if (key.table() != table) {
-      table = key.table();
-      text += "\n[" + table + "]\n" + table_comment(table);
-    }
-    text += toml_line(key, copy);
-  }
-  return text;
+  return written_case(the_case, [&](const CaseKey& key) {
+    return is_in_force(key, the_case) ? Standing::value : Standing::left_out;
+  });
+}
+
+std::string case_to_begin_with(const Case& the_case, CaseForm form) {
+  return written_case(the_case,
+                      [&](const CaseKey& key) { return standing_of(key, the_case, form); });
 }
 
 nlohmann::ordered_json case_to_json(const Case& the_case) {

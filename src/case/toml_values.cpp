@@ -5,6 +5,7 @@
 #include <locale>
 #include <sstream>
 
+#include "case/toml_depth.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -64,6 +65,8 @@ std::string guess_of_value(std::string_view value) {
 }  // namespace
 
 toml::table parse_case_text(std::string_view text, const std::string& name) {
+  if (const auto excess = toml_excess(text))
+    throw WrongInput(name + ":" + std::to_string(excess->line) + ": " + excess->message);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -75,6 +78,7 @@ toml::table parse_case_text(std::string_view text, const std::string& name) {
 
 toml::table parse_override_value(const CaseKey& key, std::string_view value,
                                  const std::string& place) {
+  if (const auto excess = toml_excess(value)) throw WrongInput(place + ": " + excess->message);
   try {
     toml::table parsed = toml::parse("value = " + std::string(value));
     if (parsed.size() == 1) return parsed;

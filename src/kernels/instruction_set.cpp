@@ -1,6 +1,5 @@
 #include "kernels/instruction_set.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -42,10 +41,8 @@ bool processor_has([[maybe_unused]] InstructionSet set) {
 template <class Sets>
 std::string names_of(const Sets& sets) {
   std::string names;
-  for (const InstructionSet set : sets) {
-    names += names.empty() ? "" : ", ";
-    names += name_of(set);
-  }
+  for (const InstructionSet set : sets)
+    names += (names.empty() ? "" : ", ") + std::string(name_of(set));
   return names;
 }
 
@@ -77,14 +74,11 @@ std::string available_instruction_names() { return names_of(available_instructio
 InstructionSet chosen_instruction_set(std::string_view name) {
   if (name.empty()) return best_instruction_set();
   const InstructionSet set = instruction_set_named(name);
-  if (!is_compiled(set))
-    throw WrongInput("--instructions " + std::string(name) +
-                     ": this program is not compiled for it; it has " +
-                     available_instruction_names());
-  if (!processor_has(set))
-    throw WrongInput("--instructions " + std::string(name) +
-                     ": this processor has not got them; it has " + available_instruction_names());
-  return set;
+  if (is_compiled(set) && processor_has(set)) return set;
+  throw WrongInput("--instructions " + std::string(name) +
+                   (is_compiled(set) ? ": this processor has not got them; it has "
+                                     : ": this program is not compiled for it; it has ") +
+                   available_instruction_names());
 }
 
 }  // namespace holdfast::program

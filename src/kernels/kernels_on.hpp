@@ -3,11 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "holdfast/phase_space/motion_batch.hpp"
-#include "holdfast/stability/chart/hurwitz_row.hpp"
-#include "holdfast/stability/chart/radius_rows.hpp"
+#include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "kernels/pack_kernels.hpp"
 
@@ -17,25 +15,25 @@ namespace holdfast::program {
 /// in here bears the pack.
 template <class Pack>
 class KernelsOn {
-  template <int Degree>
-  class Radius final : public RadiusKernel<Degree> {
-   public:
-    using Table = typename RadiusKernel<Degree>::Table;
+  struct NoRadius {
+    explicit NoRadius(const LoopChart&) {}
+    void fill(std::int64_t, std::int64_t, double*) const {}
+  };
 
-    std::unique_ptr<RadiusKernel<Degree>> copy() const override {
-      return std::make_unique<Radius>(*this);
-    }
-    std::int64_t most_rows() const override { return batch_.most_rows(); }
-    void fill(const AffineLine<Degree>* lines, std::int64_t count, const Axis& values,
+  template <class RadiusRows>
+  class Chart final : public ChartKernel {
+   public:
+    explicit Chart(const LoopChart& chart) : stability_(chart), radius_(chart) {}
+    std::unique_ptr<ChartKernel> copy() const override { return std::make_unique<Chart>(*this); }
+    void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable,
               double* radius) override {
-      batch_.fill(lines, count, values, radius);
-    }
-    void fill(const Table* tables, std::int64_t count, double* radius) override {
-      batch_.fill(tables, count, radius);
+      stability_.fill(first, count, stable);
+      radius_.fill(first, count, radius);
     }
 
    private:
-    RadiusBatch<Pack, Degree> batch_;
+    StabilityChartRows<Pack> stability_;
+    RadiusRows radius_;
   };
 
   class Travel final : public TravelKernel {
@@ -51,49 +49,34 @@ class KernelsOn {
     MotionBatch<Pack> batch_;
   };
 
-  /// The caller's matrices, as MetricGroup wants them.
-  struct Matrices {
-    MotionSource* source;
+  /// The caller's, as MetricGroup wants it: no kernel of the program looks at samples.
+  struct Source {
+    MotionSource& caller;
     const detail::SweepMatrices::Matrices& of(const IdealLoop<double>& loop) {
-      return source->of(loop);
+      return caller.of(loop);
     }
+    void pause() const { caller.pause(); }
+    void operator()(const std::size_t*, std::int64_t, const Mask<Pack>&) const {}
   };
 
-  struct Pauses : IgnoreSwitching {
-    MotionSource* source;
-    explicit Pauses(MotionSource& of) : source(&of) {}
-    void pause() const { source->pause(); }
-  };
-
-  template <int Degree>
-  static std::unique_ptr<RadiusKernel<Degree>> radius() {
-    return std::make_unique<Radius<Degree>>();
-  }
-
-  static void stable_line(const Vector<double, 6>& constant, const Vector<double, 6>& slope,
-                          const std::vector<double>& values, std::uint8_t* stable) {
-    hurwitz_row<Pack, 6>(constant, slope, values, stable);
-  }
-
-  static void stable_table(const Eigen::Matrix<double, Eigen::Dynamic, 6>& table,
-                           std::uint8_t* stable) {
-    hurwitz_row<Pack, 6>(table, stable);
+  static std::unique_ptr<ChartKernel> chart(const LoopChart& of, bool radius) {
+    if (!radius) return std::make_unique<Chart<NoRadius>>(of);
+    if (has_processing_delay(of)) return std::make_unique<Chart<RadiusChartRows<Pack, 6>>>(of);
+    return std::make_unique<Chart<RadiusChartRows<Pack, 5>>>(of);
   }
 
   static void metrics(const SweepMotion* motions, const detail::SampleSpan* spans,
                       std::size_t count, MotionMetrics* results, MotionSource& source) {
-    Pauses pauses(source);
-    detail::group_metrics<Pack>(motions, spans, count, results, Matrices{&source}, pauses);
+    Source of_caller{source};
+    detail::group_metrics<Pack>(motions, spans, count, results, of_caller);
   }
 
-  static std::unique_ptr<TravelKernel> travel(const PeriodicallyForcedMotion<double>& motion,
-                                              const PdGains<double>& gains, const Rational& ratio) {
-    return std::make_unique<Travel>(MotionBatch<Pack>(motion, gains, ratio));
+  static std::unique_ptr<TravelKernel> travel(const PeriodicallyForcedMotion<double>& motion) {
+    return std::make_unique<Travel>(MotionBatch<Pack>(motion));
   }
 
  public:
-  static constexpr PackKernels all{stable_line, stable_table, radius<5>,
-                                   radius<6>,   metrics,      travel};
+  static constexpr PackKernels all{chart, metrics, travel};
 };
 
 }  // namespace holdfast::program

@@ -4,11 +4,9 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
-#include <vector>
 
-#include "holdfast/core/types.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
-#include "holdfast/stability/chart/chart_polynomials.hpp"
+#include "holdfast/stability/chart/loop_chart.hpp"
 #include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "kernels/instruction_set.hpp"
@@ -23,18 +21,15 @@
 
 namespace holdfast::program {
 
-/// RadiusBatch on the packs of an instruction set.
-template <int Degree>
-class RadiusKernel {
+/// Rows of a chart of the sampled loop on the packs of an instruction set: StabilityChartRows, and
+/// RadiusChartRows where the spectral radius is asked for.
+class ChartKernel {
  public:
-  using Table = typename ChartPolynomials<Degree>::Table;
-
-  virtual ~RadiusKernel() = default;
-  virtual std::unique_ptr<RadiusKernel> copy() const = 0;
-  virtual std::int64_t most_rows() const = 0;
-  virtual void fill(const AffineLine<Degree>* lines, std::int64_t count, const Axis& values,
+  virtual ~ChartKernel() = default;
+  virtual std::unique_ptr<ChartKernel> copy() const = 0;
+  /// @param radius  not read by a kernel without the spectral radius
+  virtual void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable,
                     double* radius) = 0;
-  virtual void fill(const Table* tables, std::int64_t count, double* radius) = 0;
 };
 
 /// What the kernel of the metrics asks of its caller.
@@ -74,9 +69,7 @@ class CopiedKernel {
   CopiedKernel(CopiedKernel&&) noexcept = default;
   CopiedKernel& operator=(CopiedKernel&&) noexcept = default;
 
- protected:
-  Kernel& kernel() { return *kernel_; }
-  const Kernel& kernel() const { return *kernel_; }
+  Kernel* operator->() { return kernel_.get(); }
 
  private:
   std::unique_ptr<Kernel> kernel_;
@@ -84,17 +77,12 @@ class CopiedKernel {
 
 /// The kernels of one instruction set.
 struct PackKernels {
-  /// hurwitz_row(), its two kinds.
-  void (*stable_line)(const Vector<double, 6>& constant, const Vector<double, 6>& slope,
-                      const std::vector<double>& values, std::uint8_t* stable);
-  void (*stable_table)(const Eigen::Matrix<double, Eigen::Dynamic, 6>& table, std::uint8_t* stable);
-  std::unique_ptr<RadiusKernel<5>> (*radius_of_degree_5)();
-  std::unique_ptr<RadiusKernel<6>> (*radius_of_degree_6)();
+  /// Throws InvalidParameter where the chart is not admissible.
+  std::unique_ptr<ChartKernel> (*chart)(const LoopChart& chart, bool radius);
   /// detail::group_metrics().
   void (*metrics)(const SweepMotion* motions, const detail::SampleSpan* spans, std::size_t count,
                   MotionMetrics* results, MotionSource& source);
-  std::unique_ptr<TravelKernel> (*travel)(const PeriodicallyForcedMotion<double>& motion,
-                                          const PdGains<double>& gains, const Rational& ratio);
+  std::unique_ptr<TravelKernel> (*travel)(const PeriodicallyForcedMotion<double>& motion);
 };
 
 /// One unit each, compiled for its instruction set; those that the program does not have are not

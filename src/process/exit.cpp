@@ -1,5 +1,7 @@
 #include "process/exit.hpp"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -65,7 +67,9 @@ void tell_lack_of_memory() {
 
 void report_error(const std::string& message) {
   constexpr std::size_t longest = 1500;
-  const std::string line = "holdfast: " + shortened(one_line(message), longest) + "\n";
+  // Over the line of a job's progress, if one is shown.
+  const std::string begin = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+  const std::string line = begin + "holdfast: " + shortened(one_line(message), longest) + "\n";
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
 }

@@ -1,9 +1,11 @@
 #include "process/interrupt.hpp"
 
+#include <pthread.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <string_view>
@@ -20,12 +22,19 @@ struct Slot {
 };
 
 std::atomic<int> signals_seen{0};
+pthread_t taker = pthread_self();  // the thread that takes the signals
 std::array<Slot, 8> slots;
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may take no lock");
 
 /// What a computation gets to look at the flag: more than the two seconds for which the processes
 /// of a group wait for each other.
 constexpr unsigned seconds_to_end = 3;
+
+/// A signal to the process comes to any thread that does not block it. Only where one thread takes
+/// them all can it hold them back.
+bool handed_on(int signal_number) {
+  return pthread_equal(pthread_self(), taker) == 0 && pthread_kill(taker, signal_number) == 0;
+}
 
 [[noreturn]] void end_at_once() {
   for (const Slot& slot : slots) {
@@ -34,12 +43,17 @@ constexpr unsigned seconds_to_end = 3;
   _exit(130);
 }
 
-extern "C" void holdfast_on_signal(int) {
+extern "C" void holdfast_on_signal(int signal_number) {
+  const int before = errno;
+  const bool elsewhere = handed_on(signal_number);
+  errno = before;
+  if (elsewhere) return;
   if (signals_seen.fetch_add(1) > 0) end_at_once();
   alarm(seconds_to_end);
 }
 
-extern "C" void holdfast_on_alarm(int) {
+extern "C" void holdfast_on_alarm(int signal_number) {
+  if (handed_on(signal_number)) return;
   constexpr std::string_view line = "holdfast: interrupted\n";
   [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
   end_at_once();
@@ -61,6 +75,7 @@ bool is_ignored(int signal_number) {
 }  // namespace
 
 void install_signal_handlers() {
+  taker = pthread_self();
   handle(SIGINT, holdfast_on_signal);
   handle(SIGTERM, holdfast_on_signal);
   if (!is_ignored(SIGHUP)) handle(SIGHUP, holdfast_on_signal);  // nohup ignores it
@@ -84,6 +99,16 @@ void clear_interrupt() {
   alarm(0);
   signals_seen.store(0);
 }
+
+SignalsHeld::SignalsHeld() {
+  sigset_t held;
+  sigemptyset(&held);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGALRM})
+    sigaddset(&held, signal_number);
+  pthread_sigmask(SIG_BLOCK, &held, &before_);
+}
+
+SignalsHeld::~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
 RemovedBySignal::RemovedBySignal(const char* path) {
   if (std::strlen(path) >= path_size) return;

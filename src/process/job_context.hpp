@@ -20,8 +20,10 @@ struct JobContext {
   /// Options that the user gave and that shape the result, name and text: {"--p", "-600:0:41"}.
   std::vector<std::pair<std::string, std::string>> options;
   std::optional<std::filesystem::path> output;  // none or "-": standard output
+  std::vector<std::string> doubts;              // what of the case is not plausible, a line each
   bool quiet = false;
   bool progress = false;  // even where standard error is no terminal
+  bool yes = false;       // a table as large as it becomes is meant
   int threads = 0;        // 0: all
   bool on_packs = false;  // the job computes on packs: its metadata name the instruction set
   InstructionSet instructions = InstructionSet::baseline;  // of the packs

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 namespace holdfast::program {
@@ -12,6 +13,12 @@ namespace {
 
 constexpr std::int64_t milliseconds_between_updates = 100;
 constexpr const char* clear_line = "\r\033[K";
+
+/// Of what is shown on standard error: a line at a time.
+std::mutex showing;
+const Progress* counting = nullptr;  // the job's, while there is one; guarded by `showing`
+std::atomic<bool> yielded{false};    // the terminal belongs to the result
+std::atomic<bool> ticks{false};      // a job does; those that it does meanwhile are part of it
 
 bool standard_error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
@@ -30,6 +37,11 @@ std::string duration_text(double seconds) {
 void show(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+/// Shows how far a job is; the caller holds `showing`.
+void show_status(const std::string& status) {
+  if (!yielded) show(standard_error_is_terminal() ? clear_line + status : status + "\n");
 }
 
 }  // namespace
@@ -52,16 +64,63 @@ std::string progress_text(const std::string& label, const ProgressCount& count, 
   return text + ", " + duration_text(left) + " left";
 }
 
+Ticking::Ticking(std::string job, bool enabled, std::chrono::milliseconds first)
+    : job_(std::move(job)) {
+  if (!enabled || ticks.exchange(true)) return;
+  try {
+    thread_ = std::thread([this, first] { run(first); });
+  } catch (const std::system_error&) {
+    ticks = false;  // a system that has no thread left for it leaves the job mute
+  }
+}
+
+Ticking::~Ticking() {
+  {
+    const std::lock_guard<std::mutex> lock(ending_);
+    ended_ = true;
+  }
+  end_.notify_all();
+  if (!thread_.joinable()) return;
+  thread_.join();
+  ticks = false;
+}
+
+void Ticking::run(std::chrono::milliseconds first) {
+  const bool on_terminal = standard_error_is_terminal();
+  bool shown = false;
+  std::unique_lock<std::mutex> lock(ending_);
+  for (auto pause = first; !end_.wait_for(lock, pause, [this] { return ended_; });) {
+    const std::lock_guard<std::mutex> line(showing);
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    show_status(counting != nullptr ? counting->status() : job_ + ": " + duration_text(seconds));
+    shown = true;
+    if (!on_terminal) pause *= 2;
+  }
+  if (shown && on_terminal && !yielded) show(clear_line);
+}
+
+void yield_terminal_to_result() {
+  if (yielded || !standard_error_is_terminal() || isatty(STDOUT_FILENO) != 1) return;
+  const std::lock_guard<std::mutex> lock(showing);
+  if (!yielded.exchange(true)) show(clear_line);
+}
+
 Progress::Progress(std::uint64_t total, std::string label, bool enabled)
     : total_(total),
       label_(std::move(label)),
       enabled_(enabled),
       on_terminal_(standard_error_is_terminal()),
-      start_(Clock::now()) {}
+      start_(Clock::now()) {
+  if (!enabled_) return;
+  const std::lock_guard<std::mutex> lock(showing);
+  counting = this;
+}
 
 Progress::~Progress() {
   if (!enabled_) return;
-  show(on_terminal_ ? std::string(clear_line) : status() + "\n");
+  const std::lock_guard<std::mutex> lock(showing);
+  if (counting == this) counting = nullptr;
+  if (!yielded) show(on_terminal_ ? std::string(clear_line) : status() + "\n");
 }
 
 void Progress::skip(std::uint64_t steps) { skipped_ += steps; }
@@ -77,12 +136,8 @@ void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
   if (now.count() < due) return;
   // Of the threads that come here at once, one draws.
   if (!next_draw_.compare_exchange_strong(due, now.count() + milliseconds_between_updates)) return;
-  draw();
-}
-
-void Progress::draw() {
-  const std::lock_guard<std::mutex> lock(drawing_);
-  show(on_terminal_ ? clear_line + status() : status() + "\n");
+  const std::lock_guard<std::mutex> lock(showing);
+  show_status(status());
 }
 
 double Progress::seconds_since_start() const {

@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "process/job_context.hpp"
 
@@ -20,6 +22,37 @@ struct ProgressCount {
   std::uint64_t skipped = 0;  // done before: they say nothing of the rate
   double samples = 0.0;       // taken by motions; 0: the job does not say
 };
+
+/// Shows on standard error that a job is at work, from a second after its begin on: its name and
+/// the time, or where it counts its steps what its Progress says. On a terminal every second;
+/// elsewhere a line after 1, 2, 4, … s. Ends with the object, or when the result goes to the same
+/// terminal.
+class Ticking {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// @param first  when the first line is due
+  Ticking(std::string job, bool enabled, std::chrono::milliseconds first = std::chrono::seconds(1));
+  ~Ticking();
+  Ticking(const Ticking&) = delete;
+  Ticking& operator=(const Ticking&) = delete;
+  Ticking(Ticking&&) = delete;
+  Ticking& operator=(Ticking&&) = delete;
+
+ private:
+  void run(std::chrono::milliseconds first);
+
+  std::string job_;
+  Clock::time_point start_ = Clock::now();
+  bool ended_ = false;
+  std::mutex ending_;
+  std::condition_variable end_;
+  std::thread thread_;
+};
+
+/// To be called before results are written to standard output: where that is the terminal which
+/// shows progress, nothing of the kind is shown any more.
+void yield_terminal_to_result();
 
 /// Shows on standard error how much of a job is done, its rate and the time that remains; at most
 /// ten times a second. On a terminal one line is drawn over and cleared at the end; elsewhere each
@@ -43,8 +76,8 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
+  friend class Ticking;
 
-  void draw();
   double seconds_since_start() const;
   std::string status() const;
 
@@ -58,7 +91,6 @@ class Progress {
   std::atomic<std::uint64_t> elsewhere_{0};
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::int64_t> next_draw_{0};  // ms after start
-  std::mutex drawing_;
 };
 
 /// The line that Progress shows: `stability: 40/100, 12.5/s, 5 s left`, or where the steps have a

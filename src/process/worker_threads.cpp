@@ -24,7 +24,7 @@ std::string machine_identity() {
   return name;
 }
 
-std::string text_of(const ProcessCores& process) {
+std::string cores_text(const ProcessCores& process) {
   std::ostringstream text;
   text << process.machine << '\n';
   for (const int core : process.cores) text << core << ' ';
@@ -87,7 +87,7 @@ int share_of_cores(const std::vector<ProcessCores>& processes, std::size_t own) 
 int worker_threads(int requested, ProcessGroup& group) {
   if (requested > 0) return requested;
   std::vector<ProcessCores> processes;
-  for (const std::string& text : group.exchange(text_of(own_cores()))) {
+  for (const std::string& text : group.exchange(cores_text(own_cores()))) {
     processes.push_back(process_of(text));
   }
   return share_of_cores(processes, static_cast<std::size_t>(group.rank()));

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -80,11 +78,9 @@ class TileCells {
       results_[place].differential_gain = motion.of_paper.loop.gains.differential;
       motions_.push_back(motion);
       cells_.push_back(place);
-    } catch (const WrongInput& fault) {
+    } catch (const Refusal& fault) {
       note(fault.what());
     } catch (const InvalidParameter& fault) {
-      note(fault.what());
-    } catch (const NoAnswer& fault) {
       note(fault.what());
     }
   }
@@ -126,7 +122,7 @@ class TileCells {
     std::map<decltype(all_numbers_of(motions_[0].of_paper)), std::size_t> known;
     std::vector<std::size_t> number_of(motions_.size());
     for (std::size_t k = 0; k < motions_.size(); ++k) {
-      const CellMotion motion = without_control(motions_[k]);
+      const CellMotion motion = without_control(motions_[k], plan_.options().duration);
       const auto [entry, added] =
           motion.built ? std::pair(known.end(), true)
                        : known.try_emplace(all_numbers_of(motion.of_paper), distinct.size());
@@ -147,6 +143,9 @@ class TileCells {
       const CellVerdict found = verdict_of(motion, limits);
       result.kind = found.kind;
       result.period = found.period;
+      if (found.kind != AttractorType::diverges) return;
+      result.outcome = CellOutcome::diverges;
+      result.motion = diverging(result.motion);
     } else if (plan_.wants(SweepMetric::period_samples)) {
       result.period = period_of(motion, limits);
     }

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "io/text/text.hpp"
+#include "jobs/columns.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {
@@ -26,70 +27,44 @@ double ratio_of(const CellResult& result) {
   return result.motion.steady_peak / result.uncontrolled_peak;
 }
 
-/// What a metric is called, and its value of a cell that has a motion.
-struct MetricOfCell {
-  CellColumn column;
-  double (*value)(const CellResult& result);
-};
-
 using Cell = const CellResult&;
 
-/// All of them, in the order of SweepMetric.
-const std::vector<MetricOfCell> metrics = {
-    {{{"first_peak", "m", "|z1| at the first local extremum of z1 after the start"}},
-     [](Cell cell) { return cell.motion.first_peak; }},
-    {{{"steady_peak", "m", "largest |z1| in the second half of the duration"}},
-     [](Cell cell) { return cell.motion.steady_peak; }},
-    {{{"steady_rms", "m", "root mean square of z1 in the second half of the duration"}},
-     [](Cell cell) { return cell.motion.steady_rms; }},
-    {{{"ratio_to_uncontrolled", "",
-       "steady_peak over that of the same case with P = D = 0 and no backlash"}},
-     ratio_of},
-    {{{"attenuates", "", "1: ratio_to_uncontrolled is below 1, 0: it is not", "integer"},
-      {"no", "yes"}},
-     [](Cell cell) { return ratio_of(cell) < 1.0 ? 1.0 : 0.0; }},
-    {{{"engaged_fraction", "",
-       "share of the samples of the second half at which the drive transmits its force"}},
-     [](Cell cell) { return cell.motion.engaged_fraction; }},
-    {{{"force_peak", "N", "largest |u| of all samples, what the drive must deliver"}},
-     [](Cell cell) { return cell.motion.force_peak; }},
-    {{{"force_rms", "N", "root mean square of u in the second half of the duration"}},
-     [](Cell cell) { return cell.motion.force_rms; }},
-    {{{"reversals_per_s", "1/s",
-       "sign changes of v2 - v1 from sample to sample in the second half, per second"}},
-     [](Cell cell) { return cell.motion.reversals_per_s; }},
-    {{{"absorber_stroke", "m", "largest less smallest z2 - z1 of all samples"}},
-     [](Cell cell) { return cell.motion.absorber_stroke; }},
-    {{{"largest_exponent", "", "Lyapunov exponent per sample over the whole duration"}},
-     [](Cell cell) { return cell.largest_exponent; }},
-    {{{"period_samples", "", "of the certified orbit; 0 where none was found", "integer"}},
-     [](Cell cell) { return static_cast<double>(cell.period); }},
-    {{{"verdict", "", "what the motion is, as the job verdict finds", "string"},
-      {"periodic", "quasi-periodic", "irregular", "chaotic", "diverges", "undecided", "invalid"}},
-     verdict_code},
-    {{{"differential_gain", "N.s/m", "D in force: the best one where that was asked for"}},
-     [](Cell cell) { return cell.differential_gain; }},
-    {{{"outcome", "",
-       "computed; diverges: the motion leaves the range of numbers within the duration (one that "
-       "grows more slowly is computed); invalid: the case is not admissible; no_gain, aliased: "
-       "there is no best gain; accumulates: the contact changes too often to be followed",
-       "string"},
-      {"computed", "diverges", "invalid", "no_gain", "aliased", "accumulates"}},
-     [](Cell cell) { return static_cast<double>(cell.outcome); }}};
+/// The values of a cell that has a motion, in the order of SweepMetric.
+constexpr double (*values_of_cells[])(Cell) = {
+    [](Cell cell) { return cell.motion.first_peak; },
+    [](Cell cell) { return cell.motion.steady_peak; },
+    [](Cell cell) { return cell.motion.steady_rms; },
+    ratio_of,
+    [](Cell cell) { return ratio_of(cell) < 1.0 ? 1.0 : 0.0; },
+    [](Cell cell) { return cell.motion.engaged_fraction; },
+    [](Cell cell) { return cell.motion.force_peak; },
+    [](Cell cell) { return cell.motion.force_rms; },
+    [](Cell cell) { return cell.motion.reversals_per_s; },
+    [](Cell cell) { return cell.motion.absorber_stroke; },
+    [](Cell cell) { return cell.largest_exponent; },
+    [](Cell cell) { return static_cast<double>(cell.period); },
+    verdict_code,
+    [](Cell cell) { return cell.differential_gain; },
+    [](Cell cell) { return static_cast<double>(cell.outcome); }};
 
-const MetricOfCell& of(SweepMetric metric) { return metrics[static_cast<std::size_t>(metric)]; }
+/// In the order of SweepMetric.
+const std::vector<CellColumn>& columns_of_metrics() {
+  static const std::vector<CellColumn> columns = cell_columns_of("sweep metrics");
+  return columns;
+}
 
-const std::string& name_of(const MetricOfCell& metric) { return metric.column.column.name; }
+std::vector<std::string> names_of_metrics() {
+  std::vector<std::string> names;
+  for (const CellColumn& metric : columns_of_metrics()) names.push_back(metric.column.name);
+  return names;
+}
 
 }  // namespace
 
 SweepMetric metric_named(const std::string& name) {
-  const auto known = std::find_if(metrics.begin(), metrics.end(),
-                                  [&](const auto& metric) { return name_of(metric) == name; });
-  if (known != metrics.end()) return static_cast<SweepMetric>(known - metrics.begin());
-  std::vector<std::string> names;
-  names.reserve(metrics.size());
-  for (const MetricOfCell& metric : metrics) names.push_back(name_of(metric));
+  const std::vector<std::string> names = names_of_metrics();
+  const auto known = std::find(names.begin(), names.end(), name);
+  if (known != names.end()) return static_cast<SweepMetric>(known - names.begin());
   throw WrongInput("--metric " + name + ": unknown; did you mean " + nearest_name(names, name) +
                    "? There are " + metric_names());
 }
@@ -101,17 +76,20 @@ const std::vector<SweepMetric>& usual_metrics() {
   return usual;
 }
 
-const CellColumn& metric_column(SweepMetric metric) { return of(metric).column; }
+const CellColumn& metric_column(SweepMetric metric) {
+  return columns_of_metrics()[static_cast<std::size_t>(metric)];
+}
 
 double metric_value(SweepMetric metric, const CellResult& result) {
-  const std::string& datatype = of(metric).column.column.datatype;
-  if (has_motion(result.outcome) || datatype == "string") return of(metric).value(result);
+  const std::string& datatype = metric_column(metric).column.datatype;
+  if (has_motion(result.outcome) || datatype == "string")
+    return values_of_cells[static_cast<std::size_t>(metric)](result);
   return datatype == "integer" ? 0.0 : not_a_number;
 }
 
 std::string metric_names() {
   std::string names;
-  for (const MetricOfCell& metric : metrics) names += (names.empty() ? "" : ", ") + name_of(metric);
+  for (const std::string& name : names_of_metrics()) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 

@@ -1,7 +1,6 @@
 #include "sweep/sweep_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -10,7 +9,6 @@
 #include "case/axes/grid.hpp"
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/resolved_plant.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "io/text/checksum.hpp"
@@ -147,10 +145,7 @@ bool SweepPlan::wants(SweepMetric metric) const {
 }
 
 double SweepPlan::axis_value(std::size_t axis, std::int64_t cell) const {
-  for (std::size_t faster = layout_.axes.size() - 1; faster > axis; --faster)
-    cell /= static_cast<std::int64_t>(layout_.axes[faster].count());
-  const auto count = static_cast<std::int64_t>(layout_.axes[axis].count());
-  return layout_.axes[axis].at(static_cast<std::size_t>(cell % count));
+  return layout_.axes[axis].at(index_along(layout_.axes, axis, static_cast<std::size_t>(cell)));
 }
 
 Case SweepPlan::case_of(std::int64_t cell) const {
@@ -203,28 +198,26 @@ std::int64_t SweepPlan::chosen_tile_cells() const {
 TilePlan SweepPlan::tile_plan() const {
   TilePlan plan{{{"version", HOLDFAST_VERSION}}, tiles()};
   auto& entries = plan.entries;
-  entries.emplace_back("--tile", std::to_string(tile_cells_));
+  entries.emplace("--tile", std::to_string(tile_cells_));
   for (std::size_t k = 0; k < options_.axes.size(); ++k)
-    entries.emplace_back("--axis " + std::to_string(k + 1), options_.axes[k]);
+    entries.emplace("--axis " + std::to_string(k + 1), options_.axes[k]);
   for (std::size_t k = 0; k < metrics_.size(); ++k)
-    entries.emplace_back("--metric " + std::to_string(k + 1),
-                         metric_column(metrics_[k]).column.name);
-  entries.emplace_back("--duration", format_number(options_.duration));
-  entries.emplace_back("--max-period", std::to_string(options_.largest_period));
-  entries.emplace_back("--switching", options_.switching == Switching::exact ? "exact" : "sampled");
+    entries.emplace("--metric " + std::to_string(k + 1), metric_column(metrics_[k]).column.name);
+  entries.emplace("--duration", format_number(options_.duration));
+  entries.emplace("--max-period", std::to_string(options_.largest_period));
+  entries.emplace("--switching", options_.switching == Switching::exact ? "exact" : "sampled");
   if (context_.case_data.force_record)
-    entries.emplace_back("force record", checksum_of(*context_.case_data.force_record));
-  entries.emplace_back("--best-gain", options_.best_gain ? "yes" : "no");
+    entries.emplace("force record", checksum_of(*context_.case_data.force_record));
+  entries.emplace("--best-gain", options_.best_gain ? "yes" : "no");
   if (reduced_cases_) {
     const CaseSource& source = context_.case_source;
-    entries.emplace_back("case file", source.text.value_or("built-in"));
+    entries.emplace("case file", source.text.value_or("built-in"));
     for (std::size_t k = 0; k < source.overrides.size(); ++k)
-      entries.emplace_back("--set " + std::to_string(k + 1), source.overrides[k]);
+      entries.emplace("--set " + std::to_string(k + 1), source.overrides[k]);
   }
   const nlohmann::ordered_json json = case_to_json(context_.case_data);
   for (const auto& [table, keys] : json.items()) {
-    for (const auto& [key, value] : keys.items())
-      entries.emplace_back(table + "." + key, value.dump());
+    for (const auto& [key, value] : keys.items()) entries.emplace(table + "." + key, value.dump());
   }
   return plan;
 }

@@ -8,10 +8,9 @@
 #include "case/case_keys.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
-#include "jobs/cable/reduced_cases.hpp"
 #include "process/job_context.hpp"
+#include "sweep/reduced_cases.hpp"
 #include "sweep/sweep_metric.hpp"
-#include "sweep/sweep_output.hpp"
 #include "sweep/tiles/tile_store.hpp"
 
 namespace holdfast::program {
@@ -45,7 +44,7 @@ class SweepPlan {
   std::int64_t first_cell(std::int64_t tile) const { return tile * tile_cells_; }
   std::int64_t cells_of(std::int64_t tile) const;
 
-  const SweepLayout& layout() const { return layout_; }
+  const GridLayout& layout() const { return layout_; }
   const std::vector<SweepMetric>& metrics() const { return metrics_; }
   bool wants(SweepMetric metric) const;
   const SweepOptions& options() const { return options_; }
@@ -76,7 +75,7 @@ class SweepPlan {
   JobContext context_;
   SweepOptions options_;
   std::vector<SweepMetric> metrics_;
-  SweepLayout layout_;
+  GridLayout layout_;
   std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from
   std::shared_ptr<const ReducedCases> reduced_cases_;  // where there are such axes
   double samples_ = 0.0;
@@ -87,5 +86,16 @@ class SweepPlan {
 /// others. What a cell gets does not depend on its neighbours; its last digits do on the
 /// instruction set of the plan's context. Throws Interrupted.
 TileResult compute_tile(const SweepPlan& plan, std::int64_t tile);
+
+/// Computes a sweep and writes it: tiles are handed out to the threads of all processes, kept in a
+/// work folder beside the output as they finish, and put together at the end.
+///
+/// Throws WrongInput for what SweepPlan, GridOutput and TileStore refuse, NoAnswer and OutputError
+/// as they do, Interrupted; where tiles are left for --resume, standard error says so.
+void write_sweep(const JobContext& context, const SweepOptions& options);
+
+/// Writes to standard output how large a sweep would be, and computes nothing: axes, cells, tiles,
+/// samples, bytes of the tiles. Of several processes the first one writes.
+void write_sweep_size(const JobContext& context, const SweepOptions& options);
 
 }  // namespace holdfast::program

@@ -1,16 +1,20 @@
-#include "sweep/sweep_run.hpp"
+#include "sweep/sweep_plan.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "io/file/whole_file.hpp"
+#include "case/model/held_force.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "holdfast/core/errors.hpp"
 #include "io/text/table.hpp"
 #include "jobs/charts/row_blocks.hpp"
+#include "jobs/columns.hpp"
 #include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
@@ -42,10 +46,22 @@ bool has_named_output(const JobContext& context) {
   return !fs::exists(*context.output, error) || fs::is_regular_file(*context.output, error);
 }
 
+constexpr const char* passing_folder = "holdfast-sweep-";
+
+/// What was left by sweeps for one run alone that were killed: nobody goes on with their tiles.
+void remove_left_work_folders() {
+  std::error_code error;
+  fs::directory_iterator entry(fs::temp_directory_path(error), error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().filename().string().rfind(passing_folder, 0) == 0)
+      remove_work_folder(entry->path());
+}
+
 /// Beside a named output, where an interrupted sweep is gone on with; else one for this run alone.
 fs::path work_folder(const JobContext& context, bool named) {
   if (named) return fs::path(context.output->string() + ".tiles");
-  std::string name = (fs::temp_directory_path() / "holdfast-sweep-XXXXXX").string();
+  remove_left_work_folders();
+  std::string name = (fs::temp_directory_path() / passing_folder).string() + "XXXXXX";
   if (mkdtemp(name.data()) == nullptr)
     throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
   return name;
@@ -54,19 +70,15 @@ fs::path work_folder(const JobContext& context, bool named) {
 /// What the tiles are parts of: the plan, computed by this program.
 TilePlan tile_plan_of(const SweepPlan& plan) {
   TilePlan tiles = plan.tile_plan();
-  tiles.entries.emplace_back(instructions_entry, name_of(plan.context().instructions));
+  tiles.entries.emplace(instructions_entry, name_of(plan.context().instructions));
   return tiles;
 }
 
 /// The instruction set of the tiles in a folder; empty where there are none or nothing says it.
 std::string recorded_instructions(const fs::path& folder) {
-  int error = 0;
-  const std::optional<std::string> text = read_whole_file(folder / plan_file_name, error);
-  const std::optional<TilePlan> plan = text ? parse_tile_plan(*text) : std::nullopt;
-  if (!plan) return "";
-  for (const auto& [name, value] : plan->entries)
-    if (name == instructions_entry) return value;
-  return "";
+  const std::optional<TilePlan> plan = plan_of_work_folder(folder);
+  if (!plan || plan->entries.count(instructions_entry) == 0) return "";
+  return plan->entries.at(instructions_entry);
 }
 
 /// What the faults of all tiles together are.
@@ -90,6 +102,35 @@ struct SweepFaults {
     return text.empty() ? text : "of " + std::to_string(cells) + " cells " + text;
   }
 };
+
+/// The warning of the force as it is held, of the corner of a sweep where that matters most.
+std::string held_force_warning_of(const SweepPlan& plan) {
+  if (!plan.wants(SweepMetric::ratio_to_uncontrolled) && !plan.wants(SweepMetric::attenuates))
+    return "";
+  const std::vector<GridAxis>& axes = plan.layout().axes;
+  const std::size_t ends = std::min<std::size_t>(axes.size(), 6);  // of which both are looked at
+  std::string warning;
+  double largest = 0.0;
+  for (std::size_t corner = 0; corner < (std::size_t{1} << ends); ++corner) {
+    std::int64_t cell = 0;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      const auto count = static_cast<std::int64_t>(axes[k].count());
+      cell = cell * count + ((corner >> k & 1U) != 0 ? count - 1 : 0);
+    }
+    try {
+      const Case the_case = plan.case_of(cell);
+      const double period = the_case.control.sampling_period;
+      const double frequency = excitation_of(the_case).frequency;
+      const double difference = std::abs(held_share(the_case, period, frequency) - 1.0);
+      if (!(difference > largest)) continue;
+      largest = difference;
+      warning = held_force_warning(the_case, "ratios are to the true force's");
+    } catch (const Refusal&) {  // not admissible, and told as the outcome of its cell
+    } catch (const InvalidParameter&) {
+    }
+  }
+  return warning;
+}
 
 /// One sweep in one of the processes that work on it.
 class SweepRun {
@@ -227,6 +268,7 @@ class SweepRun {
     output_->commit();
     store_->remove();
     report_warning(faults.warning(plan_.cells()), context().quiet);
+    report_warning(held_force_warning_of(plan_), context().quiet);
   }
 
   /// After a fault: says how to go on, or removes what cannot be gone on with.
@@ -250,7 +292,7 @@ class SweepRun {
   bool named_;  // the output is a file, and the work folder stays beside it for --resume
   std::unique_ptr<ProcessGroup> group_;
   int threads_ = 1;  // of this process
-  std::optional<SweepOutput> output_;
+  std::optional<GridOutput> output_;
   std::optional<TileStore> store_;
   std::optional<Progress> progress_;
   std::int64_t tiles_found_ = 0;  // by the first process, of an earlier run
@@ -273,9 +315,7 @@ void write_sweep_size(const JobContext& context, const SweepOptions& options) {
   if (mpi_launch().rank > 0) return;
   JobContext to_screen = plan.context();
   to_screen.output.reset();  // the file is for the result
-  Table table(to_screen, {{"quantity", "", "what the row tells", "string"},
-                          {"value", "", "in the unit of the row"},
-                          {"unit", "", "SI; empty without dimension", "string"}});
+  Table table(to_screen, columns_of("sweep size"));
   const auto cells = static_cast<double>(plan.cells());
   const auto numbers_of_cell = static_cast<double>(plan.metrics().size());
   table.row("axes", static_cast<double>(plan.layout().axes.size()), "");

@@ -1,13 +1,8 @@
-#include "holdfast/cable/chain_equilibrium.hpp"
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Cholesky>
-#include <cmath>
-#include <limits>
+#include "holdfast/cable/bar_chain.hpp"
 
 #include "holdfast/cable/statics.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,11 +1,6 @@
 #include "holdfast/cable/chain_modes.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -27,77 +22,63 @@ double string_frequency(const Conductor<double>& conductor, int n) {
 }
 
 /// The same of N equal bars: ω² = (2 − 2 cos θ) H/(l m), θ = nπ/N, with m the lumped mass of a
-/// node, or m (4 + 2 cos θ)/6 for the consistent one.
-double chain_string_frequency(const Conductor<double>& conductor, int elements, int n,
-                              MassModel model) {
+/// node.
+double chain_string_frequency(const Conductor<double>& conductor, int elements, int n) {
   const double turn = n * pi<double> / elements;
-  const double lumped = string_frequency(conductor, n) * std::sin(turn / 2) / (turn / 2);
-  return model == MassModel::lumped ? lumped : lumped / std::sqrt((4 + 2 * std::cos(turn)) / 6);
+  return string_frequency(conductor, n) * std::sin(turn / 2) / (turn / 2);
 }
 
-double mode_frequency(const Conductor<double>& conductor, int elements, int n, MassModel model) {
-  return elements_modes(conductor, elements, n, model).modes.back().frequency;
+double mode_frequency(const Conductor<double>& conductor, int elements, int n) {
+  return elements_modes(conductor, elements, n).modes.back().frequency;
 }
 
 TEST(ChainModes, TheyAreTheEigenvectorsOfStiffnessAndMass) {
   const auto conductor = kollar2022_conductor();
   const BarChain chain(conductor, conductor.span / 2, 20);
   const Eigen::MatrixXd stiffness(tangent_stiffness(chain, chain_equilibrium(chain, 0.0).nodes));
-  for (const auto model : {MassModel::lumped, MassModel::consistent}) {
-    const Eigen::MatrixXd mass = detail::mass_matrix(chain, model);
-    const auto found = elements_modes(conductor, 20, 38, model);
-    ASSERT_EQ(found.outcome, EquilibriumOutcome::converged);
-    ASSERT_EQ(found.modes.size(), 38U);
-    double previous = 0.0;
-    for (const auto& mode : found.modes) {
-      const double squared = std::pow(2 * pi<double> * mode.frequency, 2);
-      EXPECT_LE((stiffness * mode.shape - squared * (mass * mode.shape)).norm(),
-                1e-11 * stiffness.norm());
-      EXPECT_NEAR(mode.shape.cwiseAbs().maxCoeff(), 1.0, 1e-14);
-      EXPECT_GE(mode.frequency, previous);
-      previous = mode.frequency;
-    }
+  const Eigen::VectorXd masses = detail::lumped_masses(chain);
+  const auto found = elements_modes(conductor, 20, 38);
+  ASSERT_EQ(found.outcome, EquilibriumOutcome::converged);
+  ASSERT_EQ(found.modes.size(), 38U);
+  double previous = 0.0;
+  for (const auto& mode : found.modes) {
+    const double squared = std::pow(2 * pi<double> * mode.frequency, 2);
+    EXPECT_LE((stiffness * mode.shape - squared * masses.cwiseProduct(mode.shape)).norm(),
+              1e-11 * stiffness.norm());
+    EXPECT_NEAR(mode.shape.cwiseAbs().maxCoeff(), 1.0, 1e-14);
+    EXPECT_GE(mode.frequency, previous);
+    previous = mode.frequency;
   }
 }
 
-TEST(ChainModes, BothMassModelsCarryTheCablesMass) {
+TEST(ChainModes, TheMassesAreTheCables) {
   const auto conductor = kollar2022_conductor();
   const BarChain chain(conductor, conductor.span / 2, 20);
-  // A common motion of the free nodes: of the outer bars only a part moves with them.
-  Eigen::VectorXd common = Eigen::VectorXd::Zero(38);
-  for (Eigen::Index k = 1; k < 38; k += 2) common[k] = 1.0;
+  const Eigen::VectorXd masses = detail::lumped_masses(chain);
+  // Of the outer bars only a part moves with the free nodes.
   const double bar = conductor.mass_per_length * chain.length(0);
-  const Eigen::MatrixXd lumped = detail::mass_matrix(chain, MassModel::lumped);
-  const Eigen::MatrixXd consistent = detail::mass_matrix(chain, MassModel::consistent);
-  EXPECT_NEAR(common.dot(lumped * common), (18 + 2 * 0.5) * bar, 1e-14);
-  EXPECT_NEAR(common.dot(consistent * common), (18 + 2 / 3.0) * bar, 1e-14);
-  for (int node = 0; node < chain.free_nodes(); ++node)
-    EXPECT_EQ(lumped(2 * node, 2 * node), chain.mass(node));
+  EXPECT_NEAR(masses.sum(), 2 * (18 + 2 * 0.5) * bar, 1e-14);
 }
 
 TEST(ChainModes, ATautStringOfBarsHasItsClosedForm) {
   const auto conductor = taut_string();
-  for (const auto model : {MassModel::lumped, MassModel::consistent})
-    for (int n = 1; n <= 4; ++n)
-      EXPECT_NEAR(
-          mode_frequency(conductor, 20, n, model) / chain_string_frequency(conductor, 20, n, model),
-          1.0, 1e-5)
-          << n;
+  for (int n = 1; n <= 4; ++n)
+    EXPECT_NEAR(mode_frequency(conductor, 20, n) / chain_string_frequency(conductor, 20, n), 1.0,
+                1e-5)
+        << n;
 }
 
-TEST(ChainModes, OnATautStringLumpedMassesAreLowAndConsistentOnesHighBothByTheSquareOfTheLength) {
+TEST(ChainModes, OnATautStringTheyAreLowByTheSquareOfTheLength) {
   const auto conductor = taut_string();
   // Antisymmetric ones, which the little sag that is left leaves alone.
   for (const int n : {2, 4}) {
     const double limit = string_frequency(conductor, n);
-    const auto miss = [&](int elements, MassModel model) {
-      return mode_frequency(conductor, elements, n, model) / limit - 1.0;
+    const auto miss = [&](int elements) {
+      return mode_frequency(conductor, elements, n) / limit - 1.0;
     };
     for (const int elements : {16, 32}) {
-      EXPECT_LT(miss(elements, MassModel::lumped), 0.0);
-      EXPECT_GT(miss(elements, MassModel::consistent), 0.0);
-      for (const auto model : {MassModel::lumped, MassModel::consistent})
-        EXPECT_NEAR(std::log2(miss(elements, model) / miss(2 * elements, model)), 2.0, 0.1) << n;
+      EXPECT_LT(miss(elements), 0.0);
+      EXPECT_NEAR(std::log2(miss(elements) / miss(2 * elements)), 2.0, 0.1) << n;
     }
   }
 }

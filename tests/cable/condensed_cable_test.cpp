@@ -1,14 +1,10 @@
-#include "holdfast/cable/condensed_cable.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "support/reference/condensed_cable.hpp"
 
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/cable/statics.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -134,24 +130,6 @@ TEST(CondensedCable, ItsTensionApproachesThatOfEquationOne) {
   for (const double force : {-0.4, 0.0, 1.0})
     EXPECT_NEAR(cable.tension(cable.held_by(force).state.data()) / statics.tension(force), 1.0,
                 5e-3);
-}
-
-TEST(CondensedCable, BadInputIsRefused) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  auto conductor = kollar2022_conductor();
-  for (const double place : {0.0, 6.4, nan})
-    EXPECT_THROW(Condensed(conductor, place, 0.16, {0.0, 0.0}), InvalidParameter);
-  for (const double mass : {-1.0, nan})
-    EXPECT_THROW(Condensed(conductor, 0.64, mass, {0.0, 0.0}), InvalidParameter);
-  conductor.sag = 3.2;
-  EXPECT_THROW(Condensed(conductor, 0.64, 0.16, {0.0, 0.0}), InvalidParameter);
-}
-
-TEST(CondensedCable, DampingOutsideItsRangeIsRefused) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const RayleighDamping& damping :
-       {RayleighDamping{-1.0, 0.0}, RayleighDamping{0.0, -1.0}, RayleighDamping{nan, 0.0}})
-    EXPECT_THROW(condensed_cable(0.16, damping), InvalidParameter);
 }
 
 }  // namespace

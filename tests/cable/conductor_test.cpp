@@ -1,13 +1,8 @@
 #include "holdfast/cable/conductor.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "support/message_of.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,11 +1,7 @@
 #include "holdfast/cable/hanging_cable.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
-#include <cmath>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

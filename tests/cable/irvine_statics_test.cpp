@@ -1,10 +1,7 @@
-#include "holdfast/cable/irvine_statics.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "holdfast/cable/statics.hpp"
 
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

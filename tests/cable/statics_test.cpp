@@ -1,13 +1,7 @@
 #include "holdfast/cable/statics.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <type_traits>
-
 #include "support/message_of.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

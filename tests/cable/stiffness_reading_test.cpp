@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "holdfast/cable/statics.hpp"
-#include "holdfast/cable/stiffness_reading.hpp"
 #include "holdfast/plant/reduction.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,10 +1,5 @@
 #include "holdfast/ceres/decay_fit.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
+#include "support/testing.hpp"
 
 namespace holdfast::fit {
 namespace {

@@ -1,17 +1,9 @@
 #include "holdfast/chaos/block_spectrum.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <vector>
-
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -104,20 +96,17 @@ TangentSequence random_tangents(test::Random& random, int kind, std::size_t samp
   return result;
 }
 
-TEST(ItineraryBlock, IsItsFirstSamplesFollowedByItsLast) {
+TEST(ItineraryBlock, IsItsSamplesOneAfterTheOther) {
+  const std::vector<bool> engaged{true, false, false, true, true, false};
   ItineraryBlock block = 1;
-  for (const bool engaged : {true, false, false, true, true, false})
-    block = followed_by(block, engaged);
-  EXPECT_TRUE(is_whole(block));
-  for (int first = 0; first <= 6; ++first) {
-    ItineraryBlock joined = first_of(block, first);
-    EXPECT_EQ(samples_of(joined), first);
-    const ItineraryBlock rest = last_of(block, 6 - first);
-    EXPECT_EQ(samples_of(rest), 6 - first);
-    EXPECT_FALSE(first < 6 && is_whole(joined));
-    for (int k = 5 - first; k >= 0; --k) joined = followed_by(joined, ((rest >> k) & 1) != 0);
-    EXPECT_EQ(joined, block);
+  for (const bool sample : engaged) {
+    EXPECT_FALSE(is_whole(block));
+    block = followed_by(block, sample);
   }
+  EXPECT_TRUE(is_whole(block));
+  EXPECT_EQ(samples_of(block), 6);
+  for (int k = 0; k < 6; ++k)
+    EXPECT_EQ(sample_of(block, k), followed_by(1, engaged[static_cast<std::size_t>(k)]));
 }
 
 TEST(ItineraryBlocks, MapsAreTheProductsOfTheSamplesMapsInBalancedCoordinates) {

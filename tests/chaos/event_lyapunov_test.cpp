@@ -1,22 +1,10 @@
 #include "holdfast/chaos/event_lyapunov.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/motion/trajectory.hpp"
 #include "orbit/event/event_setting.hpp"
+#include "support/contacts.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -30,9 +18,9 @@ ImplementedLoop kollar_loop_exactly(const test::KollarCase& which) {
   return loop;
 }
 
-EventMotion<ExactBacklash> backlash_motion(const test::KollarCase& which) {
+EventMotion<> backlash_motion(const test::KollarCase& which) {
   const ImplementedLoop loop = kollar_loop_exactly(which);
-  return {loop.digital, ExactBacklash(loop.plant, loop.backlash.width), which.initial_state};
+  return {loop.digital, test::exact_backlash(loop.plant, loop.backlash.width), which.initial_state};
 }
 
 test::KollarCase kollar_case_of(double period, double width, double delay = 0.0) {
@@ -74,8 +62,10 @@ TEST(EventLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
     which.gains.differential = -8.0;
     const LyapunovRun run{4000, 1000};
     const ImplementedLoop loop = implemented_loop(which.ideal_loop());
-    EventMotion<SampledLaw> motion(loop.digital, SampledLaw(loop.plant, loop.backlash),
-                                   which.initial_state);
+    EventMotion<> motion(
+        loop.digital,
+        DriveContact<>(loop.plant, loop.backlash, Switching::sampled, Vector<double, 4>::Zero()),
+        which.initial_state);
     const auto result = run_event_lyapunov(motion, run);
     auto sampled = which.motion();
     const auto blocks = std::make_shared<const ItineraryBlocks>(which.loop(), which.gains);
@@ -94,13 +84,12 @@ TEST(EventLyapunov, AtSamplesItIsTheSpectrumOfTheSampledMotion) {
 /// sample.
 class GrowthByDifferences {
  public:
-  explicit GrowthByDifferences(const EventMotion<ExactBacklash>& motion,
-                               const Vector<double, 7>& direction)
+  explicit GrowthByDifferences(const EventMotion<>& motion, const Vector<double, 7>& direction)
       : motion_(motion), direction_(direction), sizes_(test::sizes_of(motion)) {}
 
   /// @return false where no neighbour near enough goes the same way
   bool advance() {
-    EventMotion<ExactBacklash> next = motion_;
+    EventMotion<> next = motion_;
     test::SwitchRecorder recorder;
     recorder.advance(next);
     double step = 3e-6 / direction_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
@@ -117,7 +106,7 @@ class GrowthByDifferences {
   double logarithm() const { return logarithm_; }
 
  private:
-  EventMotion<ExactBacklash> motion_;
+  EventMotion<> motion_;
   Vector<double, 7> direction_, sizes_;
   double logarithm_ = 0.0;
 };
@@ -134,7 +123,7 @@ TEST(EventLyapunov, TheLargestExponentIsThatOfNeighbouringMotions) {
       motion.advance();
     }
     GrowthByDifferences neighbours(motion, detail::oblique_basis().col(0));
-    EventLyapunov<ExactBacklash> lyapunov(motion);
+    EventLyapunov<DriveContact<>> lyapunov(motion);
     constexpr int samples = 1500;
     const auto sticks = motion.counts().entered[2];
     bool kept = true;
@@ -162,7 +151,7 @@ TEST(EventLyapunov, StickHasOneNullDirectionMore) {
       auto other = which;
       other.width = width;
       auto motion = backlash_motion(other);
-      EventLyapunov<ExactBacklash> lyapunov(motion);
+      EventLyapunov<DriveContact<>> lyapunov(motion);
       run_trajectory(lyapunov, 3000, std::nullopt);
       const bool sticks = motion.counts().entered[2] > 0;
       return std::pair{finite_exponents(lyapunov.spectrum()), sticks};
@@ -190,11 +179,11 @@ TEST(EventLyapunov, WhatIsNotUsedIsAnnihilated) {
         Asked{0.0004, VelocitySensing::difference, 6}}) {
     ImplementedLoop loop = kollar_loop_exactly(kollar_case_of(0.001, 0.0, asked.delay));
     loop.digital.limits.velocity = asked.velocity;
-    EventMotion<ExactBacklash> motion(loop.digital, ExactBacklash(loop.plant, 0.0),
-                                      Vector<double, 4>::Zero());
-    EventLyapunov<ExactBacklash> from_rest(motion);
+    EventMotion<> motion(loop.digital, test::exact_backlash(loop.plant, 0.0),
+                         Vector<double, 4>::Zero());
+    EventLyapunov<DriveContact<>> from_rest(motion);
     run_trajectory(from_rest, 1, std::nullopt);
-    EventLyapunov<ExactBacklash> lyapunov(motion);
+    EventLyapunov<DriveContact<>> lyapunov(motion);
     run_trajectory(lyapunov, 500, std::nullopt);
     EXPECT_EQ(finite_exponents(lyapunov.spectrum()), asked.finite);
     // Before its first sample a controller has read nothing that could be varied.
@@ -239,7 +228,7 @@ TEST(EventLyapunov, GoesBesideATrajectoryAndChangesNothing) {
   const Kick kick{0.5, 1e-4};
   auto plain = backlash_motion(which), followed = plain;
   std::vector<double> history;
-  EventLyapunov<ExactBacklash> lyapunov(followed);
+  EventLyapunov<DriveContact<>> lyapunov(followed);
   std::vector<Vector<double, 4>> seen, expected;
   run_trajectory(lyapunov, 2000, kick, [&](const MotionSample<double>& sample) {
     seen.push_back(sample.state);

@@ -1,19 +1,10 @@
 #include "holdfast/chaos/motion_classification.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

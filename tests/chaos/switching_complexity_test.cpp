@@ -1,14 +1,7 @@
 #include "holdfast/chaos/switching_complexity.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,9 @@
 // Exponents and verdicts of a plant of another order than that of the two masses.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <iostream>
 
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
 #include "support/lagging_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <string>
-
 #include "cli/program.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -17,6 +13,14 @@ double number_behind(const std::string& text, const std::string& before) {
   const std::size_t at = text.find(before);
   EXPECT_NE(at, std::string::npos) << before << " is not in " << text;
   return at == std::string::npos ? 0.0 : std::strtod(text.c_str() + at + before.size(), nullptr);
+}
+
+/// Whether control helps, of a case that is doubted before.
+std::string help_of_doubtful(const std::string& settings) {
+  const Outcome outcome = run_holdfast("answers --quiet --set " + settings);
+  const auto answers = program::parse_csv(outcome.output, settings);
+  EXPECT_EQ(answers.text(0, "question"), "Is the case what you mean?");
+  return answers.text(1, "answer");
 }
 
 constexpr std::size_t help = 0, gain = 1, slow = 2, play = 3, motion = 4;
@@ -41,7 +45,7 @@ TEST(Answers, AreThoseOfTheJobsThatTheyName) {
                                 " --metric ratio_to_uncontrolled --duration 20");
   EXPECT_NEAR(number_behind(answers.text(gain, "detail"), "play of 0.5 mm it leaves "),
               100.0 * in_play.number(0, "ratio_to_uncontrolled"), 0.2);
-  const auto delay = table_of("max-delay --frequency 10:10:1");
+  const auto delay = table_of("max-delay --frequency 10:10:1 --quiet");
   EXPECT_NEAR(number_behind(answers.text(slow, "answer"), "Up to "),
               1e3 * delay.number(0, "max_sampling_period_s"), 0.06);
   EXPECT_TRUE(holds(answers.text(play, "answer"), "the case has 0.5 mm"));
@@ -52,6 +56,21 @@ TEST(Answers, AloneAreTwoColumns) {
   const auto lines = lines_of(run_holdfast("answers").output);
   ASSERT_EQ(lines.size(), 6U);
   EXPECT_EQ(lines.front(), "question,answer");
+}
+
+TEST(Answers, CallNoPlayHelpfulWhereTheVibrationIsTheSame) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "stay.toml").string();
+  write_text(file,
+             "[conductor]\nmass_per_length = 60\nspan = 100\nsag = 0.184\narea = 0.006\n"
+             "youngs_modulus = 1.95e11\ndamping_ratio = 0.001\n[absorber]\nmass = 30\n"
+             "position = 3\n[wind]\nspeed = 2\ndiameter = 0.16\neffective_length = 50\n"
+             "[control]\nproportional_gain = \"tuned\"\ndifferential_gain = -1000\n"
+             "sampling_period = 0.002\n[backlash]\nwidth = 1e-4\n");
+  const auto answers =
+      program::parse_csv(run_holdfast("answers --case '" + file + "'").output, "answers");
+  EXPECT_EQ(answers.text(help, "answer").rfind("No", 0), 0U) << answers.text(help, "answer");
+  EXPECT_EQ(answers.text(play, "answer").rfind("None", 0), 0U) << answers.text(play, "answer");
 }
 
 TEST(Answers, SayWhichGainsAndWhichPlayAreNotOfTheUsersCase) {
@@ -65,6 +84,60 @@ TEST(Answers, SayWhichGainsAndWhichPlayAreNotOfTheUsersCase) {
                     "backlash.width: the built-in value stands in"))
       << detail;
   EXPECT_FALSE(holds(table_of("answers --details").text(help, "detail"), "stands in"));
+}
+
+TEST(Answers, SayThatAMotionDivergesAndNotWhatIsLeftOfIt) {
+  const auto answers = table_of("answers --set control.sampling_period=0.03");
+  const std::string text = answers.text(help, "answer");
+  EXPECT_TRUE(holds(text, "diverges")) << text;
+  EXPECT_FALSE(holds(text, "%")) << text;
+  EXPECT_TRUE(holds(answers.text(motion, "answer"), "diverges"));
+}
+
+TEST(Answers, RecommendNoGainThatIsNotWorthItsDrive) {
+  const auto answers = table_of("answers --set control.sampling_period=0.03");
+  const std::string text = answers.text(gain, "answer");
+  EXPECT_EQ(text.rfind("None is worth its drive", 0), 0U) << text;
+  EXPECT_GT(number_behind(text, "leaves "), 95.0);
+  EXPECT_EQ(table_of("answers").text(gain, "answer").rfind("D = ", 0), 0U);
+}
+
+TEST(Answers, NameAPlayThatTheDriveNeverLeaves) {
+  const std::string text = help_of_doubtful("backlash.width=10");
+  EXPECT_TRUE(holds(text, "never leaves its play")) << text;
+  EXPECT_FALSE(holds(text, "%")) << text;
+}
+
+TEST(Answers, SayThatALoopLivesOnItsPlay) {
+  const auto answers =
+      table_of("answers --set control.differential_gain=-40 --set backlash.width=0.001");
+  const std::string text = answers.text(help, "answer");
+  EXPECT_FALSE(holds(text, "Yes")) << text;
+  EXPECT_GT(number_behind(text, "spectral radius "), 1.0);
+  const std::string widths = answers.text(play, "answer");
+  EXPECT_TRUE(holds(widths, "From ") && holds(widths, "without play the loop is unstable"))
+      << widths;
+}
+
+TEST(Answers, CompareWithThePlantWithoutAComputer) {
+  // The force held over a sample of 30 ms would shake the plant less than the one that acts on it.
+  const auto slow_one = table_of(
+      "answers --details --set control.sampling_period=0.03 --set "
+      "control.differential_gain=-3");
+  const double shaken = number_behind(slow_one.text(help, "detail"), "shown is the true ");
+  const auto fine = table_of(
+      "sweep --axis control.sampling_period=0.0002:0.0002:1 --set control.proportional_gain=0 "
+      "--set "
+      "control.differential_gain=0 --set excitation.hold=exact --metric steady_peak --duration 20");
+  EXPECT_NEAR(shaken, 1e3 * fine.number(0, "steady_peak"), 0.006);
+  EXPECT_FALSE(holds(table_of("answers --details").text(help, "detail"), "held over a sample"));
+}
+
+TEST(Answers, DoNotTakeTheForceOfFewSamplesForTheVibration) {
+  for (const char* blind : {"control.sampling_period=10", "excitation.frequency=10000"}) {
+    const std::string text = help_of_doubtful(blind);
+    EXPECT_TRUE(holds(text, "fewer than two samples")) << text;
+  }
 }
 
 TEST(Classification, SaysItInWordsWhereProgressIsShown) {

@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/text.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <string>
-
 #include "cli/program.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -25,7 +21,7 @@ TEST(CaseJob, BeginsAFileThatIsTheSameCase) {
   const TemporaryFolder folder;
   const std::string file = (folder / "my cable.toml").string();
   const Outcome begun =
-      run_holdfast("case --set control.sampling_period=0.004 --init '" + file + "'");
+      run_holdfast("case --from plant --set control.sampling_period=0.004 --init '" + file + "'");
   EXPECT_EQ(begun.exit_code, 0) << begun.errors;
   EXPECT_EQ(begun.output, "");
   const std::string text = read_text(file);
@@ -108,6 +104,126 @@ TEST(CaseJob, AGivenKeyOfThePlantGoesOverTheReduction) {
     EXPECT_EQ(number_told(changed, key), number_told(reduced, key)) << key;
     EXPECT_EQ(told(changed, key, "origin"), "computed from the conductor");
   }
+}
+
+std::string in_data(const std::string& name) {
+  return "'" + std::string(HOLDFAST_SOURCE_DIR) + "/data/" + name + "'";
+}
+
+/// What a job says of the case that `case ARGUMENTS --init` writes.
+std::string begun_case_in(const TemporaryFolder& folder, const std::string& arguments) {
+  const std::string file = (folder / "begun.toml").string();
+  std::filesystem::remove(file);
+  const Outcome begun = run_holdfast("case " + arguments + " --quiet --init '" + file + "'");
+  EXPECT_EQ(begun.exit_code, 0) << begun.errors;
+  return file;
+}
+
+TEST(CaseJob, ABegunCaseIsTheSameToEveryJob) {
+  if (!both_packages) GTEST_SKIP() << "the reduction fits c2 with Ceres Solver";
+  const TemporaryFolder folder;
+  for (const auto& [arguments, of_case] : std::vector<std::pair<std::string, std::string>>{
+           {"--from plant", ""},
+           {"--case " + in_data("acsr-drake-300m.toml"),
+            " --case " + in_data("acsr-drake-300m.toml")},
+           {"--from conductor --case " + in_data("stay-cable-sutong.toml"),
+            " --case " + in_data("stay-cable-sutong.toml")}}) {
+    const std::string file = begun_case_in(folder, arguments);
+    for (const std::string job :
+         {"margins", "response --p -557:-557:1 --d -15:0:3", "simulate --duration 0.2",
+          "design --frequency 10:10:1", "max-delay --frequency 10:10:1"})
+      EXPECT_EQ(run_holdfast(job + " --quiet --case '" + file + "'").output,
+                run_holdfast(job + " --quiet" + of_case).output)
+          << arguments << ' ' << job;
+  }
+}
+
+TEST(CaseJob, EditingTheConductorOfABegunCaseChangesTheAnswer) {
+  if (!both_packages) GTEST_SKIP() << "the reduction fits c2 with Ceres Solver";
+  const TemporaryFolder folder;
+  const std::string file = begun_case_in(folder, "");
+  const std::string text = read_text(file);
+  EXPECT_EQ(text.find("\n[plant]"), std::string::npos) << text;
+  const std::string ask = "case --quiet --check '" + file + "'";
+  const auto before = program::parse_csv(run_holdfast(ask).output, "before");
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"\nspan = 6.4 ", "\nspan = 5.0 "}, {"\nspan = 6.4 ", "\nspan = 4.5 "}}) {
+    std::string edited = text;
+    edited.replace(edited.find(from), from.size(), to);
+    write_text(file, edited);
+    const auto after = program::parse_csv(run_holdfast(ask).output, "after");
+    for (const std::string key : {"plant.conductor_stiffness", "spectral_radius"})
+      EXPECT_NE(number_told(after, key), number_told(before, key)) << to << key;
+  }
+}
+
+TEST(CaseJob, BeginsAPlantAloneWhereThatIsAskedForOrGiven) {
+  const TemporaryFolder folder;
+  for (const std::string arguments : {"--from plant", "--set plant.absorber_mass=0.2"}) {
+    const std::string text = read_text(begun_case_in(folder, arguments));
+    EXPECT_NE(text.find("\n[plant]"), std::string::npos) << text;
+    EXPECT_EQ(text.find("\n[conductor]"), std::string::npos) << text;
+  }
+}
+
+TEST(CaseJob, BeginsAWindInPlaceOfTheForce) {
+  const TemporaryFolder folder;
+  const std::string file = begun_case_in(folder, "--from plant --wind");
+  const auto table = table_of("case --check '" + file + "'");
+  EXPECT_NEAR(number_told(table, "force_frequency"), 10.0, 0.1) << "that of the force";
+  EXPECT_EQ(read_text(file).find("\nfrequency = "), std::string::npos);
+  expect_refused("case --wind", {"--init"});
+  expect_refused("case --from plant", {"--init"});
+}
+
+TEST(CaseJob, AConductorThatContradictsItsPlantIsNamedInEveryAnswer) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "both.toml").string();
+  const std::string plant = read_text(begun_case_in(folder, "--from plant"));
+  write_text(file, plant + "[conductor]\nsag = 0.5\n");
+  const std::string asked = " --case '" + file + "'";
+  for (const std::string job : {"margins", "modes --count 1", "answers",
+                                "sweep --axis backlash.width=0.001 --duration 0.1"}) {
+    const Outcome outcome = run_holdfast(job + asked);
+    EXPECT_NE(outcome.errors.find("it is not theirs: k1 50.3 instead"), std::string::npos)
+        << job << outcome.errors;
+    if (job == "answers") {
+      EXPECT_NE(lines_of(outcome.output).at(1).find("it is not theirs"), std::string::npos);
+    }
+  }
+  write_text(file, plant + "[conductor]\nsag = 0.29\n");
+  EXPECT_EQ(run_holdfast("margins" + asked).errors, "");
+}
+
+TEST(Plausibility, IsDoubtedByEveryKindOfJobAndOnTheFirstLineOfTheAnswers) {
+  for (const std::string job :
+       {"stability --p -557:-557:1 --d -13:-13:1", "simulate --duration 0.1", "modes --count 1",
+        "case", "answers", "sweep --axis plant.absorber_mass=0.16 --duration 0.1"}) {
+    const Outcome outcome = run_holdfast(job + " --set backlash.width=0.5");
+    EXPECT_EQ(outcome.exit_code, 0) << job << outcome.errors;
+    EXPECT_EQ(outcome.error_lines(), 1U) << job << outcome.errors;
+    EXPECT_NE(outcome.errors.find("is it in mm"), std::string::npos) << job << outcome.errors;
+    if (job == "answers") {
+      EXPECT_NE(lines_of(outcome.output).at(1).find("is it in mm"), std::string::npos);
+    }
+  }
+}
+
+TEST(Plausibility, ARecordInMillimetresIsNamedAsSuch) {
+  if (!both_packages) GTEST_SKIP() << "needs Ceres Solver";
+  const TemporaryFolder folder;
+  const std::string data = std::string(HOLDFAST_SOURCE_DIR) + "/data/kollar2022-decay.csv";
+  EXPECT_EQ(run_holdfast("fit --data '" + data + "'").errors, "");
+  const auto record = program::parse_csv(read_text(data), "decay");
+  std::string text = "time_s,displacement_m\n";
+  for (std::size_t row = 0; row < record.rows(); ++row)
+    text += record.text(row, "time_s") + "," +
+            std::to_string(1e3 * record.number(row, "displacement_m")) + "\n";
+  const std::string file = (folder / "in-mm.csv").string();
+  write_text(file, text);
+  const Outcome outcome = run_holdfast("fit --data '" + file + "'");
+  EXPECT_NE(outcome.errors.find("in-mm.csv: displacement_m reaches"), std::string::npos);
+  EXPECT_NE(outcome.errors.find("is it in mm"), std::string::npos) << outcome.errors;
 }
 
 }  // namespace

@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <tuple>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -41,8 +36,83 @@ TEST(DesignJob, KeepsTheRadiusThatIsAskedFor) {
   EXPECT_GT(table.number(0, "attenuation_dB"), 0.0);
 }
 
+/// A gain that is recommended has the margins that are named, by eigenvalues at the gains moved.
+void expect_margins(const CsvTable& table, const std::string& gain, const std::string& settings) {
+  const double p = table.number(0, "proportional_gain"), d = table.number(0, gain);
+  const double radius = radius_of_cell(p, d, settings);
+  EXPECT_LT(radius, 1.0);
+  EXPECT_NEAR(table.number(0, "spectral_radius"), radius, 1e-6);
+  const double factor = std::pow(10.0, table.number(0, "gain_margin_dB") / 20.0);
+  ASSERT_GT(factor, 1.3) << settings;
+  EXPECT_GT(table.number(0, "phase_margin_deg"), 1.0);
+  EXPECT_LT(radius_of_cell(0.999 * factor * p, 0.999 * factor * d, settings), 1.0);
+  EXPECT_GT(radius_of_cell(1.001 * factor * p, 1.001 * factor * d, settings), 1.0);
+  const double delay = table.number(0, "delay_margin_s");
+  ASSERT_GT(delay, 0.0);
+  const auto delayed = [&](double share) {
+    return radius_of_cell(
+        p, d, settings + " --set control.processing_delay=" + std::to_string(share * delay));
+  };
+  if (delay < 0.005) {  // within a sampling period
+    EXPECT_LT(delayed(0.99), 1.0);
+    EXPECT_GT(delayed(1.01), 1.0);
+  }
+}
+
+TEST(DesignJob, RecommendsGainsWithTheMarginsThatItNames) {
+  const std::string slow = " --set control.sampling_period=0.01";
+  const std::string delayed = slow + " --set control.proportional_gain=-1300";
+  for (const std::string& settings : {slow, delayed, std::string()}) {
+    expect_margins(table_of("design" + settings), "least_amplitude_gain", settings);
+    expect_margins(table_of("design --quiet --band 9:11" + settings), "differential_gain",
+                   settings);
+  }
+  expect_margins(table_of("design --quiet --frequency 15:15:1" + slow), "least_amplitude_gain",
+                 slow);
+  const Outcome without = run_holdfast("design" + slow);
+  EXPECT_EQ(without.errors, "");
+}
+
+TEST(DesignJob, SaysThatAGainOnTheBoundaryIsALimit) {
+  for (const std::string question : {"design", "design --band 9:11", "design --frequency 9:11:3"}) {
+    const Outcome outcome = run_holdfast(question + " --largest-radius 1");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.errors.find("on the boundary of stability"), std::string::npos)
+        << outcome.errors;
+  }
+  const Outcome slowest = run_holdfast("max-delay --frequency 10:10:1 --criterion stable");
+  EXPECT_NE(slowest.errors.find("on the boundary of stability"), std::string::npos)
+      << slowest.errors;
+}
+
+/// What is left is compared with the plant that no computer holds the force of.
+TEST(DesignJob, RatiosAreToThePlantUnderTheTrueForce) {
+  const auto free_amplitude = [](const std::string& settings) {
+    const CsvTable cell = table_of("response --quiet --p -20:-20:1 --d -1:-1:1" + settings);
+    return cell.number(0, "amplitude_m") / cell.number(0, "ratio_to_uncontrolled");
+  };
+  const double plant = free_amplitude(" --set control.sampling_period=1e-5");
+  for (const std::string period : {"0.001", "0.01", "0.03"}) {
+    const std::string settings = " --set control.sampling_period=" + period;
+    EXPECT_NEAR(free_amplitude(settings), plant, 1e-6 * plant) << period;
+    const Outcome held = run_holdfast("response --p -20:-20:1 --d -1:-1:1" + settings);
+    EXPECT_EQ(held.errors.find("held over samples") != std::string::npos, period == "0.03")
+        << held.errors;
+    const Outcome exact = run_holdfast(
+        "response --p -20:-20:1 --d -1:-1:1 --set "
+        "excitation.hold=exact" +
+        settings);
+    EXPECT_EQ(exact.errors, "");
+  }
+  const std::string fast = " --set excitation.frequency=10000";
+  EXPECT_LT(free_amplitude(fast), 1e-8) << "10 kHz hardly move the cable";
+  for (const std::string job :
+       {"response --p -20:-20:1 --d -1:-1:1", "sweep --axis backlash.width=0:0.001:2 --duration 2"})
+    EXPECT_NE(run_holdfast(job + fast).errors.find("held over samples"), std::string::npos) << job;
+}
+
 TEST(DesignJob, OneGainServesABand) {
-  const std::string settings = "--set control.sampling_period=0.01 --largest-radius 0.995";
+  const std::string settings = "--quiet --set control.sampling_period=0.01 --largest-radius 0.995";
   const CsvTable band = table_of("design --band 9:11 " + settings);
   ASSERT_EQ(band.rows(), 1U);
   EXPECT_GE(band.number(0, "worst_frequency_Hz"), 9.0);
@@ -76,7 +146,7 @@ TEST(DesignJob, NoAdmissibleGainIsNoAnswer) {
 TEST(DesignJob, ARowWithoutABestGainSaysWhy) {
   for (const auto& [settings, outcome_name, words] :
        {std::tuple{"--set control.sampling_period=0.049", "none", "no D keeps the spectral radius"},
-        {"--set excitation.frequency=600", "aliased", "half the sampling rate"}}) {
+        {"--set control.sampling_period=0.06", "aliased", "half the sampling rate"}}) {
     const Outcome outcome = run_holdfast(std::string("design ") + settings);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
@@ -99,7 +169,7 @@ TEST(DesignJob, RefusesWhatDoesNotGoTogether) {
   for (const std::string arguments :
        {"--band 9:11 --frequency 9:11:2", "--both-gains --band 9:11", "--band 0:5", "--band 11:9",
         "--band 9", "--largest-radius 0", "--largest-radius nan", "--largest-radius 1.1",
-        "--band 10:5000"}) {
+        "--margin 1", "--margin -0.1", "--band 10:5000"}) {
     const Outcome outcome = run_holdfast("design " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;

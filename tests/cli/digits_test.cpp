@@ -1,11 +1,9 @@
 // What the metadata say of the digits of a table.
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "cli/program.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

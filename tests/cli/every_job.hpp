@@ -1,9 +1,7 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/program.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 
@@ -29,17 +27,17 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"peaks --elements 10 --force -0.1:0.1:2", "peaks --force -0.1:0.1:100000", true},
     {"fit", "fit", true},
     {"stability --p -600:0:40 --d -20:0:40",
-     "stability --radius --p -1000:200:1000000 --d -40:20:1000"},
+     "stability --yes --radius --p -1000:200:1000000 --d -40:20:1000"},
     {"boundary", ""},
-    {"response --p -600:0:40 --d -20:0:40", "response --p -1000:200:1000000 --d -40:20:1000"},
+    {"response --p -600:0:40 --d -20:0:40", "response --yes --p -1000:200:1000000 --d -40:20:1000"},
     {"design", "design --frequency 5:60:10000000"},
     {"margins", ""},
     {"sensitivity", ""},
     {"max-delay --frequency 5:6:2", "max-delay --frequency 5:60:10000000"},
-    {"simulate --duration 1", "simulate --duration 1e9"},
+    {"simulate --duration 1", "simulate --yes --duration 9e6"},
     {"spectrum --duration 2", "spectrum --duration 2000 --switching exact"},
-    {"deviation --duration 1", "deviation --duration 1e9"},
-    {"coverage --durations 1,2 --cells 10", "coverage --durations 1e9"},
+    {"deviation --duration 1", "deviation --yes --duration 9e6"},
+    {"coverage --durations 1,2 --cells 10", "coverage --durations 9e6"},
     {"verdict",
      "verdict --set excitation.frequency=9.99999 --max-period 100000000"
      " --set backlash.width=0.003"},
@@ -49,8 +47,8 @@ inline const std::vector<JobToTry> jobs_with_table = {
      "basins --axis initial.z1=0:0.001:3000 --axis initial.v2=0:0.1:3000 --max-period 1000"},
     {"diagram --axis backlash.width=0:0.001:3 --transient 1 --strobes 10",
      "diagram --axis backlash.width=0:0.003:100000"},
-    {"section --duration 2 --from 1", "section --duration 1e9"},
-    {"lyapunov --duration 1", "lyapunov --duration 1e9"},
+    {"section --duration 2 --from 1", "section --duration 9e6"},
+    {"lyapunov --duration 1", "lyapunov --duration 9e6"},
     {"sweep --axis backlash.width=0:0.003:3 --duration 1",
      "sweep --axis backlash.width=0:0.003:3000 --axis initial.z1=0:0.001:3000"},
     {"answers", "answers --set excitation.frequency=10.0001"},

@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "case/case_keys.hpp"
 #include "cli/program.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -55,27 +49,52 @@ TEST(Help, ItsExamplesWork) {
 TEST(Help, AWordThatIsNotExpectedIsGuessed) {
   const TemporaryFolder folder;
   write_text(folder / "mine.toml", "");
-  const auto refusal = [&](const std::string& arguments) {
-    const Outcome outcome = run_holdfast(arguments, "", folder.path().string());
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
-    return outcome.errors;
+  const auto expect_guess = [&](const std::string& arguments, const std::string& guess) {
+    expect_refused(arguments, {guess}, 2, folder.path().string());
   };
-  EXPECT_NE(refusal("simulate --switchng exact").find("did you mean --switching?"),
-            std::string::npos);
-  EXPECT_NE(refusal("margins mine.toml").find("--case mine.toml"), std::string::npos);
-  EXPECT_NE(refusal("case mine.toml").find("--check mine.toml"), std::string::npos);
-  EXPECT_NE(refusal("simulate --set control.sampling_period=10ms").find("such as 0.01"),
-            std::string::npos);
-  EXPECT_NE(refusal("lyap").find("did you mean lyapunov?"), std::string::npos)
-      << "by its beginning";
-  EXPECT_NE(refusal("stabilty").find("did you mean stability?"), std::string::npos);
+  expect_guess("simulate --switchng exact", "did you mean --switching?");
+  expect_guess("margins mine.toml", "--case mine.toml");
+  expect_guess("case mine.toml", "--check mine.toml");
+  expect_guess("simulate --set control.sampling_period=10ms", "such as 0.01");
+  expect_guess("lyap", "did you mean lyapunov?");  // by its beginning
+  expect_guess("stabilty", "did you mean stability?");
 }
 
 TEST(Help, IsAskedForInOtherWaysToo) {
   EXPECT_EQ(run_holdfast("help").output, run_holdfast("--help").output);
   EXPECT_EQ(run_holdfast("help orbit").output, run_holdfast("orbit --help").output);
   EXPECT_EQ(run_holdfast("-v").output, run_holdfast("--version").output);
+  EXPECT_NE(run_holdfast("-v").output.find(HOLDFAST_VERSION), std::string::npos);
+}
+
+TEST(Help, OptionsOfEveryJobMayStandBeforeIt) {
+  const TemporaryFolder folder;
+  write_text(folder / "mine.toml", "[backlash]\nwidth = 0.0011\n");
+  const auto output = [&](const std::string& arguments) {
+    const Outcome outcome = run_holdfast(arguments, "", folder.path().string());
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+    return outcome.output;
+  };
+  const std::string options =
+      "--case mine.toml --quiet --set control.sampling_period=0.002 --set=initial.z1=0.001 "
+      "--threads 1 --instructions=baseline ";
+  for (const std::string job : {"simulate --duration 0.1", "margins", "spectrum --duration 1",
+                                "case", "stability --p -600:0:3 --d -20:0:3"}) {
+    EXPECT_EQ(output(options + job), output(job + " " + options));
+    EXPECT_EQ(output("--case mine.toml " + job + " --set initial.z1=0.002"),
+              output(job + " --case mine.toml --set initial.z1=0.002"));
+  }
+  output("--progress --output x.csv simulate --duration 0.1");
+  EXPECT_TRUE(std::filesystem::exists(folder / "x.csv"));
+}
+
+TEST(Help, OptionsWithoutAJobAreToldToHaveNone) {
+  expect_refused("--case mine.toml", {"which job"});
+  expect_refused("--quiet", {"which job"});
+  expect_refused("--case margins", {"which job"});
+  expect_refused("--duration 1 simulate", {"--duration", "behind"});
+  expect_refused("--quiet margns", {"margins"});
+  expect_refused("-x", {"-x"});
 }
 
 /// What bash offers for the last of some words.
@@ -94,6 +113,8 @@ std::string completed(const std::string& words, int last) {
 
 TEST(Completion, OffersJobsOptionsWordsAndKeys) {
   EXPECT_EQ(completed("holdfast sim", 1), "simulate\n");
+  EXPECT_EQ(completed("holdfast --case mine.toml sim", 3), "simulate\n");
+  EXPECT_EQ(completed("holdfast --quiet simulate --sw", 3), "--switching\n");
   EXPECT_EQ(completed("holdfast simulate --sw", 2), "--switching\n");
   EXPECT_EQ(completed("holdfast simulate --switching e", 3), "exact\n");
   EXPECT_EQ(completed("holdfast sweep --axis backlash.w", 3), "backlash.width=\n");
@@ -106,9 +127,7 @@ TEST(Completion, IsGoodForZshToo) {
   EXPECT_EQ(text.rfind("#compdef holdfast\n", 0), 0U);
   for (const std::string& job : jobs())
     EXPECT_NE(text.find("    " + job + ")\n      _arguments"), std::string::npos) << job;
-  const Outcome unknown = run_holdfast("completion fish");
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_EQ(unknown.error_lines(), 1U);
+  expect_refused("completion fish", {});
 }
 
 TEST(Manual, HasEveryJobAndEveryKey) {

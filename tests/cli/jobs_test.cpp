@@ -1,24 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
 
 using program::CsvTable;
 using program::parse_csv;
-
-std::string header_of(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  const auto lines = lines_of(outcome.output);
-  return lines.empty() ? "" : lines.front();
-}
 
 TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
   EXPECT_EQ(header_of("stability --p -600:0:3 --d -20:0:3"),
@@ -34,12 +22,15 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "proportional_gain,differential_gain,stable,amplitude_m,ratio_to_uncontrolled");
   EXPECT_EQ(header_of("design"),
             "frequency_Hz,proportional_gain,least_amplitude_gain,ratio_to_uncontrolled,"
-            "attenuation_dB,least_radius_gain,least_radius,least_amplitude_at");
+            "attenuation_dB,least_radius_gain,least_radius,least_amplitude_at,"
+            "spectral_radius,gain_margin_dB,phase_margin_deg,delay_margin_s");
   EXPECT_EQ(header_of("design --band 9:11"),
             "frequency_min_Hz,frequency_max_Hz,proportional_gain,differential_gain,worst_ratio,"
-            "worst_frequency_Hz,attenuation_dB,lower_bound");
+            "worst_frequency_Hz,attenuation_dB,lower_bound,"
+            "spectral_radius,gain_margin_dB,phase_margin_deg,delay_margin_s");
   EXPECT_EQ(header_of("design --both-gains"),
-            "proportional_gain,differential_gain,spectral_radius,lower_bound");
+            "proportional_gain,differential_gain,spectral_radius,lower_bound,"
+            "gain_margin_dB,phase_margin_deg,delay_margin_s");
   EXPECT_EQ(header_of("margins"),
             "quantity,unit,value,side,outcome,position,distance,curve,frequency_Hz");
   EXPECT_EQ(header_of("sensitivity"),
@@ -125,23 +116,10 @@ TEST(Coverage, OfAMotionAtRestHasNoAnswer) {
 }
 
 TEST(MaxDelay, NeverPassesHalfAForcingPeriodWhereItShallAttenuate) {
-  const CsvTable table = table_of("max-delay --frequency 3:4:11");
+  const CsvTable table = table_of("max-delay --frequency 3:4:11 --quiet");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     EXPECT_LE(table.number(row, "max_sampling_period_s"), 0.5 / table.number(row, "frequency_Hz"));
     EXPECT_GT(table.number(row, "max_sampling_period_s"), 0.0);
-  }
-}
-
-TEST(Boundary, KeepsItsLowerEdgeHoweverFastTheSampling) {
-  for (const std::string period : {"1e-3", "1e-5", "1e-7"}) {
-    const CsvTable table =
-        table_of("boundary --p -600:-500 --set control.sampling_period=" + period);
-    double nearest = 1e9;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      if (table.text(row, "curve") != "complex_pair") continue;
-      nearest = std::min(nearest, std::abs(table.number(row, "differential_gain") + 33.7));
-    }
-    EXPECT_LT(nearest, 0.5) << period;
   }
 }
 
@@ -205,6 +183,32 @@ TEST(Wind, GivesFrequencyAndAmplitude) {
   const CsvTable a = parse_csv(windy.output, "wind"), b = parse_csv(given.output, "given");
   for (std::size_t row = 0; row < a.rows(); ++row) {
     EXPECT_NEAR(a.number(row, "z1_m"), b.number(row, "z1_m"), 1e-12);
+  }
+}
+
+TEST(Jobs, RefuseAnOutputWhoseNamePromisesAnotherFormat) {
+  const TemporaryFolder folder;
+  for (const char* name : {"chart.png", "chart.svg", "chart.pdf", "table.xlsx", "table.txt"}) {
+    const std::string file = (folder / name).string();
+    const Outcome outcome = run_holdfast("margins --output '" + file + "'");
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.errors.find(".csv"), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(file)) << name;
+  }
+  expect_refused("simulate --duration 0.01 --output " + (folder / "a.jpg").string(),
+                 {".csv", ".svg, .png or .pdf", ".jpg"});
+  const std::string file = (folder / "motion").string();
+  EXPECT_EQ(run_holdfast("simulate --duration 0.01 --output '" + file + "'").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+TEST(Jobs, DoNotWriteGigabytesOfTextUnasked) {
+  for (const char* job : {"stability", "response", "stability --continuous"}) {
+    const Outcome outcome = run_holdfast(std::string(job) + " --p -600:0:100001 --d -20:0:100000");
+    EXPECT_EQ(outcome.exit_code, 2) << job;
+    EXPECT_EQ(outcome.output, "") << job;
+    EXPECT_NE(outcome.errors.find("10000100000 cells"), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("--yes"), std::string::npos) << outcome.errors;
   }
 }
 

@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "cli/program.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -31,25 +28,10 @@ TEST(Netcdf, ChartsOfGainsAreWrittenAsNetcdfAndCarryTheirMetadata) {
 TEST(Netcdf, OtherJobsSayWhichWriteIt) {
   const TemporaryFolder folder;
   for (const std::string job : {"simulate --duration 0.1", "boundary", "modes", "spectrum"}) {
-    const Outcome outcome = run_holdfast(job + " --output '" + (folder / "x.nc").string() + "'");
-    EXPECT_EQ(outcome.exit_code, 2) << job;
-    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("only stability, response, basins and sweep write netCDF"),
-              std::string::npos)
-        << outcome.errors;
+    expect_refused(job + " --output '" + (folder / "x.nc").string() + "'",
+                   {"only stability, response, basins and sweep write netCDF"});
   }
   EXPECT_TRUE(folder.names().empty());
-}
-
-TEST(Netcdf, APlaceThatCannotBeWrittenIsWrongInput) {
-  const TemporaryFolder folder;
-  const std::string file = (folder / "no/such/x.nc").string();
-  const Outcome outcome = run_holdfast("stability" + small_grid + " --output '" + file + "'");
-#ifdef HOLDFAST_HAS_NETCDF
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("x.nc"), std::string::npos) << outcome.errors;
-#endif
-  EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
 }
 
 TEST(Netcdf, WithoutSpaceTheProgramSaysSoEndsInOrderAndLeavesNothing) {

@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-#include <string>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -156,6 +151,23 @@ TEST(SectionJob, ItsPointsLieBetweenTheSamplesOfSimulate) {
   const CsvTable table = table_of("section --duration 2 --from 1" + slow);
   ASSERT_GT(table.rows(), 10U);
   for (std::size_t row = 0; row < table.rows(); ++row) EXPECT_GE(table.number(row, "time_s"), 1.0);
+}
+
+/// What `deviation` says of neighbours that stay apart is what `orbit` finds from each.
+TEST(DeviationJob, SaysWhyNeighboursStayApartBesideCertifiedOrbits) {
+  const auto period_from = [](const std::string& settings) {
+    return table_of("orbit --quiet" + settings).text(0, "period_samples") + " samples";
+  };
+  const std::string copies = " --set backlash.width=0.002";
+  const std::string shifted = run_holdfast("deviation --offset 1e-3" + copies).errors;
+  const std::string coexisting = copies + " --set control.sampling_period=0.003";
+  const std::string apart = run_holdfast("deviation --offset 1e-5" + coexisting).errors;
+  EXPECT_NE(apart.find("orbits coexist"), std::string::npos) << apart;
+  EXPECT_NE(apart.find("of " + period_from(coexisting)), std::string::npos) << apart;
+  EXPECT_NE(shifted.find("one certified orbit of " + period_from(copies)), std::string::npos)
+      << shifted;
+  const std::string together = run_holdfast("deviation --set backlash.width=0").errors;
+  EXPECT_EQ(together.find("apart"), std::string::npos) << together;
 }
 
 }  // namespace

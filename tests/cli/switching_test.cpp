@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -18,25 +11,12 @@ using program::CsvTable;
 const std::string exact_force = " --set excitation.hold=exact";
 const std::vector<std::string> laws{"kollar", "immediate", "play", "dead_zone", "none"};
 
-std::string header_of(const std::string& arguments) {
-  return lines_of(run_holdfast(arguments).output).front();
-}
-
 double steady_peak_of(const std::string& arguments) {
   const CsvTable table = table_of("simulate --duration 3 --from 1.5" + arguments);
   double peak = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row)
     peak = std::max(peak, std::abs(table.number(row, "z1_m")));
   return peak;
-}
-
-void expect_wrong_input(const std::string& arguments, const std::vector<std::string>& words) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 2) << arguments;
-  EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;
-  EXPECT_EQ(outcome.output, "") << arguments;
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in " << outcome.errors;
 }
 
 TEST(ExactSwitching, AddsTheModeBehindTheFixedColumns) {
@@ -58,31 +38,6 @@ TEST(ExactSwitching, AddsTheModeBehindTheFixedColumns) {
     }
   }
   EXPECT_EQ(modes, (std::set<std::string>{"engaged", "gap", "stick"}));
-}
-
-TEST(ExactSwitching, GivesThePublishedTable) {
-  const struct {
-    std::string loop;
-    double amplitude;  // mm, to the digits given
-    double half_digit;
-  } cases[] = {
-      {" --set backlash.width=0.0005", 0.6963, 6e-5},
-      {" --set backlash.width=0.002", 1.0029, 6e-5},
-      {" --set control.sampling_period=0.005 --set backlash.width=0.001", 0.7332, 6e-5},
-  };
-  for (const auto& one : cases) {
-    EXPECT_NEAR(1e3 * steady_peak_of(" --switching exact" + exact_force + one.loop), one.amplitude,
-                one.half_digit)
-        << one.loop;
-  }
-}
-
-TEST(ExactSwitching, WithoutBacklashIsTheSampledMotion) {
-  const std::string loop = "simulate --duration 1 --set backlash.width=0" + exact_force;
-  const CsvTable sampled = table_of(loop), exact = table_of(loop + " --switching exact");
-  ASSERT_EQ(sampled.rows(), exact.rows());
-  for (std::size_t row = 0; row < sampled.rows(); ++row)
-    EXPECT_NEAR(sampled.number(row, "z1_m"), exact.number(row, "z1_m"), 1e-14);
 }
 
 TEST(ExactSwitching, IsUnderstoodWhereverAMotionIsComputed) {
@@ -110,11 +65,11 @@ TEST(ExactSwitching, IsUnderstoodWhereverAMotionIsComputed) {
 }
 
 TEST(ExactSwitching, TellsWhatGoesWithTheSampledRuleAlone) {
-  expect_wrong_input("orbit --follow backlash.width=0:0.003 --switching exact",
-                     {"--follow", "--switching sampled"});
-  expect_wrong_input("lyapunov --tangent printed --switching exact",
-                     {"--tangent printed", "--switching sampled"});
-  expect_wrong_input("simulate --switching exakt", {"--switching", "exakt"});
+  expect_refused("orbit --follow backlash.width=0:0.003 --switching exact",
+                 {"--follow", "--switching sampled"});
+  expect_refused("lyapunov --tangent printed --switching exact",
+                 {"--tangent printed", "--switching sampled"});
+  expect_refused("simulate --switching exakt", {"--switching", "exakt"});
 }
 
 TEST(BacklashLaws, EachIsAMotionOfItsOwn) {
@@ -192,25 +147,23 @@ TEST(Excitations, ARecordOfTheHarmonicGivesItsMotion) {
   for (std::size_t row = 0; row < harmonic.rows(); ++row) {
     EXPECT_NEAR(harmonic.number(row, "z1_m"), recorded.number(row, "z1_m"), 0.01 * missed);
   }
-  expect_wrong_input("simulate --duration 5 --set excitation.record=" + file,
-                     {"excitation.record", "ends at"});
+  expect_refused("simulate --duration 5 --set excitation.record=" + file,
+                 {"excitation.record", "ends at"});
 }
 
 TEST(WrongInput, OfTheNewKeysIsOneLine) {
-  expect_wrong_input("simulate --set control.displacement_quantum=-1e-6",
-                     {"control.displacement_quantum", "-1e-6", "at least 0"});
-  expect_wrong_input("simulate --set backlash.law=kolar",
-                     {"backlash.law", "did you mean", "kollar"});
-  expect_wrong_input("simulate --set backlash.contact_stifness=1",
-                     {"did you mean", "backlash.contact_stiffness"});
-  expect_wrong_input("simulate --set control.jitter=0.001", {"control.jitter"});
-  expect_wrong_input("simulate --set excitation.noise_lines=1.5", {"whole number"});
-  expect_wrong_input("simulate --set excitation.record=no/such/file.csv", {"no/such/file.csv"});
-  expect_wrong_input("simulate --set 'excitation.harmonics=[[1,-2,0]]'", {"excitation.harmonics"});
+  expect_refused("simulate --set control.displacement_quantum=-1e-6",
+                 {"control.displacement_quantum", "-1e-6", "at least 0"});
+  expect_refused("simulate --set backlash.contact_stifness=1",
+                 {"did you mean", "backlash.contact_stiffness"});
+  expect_refused("simulate --set control.jitter=0.001", {"control.jitter"});
+  expect_refused("simulate --set excitation.noise_lines=1.5", {"whole number"});
+  expect_refused("simulate --set excitation.record=no/such/file.csv", {"no/such/file.csv"});
+  expect_refused("simulate --set 'excitation.harmonics=[[1,-2,0]]'", {"excitation.harmonics"});
   const TemporaryFolder folder;
   const std::string file = (folder / "bad.csv").string();
   std::ofstream(file) << "time_s,force_N\n0,1\n0.1,two\n";
-  expect_wrong_input("simulate --set excitation.record=" + file, {"bad.csv:3", "force_N", "two"});
+  expect_refused("simulate --set excitation.record=" + file, {"bad.csv:3", "force_N", "two"});
 }
 
 }  // namespace

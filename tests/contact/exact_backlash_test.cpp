@@ -1,15 +1,9 @@
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/contact/contact.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
+#include "support/contacts.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -36,9 +30,9 @@ ContactInstant reversal_instant(const TwoMass<double>& plant, test::Random& rand
 }
 
 /// A drive that has moved in one direction.
-ExactBacklash moved_drive(const TwoMass<double>& plant, double width, double sign) {
-  ExactBacklash drive(plant, width);
-  drive.learn_sign(sign);
+DriveContact<> moved_drive(const TwoMass<double>& plant, double width, double sign) {
+  DriveContact<> drive = test::exact_backlash(plant, width);
+  drive.learn_sign(0, sign);
   return drive;
 }
 
@@ -52,7 +46,7 @@ TEST(ExactBacklash, AReversalOpensTheGapOnTheSideThatItCameFrom) {
   test::Random random(1321);
   const auto plant = kollar2022_plant();
   for (const double sign : {1.0, -1.0}) {
-    ExactBacklash drive = moved_drive(plant, 0.5, sign);
+    DriveContact<> drive = moved_drive(plant, 0.5, sign);
     ContactInstant now = reversal_instant(plant, random);
     const double here = relative_displacement(now.state);
     drive.reached(0, now);
@@ -68,7 +62,7 @@ TEST(ExactBacklash, ItSticksWhereTheSpringPushesOnAndTheCommandTurnsBack) {
   for (int draw = 0; draw < 4000; ++draw) {
     const auto plant = test::random_plant(random);
     const double sign = random.sign();
-    ExactBacklash drive = moved_drive(plant, 0.1, sign);
+    DriveContact<> drive = moved_drive(plant, 0.1, sign);
     ContactInstant now = reversal_instant(plant, random);
     const double free = sign * relative_acceleration_by_newton(plant, now, 0.0);
     const double driven = sign * relative_acceleration_by_newton(plant, now, now.command);
@@ -96,7 +90,7 @@ TEST(ExactBacklash, WhatIsTransmittedIsWhatItsDynamicsHave) {
   for (int draw = 0; draw < 300; ++draw) {
     const auto plant = test::random_plant(random);
     ContactInstant now = reversal_instant(plant, random);
-    const ExactBacklash drive(plant, 0.1);
+    const DriveContact<> drive = test::exact_backlash(plant, 0.1);
     const auto rate = [&](ContactMode mode, double command) -> Vector<double, 4> {
       const AffineDynamics moving = drive.dynamics(static_cast<int>(mode));
       return moving.state * now.state + moving.drift + moving.command * command +
@@ -121,10 +115,10 @@ TEST(ExactBacklash, WhatIsTransmittedIsWhatItsDynamicsHave) {
 }
 
 /// A drive that sticks; the instant is changed until it does.
-ExactBacklash sticking_drive(const TwoMass<double>& plant, test::Random& random,
-                             ContactInstant& now) {
+DriveContact<> sticking_drive(const TwoMass<double>& plant, test::Random& random,
+                              ContactInstant& now) {
   while (true) {
-    ExactBacklash drive = moved_drive(plant, 0.1, random.sign());
+    DriveContact<> drive = moved_drive(plant, 0.1, random.sign());
     now = reversal_instant(plant, random);
     drive.reached(0, now);
     if (drive.word() == ContactMode::stick) return drive;
@@ -137,7 +131,7 @@ TEST(ExactBacklash, ACommandThatJumpsMayEndTheStick) {
   for (int draw = 0; draw < 3000; ++draw) {
     const auto plant = test::random_plant(random);
     ContactInstant now;
-    ExactBacklash drive = sticking_drive(plant, random, now);
+    DriveContact<> drive = sticking_drive(plant, random, now);
     const double lower = drive.lower(), upper = drive.upper();
     now.command = plant.absorber_stiffness * random.uniform(-2.0, 2.0);
     if (draw % 2 == 0) now.force = plant.conductor_stiffness * random.uniform(-2.0, 2.0);
@@ -159,11 +153,11 @@ TEST(ExactBacklash, AJumpLeavesTheOtherModesAsTheyAre) {
   test::Random random(1325);
   const auto plant = kollar2022_plant();
   ContactInstant now = reversal_instant(plant, random);
-  ExactBacklash engaged = moved_drive(plant, 0.1, 1.0);
+  DriveContact<> engaged = moved_drive(plant, 0.1, 1.0);
   engaged.jumped(now);
   EXPECT_EQ(engaged.word(), ContactMode::engaged);
   now = {Vector<double, 4>(0.0, 0.0, 1.0, 0.0), 0.0, 0.0};  // the spring pulls back
-  ExactBacklash gap = moved_drive(plant, 0.1, 1.0);
+  DriveContact<> gap = moved_drive(plant, 0.1, 1.0);
   gap.reached(0, now);
   ASSERT_EQ(gap.word(), ContactMode::gap);
   now.command = -1e3;
@@ -177,7 +171,7 @@ TEST(ExactBacklash, TheEndOfTheGapThatIsPassedGivesTheDirection) {
   const auto plant = kollar2022_plant();
   for (const int end : {0, 1}) {
     ContactInstant now{Vector<double, 4>(0.0, 0.0, 1.0, 0.0), 0.0, 0.0};
-    ExactBacklash drive = moved_drive(plant, 0.1, 1.0);
+    DriveContact<> drive = moved_drive(plant, 0.1, 1.0);
     drive.reached(0, now);
     ASSERT_EQ(drive.word(), ContactMode::gap);
     const Guards guards = drive.guards();
@@ -200,7 +194,7 @@ TEST(ExactBacklash, MirroredMotionIsMirrored) {
     const auto plant = test::random_plant(random);
     ContactInstant now = reversal_instant(plant, random);
     ContactInstant mirror{-now.state, -now.command, -now.force};
-    ExactBacklash drive = moved_drive(plant, 0.1, 1.0), other = moved_drive(plant, 0.1, -1.0);
+    DriveContact<> drive = moved_drive(plant, 0.1, 1.0), other = moved_drive(plant, 0.1, -1.0);
     drive.reached(0, now);
     other.reached(0, mirror);
     ASSERT_EQ(drive.word(), other.word());
@@ -214,7 +208,7 @@ TEST(ExactBacklash, ADisplacedDriveDoesNotStick) {
   test::Random random(1327);
   const auto plant = kollar2022_plant();
   ContactInstant now;
-  ExactBacklash drive = sticking_drive(plant, random, now);
+  DriveContact<> drive = sticking_drive(plant, random, now);
   drive.displaced();
   EXPECT_EQ(drive.word(), ContactMode::gap);
   for (int g = 0; g < 2; ++g) EXPECT_EQ(drive.guards().guard[static_cast<std::size_t>(g)].zeros, 0);
@@ -224,7 +218,7 @@ TEST(ExactBacklash, AShiftedGapIsAsWide) {
   test::Random random(1328);
   const auto plant = kollar2022_plant();
   ContactInstant now;
-  ExactBacklash drive = sticking_drive(plant, random, now);
+  DriveContact<> drive = sticking_drive(plant, random, now);
   const double lower = drive.lower(), upper = drive.upper();
   drive.shift_gap(0.25);
   EXPECT_DOUBLE_EQ(drive.lower(), lower + 0.25);
@@ -232,7 +226,7 @@ TEST(ExactBacklash, AShiftedGapIsAsWide) {
 }
 
 TEST(ExactBacklash, WithoutWidthNothingEndsTheContact) {
-  const ExactBacklash drive(kollar2022_plant(), 0.0);
+  const DriveContact<> drive = test::exact_backlash(kollar2022_plant(), 0.0);
   EXPECT_EQ(drive.guards().count, 0);
   EXPECT_EQ(drive.word(), ContactMode::engaged);
   EXPECT_EQ(drive.sign(), 0.0);
@@ -240,10 +234,10 @@ TEST(ExactBacklash, WithoutWidthNothingEndsTheContact) {
 }
 
 TEST(ExactBacklash, TheSignOfADriveAtRestIsNotKnown) {
-  ExactBacklash drive(kollar2022_plant(), 0.1);
+  DriveContact<> drive = test::exact_backlash(kollar2022_plant(), 0.1);
   ASSERT_EQ(drive.guards().count, 1);
   EXPECT_TRUE(drive.guards().guard[0].unsigned_yet);
-  drive.learn_sign(-1.0);
+  drive.learn_sign(0, -1.0);
   EXPECT_FALSE(drive.guards().guard[0].unsigned_yet);
   EXPECT_EQ(drive.guards().guard[0].state, -velocity_row());
 }
@@ -251,7 +245,7 @@ TEST(ExactBacklash, TheSignOfADriveAtRestIsNotKnown) {
 TEST(ExactBacklash, AWidthOutOfRangeIsRefused) {
   for (const double width :
        {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-    EXPECT_THROW(ExactBacklash(kollar2022_plant(), width), InvalidParameter) << width;
+    EXPECT_THROW(test::exact_backlash(kollar2022_plant(), width), InvalidParameter) << width;
 }
 
 TEST(ContactMode, HasAWord) {

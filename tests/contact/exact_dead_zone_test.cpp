@@ -1,35 +1,34 @@
-#include "holdfast/contact/exact_dead_zone.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/contact/contact.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <iostream>
-#include <limits>
-#include <memory>
-#include <vector>
-
-#include "holdfast/contact/dead_zone.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
+#include "support/contacts.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
 
-using DeadZoneMotion = EventMotion<ExactDeadZone>;
+using DeadZoneMotion = EventMotion<>;
 
-/// ż by Newton's law of each mass, the stops exerting what DeadZone says.
-Vector<double, 4> rate_between_stops(const TwoMass<double>& plant, const DeadZone<double>& stops,
+/// A dead zone of width r₀ whose stops have a stiffness k_c and a damping c_c.
+struct Stops {
+  double width, stiffness, damping;
+
+  double side(double d) const { return DeadZone<double>(width).side(d); }
+  double force(double d, double v) const {
+    return side(d) == 0.0 ? 0.0 : stiffness * (d - side(d) * width / 2.0) + damping * v;
+  }
+};
+
+/// ż by Newton's law of each mass.
+Vector<double, 4> rate_between_stops(const TwoMass<double>& plant, const Stops& stops,
                                      const Vector<double, 4>& z, double command, double force) {
   const double d = z[2] - z[0], v = z[3] - z[1];
   const bool transmits = stops.side(d) != 0.0;
   const double between = plant.absorber_stiffness * d + plant.absorber_damping * v +
-                         stops.stop_force(d, v) + (transmits ? command : 0.0);
+                         stops.force(d, v) + (transmits ? command : 0.0);
   const double outside = force - plant.conductor_stiffness * z[0] - plant.conductor_damping * z[1];
   return {z[1], (outside + between) / plant.conductor_mass, z[3], -between / plant.absorber_mass};
 }
@@ -42,8 +41,8 @@ TEST(ExactDeadZone, EveryModeMovesByNewtonsLaw) {
     const double width = random.uniform(0.0, 2.0), damping = random.uniform(0.0, 3.0);
     const double stiffness = plant.absorber_stiffness * random.log_uniform(0.1, 10.0);
     const Vector<double, 4> z = random.matrix<Vector<double, 4>>();
-    const ExactDeadZone contact(plant, width, stiffness, damping, z);
-    const DeadZone<double> stops(width, {stiffness, damping});
+    const DriveContact<> contact = test::exact_dead_zone(plant, width, stiffness, damping, z);
+    const Stops stops{width, stiffness, damping};
     const double command = random.uniform(-5, 5), force = random.uniform(-5, 5);
     const AffineDynamics moving = contact.dynamics(contact.mode());
     const double u = contact.transmitted({z, command, force});
@@ -64,7 +63,7 @@ TEST(ExactDeadZone, EveryModeMovesByNewtonsLaw) {
 TEST(ExactDeadZone, BothEndsOfTheGapBelongToIt) {
   const auto plant = kollar2022_plant();
   const auto mode_at = [&](double d) {
-    return ExactDeadZone(plant, 0.5, 1.0, 0.0, Vector<double, 4>(0.0, 0.0, d, 0.0)).mode();
+    return test::exact_dead_zone(plant, 0.5, 1.0, 0.0, Vector<double, 4>(0.0, 0.0, d, 0.0)).mode();
   };
   EXPECT_EQ(mode_at(0.25), 1);
   EXPECT_EQ(mode_at(-0.25), 1);
@@ -116,7 +115,7 @@ TEST(ExactDeadZone, SwingsBetweenItsStopsWithTheKnownPeriod) {
     const Vector<double, 4> state(0.0, 0.0, 0.0, speed);
     const DigitalLoop loop{
         {period * random.log_uniform(0.01, 2.0), 0.0}, {0.0, 0.0}, {}, ForceHold::exact};
-    DeadZoneMotion motion(loop, ExactDeadZone(plant, 2.0 * half, stop, 0.0, state), state);
+    DeadZoneMotion motion(loop, test::exact_dead_zone(plant, 2.0 * half, stop, 0.0, state), state);
     UpperStopTimes notes(motion);
     notes.move(static_cast<int>(20.0 * period / loop.sampling.period) + 1);
     ASSERT_GE(notes.times.size(), 15U);
@@ -142,7 +141,8 @@ TEST(ExactDeadZone, ItsStopsConserveEnergy) {
     const double half = random.log_uniform(0.01, 0.5);
     const Vector<double, 4> state(0.3, omega, -0.2, -omega);
     const DigitalLoop loop{{random.log_uniform(0.02, 2.0) / omega, 0.0}, {}, {}, ForceHold::exact};
-    DeadZoneMotion motion(loop, ExactDeadZone(plant, 2.0 * half, stiffness, 0.0, state), state);
+    DeadZoneMotion motion(loop, test::exact_dead_zone(plant, 2.0 * half, stiffness, 0.0, state),
+                          state);
     const EnergyNorm norm(plant);
     const auto energy = [&](const Vector<double, 4>& z) {
       const double deep = std::max(0.0, std::abs(relative_displacement(z)) - half);
@@ -172,7 +172,8 @@ TEST(ExactDeadZone, WithoutWidthItIsAStifferPlant) {
                            {-100.0, -3.0},
                            multi_harmonic_force({0.5, 10.0}),
                            ForceHold::exact};
-    DeadZoneMotion motion(loop, ExactDeadZone(plant, 0.0, stiffness, damping, state), state);
+    DeadZoneMotion motion(loop, test::exact_dead_zone(plant, 0.0, stiffness, damping, state),
+                          state);
     const IdealLoop<double> linear{plant_on_stop(plant, stiffness, damping),
                                    loop.sampling,
                                    loop.gains,
@@ -196,7 +197,7 @@ DeadZoneMotion rattling_motion(double period, double gain) {
   const DigitalLoop loop{
       {period, 0.0}, {gain, 0.0}, multi_harmonic_force({0.5, 3.0}), ForceHold::exact};
   const Vector<double, 4> state = Vector<double, 4>::Zero();
-  return {loop, ExactDeadZone(kollar2022_plant(), 0.002, 400.0, 1.0, state), state};
+  return {loop, test::exact_dead_zone(kollar2022_plant(), 0.002, 400.0, 1.0, state), state};
 }
 
 // Without control the samples mean nothing: the motion is the same however they are set.
@@ -221,7 +222,7 @@ DeadZoneMotion thrown_motion(double period) {
   loop.force.record = std::make_shared<const RecordedForce>(
       std::vector<double>{-1.0, 10.0}, std::vector<double>{50.0, 50.0}, RecordInterpolation::held);
   const Vector<double, 4> state(0.0, 0.0, 0.0, 0.1);
-  return {loop, ExactDeadZone(kollar2022_plant(), 1e-5, 400.0, 0.0, state), state};
+  return {loop, test::exact_dead_zone(kollar2022_plant(), 1e-5, 400.0, 0.0, state), state};
 }
 
 // Where both ends of the gap are passed within one series, the one that comes first is met first.
@@ -241,7 +242,7 @@ TEST(ExactDeadZone, TheFirstOfTwoEndsIsMetFirst) {
 
 TEST(ExactDeadZone, ItsModeIsThatOfItsDisplacement) {
   DeadZoneMotion motion = rattling_motion(0.0005, -100.0);
-  const DeadZone<double> stops(0.002, {400.0, 1.0});
+  const Stops stops{0.002, 400.0, 1.0};
   int seen[3] = {0, 0, 0};
   for (int j = 0; j < 20000; ++j) {
     const auto sample = motion.sense();
@@ -289,7 +290,7 @@ TEST(ExactDeadZone, RattlingWithoutEndIsBoundedAndNamed) {
   loop.force.record = std::make_shared<const RecordedForce>(std::vector<double>{-1.0, 10.0},
                                                             std::vector<double>{-10.0, -10.0},
                                                             RecordInterpolation::held);
-  DeadZoneMotion motion(loop, ExactDeadZone(plant, 0.02, 0.0, 0.0, state), state);
+  DeadZoneMotion motion(loop, test::exact_dead_zone(plant, 0.02, 0.0, 0.0, state), state);
   motion.sense();
   motion.advance();
   const auto& entered = motion.counts().entered;
@@ -305,11 +306,11 @@ TEST(ExactDeadZone, WhatIsOutOfRangeIsRefused) {
   const Vector<double, 4> rest = Vector<double, 4>::Zero();
   for (const double wrong :
        {-1e-9, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(ExactDeadZone(plant, wrong, 1.0, 1.0, rest), InvalidParameter) << wrong;
-    EXPECT_THROW(ExactDeadZone(plant, 1.0, wrong, 1.0, rest), InvalidParameter) << wrong;
-    EXPECT_THROW(ExactDeadZone(plant, 1.0, 1.0, wrong, rest), InvalidParameter) << wrong;
+    EXPECT_THROW(test::exact_dead_zone(plant, wrong, 1.0, 1.0, rest), InvalidParameter) << wrong;
+    EXPECT_THROW(test::exact_dead_zone(plant, 1.0, wrong, 1.0, rest), InvalidParameter) << wrong;
+    EXPECT_THROW(test::exact_dead_zone(plant, 1.0, 1.0, wrong, rest), InvalidParameter) << wrong;
   }
-  EXPECT_NO_THROW(ExactDeadZone(plant, 0.0, 0.0, 0.0, rest));
+  EXPECT_NO_THROW(test::exact_dead_zone(plant, 0.0, 0.0, 0.0, rest));
 }
 
 }  // namespace

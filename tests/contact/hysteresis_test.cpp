@@ -1,13 +1,7 @@
 #include "holdfast/contact/hysteresis.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -1,15 +1,9 @@
 #include "holdfast/contact/play.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/core/types.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -281,18 +275,6 @@ TEST(PlayBacklash, MirroredMotionIsMirroredExactly) {
     const double displacement = random.uniform(-0.3, 0.3), velocity = random.uniform(-1, 1);
     ASSERT_EQ(law.step(displacement, velocity), mirror.step(-displacement, -velocity));
     ASSERT_EQ(law.lower(), -mirror.upper());
-  }
-}
-
-TEST(PlayBacklash, GoesOnFromItsMemory) {
-  test::Random random(712);
-  PlayBacklash<double> law(0.4);
-  for (int sample = 0; sample < 5000; ++sample) {
-    const double displacement = random.uniform(-0.5, 0.5);
-    const double velocity = sample < 3 ? 0.0 : random.uniform(-1, 1);
-    PlayBacklash<double> continued(law.width(), law.memory());
-    ASSERT_EQ(continued.inside(), law.inside());
-    ASSERT_EQ(continued.step(displacement, velocity), law.step(displacement, velocity));
   }
 }
 

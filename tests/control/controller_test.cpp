@@ -1,18 +1,9 @@
 #include "holdfast/control/controller.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <string>
-
 #include "holdfast/control/loop_input.hpp"
-#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

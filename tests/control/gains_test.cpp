@@ -1,8 +1,6 @@
 #include "holdfast/control/gains.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,8 @@
 #include "holdfast/control/loop_input.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "holdfast/motion/sampled_motion.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,7 @@
 #include "holdfast/control/zero_order_hold.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

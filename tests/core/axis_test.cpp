@@ -1,10 +1,6 @@
 #include "holdfast/core/axis.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

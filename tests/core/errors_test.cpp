@@ -1,9 +1,6 @@
 #include "holdfast/core/errors.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

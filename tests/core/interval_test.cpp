@@ -1,9 +1,6 @@
 #include "holdfast/core/interval.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

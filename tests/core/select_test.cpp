@@ -1,8 +1,6 @@
 #include "holdfast/core/select.hpp"
 
-#include <gtest/gtest.h>
-
-#include <type_traits>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,8 +1,6 @@
 #include "holdfast/core/types.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

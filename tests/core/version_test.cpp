@@ -1,8 +1,6 @@
 #include "holdfast/core/version.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

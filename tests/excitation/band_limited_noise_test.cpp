@@ -1,16 +1,6 @@
 #include "holdfast/excitation/band_limited_noise.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <set>
-#include <string>
-#include <vector>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

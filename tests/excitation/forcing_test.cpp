@@ -1,17 +1,9 @@
 #include "holdfast/excitation/forcing.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include "holdfast/motion/ideal_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/sample_excitation.hpp"
+#include "support/reference/sample_excitation.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

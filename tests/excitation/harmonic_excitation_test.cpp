@@ -1,10 +1,6 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
-#include "support/sample_excitation.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "support/reference/sample_excitation.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,19 +1,9 @@
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <vector>
-
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "support/random.hpp"
-#include "support/sample_excitation.hpp"
+#include "support/reference/sample_excitation.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

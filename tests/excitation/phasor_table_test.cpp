@@ -1,14 +1,9 @@
 #include "holdfast/excitation/phasor_table.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-
-#include "holdfast/control/loop_input.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/sample_excitation.hpp"
+#include "support/reference/sample_excitation.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "fuzz/require.hpp"
 #include "io/text/csv.hpp"
-#include "io/text/decay_file.hpp"
+#include "io/text/record_file.hpp"
 #include "process/errors.hpp"
 
 namespace {

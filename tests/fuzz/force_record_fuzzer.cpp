@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "case/force_record_file.hpp"
 #include "fuzz/require.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
+#include "io/text/record_file.hpp"
 #include "process/errors.hpp"
 
 namespace {

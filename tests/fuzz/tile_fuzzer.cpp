@@ -39,7 +39,7 @@ void write_as_plan(std::string_view text) {
   TilePlan plan;
   plan.tiles = static_cast<std::int64_t>(text.size());
   const std::size_t half = text.size() / 2;
-  plan.entries.emplace_back(text.substr(0, half), text.substr(half));
+  plan.entries.emplace(text.substr(0, half), text.substr(half));
   const std::string written = tile_plan_text(plan);
   const auto again = parse_tile_plan(written);
   require(again && again->entries == plan.entries && again->tiles == plan.tiles,

@@ -9,20 +9,11 @@
 // What may ask for much work (1e9 values of an axis, a sampling period of a nanosecond) is asked to
 // stop after a while and has to; what cannot must be done within two seconds.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <iostream>
-#include <optional>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "case/case_keys.hpp"
 #include "cli/sweep/stopped_sweep.hpp"
 #include "hostile/hostile_scene.hpp"
 #include "hostile/hostile_texts.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -141,92 +132,19 @@ std::string as_argument(const std::string& text) {
 
 /// An option of some job with what it might be given.
 std::vector<std::string> some_option(Random& random) {
-  static const std::vector<std::string> options = {"--set",
-                                                   "--case",
-                                                   "--output",
-                                                   "--threads",
-                                                   "--p",
-                                                   "--d",
-                                                   "--force",
-                                                   "--elements",
-                                                   "--count",
-                                                   "--absorber",
-                                                   "--duration",
-                                                   "--interval",
-                                                   "--data",
-                                                   "--parameters",
-                                                   "--target",
-                                                   "--axis",
-                                                   "--frequency",
-                                                   "--band",
-                                                   "--largest-radius",
-                                                   "--criterion",
-                                                   "--from",
-                                                   "--kick",
-                                                   "--switching",
-                                                   "--discard",
-                                                   "--window",
-                                                   "--offset",
-                                                   "--durations",
-                                                   "--cells",
-                                                   "--max-period",
-                                                   "--follow",
-                                                   "--transient",
-                                                   "--strobes",
-                                                   "--standard-error",
-                                                   "--tangent",
-                                                   "--metric",
-                                                   "--tile",
-                                                   "--init",
-                                                   "--check",
-                                                   "--resume",
-                                                   "--dry-run",
-                                                   "--quiet",
-                                                   "--progress",
-                                                   "--radius",
-                                                   "--continuous",
-                                                   "--plain",
-                                                   "--largest",
-                                                   "--history",
-                                                   "--trace",
-                                                   "--certificate",
-                                                   "--fractions",
-                                                   "--details",
-                                                   "--best-gain",
-                                                   "--no-control",
-                                                   "--tuned",
-                                                   "--help",
-                                                   "--version",
-                                                   "--regions",
-                                                   "--features",
-                                                   "--stable-interval",
-                                                   "--both-gains",
-                                                   "--equal-displacement",
-                                                   "-v",
-                                                   "-h"};
-  static const std::vector<std::string> values = {"out.csv",
-                                                  "out.nc",
-                                                  "out",
-                                                  "no/such/folder.csv",
-                                                  ".",
-                                                  "/dev/full",
-                                                  "/dev/null",
-                                                  "a b.csv",
-                                                  "new\nline.csv",
-                                                  "-",
-                                                  "case.toml",
-                                                  "decay.csv",
-                                                  "none.csv",
-                                                  "1",
-                                                  "2",
-                                                  "0.1",
-                                                  "sampled",
-                                                  "exact",
-                                                  "peak",
-                                                  "absorber_damping",
-                                                  "verdict",
-                                                  "largest_exponent",
-                                                  "backlash.width=0.001"};
+  static const std::vector<std::string> options = words_of(
+      "--set --case --output --threads --p --d --force --elements --count --absorber --duration "
+      "--interval --data --parameters --target --axis --frequency --band --largest-radius "
+      "--criterion --from --kick --switching --discard --window --offset --durations --cells "
+      "--max-period --follow --transient --strobes --standard-error --tangent --metric --tile "
+      "--init --check --resume --dry-run --quiet --progress --radius --continuous --plain "
+      "--largest --history --trace --certificate --fractions --details --best-gain --no-control "
+      "--tuned --help --version --regions --features --stable-interval --both-gains "
+      "--equal-displacement -v -h");
+  static const std::vector<std::string> values = between_bars(
+      "out.csv|out.nc|out|no/such/folder.csv|.|/dev/full|/dev/null|a b.csv|new\nline.csv|-|"
+      "case.toml|decay.csv|none.csv|1|2|0.1|sampled|exact|peak|absorber_damping|verdict|"
+      "largest_exponent|backlash.width=0.001");
   std::vector<std::string> words = {one_of(random, options)};
   if (happens(random, 0.5))
     words.push_back(one_of(random, values));
@@ -268,6 +186,7 @@ void damage_words(Random& random, std::vector<std::string>& words) {
 HostileInput hostile_command_line(Random& random) {
   HostileInput input;
   input.words = some_job(random).words;
+  if (happens(random, 0.2)) input.words.insert(input.words.begin(), {"--case", "case.toml"});
   for (std::size_t k = 1 + random.index(4); k > 0; --k) damage_words(random, input.words);
   for (std::string& word : input.words) word = as_argument(word);
   input.files = {{"case.toml", "[backlash]\nwidth = 0.001\n"}, {"decay.csv", decay_record(random)}};
@@ -292,11 +211,14 @@ std::string made_case_file(Random& random) {
 
 std::string nested(Random& random) {
   const std::size_t depth = std::size_t{1} << random.index(17);
-  const std::string open = one_of(random, std::vector<std::string>{"[", "{a=", "a.", "[[a]]\n"});
+  const std::string open =
+      one_of(random, std::vector<std::string>{"[", "{a=", "a.", "\"a\" . ", "[[a]]\n"});
+  const bool is_key = open.find('.') != std::string::npos,
+             is_table = is_key && happens(random, 0.5);
   std::string text = happens(random, 0.5) ? "[excitation]\nharmonics = " : "x = ";
-  if (open == "a.") text.clear();
+  if (is_key) text = is_table ? "[" : "";
   for (std::size_t k = 0; k < depth; ++k) text += open;
-  return text + "1\n";
+  return text + (is_table ? "a]\n" : is_key ? "a = 1\n" : "1\n");
 }
 
 HostileInput hostile_case_file(Random& random) {
@@ -408,13 +330,10 @@ HostileInput hostile_record(Random& random) {
 
 /// Everything where a file is expected but one, and files where none can be.
 HostileInput hostile_file(Random& random) {
-  static const std::vector<std::string> names = {
-      "case.toml",  "a b.toml",     "new\nline.toml", "\xFF\xFE.toml",
-      "-",          "--case",       ".toml",          "caf\xC3\xA9.toml",
-      "out.csv",    "quote\".toml", "folder",         "folder/",
-      "loop",       "missing.toml", "pipe-less/none", "unreadable",
-      "dangling",   "/dev/null",    "/proc/self/mem", "",
-      "case.toml/x"};
+  static const std::vector<std::string> names = between_bars(
+      "case.toml|a b.toml|new\nline.toml|\xFF\xFE.toml|-|--case|.toml|caf\xC3\xA9.toml|out.csv|"
+      "quote\".toml|folder|folder/|loop|missing.toml|pipe-less/none|unreadable|dangling|"
+      "/dev/null|/proc/self/mem||case.toml/x");
   HostileInput input;
   input.files = {{"case.toml", ""},
                  {"a b.toml", ""},
@@ -483,17 +402,9 @@ const std::map<std::string, std::string>& left_tiles() {
 }
 
 HostileInput hostile_tile_folder(Random& random) {
-  static const std::vector<std::string> names = {"plan",
-                                                 "lock",
-                                                 "tile-000000000001",
-                                                 "tile-999999999999",
-                                                 "tile-000000000099",
-                                                 "tile-1",
-                                                 ".plan-1-0.tmp",
-                                                 ".tile-000000000002-7-0.tmp",
-                                                 "notes.txt",
-                                                 "new\nline",
-                                                 "\xFF"};
+  static const std::vector<std::string> names = between_bars(
+      "plan|lock|tile-000000000001|tile-999999999999|tile-000000000099|tile-1|.plan-1-0.tmp|"
+      ".tile-000000000002-7-0.tmp|notes.txt|new\nline|\xFF");
   const std::string folder = "sweep.csv.tiles/";
   HostileInput input;
   input.words = sweep_words("sweep.csv", happens(random, 0.9) ? "--resume" : "");
@@ -555,8 +466,12 @@ const Kind kinds[] = {{"command lines", hostile_command_line},
 
 /// Finished tiles stay beside the output on purpose, and a report is a folder of many results.
 bool may_leave_something(const HostileInput& input, const LimitedEnding& ending) {
-  const bool makes_many =
-      !input.words.empty() && (input.words[0] == "sweep" || input.words[0] == "report");
+  // Before the job stand options, of which two take no value.
+  std::size_t job = 0;
+  const std::vector<std::string>& words = input.words;
+  while (job < words.size() && words[job].rfind("--", 0) == 0)
+    job += words[job] == "--quiet" || words[job] == "--progress" ? 1 : 2;
+  const bool makes_many = job < words.size() && (words[job] == "sweep" || words[job] == "report");
   return ending.exit_code == 0 || (makes_many && ending.exit_code != 2);
 }
 
@@ -571,7 +486,7 @@ std::string fault_of(const HostileInput& input, const LimitedEnding& ending,
   const bool interrupted = ending.asked_to_stop && code == 130;
   if (code != 0 && code != 1 && code != 2 && !interrupted)
     return "gave the exit code " + std::to_string(code);
-  const ErrorLines lines = error_lines_of(ending.errors);
+  const ErrorLines lines = error_lines_of(ending.errors, input.words);
   if (!lines.strange.empty()) return "wrote a strange line: " + shown(lines.strange, 200);
   // A sweep that stops says beside the reason where its tiles are.
   const std::size_t kept = ending.errors.find("--resume goes on") != std::string::npos ? 1 : 0;
@@ -600,7 +515,7 @@ void try_input(const Kind& kind, std::uint64_t seed, std::uint64_t number, Count
   if (input.may_take_long) limits.patience = std::chrono::milliseconds(500);
   if (is_sanitized) limits.patience *= 10, limits.last_words *= 10, limits.processor_seconds = 60;
   const LimitedEnding ending = LimitedProgram(input.words, scene.place(), limits).wait();
-  const ErrorLines lines = error_lines_of(ending.errors);
+  const ErrorLines lines = error_lines_of(ending.errors, input.words);
   counts.warnings += lines.warnings;
   counts.longest_message = std::max(counts.longest_message, ending.errors.size());
   ++counts.endings[ending.asked_to_stop ? "asked to stop" : std::to_string(ending.exit_code)];

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdio>
-#include <string>
-#include <vector>
-
+#include "cli/running_program.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 
@@ -23,81 +19,14 @@ inline bool happens(Random& random, double probability) { return random.unit() <
 /// What stands where a number should: at the ends of a double's range and beyond, in other
 /// notations, or none at all.
 inline std::string hostile_number(Random& random) {
-  static const std::vector<std::string> known = {"nan",
-                                                 "-nan",
-                                                 "inf",
-                                                 "-inf",
-                                                 "1e308",
-                                                 "-1e308",
-                                                 "1e309",
-                                                 "-1e309",
-                                                 "5e-324",
-                                                 "-5e-324",
-                                                 "2.2e-308",
-                                                 "1e-300",
-                                                 "-0.0",
-                                                 "0",
-                                                 "-1",
-                                                 "1e9",
-                                                 "-1e9",
-                                                 "1000000000",
-                                                 "-1000000000",
-                                                 "999999999999999999999",
-                                                 "9223372036854775807",
-                                                 "-9223372036854775808",
-                                                 "1e15",
-                                                 "9007199254740993",
-                                                 "1e-9",
-                                                 "0x10",
-                                                 "0b1",
-                                                 "0o7",
-                                                 "1_000",
-                                                 "1,5",
-                                                 "0,5",
-                                                 "1.",
-                                                 ".5",
-                                                 "+1",
-                                                 "++1",
-                                                 "--1",
-                                                 "1e",
-                                                 "1e+",
-                                                 "1e5000",
-                                                 "1e-5000",
-                                                 "1 2",
-                                                 "1;2",
-                                                 "1:2",
-                                                 "",
-                                                 " ",
-                                                 "\t1",
-                                                 "1\n2",
-                                                 "true",
-                                                 "[]",
-                                                 "[1",
-                                                 "{}",
-                                                 "{a=1}",
-                                                 "\"1\"",
-                                                 "'x'",
-                                                 "\"x",
-                                                 "\"\"\"",
-                                                 "1979-05-27",
-                                                 "tuned",
-                                                 "none",
-                                                 "exact",
-                                                 "1 # x",
-                                                 "\xD9\xA3",
-                                                 "\xEF\xBB\xBF"
-                                                 "1",
-                                                 "\xFF\xFE",
-                                                 "1\xC0\x80",
-                                                 "NaN",
-                                                 "Infinity",
-                                                 "1e308e308",
-                                                 "0.1f",
-                                                 "1e1.5",
-                                                 "(1)",
-                                                 "$(echo 1)",
-                                                 "%n%s",
-                                                 "../../etc/passwd"};
+  static const std::vector<std::string> known = between_bars(
+      "nan|-nan|inf|-inf|1e308|-1e308|1e309|-1e309|5e-324|-5e-324|2.2e-308|1e-300|-0.0|0|-1|"
+      "1e9|-1e9|1000000000|-1000000000|999999999999999999999|9223372036854775807|"
+      "-9223372036854775808|1e15|9007199254740993|1e-9|0x10|0b1|0o7|1_000|1,5|0,5|1.|.5|+1|++1|"
+      "--1|1e|1e+|1e5000|1e-5000|1 2|1;2|1:2|| |\t1|1\n2|true|[]|[1|{}|{a=1}|\"1\"|'x'|\"x|"
+      "\"\"\"|1979-05-27|tuned|none|exact|1 # x|\xD9\xA3|\xEF\xBB\xBF"
+      "1|\xFF\xFE|1\xC0\x80|"
+      "NaN|Infinity|1e308e308|0.1f|1e1.5|(1)|$(echo 1)|%n%s|../../etc/passwd");
   if (happens(random, 0.35)) return one_of(random, known);
   if (happens(random, 0.3)) return std::to_string(random.uniform(-2.0, 2.0));
   const double reach = happens(random, 0.5) ? 1e12 : 1e300;
@@ -116,60 +45,12 @@ inline std::string noise(Random& random, std::size_t length) {
 
 /// A word of a command line that nobody meant.
 inline std::string hostile_word(Random& random) {
-  static const std::vector<std::string> known = {"",
-                                                 "-",
-                                                 "--",
-                                                 "---",
-                                                 "-h=1",
-                                                 "--help=",
-                                                 "--version",
-                                                 "-q",
-                                                 "--se",
-                                                 "--=",
-                                                 "-=",
-                                                 "=",
-                                                 ":",
-                                                 "::",
-                                                 ":::",
-                                                 "a:b:c",
-                                                 "0:1",
-                                                 "0:1:2:3",
-                                                 "nan:nan:nan",
-                                                 "1:0:5",
-                                                 "0:1:1e9",
-                                                 "0:1:-1",
-                                                 "0:1:1000000000",
-                                                 "0:1:0",
-                                                 "0:inf:3",
-                                                 "1e308:1e308:3",
-                                                 "-1e308:1e308:1000000000",
-                                                 "log:0:1:3",
-                                                 "case.toml",
-                                                 "missing.toml",
-                                                 ".",
-                                                 "..",
-                                                 "/",
-                                                 "/dev/null",
-                                                 "/dev/zero",
-                                                 "a b.toml",
-                                                 "new\nline.toml",
-                                                 "\xFF\xFE",
-                                                 "caf\xC3\xA9",
-                                                 "\x1b[31m",
-                                                 "%s%n",
-                                                 "$HOME",
-                                                 "`ls`",
-                                                 "*",
-                                                 "{}",
-                                                 "[",
-                                                 "[control]",
-                                                 "control",
-                                                 "control.",
-                                                 ".control",
-                                                 "initial.z1=",
-                                                 "=1",
-                                                 "a=b=c",
-                                                 "[a,b]"};
+  static const std::vector<std::string> known = between_bars(
+      "|-|--|---|-h=1|--help=|--version|-q|--se|--=|-=|=|:|::|:::|a:b:c|0:1|0:1:2:3|"
+      "nan:nan:nan|1:0:5|0:1:1e9|0:1:-1|0:1:1000000000|0:1:0|0:inf:3|1e308:1e308:3|"
+      "-1e308:1e308:1000000000|log:0:1:3|case.toml|missing.toml|.|..|/|/dev/null|/dev/zero|"
+      "a b.toml|new\nline.toml|\xFF\xFE|caf\xC3\xA9|\x1b[31m|%s%n|$HOME|`ls`|*|{}|[|[control]|"
+      "control|control.|.control|initial.z1=|=1|a=b=c|[a,b]");
   if (happens(random, 0.5)) return one_of(random, known);
   if (happens(random, 0.5)) return hostile_number(random);
   if (happens(random, 0.1)) return std::string(100000, one_of(random, std::string("a-[=:,\"9 ")));
@@ -178,9 +59,8 @@ inline std::string hostile_word(Random& random) {
 
 /// MIN:MAX:COUNT, with hostile numbers in some of the places and sometimes of other length.
 inline std::string hostile_axis(Random& random) {
-  static const std::vector<std::string> counts = {
-      "2",   "3", "1",  "0",  "-1", "1e3", "1000000000", "1000000001", "99999999999999999999",
-      "2.5", "",  "+2", " 2 "};
+  static const std::vector<std::string> counts =
+      between_bars("2|3|1|0|-1|1e3|1000000000|1000000001|99999999999999999999|2.5||+2| 2 ");
   if (happens(random, 0.1)) return hostile_word(random);
   const auto end = [&] {
     return happens(random, 0.2) ? hostile_number(random)

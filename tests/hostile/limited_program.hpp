@@ -6,16 +6,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

@@ -1,17 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <csignal>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "cli/program.hpp"
 #include "cli/sweep/stopped_sweep.hpp"
 #include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

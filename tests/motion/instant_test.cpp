@@ -1,8 +1,7 @@
 #include "holdfast/motion/instant.hpp"
 
-#include <gtest/gtest.h>
-
 #include "holdfast/motion/observers.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "holdfast/contact/contact.hpp"
-#include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/observers.hpp"
-#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "holdfast/plant/linear_plant.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -17,7 +11,7 @@ namespace {
 static_assert(is_motion_v<SampledMotion<double>>);
 static_assert(is_motion_v<SampledMotion<long double>>);
 static_assert(is_motion_v<EventMotion<>>);
-static_assert(is_motion_v<EventMotion<ExactBacklash>>);
+static_assert(is_motion_v<EventMotion<>>);
 static_assert(is_motion_v<HarmonicallyForcedMotion<double, LinearPlant<double, 7>>>);
 static_assert(is_motion_v<EventMotion<DriveContact<LinearPlant<double, 7>>>>);
 static_assert(!is_motion_v<Recorder>);

@@ -1,20 +1,10 @@
 #include "holdfast/motion/no_event_bound.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <iostream>
-#include <vector>
-
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/contact/exact_dead_zone.hpp"
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/subinterval_step.hpp"
+#include "support/contacts.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -35,10 +25,10 @@ WatchedFlow random_flow(test::Random& random) {
   const double damping = random.uniform(0.0, 2.0) * flow.plant.absorber_damping;
   switch (random.index(3)) {
     case 0:
-      flow.dynamics = ExactBacklash(flow.plant, 1.0).dynamics(0);
+      flow.dynamics = test::exact_backlash(flow.plant, 1.0).dynamics(0);
       break;
     case 1:
-      flow.dynamics = ExactBacklash(flow.plant, 1.0).dynamics(1);
+      flow.dynamics = test::exact_backlash(flow.plant, 1.0).dynamics(1);
       break;
     default:
       flow.dynamics = dynamics_on_stop(flow.plant, stiffness, damping, 0.1);
@@ -135,7 +125,7 @@ ShareWithoutEvent share_without_event(double period, double width) {
   const auto plant = kollar2022_plant();
   const DigitalLoop loop{
       {period, 0.0}, {-557.0, -13.0}, multi_harmonic_force({0.5, 10.0}), ForceHold::exact};
-  EventMotion<ExactBacklash> motion(loop, ExactBacklash(plant, width), Vector<double, 4>::Zero());
+  EventMotion<> motion(loop, test::exact_backlash(plant, width), Vector<double, 4>::Zero());
   const double omega = 20.0 * pi<double>;
   ShareWithoutEvent share;
   while (motion.time() < 3.0) {

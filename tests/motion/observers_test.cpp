@@ -1,9 +1,6 @@
 #include "holdfast/motion/observers.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <initializer_list>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

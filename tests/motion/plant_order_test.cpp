@@ -1,26 +1,13 @@
 // Motions of a plant of another order than that of the two masses: two masses, a measurement filter
 // of first order and a drive that lags by second order, x = [z₁, ż₁, z₂, ż₂, z_f, s, ṡ/ω_d].
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <iostream>
 
 #include "holdfast/contact/contact.hpp"
-#include "holdfast/contact/hysteresis.hpp"
-#include "holdfast/contact/play.hpp"
-#include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/variational_flow.hpp"
-#include "holdfast/plant/decaying_norm.hpp"
-#include "holdfast/plant/linear_plant.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,9 @@
 #include "holdfast/motion/sampled_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
-#include "support/sample_excitation.hpp"
+#include "support/reference/sample_excitation.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,16 +1,9 @@
 #include "holdfast/motion/subinterval_step.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "holdfast/contact/exact_dead_zone.hpp"
-#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,19 +1,10 @@
 #include "holdfast/motion/taylor_step.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-
-#include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
-#include "holdfast/math/linalg/balancing.hpp"
-#include "holdfast/math/linalg/exponential.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,8 @@
 #include "holdfast/motion/trajectory.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <new>
-
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace {
 std::size_t allocations = 0;

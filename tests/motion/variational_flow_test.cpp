@@ -1,19 +1,9 @@
 #include "holdfast/motion/variational_flow.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <memory>
-#include <vector>
-
-#include "holdfast/contact/exact_dead_zone.hpp"
-#include "holdfast/contact/sampled_law.hpp"
-#include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/excitation/recorded_force.hpp"
 #include "orbit/event/event_setting.hpp"
+#include "support/contacts.hpp"
 #include "support/dense_routes.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -27,8 +17,7 @@ Matrix<double, 7> scaled_by(const Vector<double, 7>& sizes, const Matrix<double,
 }
 
 /// Takes a motion through samples. @return the product of its maps
-template <class Contact>
-Matrix<double, 7> advance_with(VariationalFlow<Contact>& tangent, EventMotion<Contact>& motion,
+Matrix<double, 7> advance_with(VariationalFlow<DriveContact<>>& tangent, EventMotion<>& motion,
                                int samples) {
   Matrix<double, 7> product = Matrix<double, 7>::Identity();
   for (int sample = 0; sample < samples; ++sample) {
@@ -40,8 +29,7 @@ Matrix<double, 7> advance_with(VariationalFlow<Contact>& tangent, EventMotion<Co
   return product;
 }
 
-template <class Contact>
-void go_on_for(EventMotion<Contact>& motion, int samples) {
+void go_on_for(EventMotion<>& motion, int samples) {
   for (int sample = 0; sample < samples; ++sample) {
     motion.sense();
     motion.advance();
@@ -69,9 +57,7 @@ struct Comparison {
 
 /// Directions in which X may be moved: z, u_{j−1}, and the gap where there is one; while the drive
 /// sticks, both masses have one velocity and stand at an end of the gap.
-template <class Contact>
-std::vector<Vector<double, 7>> admissible_directions(const EventMotion<Contact>& motion,
-                                                     bool anchored) {
+std::vector<Vector<double, 7>> admissible_directions(const EventMotion<>& motion, bool anchored) {
   const Vector<double, 7> sizes = test::sizes_of(motion);
   const bool sticks = motion.contact().word() == ContactMode::stick;
   std::vector<Vector<double, 7>> directions;
@@ -88,11 +74,10 @@ std::vector<Vector<double, 7>> admissible_directions(const EventMotion<Contact>&
 }
 
 /// Compares the product of the maps over `samples` with differences of the motion.
-template <class Contact>
-void compare_with_differences(const EventMotion<Contact>& motion, int samples, double step,
+void compare_with_differences(const EventMotion<>& motion, int samples, double step,
                               Comparison& comparison) {
-  EventMotion<Contact> followed = motion, recorded = motion;
-  VariationalFlow<Contact> tangent(motion);
+  EventMotion<> followed = motion, recorded = motion;
+  VariationalFlow<DriveContact<>> tangent(motion);
   const Matrix<double, 7> product = advance_with(tangent, followed, samples);
   test::SwitchRecorder recorder;
   for (int sample = 0; sample < samples; ++sample) recorder.advance(recorded);
@@ -100,7 +85,7 @@ void compare_with_differences(const EventMotion<Contact>& motion, int samples, d
 
   const Vector<double, 7> sizes = test::sizes_of(motion);
   const double scale = scaled_by(sizes, product).cwiseAbs().maxCoeff();
-  const bool anchored = ContactTangent<Contact>::anchored(motion.contact().mode());
+  const bool anchored = motion.contact().is_anchored(motion.contact().mode());
   for (const auto& direction : admissible_directions(motion, anchored)) {
     const auto difference =
         test::derivative_along(motion, direction, step, samples, recorder.seen());
@@ -118,16 +103,14 @@ void compare_with_differences(const EventMotion<Contact>& motion, int samples, d
 }
 
 /// Whether a motion changes its contact in the coming sample.
-template <class Contact>
-bool is_about_to_switch(EventMotion<Contact> motion) {
+bool is_about_to_switch(EventMotion<> motion) {
   test::SwitchRecorder recorder;
   recorder.advance(motion);
   return !recorder.seen().empty();
 }
 
 /// Along a motion: all samples with a change of contact, and some without.
-template <class Contact>
-void compare_along(EventMotion<Contact> motion, int total, int samples, double step,
+void compare_along(EventMotion<> motion, int total, int samples, double step,
                    Comparison& comparison) {
   go_on_for(motion, 20);
   for (int sample = 0; sample < total; ++sample) {
@@ -148,7 +131,7 @@ TEST(VariationalFlow, WithoutBacklashItIsTheMapOfTheSampledLoop) {
     auto setting = test::random_event_setting(random, trial);
     setting.width = 0.0;
     auto motion = setting.motion();
-    VariationalFlow<ExactBacklash> tangent(motion);
+    VariationalFlow<DriveContact<>> tangent(motion);
     const auto sampled = sampled_loop(setting.plant, setting.loop.sampling);
     const Vector<double, 7> sizes = test::sizes_of(motion);
     Matrix<double, 7> expected = Matrix<double, 7>::Zero();
@@ -181,7 +164,7 @@ TEST(VariationalFlow, DoesNotDependOnTheStepsOfTheMotion) {
     const bool jitters = trial % 3 == 0;
     if (jitters) setting.loop.jitter = {0.1 * period, 5};
     auto motion = setting.motion();
-    VariationalFlow<ExactBacklash> tangent(motion);
+    VariationalFlow<DriveContact<>> tangent(motion);
     const Vector<double, 7> sizes = test::sizes_of(motion);
     for (int sample = 0; sample < 10; ++sample) {
       const Sampling<double> sampling{motion.period(), setting.loop.sampling.processing_delay};
@@ -201,9 +184,10 @@ TEST(VariationalFlow, ALawThatIsAskedAtSamplesGivesTheMapsOfTheSampledLoop) {
   int engaged = 0, inside = 0;
   for (int trial = 0; trial < 12; ++trial) {
     const auto setting = test::random_event_setting(random, trial);
-    const SampledLaw contact(setting.plant, {ContactLaw::kollar, setting.width});
-    EventMotion<SampledLaw> motion(setting.loop, contact, Vector<double, 4>::Zero());
-    VariationalFlow<SampledLaw> tangent(motion);
+    const DriveContact<> contact(setting.plant, {ContactLaw::kollar, setting.width},
+                                 Switching::sampled, Vector<double, 4>::Zero());
+    EventMotion<> motion(setting.loop, contact, Vector<double, 4>::Zero());
+    VariationalFlow<DriveContact<>> tangent(motion);
     const auto sampled = sampled_loop(setting.plant, setting.loop.sampling);
     const Vector<double, 7> sizes = test::sizes_of(motion);
     for (int sample = 0; sample < 300; ++sample) {
@@ -288,8 +272,9 @@ TEST(VariationalFlow, ADeadZoneWithStops) {
     const double stiffness = trial % 2 == 0 ? 0.0 : random.uniform(50.0, 1000.0);
     const double damping = trial % 4 < 2 ? 0.0 : random.uniform(0.5, 10.0);
     const Vector<double, 4> rest = Vector<double, 4>::Zero();
-    const ExactDeadZone contact(setting.plant, setting.width, stiffness, damping, rest);
-    const EventMotion<ExactDeadZone> motion(setting.loop, contact, rest);
+    const DriveContact<> contact =
+        test::exact_dead_zone(setting.plant, setting.width, stiffness, damping, rest);
+    const EventMotion<> motion(setting.loop, contact, rest);
     if (!test::stays_small(motion, 2.0)) continue;
     compare_along(motion, samples_in(setting, 1.0), 1, 1e-5, all);
   }
@@ -308,7 +293,7 @@ TEST(VariationalFlow, WhileTheDriveSticksTheMassesHaveOneVelocityExactly) {
   for (int trial = 0; trial < 20; ++trial) {
     const auto setting = test::bounded_event_setting(random, trial);
     auto motion = setting.motion();
-    VariationalFlow<ExactBacklash> tangent(motion);
+    VariationalFlow<DriveContact<>> tangent(motion);
     for (int sample = samples_in(setting, 2.0); sample > 0; --sample) {
       const bool was_stuck = motion.contact().mode() == tangent_stick;
       const Matrix<double, 7> map = advance_with(tangent, motion, 1);
@@ -330,7 +315,7 @@ TEST(VariationalFlow, WhileTheDriveIsEngagedTheGapIsForgotten) {
   for (int trial = 0; trial < 20; ++trial) {
     const auto setting = test::bounded_event_setting(random, trial);
     auto motion = setting.motion();
-    VariationalFlow<ExactBacklash> tangent(motion);
+    VariationalFlow<DriveContact<>> tangent(motion);
     for (int sample = samples_in(setting, 2.0); sample > 0; --sample) {
       test::SwitchRecorder recorder;
       auto copy = motion;
@@ -364,7 +349,7 @@ TEST(VariationalFlow, TheStructuralRankIsThatOfTheProduct) {
     const Vector<double, 7> sizes = test::sizes_of(motion);
     const int samples = 1 + trial % 3;
     for (int left = samples_in(setting, 2.0); left > samples; left -= samples) {
-      VariationalFlow<ExactBacklash> tangent(motion);
+      VariationalFlow<DriveContact<>> tangent(motion);
       const Matrix<double, 7> product = advance_with(tangent, motion, samples);
       const Eigen::VectorXd singular = test::singular_values_of(scaled_by(sizes, product));
       const Eigen::VectorXd stretches = singular / singular[0];

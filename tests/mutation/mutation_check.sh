@@ -129,16 +129,17 @@ compile() { # ARGUMENT...
 # What every test includes and no fault is in.
 precompile() {
   mkdir -p "$work/common"
-  printf '#include <gtest/gtest.h>\n#include <Eigen/Dense>\n' >"$work/common/common.hpp"
-  compile -x c++-header "$work/common/common.hpp" -o "$work/common/common.hpp.gch" ||
+  printf '#include "support/testing.hpp"\n' >"$work/common/common.hpp"
+  compile -I "$root/tests" -x c++-header "$work/common/common.hpp" -o "$work/common/common.hpp.gch" ||
     fail "GoogleTest and Eigen are needed"
+  compile -I "$root/tests" -c "$root/tests/support/dense_routes.cpp" -o "$work/common/dense_routes.o"
 }
 
 build() { # SOURCE INCLUDE PROGRAM
   local libraries
   read -ra libraries <<<"$(libraries_of "$1")"
   compile -include "$work/common/common.hpp" -I "$2" -I "$root/tests" "$root/tests/$1" -o "$3" \
-    -lgtest_main -lgtest "${libraries[@]}" -lpthread 2>"$3.errors"
+    "$work/common/dense_routes.o" -lgtest_main -lgtest "${libraries[@]}" -lpthread 2>"$3.errors"
 }
 
 # The test that failed, or in which the program ended.

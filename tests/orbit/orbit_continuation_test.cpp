@@ -1,14 +1,10 @@
 #include "holdfast/orbit/orbit_continuation.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -56,7 +52,7 @@ TEST(OrbitContinuation, AnOrbitIsNearItsBorderJustBeforeTheCollision) {
   const auto last =
       orbit_of_itinerary(path(width), orbit.ratio, ItineraryMaps<double>(loop, orbit.ratio),
                          orbit.itinerary, Backlash<double>(width, orbit.memory));
-  ASSERT_EQ(last.outcome, CandidateOutcome::verified);
+  ASSERT_EQ(last.outcome, OrbitOutcome::certified);
   EXPECT_GT(last.orbit->border_share(), 0.0);
   EXPECT_LT(last.orbit->border_share(), near_border);
 }
@@ -81,8 +77,8 @@ TEST(OrbitContinuation, ACollisionIsWhereTheOrbitIsNoLongerFound) {
                                 Backlash<double>(width, orbit.memory))
           .outcome;
     };
-    EXPECT_EQ(outcome_at(end.parameter - step), CandidateOutcome::verified);
-    EXPECT_EQ(outcome_at(end.parameter + step), CandidateOutcome::other_itinerary);
+    EXPECT_EQ(outcome_at(end.parameter - step), OrbitOutcome::certified);
+    EXPECT_EQ(outcome_at(end.parameter + step), OrbitOutcome::not_reproduced);
   }
 }
 

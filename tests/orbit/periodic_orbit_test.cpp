@@ -1,19 +1,11 @@
 #include "holdfast/orbit/periodic_orbit.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <functional>
-#include <vector>
-
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/stability/response/response.hpp"
 #include "support/dense_routes.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -216,14 +208,14 @@ TEST(OrbitOfItinerary, AForeignSequenceIsNotVerified) {
   const auto outcome = [&](const Itinerary& itinerary) {
     return orbit_of_itinerary(loop, orbit.ratio, maps, itinerary, law).outcome;
   };
-  EXPECT_EQ(outcome(orbit.itinerary), CandidateOutcome::verified);
+  EXPECT_EQ(outcome(orbit.itinerary), OrbitOutcome::certified);
   Itinerary twice = orbit.itinerary;
   twice.insert(twice.end(), orbit.itinerary.begin(), orbit.itinerary.end());
-  EXPECT_EQ(outcome(twice), CandidateOutcome::verified);
+  EXPECT_EQ(outcome(twice), OrbitOutcome::certified);
   for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) {
     Itinerary other = orbit.itinerary;
     other[j] ^= 1U;
-    EXPECT_EQ(outcome(other), CandidateOutcome::other_itinerary) << j;
+    EXPECT_EQ(outcome(other), OrbitOutcome::not_reproduced) << j;
   }
 }
 
@@ -243,7 +235,38 @@ TEST(OrbitOfItinerary, AnUndampedConductorAtResonanceHasNone) {
   const Rational ratio = forcing_ratio(loop).value();
   const ItineraryMaps<double> maps(loop, ratio);
   EXPECT_EQ(orbit_of_itinerary(loop, ratio, maps, Itinerary(10, 1), Backlash<double>(0.0)).outcome,
-            CandidateOutcome::singular);
+            OrbitOutcome::none_found);
+}
+
+TEST(OrbitVerification, ACertificateStandsInLongDouble) {
+  for (const double width : {0.0, 0.001, 0.002, 0.003}) {
+    const IdealLoop<double> loop = orbit_loop(0.01, width, 0.2);
+    const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {20000, 0});
+    ASSERT_EQ(found.outcome, OrbitOutcome::certified) << width;
+    const OrbitVerification verification = verify_orbit<long double>(loop, *found.orbit);
+    EXPECT_TRUE(verification.same_itinerary);
+    EXPECT_LE(verification.displacement_difference, 1e-14);
+    EXPECT_LE(verification.velocity_difference, 1e-12);
+    EXPECT_GT(verification.displacement_difference, 0.0) << "another number type";
+    EXPECT_LE(verification.closure_error, 1e-17);
+    const OrbitVerification same = verify_orbit<double>(loop, *found.orbit);
+    EXPECT_TRUE(same.same_itinerary);
+    EXPECT_EQ(same.displacement_difference, 0.0);
+    EXPECT_EQ(same.closure_error, found.orbit->closure_error);
+  }
+}
+
+TEST(OrbitVerification, SeesThatAnOrbitIsAnotherLoops) {
+  const IdealLoop<double> loop = orbit_loop(0.01, 0.002, 0.2);
+  PeriodicOrbit orbit =
+      find_periodic_orbit(loop, Vector<double, 4>::Zero(), {20000, 0}).orbit.value();
+  IdealLoop<double> other = loop;
+  other.excitation.amplitude *= 1.01;
+  EXPECT_GT(verify_orbit<long double>(other, orbit).displacement_difference, 1e-6);
+  other.backlash_width *= 0.5;
+  EXPECT_FALSE(verify_orbit<long double>(other, orbit).same_itinerary);
+  orbit.itinerary.front() ^= 1U;
+  EXPECT_FALSE(verify_orbit<long double>(loop, orbit).same_itinerary);
 }
 
 }  // namespace

@@ -1,16 +1,9 @@
 #include "holdfast/orbit/region_of_attraction.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 #include "holdfast/orbit/orbit_search.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -102,7 +95,7 @@ AttractionDecision take_decision(PeriodicallyForcedMotion<double>& motion, doubl
 /// deviate along the six axes give the gradient of what decides, their contacts being the orbit's.
 double largest_radius(const IdealLoop<double>& loop, const PeriodicOrbit& orbit,
                       const AttractionBall& point, std::size_t periods) {
-  const auto weights = DeviationScale(loop).weights();
+  const auto weights = deviation_weights(loop);
   const double small = 1e-3 * attraction_radius(point, point.memory), width = loop.backlash_width;
   std::vector<PeriodicallyForcedMotion<double>> motions(
       7, periodically_forced_motion(loop, orbit.ratio, Vector<double, 4>::Zero().eval()));
@@ -152,7 +145,7 @@ TEST(RegionOfAttraction, EveryMotionOfANeighbourhoodComesToTheOrbit) {
   test::Random random(821);
   for (const IdealLoop<double>& loop : attraction_loops()) {
     const PeriodicOrbit orbit = certified_orbit(loop);
-    const auto weights = DeviationScale(loop).weights();
+    const auto weights = deviation_weights(loop);
     const auto points = attraction_balls(loop, orbit);
     ASSERT_FALSE(points.empty()) << loop.sampling.period;
     for (std::size_t trial = 0; trial < 60; ++trial) {
@@ -170,7 +163,7 @@ TEST(RegionOfAttraction, AMotionOutsideTheLargestBallMayLeaveTheContacts) {
   test::Random random(822);
   for (const IdealLoop<double>& loop : attraction_loops()) {
     const PeriodicOrbit orbit = certified_orbit(loop);
-    const auto weights = DeviationScale(loop).weights();
+    const auto weights = deviation_weights(loop);
     const auto points = attraction_balls(loop, orbit);
     int left = 0;
     for (std::size_t trial = 0; trial < 60; ++trial) {
@@ -184,7 +177,7 @@ TEST(RegionOfAttraction, AMotionOutsideTheLargestBallMayLeaveTheContacts) {
 
 TEST(RegionOfAttraction, AnotherSideOrDirectionOfTheDriveIsNotAttracted) {
   const IdealLoop<double> loop = attraction_loop(0.01, 0.002);
-  const auto weights = DeviationScale(loop).weights();
+  const auto weights = deviation_weights(loop);
   for (const AttractionBall& point : attraction_balls(loop, certified_orbit(loop))) {
     AttractionMemory motion = deviating(point, weights, Vector<double, 6>::Zero(), 0.0);
     EXPECT_TRUE(attracts(point, motion, weights));
@@ -201,7 +194,7 @@ TEST(RegionOfAttraction, AnotherSideOrDirectionOfTheDriveIsNotAttracted) {
 
 TEST(RegionOfAttraction, AnOrbitThatStaysInsideDoesSoInAnyGapThatHoldsIt) {
   const IdealLoop<double> loop = attraction_loop(0.001, 0.003);
-  const auto weights = DeviationScale(loop).weights();
+  const auto weights = deviation_weights(loop);
   const PeriodicOrbit orbit = certified_orbit(loop);
   for (AttractionBall point : attraction_balls(loop, orbit)) {
     ASSERT_TRUE(point.stays_inside);

@@ -1,13 +1,7 @@
 #include "holdfast/orbit/switching_borders.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

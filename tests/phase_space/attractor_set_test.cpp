@@ -1,12 +1,8 @@
 #include "holdfast/phase_space/attractor_set.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-
 #include "holdfast/orbit/orbit_search.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

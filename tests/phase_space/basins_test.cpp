@@ -1,22 +1,9 @@
 #include "holdfast/phase_space/basins.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <optional>
-#include <stdexcept>
-#include <thread>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 #include "holdfast/phase_space/event_basins.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -88,10 +75,8 @@ struct EventModel {
     return find_basins(loop, states, limits, tiles);
   }
   static AloneFound<Orbit> alone(const ImplementedLoop& loop, const Vector<double, 4>& state) {
-    return with_motion(loop, state, [](const auto& motion) {
-      auto found = find_event_orbit(motion, basin_limits);
-      return AloneFound<Orbit>{found.outcome, std::move(found.orbit)};
-    });
+    auto found = find_event_orbit(event_motion(loop, state), basin_limits);
+    return {found.outcome, std::move(found.orbit)};
   }
   static Harmonic& harmonic(ImplementedLoop& loop) { return loop.digital.force.harmonics.front(); }
   // With exact switching the stick phases of any backlash would hold the motion.

@@ -1,13 +1,9 @@
 #include "holdfast/phase_space/coverage.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,8 @@
 #include "holdfast/phase_space/deviation.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,10 @@
 #include "holdfast/phase_space/motion_batch.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <vector>
-
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -22,9 +18,8 @@ IdealLoop<double> batch_loop(double delay_fraction = 0.0) {
 }
 
 MotionBatch<double> batch_of(const IdealLoop<double>& loop) {
-  const Rational ratio = forcing_ratio(loop).value();
-  return {periodically_forced_motion(loop, ratio, Vector<double, 4>::Zero().eval()), loop.gains,
-          ratio};
+  return MotionBatch<double>(periodically_forced_motion(loop, forcing_ratio(loop).value(),
+                                                        Vector<double, 4>::Zero().eval()));
 }
 
 std::vector<ActiveTrajectory> random_motions(std::size_t count) {
@@ -88,11 +83,8 @@ TEST(MotionBatch, MarksDivergedMotions) {
 
 TEST(MotionBatch, ItsLanesHoldAMemory) {
   const ForcedMotionMemory<double> memory{{1.0, 2.0, 3.0, 4.0}, 5.0, {true, 6.0, 7.0, 8.0}};
-  detail::MemoryLanes<double> lanes;
-  lanes.put(0, memory);
-  detail::MemoryLanes<double> copied;
-  copied.read(lanes.pack());
-  const auto back = copied.get(0);
+  const auto packed = detail::packed_memory<double>([&](std::size_t) { return memory; });
+  const auto back = detail::memory_of_lane(packed, 0);
   EXPECT_EQ(back.state, memory.state);
   EXPECT_EQ(back.previous_force, 5.0);
   EXPECT_TRUE(back.backlash.inside);

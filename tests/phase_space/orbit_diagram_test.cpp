@@ -1,21 +1,10 @@
 #include "holdfast/phase_space/orbit_diagram.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <set>
-#include <string>
-#include <vector>
-
-#include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/plant/linear_plant.hpp"
 #include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/message_of.hpp"
-#include "support/state_between_samples.hpp"
+#include "support/reference/state_between_samples.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

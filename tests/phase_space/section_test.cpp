@@ -1,28 +1,13 @@
 #include "holdfast/phase_space/section.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
-#include "holdfast/contact/contact_mode.hpp"
-#include "holdfast/core/types.hpp"
-#include "holdfast/math/roots/first_root.hpp"
-#include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
-#include "holdfast/plant/linear_plant.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
-#include "support/state_between_samples.hpp"
+#include "support/reference/state_between_samples.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -277,10 +262,9 @@ std::vector<SectionPoint> modal_section(std::size_t mode, int parts, int half_pe
   // Of one part the last sample ends at a turn, of which rounding decides whether it is seen.
   const double end = (half_periods + 0.5) * parts * loop.digital.sampling.period;
   std::vector<SectionPoint> points;
-  with_motion(loop, Vector<double, 4>(shape[0], 0.0, shape[1], 0.0), [&](auto motion) {
-    return run_section(motion, std::int64_t{parts} * half_periods + 1, [&](const SectionPoint& at) {
-      if (at.time < end) points.push_back(at);
-    });
+  auto motion = event_motion(loop, Vector<double, 4>(shape[0], 0.0, shape[1], 0.0));
+  run_section(motion, std::int64_t{parts} * half_periods + 1, [&](const SectionPoint& at) {
+    if (at.time < end) points.push_back(at);
   });
   return points;
 }
@@ -308,24 +292,22 @@ TEST(Section, AStickIsOnePointAtItsBeginning) {
   constexpr std::int64_t samples = 3000;
   std::vector<SectionPoint> points;
   std::int64_t sticks = 0, sticking_samples = 0;
-  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
-    for (std::int64_t j = 0; j < samples; ++j) {
-      const auto before = motion.counts().entered;
-      const double begin = motion.time();
-      const std::size_t known = points.size();
-      auto looked_at = motion;
-      sticking_samples += looked_at.sense().mode == ContactMode::stick ? 1 : 0;
-      run_section(motion, 1, [&](const SectionPoint& at) { points.push_back(at); });
-      const auto stick = static_cast<std::size_t>(ContactMode::stick);
-      const std::int64_t begun = motion.counts().entered[stick] - before[stick];
-      sticks += begun;
-      EXPECT_EQ(static_cast<std::int64_t>(points.size() - known), begun) << begin;
-      if (points.size() > known) {
-        EXPECT_GE(points.back().time, begin);
-      }
+  auto motion = event_motion(loop, Vector<double, 4>::Zero());
+  for (std::int64_t j = 0; j < samples; ++j) {
+    const auto before = motion.counts().entered;
+    const double begin = motion.time();
+    const std::size_t known = points.size();
+    auto looked_at = motion;
+    sticking_samples += looked_at.sense().mode == ContactMode::stick ? 1 : 0;
+    run_section(motion, 1, [&](const SectionPoint& at) { points.push_back(at); });
+    const auto stick = static_cast<std::size_t>(ContactMode::stick);
+    const std::int64_t begun = motion.counts().entered[stick] - before[stick];
+    sticks += begun;
+    EXPECT_EQ(static_cast<std::int64_t>(points.size() - known), begun) << begin;
+    if (points.size() > known) {
+      EXPECT_GE(points.back().time, begin);
     }
-    return 0;
-  });
+  }
   EXPECT_GE(sticks, 50);
   EXPECT_GT(sticking_samples, 2 * sticks);
   for (const SectionPoint& point : points) EXPECT_FALSE(point.engaged);
@@ -346,11 +328,9 @@ TEST(Section, GoesOnWhereItEnded) {
   const ImplementedLoop loop = section_loop(0.001, 0.002, Switching::exact);
   const auto whole = section_of(loop, 2000);
   std::vector<SectionPoint> pieces;
-  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
-    for (int piece = 0; piece < 400; ++piece)
-      run_section(motion, 5, [&](const SectionPoint& at) { pieces.push_back(at); });
-    return 0;
-  });
+  auto motion = event_motion(loop, Vector<double, 4>::Zero());
+  for (int piece = 0; piece < 400; ++piece)
+    run_section(motion, 5, [&](const SectionPoint& at) { pieces.push_back(at); });
   ASSERT_EQ(pieces.size(), whole.size());
   for (std::size_t k = 0; k < whole.size(); ++k) EXPECT_EQ(pieces[k].time, whole[k].time);
 }
@@ -367,9 +347,8 @@ TEST(Section, ADivergingMotionEnds) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
     ImplementedLoop loop = section_loop(0.011, 0.0, switching);
     loop.digital.sampling.processing_delay = 0.011;
-    const auto outcome = with_motion(loop, Vector<double, 4>::Zero(), [](auto motion) {
-      return run_section(motion, 100000, [](const SectionPoint&) {});
-    });
+    auto motion = event_motion(loop, Vector<double, 4>::Zero());
+    const auto outcome = run_section(motion, 100000, [](const SectionPoint&) {});
     EXPECT_EQ(outcome, TrajectoryOutcome::diverged);
     EXPECT_EQ(expect_scanned(loop, 3000, 20), 0U) << "also where squares leave the range";
   }

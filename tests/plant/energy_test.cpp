@@ -1,17 +1,9 @@
 #include "holdfast/plant/energy.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-
-#include "holdfast/control/zero_order_hold.hpp"
-#include "holdfast/core/types.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

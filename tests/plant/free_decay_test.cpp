@@ -1,9 +1,5 @@
 #include "holdfast/plant/free_decay.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,10 +1,7 @@
 #include "holdfast/plant/natural_modes.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "holdfast/plant/two_mass.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

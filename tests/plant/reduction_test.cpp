@@ -1,13 +1,7 @@
 #include "holdfast/plant/reduction.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

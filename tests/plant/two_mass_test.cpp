@@ -1,12 +1,7 @@
 #include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
-#include <utility>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

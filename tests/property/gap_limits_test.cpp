@@ -1,15 +1,8 @@
 // The backlash where its gap is nothing, next to nothing, or so wide that it is never crossed.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <vector>
 
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 #include "property/loop_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,16 +1,8 @@
 // What the loop owes to being linear without backlash and to repeating with its force.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/math/linalg/balancing.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 #include "property/loop_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
@@ -12,6 +7,7 @@
 #include "support/property.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

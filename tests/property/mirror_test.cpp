@@ -1,13 +1,9 @@
 // The laws of the loop have no direction: z → −z under F → −F mirrors the motion, to the last bit.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <vector>
 
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "property/loop_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -89,16 +85,14 @@ struct MirroredSample {
 std::vector<MirroredSample> motion_of(const MirrorCase& drawn, double sign) {
   std::vector<MirroredSample> result;
   result.reserve(static_cast<std::size_t>(drawn.loop.samples));
-  with_motion(drawn.implemented_loop(sign), sign * drawn.loop.state, [&](auto motion) {
-    for (int j = 0; j < drawn.loop.samples && test::is_moderate(motion.state()); ++j) {
-      const EventSample sample = motion.sense();
-      result.push_back({sample.state, sample.control_force, sample.mode});
-      motion.advance();
-      // Changes of contact without end are not followed: from there on no motion is to be trusted.
-      if (motion.counts().accumulates) break;
-    }
-    return 0;
-  });
+  auto motion = event_motion(drawn.implemented_loop(sign), sign * drawn.loop.state);
+  for (int j = 0; j < drawn.loop.samples && test::is_moderate(motion.state()); ++j) {
+    const EventSample sample = motion.sense();
+    result.push_back({sample.state, sample.control_force, sample.mode});
+    motion.advance();
+    // Changes of contact without end are not followed: from there on no motion is to be trusted.
+    if (motion.counts().accumulates) break;
+  }
   return result;
 }
 

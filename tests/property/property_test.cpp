@@ -2,10 +2,9 @@
 // case.
 #include "support/property.hpp"
 
-#include <gtest/gtest-spi.h>
-#include <gtest/gtest.h>
+#include "support/testing.hpp"
 
-#include <stdexcept>
+#include <gtest/gtest-spi.h>
 
 namespace holdfast::test {
 namespace {

@@ -1,18 +1,9 @@
 // S and S* of a sampling period against Newton's laws, integrated over it in extended precision
 // under the force that comes late: no matrix exponential is made on that road.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 
 #include "holdfast/control/loop_input.hpp"
-#include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/math/linalg/balancing.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "property/loop_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

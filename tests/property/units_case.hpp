@@ -1,11 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "holdfast/control/sampled_loop.hpp"
 #include "property/loop_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

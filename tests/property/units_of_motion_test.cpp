@@ -1,14 +1,9 @@
 // The same motion in other units: every sample of it and its exponents.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/contact/contact_law.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 #include "property/units_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,8 @@
 // A periodic motion is the same one in other units.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
 
 #include "holdfast/orbit/orbit_search.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "property/units_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

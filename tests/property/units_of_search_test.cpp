@@ -1,12 +1,8 @@
 // The slowest computer that still serves is as slow in other units.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "holdfast/stability/design/max_delay.hpp"
 #include "property/units_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,8 @@
 #include "holdfast/simd/basins.hpp"
-#include "holdfast/control/loop_input.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <vector>
 
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -71,38 +65,21 @@ TEST(PackedBasins, OfAGrowingLoopAreEmpty) {
   for (const BasinLabel& label : map.labels) EXPECT_EQ(label.outcome, OrbitOutcome::diverges);
 }
 
-TEST(PackedForcing, IsTheSameInEveryLane) {
-  const IdealLoop<double> loop = packed_loop(0.011, 0.0);
-  const auto sampled = sampled_loop(loop.plant, loop.sampling);
-  PeriodicForcing<double> forcing(held_harmonic(sampled), 0.5, {11, 100});
-  SharedForcing<MotionPack, PeriodicForcing<double>> packed(forcing);
-  for (int j = 0; j < 250; ++j) {
-    const Vector<double, 4> expected = forcing.next();
-    const Vector<MotionPack, 4> found = packed.next();
-    for (int k = 0; k < 4; ++k) {
-      double lanes[Lanes<MotionPack>::count];
-      Lanes<MotionPack>::store(found[k], lanes);
-      for (const double lane : lanes) ASSERT_EQ(lane, expected[k]);
-    }
-  }
-}
-
-TEST(MemoryLanes, EveryLaneHoldsItsOwnMemory) {
+TEST(PackedMemory, EveryLaneHoldsItsOwnMemory) {
   constexpr std::size_t count = Lanes<MotionPack>::count;
   test::Random random(882);
   for (std::size_t inside = 0; inside < (std::size_t{1} << count); ++inside) {
-    detail::MemoryLanes<MotionPack> lanes, copied;
     std::vector<ForcedMotionMemory<double>> memories;
     for (std::size_t lane = 0; lane < count; ++lane) {
       memories.push_back(
           {random.matrix<Vector<double, 4>>(),
            random.unit(),
            {((inside >> lane) & 1U) != 0, random.unit(), random.unit(), random.unit()}});
-      lanes.put(lane, memories.back());
     }
-    copied.read(lanes.pack());
+    const auto packed =
+        detail::packed_memory<MotionPack>([&](std::size_t lane) { return memories[lane]; });
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const auto back = copied.get(lane);
+      const auto back = detail::memory_of_lane(packed, lane);
       EXPECT_EQ(back.state, memories[lane].state);
       EXPECT_EQ(back.previous_force, memories[lane].previous_force);
       EXPECT_EQ(back.backlash.inside, memories[lane].backlash.inside);

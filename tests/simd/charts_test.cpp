@@ -1,13 +1,7 @@
 #include "holdfast/simd/charts.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <vector>
 
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -33,7 +27,8 @@ std::vector<double> scalar_radius(const LoopChart& chart) {
 }
 
 std::vector<std::uint8_t> tested(const LoopChart& chart, bool packs) {
-  const ChartPolynomials<5> polynomials(chart, in_half_plane<double, 6>);
+  const ChartPolynomials<5, PolynomialVariable::half_plane> polynomials(
+      chart, StabilityChartRows<>::polynomial_of);
   std::vector<double> values;
   for (std::int64_t j = 0; j < polynomials.columns(); ++j)
     values.push_back(chart.fast.values.at(j));
@@ -112,11 +107,9 @@ TEST(SimdChart, PacksAgreeWithExtendedPrecisionOnAMillionRandomCells) {
         {Parameter::proportional_gain, {-std::abs(end.proportional), end.proportional / 2, 20}},
         {Parameter::differential_gain, {-std::abs(end.differential), end.differential / 3, 50}}};
     const auto stable = tested(chart, true);
-    const auto q =
-        characteristic_polynomial(
-            sampled_loop(converted<long double>(plant),
-                         Sampling<long double>{sampling.period, sampling.processing_delay}))
-            .transformed(in_half_plane<long double, 6>);
+    const auto q = in_half_plane(characteristic_polynomial(
+        sampled_loop(converted<long double>(plant),
+                     Sampling<long double>{sampling.period, sampling.processing_delay})));
     for (std::int64_t k = 0; k < 1000; ++k, ++cells) {
       const auto gains = chart.cell(k / 50, k % 50).gains;
       const bool expected =

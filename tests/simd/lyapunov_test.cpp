@@ -1,14 +1,7 @@
 #include "holdfast/simd/lyapunov.hpp"
-#include "holdfast/control/loop_input.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <vector>
 
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

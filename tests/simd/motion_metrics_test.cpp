@@ -1,13 +1,6 @@
 #include "holdfast/simd/motion_metrics.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
+#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {
@@ -16,7 +9,7 @@ namespace {
 using MetricPack = simd::Pack<double>;
 
 /// Whether the drive transmits, at every sample of every motion.
-class SwitchingRecord : public IgnoreSwitching {
+class SwitchingRecord : public detail::SweepMatrices {
  public:
   SwitchingRecord(const std::vector<SweepMotion>& motions, double duration) {
     for (const auto& motion : motions) {
@@ -35,7 +28,7 @@ class SwitchingRecord : public IgnoreSwitching {
     }
   }
 
-  const std::vector<std::uint8_t>& of(std::size_t motion) const { return engaged_[motion]; }
+  const std::vector<std::uint8_t>& seen_of(std::size_t motion) const { return engaged_[motion]; }
 
  private:
   std::vector<std::vector<std::uint8_t>> engaged_;
@@ -65,7 +58,7 @@ void compare_with_stepper(double gain_share, double duration, const Compare& com
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const auto recorded = test::record(motions[k], duration);
     const auto engaged = switching_of(recorded);
-    auto seen = switching.of(k);
+    auto seen = switching.seen_of(k);
     seen.resize(std::min(seen.size(), engaged.size()));  // beyond that the motion has diverged
     ASSERT_EQ(seen, engaged) << k;
     samples_in_gap += static_cast<std::size_t>(std::count(engaged.begin(), engaged.end(), 0));

@@ -1,19 +1,11 @@
 // Largest sampling periods, least amplitudes and least radii of loops of any order: against the
 // closed forms of the two masses, and against scans of the loop's map.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/plant/linear_plant.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
-#include "holdfast/stability/design/minimum_radius.hpp"
 #include "support/lagging_plant.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {

@@ -1,23 +1,14 @@
 // Margins, steady amplitudes and largest sampling periods of loops of any order: against the closed
 // forms of the two masses, and against the eigenvalues and the dense solutions of the loop's map.
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <functional>
-#include <vector>
 
 #include "holdfast/control/loop_map.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/plant/linear_plant.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/margins/margins.hpp"
-#include "holdfast/stability/response/any_order_response.hpp"
+#include "holdfast/stability/response/response.hpp"
+#include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
@@ -194,7 +185,7 @@ double dense_amplitude(const Plant& plant, const Sampling<double>& sampling,
   matrix.diagonal().array() += std::polar(1.0, omega * sampling.period);
   const Eigen::VectorXcd source =
       input.cosine.template cast<Complex>() - Complex(0, 1) * input.sine.template cast<Complex>();
-  const Eigen::VectorXcd solution = matrix.fullPivLu().solve(source);
+  const Eigen::VectorXcd solution = test::solution_of(matrix, source);
   return std::abs((map.conductor.template cast<Complex>() * solution).value());
 }
 
@@ -243,39 +234,8 @@ TEST(AnyOrderResponse, ADelayOfTwoMassesBeyondASampleIsThatOfTheirMap) {
               expected, 1e-10 * expected);
 }
 
-TEST(AnyOrderResponse, RatesAreDifferenceQuotients) {
-  const LinearPlant<double> plant = of_dynamic_order(filtered_and_lagging_plant(40.0, 60.0));
-  const PdGains<double> gains{-50.0, -3.0};
-  const double omega = 2.0 * pi<double> * 9.0, period = 0.003;
-  for (const double fraction : {0.4, 2.3}) {
-    for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-      const auto family = SamplingFamily<LinearPlant<double>>::of_period(plant, fraction);
-      const auto at = [&](double t) {
-        const auto map = family.loop_at(t);
-        return AnyOrderResponse<double>(map, harmonic_input(plant, map, hold, omega), omega);
-      };
-      const auto map = family.loop_at(period);
-      const auto response = at(period);
-      const auto input = harmonic_input(plant, map, hold, omega);
-      const auto rates = response.along(
-          family.rate(map), input_derivative_by_period(plant, map, hold, input, omega), 1.0);
-      const auto ratio = amplitude_ratio(response.phasors(), rates, gains);
-      const auto value = [&](double t) {
-        const auto phasors = at(t).phasors();
-        return amplitude_ratio(phasors, phasors, gains).value;
-      };
-      EXPECT_NEAR(std::abs(ratio.value),
-                  SteadyResponse<double>(response.phasors()).ratio_to_uncontrolled(gains), 1e-12);
-      const double step = 1e-4 * period;
-      const Complex expected = (8.0 * (value(period + step) - value(period - step)) -
-                                (value(period + 2 * step) - value(period - 2 * step))) /
-                               (12.0 * step);
-      EXPECT_LT(std::abs(ratio.rate - expected), 1e-6 * std::abs(expected));
-    }
-  }
-}
-
-TEST(SamplingFamily, RatesOfTheMapAndOfItsRootsAreDifferenceQuotients) {
+/// The closed map anywhere in a stretch is its polynomial but for the remainder, which is small.
+TEST(SamplingFamily, TheMovingMapIsTheMapAllOverTheStretch) {
   const LinearPlant<double> plant = of_dynamic_order(filtered_and_lagging_plant(40.0, 60.0));
   const PdGains<double> gains{-50.0, -3.0};
   const double period = 0.003;
@@ -286,25 +246,18 @@ TEST(SamplingFamily, RatesOfTheMapAndOfItsRootsAreDifferenceQuotients) {
       const Family family = by_period
                                 ? Family::of_period(plant, fraction)
                                 : Family::of_delay(plant, period, held_commands({1.0, fraction}));
-      const double position = by_period ? period : fraction * period, step = 1e-4 * position;
-      const auto map_at = [&](double x) { return family.loop_at(x).closed_map(gains); };
-      const Eigen::MatrixXd expected =
-          (8.0 * (map_at(position + step) - map_at(position - step)) -
-           (map_at(position + 2 * step) - map_at(position - 2 * step))) /
-          (12.0 * step);
-      const auto map = family.loop_at(position);
-      const Eigen::MatrixXd rate = family.rate(map).closed_map(map, gains);
-      EXPECT_LT((rate - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
-
-      const auto here = family.tracked_at(map, gains);
-      const auto there = family.tracked_at(family.loop_at(position + step), gains);
-      for (std::size_t set = 0; set < 2; ++set) {
-        for (const TrackedPoint& point : here[set]) {
-          double nearest = 1e300;
-          for (const TrackedPoint& other : there[set])
-            nearest = std::min(nearest, std::abs(other.value - point.expected(step)));
-          EXPECT_LT(nearest, 1e-6) << by_period << ' ' << fraction;
-        }
+      const double position = by_period ? period : fraction * period, radius = 0.3 * period;
+      const MovingMatrix moving = family.moving(family.map_at(position), gains, radius);
+      for (const double x : {-0.9, -0.3, 0.4, 0.9}) {
+        const Eigen::MatrixXd map = family.map_at(position + x * radius).closed_increment(gains);
+        Eigen::MatrixXd sum = moving.terms.back();
+        for (std::size_t k = moving.terms.size() - 1; k > 0; --k)
+          sum = (x * sum + moving.terms[k - 1]).eval();
+        if (!by_period && position + x * radius > held_commands({1.0, fraction}) * period) continue;
+        const Eigen::MatrixXd allowed =
+            moving.remainder.array() + 1e-12 * moving.terms.front().cwiseAbs().maxCoeff();
+        EXPECT_LE(((map - sum).cwiseAbs() - allowed).maxCoeff(), 0.0) << by_period << fraction << x;
+        EXPECT_LT(moving.remainder.maxCoeff(), 1e-8);
       }
     }
   }

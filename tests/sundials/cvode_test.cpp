@@ -1,12 +1,7 @@
 #include "holdfast/sundials/cvode.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "holdfast/core/types.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::cvode {
 namespace {

@@ -1,20 +1,12 @@
 // The motion with exact switching against CVODE with root finding: 200 random loops, ten seconds
 // each.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <ostream>
-#include <utility>
-#include <vector>
 
 #include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/plant/two_mass.hpp"
-#include "support/extended_switching.hpp"
+#include "sundials/extended_switching.hpp"
+#include "support/contacts.hpp"
 #include "support/random.hpp"
-#include "support/switching_reference.hpp"
+#include "support/reference/switching_reference.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -78,9 +70,9 @@ class SwitchNotes {
 LibraryHistory history_of_library(const ComparedMotion& which) {
   LibraryHistory history;
   SwitchNotes notes(history);
-  EventMotion<ExactBacklash> motion(implemented_loop(which.loop).digital,
-                                    ExactBacklash(which.loop.plant, which.loop.backlash_width),
-                                    which.initial_state);
+  EventMotion<> motion(implemented_loop(which.loop).digital,
+                       test::exact_backlash(which.loop.plant, which.loop.backlash_width),
+                       which.initial_state);
   history.states.push_back(motion.state());
   while (motion.index() + 1 < which.samples) {
     const ContactMode before = motion.contact().word();

@@ -1,10 +1,6 @@
 #include "support/dense_routes.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
-#include <algorithm>
-#include <functional>
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
@@ -49,6 +45,17 @@ Eigen::VectorXd singular_values_of(const Eigen::Ref<const Eigen::MatrixXd>& matr
 
 Eigen::MatrixXd orthogonal_factor_of(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   return Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).householderQ();
+}
+
+Eigen::VectorXcd solution_of(const Eigen::Ref<const Eigen::MatrixXcd>& matrix,
+                             const Eigen::Ref<const Eigen::VectorXcd>& right) {
+  return matrix.fullPivLu().solve(right);
+}
+
+std::complex<long double> determinant_of(
+    const Eigen::Ref<
+        const Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic>>& matrix) {
+  return matrix.fullPivLu().determinant();
 }
 
 }  // namespace holdfast::test

@@ -32,4 +32,13 @@ Eigen::VectorXd singular_values_of(const Eigen::Ref<const Eigen::MatrixXd>& matr
 /// Q of A = Q R.
 Eigen::MatrixXd orthogonal_factor_of(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
+/// x of A x = b.
+Eigen::VectorXcd solution_of(const Eigen::Ref<const Eigen::MatrixXcd>& matrix,
+                             const Eigen::Ref<const Eigen::VectorXcd>& right);
+
+/// det A.
+std::complex<long double> determinant_of(
+    const Eigen::Ref<
+        const Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic>>& matrix);
+
 }  // namespace holdfast::test

@@ -1,16 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <string>
-
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_input.hpp"
@@ -13,6 +9,7 @@
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -3,6 +3,7 @@
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "support/lagging_plant.hpp"
 
 namespace holdfast::test {
@@ -22,3 +23,13 @@ ImplementedLoopOf<Plant> lagging_loop(const Plant& plant, Switching switching,
 }
 
 }  // namespace holdfast::test
+
+// The orbits of a plant whose order is known at run time alone, compiled once for all folders.
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+namespace holdfast {
+
+extern template EventOrbitResult<DriveContact<LinearPlant<double>>> find_event_orbit(
+    const EventMotion<DriveContact<LinearPlant<double>>>&, const OrbitLimits&);
+
+}  // namespace holdfast
+#endif

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <random>
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -1,16 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <utility>
-
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

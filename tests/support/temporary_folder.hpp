@@ -1,14 +1,6 @@
 #pragma once
 
-#include <stdlib.h>
-
-#include <cstddef>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

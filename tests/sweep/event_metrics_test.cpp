@@ -1,25 +1,9 @@
 #include "holdfast/sweep/event_metrics.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <vector>
-
-#include "holdfast/control/sampling_clock.hpp"
-#include "holdfast/excitation/recorded_force.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/taylor_step.hpp"
-#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
-#include "holdfast/sweep/sweep_motion.hpp"
 #include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
+#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {
@@ -149,11 +133,9 @@ TEST(EventMetrics, OfShortMotionsAreThoseOfTheBatch) {
 /// The metrics by their definitions, from all samples of a motion of a built loop.
 MotionMetrics defined_metrics_of(const ImplementedLoop& loop, double duration) {
   test::RecordedMotion recorded{TrajectoryOutcome::completed, {}};
-  with_motion(loop, Vector<double, 4>::Zero(), [&](auto motion) {
-    for (; not_before(duration, motion.time()); motion.advance())
-      recorded.samples.push_back(motion.sense());
-    return 0;
-  });
+  for (auto motion = event_motion(loop, Vector<double, 4>::Zero());
+       not_before(duration, motion.time()); motion.advance())
+    recorded.samples.push_back(motion.sense());
   return test::metrics_by_definition(recorded, duration);
 }
 
@@ -198,7 +180,7 @@ TEST(EventMetrics, TheSamplesOfAJitteringClockAreThoseWithinTheDuration) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const SamplingClock clock(0.01, {0.0049, seed});
     for (const double duration : {0.0, 0.002, 0.006, 0.012, 0.1, 0.104, 0.096, 7.0}) {
-      const auto span = detail::sample_span(clock, duration);
+      const auto span = detail::sample_span(0, duration, clock);
       EXPECT_LE(clock.time(span.samples - 1), duration);
       EXPECT_GT(clock.time(span.samples), duration);
       EXPECT_TRUE(span.first_steady == span.samples ||

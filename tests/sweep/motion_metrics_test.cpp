@@ -1,14 +1,8 @@
 #include "holdfast/sweep/motion_metrics.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 #include "holdfast/sweep/metric_batch.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {
@@ -145,7 +139,7 @@ TEST(MotionMetrics, WithoutDurationTheFirstSampleIsSteady) {
 TEST(MotionMetrics, TheSteadyPartBeginsAtHalfTheDurationInSpiteOfRoundOff) {
   for (const double period : {0.011, 0.003, 0.0007, 0.1}) {
     for (const int samples : {2, 10, 70, 1000}) {
-      const auto span = detail::sample_span(0, samples * period, period);
+      const auto span = detail::sample_span(0, samples * period, SamplingClock(period));
       EXPECT_EQ(span.samples, samples + 1) << period << " " << samples;
       EXPECT_EQ(span.first_steady, (samples + 1) / 2) << period << " " << samples;
     }

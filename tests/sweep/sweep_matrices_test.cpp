@@ -1,7 +1,6 @@
 #include "holdfast/sweep/sweep_matrices.hpp"
 
-#include <gtest/gtest.h>
-
+#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {

@@ -1,10 +1,6 @@
 #include "holdfast/sweep/sweep_motion.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
+#include "support/testing.hpp"
 #include "sweep/sweep_setting.hpp"
 
 namespace holdfast {

@@ -1,21 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <optional>
-#include <vector>
-
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -1,21 +1,15 @@
 // How many digits of what the cable and the plant derives may be trusted: the same templates in
 // double and in long double, over the cases of Kollár 2022 (Table 1, Fig. 2).
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <type_traits>
 
 #include "holdfast/cable/conductor.hpp"
 #include "holdfast/cable/hanging_cable.hpp"
-#include "holdfast/cable/irvine_statics.hpp"
 #include "holdfast/cable/modes.hpp"
-#include "holdfast/control/gains.hpp"
+#include "holdfast/cable/statics.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/reduction.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "support/digits.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::cable_digits {
 namespace {

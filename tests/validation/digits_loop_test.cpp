@@ -1,26 +1,12 @@
 // How many digits of what the loop without backlash derives may be trusted: the same templates in
 // double and in long double, over the cases of Kollár 2022 (Figs. 3–5).
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <string>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/boundary_features.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
-#include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/margins/margins.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "holdfast/stability/polynomial/loop_polynomial.hpp"
-#include "holdfast/stability/response/response.hpp"
 #include "support/digits.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::loop_digits {
 namespace {

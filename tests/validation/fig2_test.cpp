@@ -1,17 +1,13 @@
 // Kollár 2022, Eqs. (1)–(3), Fig. 2 and Table 1: the statics, the modes and the reduction of the
 // conductor, in the numbers of the paper and of the model description.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 #include "holdfast/cable/chain_modes.hpp"
 #include "holdfast/cable/statics.hpp"
-#include "holdfast/cable/stiffness_reading.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/plant/reduction.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

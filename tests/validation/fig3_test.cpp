@@ -1,12 +1,10 @@
 // Kollár 2022, Fig. 3: stability of the continuous loop without delay.
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,16 +1,11 @@
 // Kollár 2022, Fig. 4 and §4.1: stability of the sampled loop.
-#include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
-#include <cmath>
-#include <complex>
-#include <vector>
 
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/dense_routes.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -34,7 +29,7 @@ TEST(Figure4, ThatEdgeIsAForceThatAlternatesFromSampleToSample) {
   // The paper's b₀ = 0 is a root λ = −1.
   const auto loop = loop_with(0.01, 0.0);
   const double edge = stable_gains(0.01, 0.0).front().lower;
-  const Vector<std::complex<double>, 5> roots = loop.engaged_map({-557.0, edge}).eigenvalues();
+  const Eigen::VectorXcd roots = test::eigenvalues_of(loop.engaged_map({-557.0, edge}));
   EXPECT_LE((roots.array() + 1.0).abs().minCoeff(), 1e-9);
   EXPECT_LE(std::abs(roots.cwiseAbs().maxCoeff() - 1.0), 1e-9);
 }

@@ -1,9 +1,8 @@
 // Kollár 2022, Fig. 5: the largest sampling period that still attenuates.
-#include <gtest/gtest.h>
 
 #include "holdfast/control/gains.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,9 +1,7 @@
 // Kollár 2022, Fig. 6 and §4.2: how much the control attenuates, with and without backlash.
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,11 +1,7 @@
 // Kollár 2022, Fig. 8: the instants at which the drive enters and leaves its backlash.
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <ostream>
-#include <vector>
 
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

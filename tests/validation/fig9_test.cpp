@@ -1,11 +1,7 @@
 // Kollár 2022, Fig. 9: the steady motions in the phase plane, and how often they repeat.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,9 @@
 // What the motions of Kollár 2022, §4.4, really are: periodic ones, each with its certificate.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
 
 #include "holdfast/orbit/orbit_search.hpp"
-#include "holdfast/orbit/orbit_verification.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,20 +1,10 @@
 // What the instants of switching and the hold of the force make of the motions of Kollár 2022,
 // §4.2: the largest |z₁| in the second half of three seconds from rest, and the modes of the drive.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/motion/instant.hpp"
-#include "holdfast/motion/trajectory.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "support/contacts.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -43,16 +33,14 @@ ImplementedLoop table_loop(const SwitchingTableRow& row, ForceHold hold, Switchi
 
 /// Largest |z₁| (mm) at the samples of the second half.
 double late_amplitude(const SwitchingTableRow& row, ForceHold hold, Switching switching) {
-  const auto of_motion = [&row](auto motion) {
-    double largest = 0.0;
-    run_trajectory(motion, samples_within(row.duration, row.sampling_period), std::nullopt,
-                   [&](const MotionSample<double>& sample) {
-                     if (not_before(sample.time, 0.5 * row.duration))
-                       largest = std::max(largest, std::abs(sample.state[0]));
-                   });
-    return 1e3 * largest;
-  };
-  return with_motion(table_loop(row, hold, switching), Vector<double, 4>::Zero(), of_motion);
+  auto motion = event_motion(table_loop(row, hold, switching), Vector<double, 4>::Zero());
+  double largest = 0.0;
+  run_trajectory(motion, samples_within(row.duration, row.sampling_period), std::nullopt,
+                 [&](const MotionSample<double>& sample) {
+                   if (not_before(sample.time, 0.5 * row.duration))
+                     largest = std::max(largest, std::abs(sample.state[0]));
+                 });
+  return 1e3 * largest;
 }
 
 using ModeCounts = std::array<std::int64_t, 3>;  // engaged, gap, stick
@@ -60,9 +48,9 @@ using ModeCounts = std::array<std::int64_t, 3>;  // engaged, gap, stick
 /// How often each mode has begun by the samples that whole half cycles of the force end with.
 std::vector<ModeCounts> modes_begun(const SwitchingTableRow& row) {
   const auto half_cycle = static_cast<std::int64_t>(std::lround(0.05 / row.sampling_period));
-  EventMotion<ExactBacklash> motion(table_loop(row, ForceHold::exact, Switching::exact).digital,
-                                    ExactBacklash(kollar2022_plant(), row.width),
-                                    Vector<double, 4>::Zero());
+  EventMotion<> motion(table_loop(row, ForceHold::exact, Switching::exact).digital,
+                       test::exact_backlash(kollar2022_plant(), row.width),
+                       Vector<double, 4>::Zero());
   std::vector<ModeCounts> begun{motion.counts().entered};
   while (!not_before(motion.time(), row.duration)) {
     motion.sense();

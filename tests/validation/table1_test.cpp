@@ -1,14 +1,9 @@
 // Kollár 2022, Table 1: the plant, its poles and natural frequencies, and Eq. (6) for it.
-#include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/dense_routes.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -16,8 +11,7 @@ namespace {
 /// Poles in the upper half-plane, fastest decay first.
 std::vector<std::complex<double>> upper_poles(const TwoMass<double>& plant) {
   std::vector<std::complex<double>> poles;
-  const Vector<std::complex<double>, 4> all = plant.state_matrix().eigenvalues();
-  for (const auto& pole : all) {
+  for (const auto& pole : test::eigenvalues_of(plant.state_matrix())) {
     if (pole.imag() > 0) poles.push_back(pole);
   }
   std::sort(poles.begin(), poles.end(), [](auto a, auto b) { return a.real() < b.real(); });

@@ -3,13 +3,10 @@
 // The trajectory has δ = 0. The paper's tangent maps are S and S* as printed in Eq. (14), which
 // belong to δ = τ; the consistent tangent has the δ of the trajectory. The fifth exponent is −∞
 // exactly, since S* has a row of zeros; the paper's −33.26 and −29.23 are logarithms of round-off.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

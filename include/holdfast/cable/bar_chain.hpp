@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,7 +51,18 @@ class BasicBarChain {
   /// @param position   x_p (m), inside the span: where a node is to lie in the bare cable
   /// @param elements   N, ≥ 2
   /// @throws InvalidParameter otherwise
-  BasicBarChain(const Conductor<Real>& conductor, Real position, int elements);
+  BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
+      : conductor_(checked(conductor, position, elements)),
+        cable_(conductor),
+        place_(cable_.material_coordinate(position)),
+        loaded_node_(0) {
+    const Real whole = cable_.unstretched_length();
+    const int left =
+        std::clamp(static_cast<int>(std::lround(elements * place_ / whole)), 1, elements - 1);
+    loaded_node_ = left - 1;
+    lengths_.assign(static_cast<std::size_t>(left), place_ / left);
+    lengths_.resize(static_cast<std::size_t>(elements), (whole - place_) / (elements - left));
+  }
 
   /// N, the number of bars.
   int elements() const { return static_cast<int>(lengths_.size()); }
@@ -80,11 +93,26 @@ class BasicBarChain {
   }
 
   /// Smallest tension (N) of all bars; not positive where the chain is slack.
-  Real smallest_tension(const Nodes& nodes) const;
+  Real smallest_tension(const Nodes& nodes) const {
+    Real smallest = std::numeric_limits<Real>::infinity();
+    for (int e = 0; e < elements(); ++e)
+      smallest =
+          std::min(smallest, bar_tension<Real>(reach(nodes, e), length(e), axial_stiffness()));
+    return smallest;
+  }
 
   /// Where the exact statics put the nodes with a load P (N) at the absorber's place: the first
   /// guess for the chain's own equilibrium.
-  Nodes catenary_positions(Real load) const;
+  Nodes catenary_positions(Real load) const {
+    const LoadedCable<Real> loaded = cable_.under_load(load, place_);
+    Nodes nodes(2, free_nodes());
+    Real s = 0.0;
+    for (int node = 0; node < free_nodes(); ++node) {
+      s += length(node);
+      nodes.col(node) = cable_.point(loaded, load, place_, s);
+    }
+    return nodes;
+  }
 
  private:
   static const Conductor<Real>& checked(const Conductor<Real>& conductor, Real position,
@@ -105,42 +133,99 @@ class BasicBarChain {
 /// The chain in `double`.
 using BarChain = BasicBarChain<double>;
 
-template <class Real>
-BasicBarChain<Real>::BasicBarChain(const Conductor<Real>& conductor, Real position, int elements)
-    : conductor_(checked(conductor, position, elements)),
-      cable_(conductor),
-      place_(cable_.material_coordinate(position)),
-      loaded_node_(0) {
-  const Real whole = cable_.unstretched_length();
-  const int left =
-      std::clamp(static_cast<int>(std::lround(elements * place_ / whole)), 1, elements - 1);
-  loaded_node_ = left - 1;
-  lengths_.assign(static_cast<std::size_t>(left), place_ / left);
-  lengths_.resize(static_cast<std::size_t>(elements), (whole - place_) / (elements - left));
-}
+/// Equilibrium of a bar chain.
+struct ChainEquilibrium {
+  BarChain::Nodes nodes;       ///< 2 × (N − 1), m
+  EquilibriumOutcome outcome;  ///< converged: forces balanced to round-off, every bar in tension
+  double unbalanced;           ///< N, largest component of the force that is left at a node
+};
 
+/// ∂(internal force)/∂(positions) (N/m), 2(N − 1) square, symmetric, block-tridiagonal, with the
+/// dofs x, y of each node in turn; positive definite where all bars are in tension.
 template <class Real>
-Real BasicBarChain<Real>::smallest_tension(const Nodes& nodes) const {
-  Real smallest = std::numeric_limits<Real>::infinity();
-  for (int e = 0; e < elements(); ++e)
-    smallest = std::min(smallest, bar_tension<Real>(reach(nodes, e), length(e), axial_stiffness()));
-  return smallest;
-}
-
-template <class Real>
-typename BasicBarChain<Real>::Nodes BasicBarChain<Real>::catenary_positions(Real load) const {
-  const LoadedCable<Real> loaded = cable_.under_load(load, place_);
-  Nodes nodes(2, free_nodes());
-  Real s = 0.0;
-  for (int node = 0; node < free_nodes(); ++node) {
-    s += length(node);
-    nodes.col(node) = cable_.point(loaded, load, place_, s);
+Eigen::SparseMatrix<Real> tangent_stiffness(const BasicBarChain<Real>& chain,
+                                            const typename BasicBarChain<Real>::Nodes& nodes) {
+  std::vector<Eigen::Triplet<Real>> entries;
+  const auto add = [&](int row_node, int column_node, const Matrix<Real, 2>& block) {
+    if (row_node < 0 || column_node < 0) return;
+    if (row_node >= chain.free_nodes() || column_node >= chain.free_nodes()) return;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        entries.emplace_back(2 * row_node + i, 2 * column_node + j, block(i, j));
+  };
+  for (int e = 0; e < chain.elements(); ++e) {
+    const Matrix<Real, 2> stiffness =
+        bar_stiffness(chain.reach(nodes, e), chain.length(e), chain.axial_stiffness());
+    add(e - 1, e - 1, stiffness);
+    add(e, e, stiffness);
+    add(e - 1, e, -stiffness);
+    add(e, e - 1, -stiffness);
   }
-  return nodes;
+  Eigen::SparseMatrix<Real> matrix(2 * chain.free_nodes(), 2 * chain.free_nodes());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// The force (N) left at each node by gravity, a load P (N) at the absorber's place and the bars.
+template <class Real>
+typename BasicBarChain<Real>::Nodes unbalanced_forces(
+    const BasicBarChain<Real>& chain, const typename BasicBarChain<Real>::Nodes& nodes,
+    double load) {
+  using Nodes = typename BasicBarChain<Real>::Nodes;
+  Nodes forces = Nodes::Zero(2, chain.free_nodes());
+  for (int node = 0; node < chain.free_nodes(); ++node)
+    forces(1, node) = chain.mass(node) * chain.conductor().gravity;
+  forces(1, chain.loaded_node()) += load;
+  for (int e = 0; e < chain.elements(); ++e) {
+    const Vector<Real, 2> pull =
+        bar_pull<Real>(chain.reach(nodes, e), chain.length(e), chain.axial_stiffness());
+    if (e > 0) forces.col(e - 1) += pull;
+    if (e < chain.free_nodes()) forces.col(e) -= pull;
+  }
+  return forces;
+}
+
+/// Equilibrium of the chain under gravity and a load P (N, downward) at the absorber's place:
+/// Newton's method from the exact catenary, the step halved while it does not lessen the unbalanced
+/// force.
+template <class Real>
+ChainEquilibrium chain_equilibrium(const BasicBarChain<Real>& chain, double load) {
+  using Nodes = typename BasicBarChain<Real>::Nodes;
+  require_finite("load", load, "N");
+  ChainEquilibrium result{chain.catenary_positions(load), EquilibriumOutcome::not_converged, 0.0};
+  auto forces = unbalanced_forces(chain, result.nodes, load);
+  // A bar's pull is a difference of lengths times EA/l₀: its round-off, not the forces', is what
+  // remains.
+  const double resolution = 64.0 * std::numeric_limits<double>::epsilon() *
+                            (chain.axial_stiffness() * chain.conductor().span / chain.length(0));
+  for (int step = 0; step < 60 && forces.norm() > 1e-3 * resolution; ++step) {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> solver(
+        tangent_stiffness(chain, result.nodes));
+    const Vector<Real, Eigen::Dynamic> flat = solver.solve(forces.reshaped());
+    Nodes change = flat.reshaped(2, chain.free_nodes());
+    bool closer = false;
+    for (int halving = 0; halving < 30 && !closer; ++halving, change *= 0.5) {
+      const Nodes trial = result.nodes + change;
+      const auto left = unbalanced_forces(chain, trial, load);
+      closer = left.norm() < forces.norm();
+      if (!closer) continue;
+      result.nodes = trial;
+      forces = left;
+    }
+    if (!closer) break;
+  }
+  result.unbalanced = forces.cwiseAbs().maxCoeff();
+  if (result.unbalanced <= resolution && chain.smallest_tension(result.nodes) > 0.0)
+    result.outcome = EquilibriumOutcome::converged;
+  return result;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class BasicBarChain<double>;
+extern template Eigen::SparseMatrix<double> tangent_stiffness(const BarChain&,
+                                                              const BarChain::Nodes&);
+extern template BarChain::Nodes unbalanced_forces(const BarChain&, const BarChain::Nodes&, double);
+extern template ChainEquilibrium chain_equilibrium(const BarChain&, double);
 #endif
 
 }  // namespace holdfast

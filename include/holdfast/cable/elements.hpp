@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "holdfast/cable/bar_chain.hpp"
-#include "holdfast/cable/chain_equilibrium.hpp"
 #include "holdfast/core/errors.hpp"
 
 namespace holdfast {
@@ -23,6 +22,16 @@ struct HangingAbsorber {
   double stiffness = 0.0;   ///< k₂ (N/m), of the spring–mass only
   double damping = 0.0;     ///< c₂ (N s/m), of the spring–mass only
 };
+
+/// @throws InvalidParameter for m₂ below zero; of the spring–mass also for m₂ or k₂ not above zero,
+/// or c₂ below zero
+inline void validate(const HangingAbsorber& absorber) {
+  require_non_negative("absorber mass m2", absorber.mass, "kg");
+  if (absorber.reading != AbsorberReading::spring_mass) return;
+  require_positive("absorber mass m2", absorber.mass, "kg");
+  require_positive("absorber stiffness k2", absorber.stiffness, "N/m");
+  require_non_negative("absorber damping c2", absorber.damping, "N s/m");
+}
 
 /// Rayleigh damping C = α M + β K.
 struct RayleighDamping {
@@ -45,9 +54,7 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
 
 /// The continuous cable with its absorber, in finite elements: M v̇ + C v + f(q) = F for a chain of
 /// elastic bars with lumped masses, and C = α M + β K of the equilibrium with the absorber's
-/// weight, so that it damps no motion along the cable that the equilibrium itself does not know.
-///
-/// A right-hand side and its Jacobian for whoever integrates; no solver in here.
+/// weight. A right-hand side and its Jacobian; no solver in here.
 ///
 /// State: [x, y, ẋ, ẏ] (m, m/s) per free node, and behind the loaded node of the spring–mass
 /// reading its two states [a, ȧ], a (m) counted like the node's drop from the equilibrium. The
@@ -68,7 +75,17 @@ class BasicCableElements {
   /// @param damping    of the cable; both factors ≥ 0
   /// @throws InvalidParameter otherwise, or for an absorber outside its ranges
   BasicCableElements(const Conductor<Real>& conductor, Real position, int elements,
-                     const HangingAbsorber& absorber, const RayleighDamping& damping);
+                     const HangingAbsorber& absorber, const RayleighDamping& damping)
+      : chain_(conductor, position, elements), absorber_(absorber), damping_(damping) {
+    validate(absorber);
+    require_non_negative("mass factor alpha", damping.mass_factor, "1/s");
+    require_non_negative("stiffness factor beta", damping.stiffness_factor, "s");
+    rest_ = chain_equilibrium(chain_, resting_load());
+    for (int e = 0; e < chain_.elements(); ++e)
+      bar_damping_.emplace_back(
+          damping_.stiffness_factor *
+          bar_stiffness(chain_.reach(rest_.nodes, e), chain_.length(e), chain_.axial_stiffness()));
+  }
 
   /// The cable's bars and nodes, without absorber and damping.
   const BasicBarChain<Real>& chain() const { return chain_; }
@@ -87,7 +104,18 @@ class BasicCableElements {
     EquilibriumOutcome outcome;  ///< converged where both were found
   };
   /// @param force  N, downward positive, beside the weight of the absorber
-  Start held_by(Real force) const;
+  Start held_by(Real force) const {
+    const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
+    const bool found = rest_.outcome == EquilibriumOutcome::converged;
+    Start start{States::Zero(states()), found ? held.outcome : rest_.outcome};
+    for (int node = 0; node < chain_.free_nodes(); ++node)
+      start.state.template segment<2>(first_state(node)) = held.nodes.col(node);
+    if (sprung()) {
+      const int own = first_state(chain_.loaded_node()) + 4;
+      start.state[own] = displacement(start.state);
+    }
+    return start;
+  }
 
   /// Drop (m) of the absorber's node from the equilibrium.
   template <class State>
@@ -97,21 +125,80 @@ class BasicCableElements {
 
   /// d(state)/dt for any number type, state and rate of size states().
   template <class Scalar>
-  void rate(const Scalar* state, Scalar* rate_of_state) const;
+  void rate(const Scalar* state, Scalar* rate_of_state) const {
+    // Each bar is computed once: it pulls its left node forth and its right node back.
+    NodeMotion<Scalar> here = motion_of(state, 0);
+    Vector<Scalar, 2> pull_before = pull_of(0, motion_of(state, -1), here);
+    for (int node = 0; node < chain_.free_nodes(); ++node) {
+      const NodeMotion<Scalar> next = motion_of(state, node + 1);
+      const Vector<Scalar, 2> pull_behind = pull_of(node + 1, here, next);
+      Vector<Scalar, 2> force = pull_behind - pull_before;
+      force[1] += Scalar(chain_.mass(node) * chain_.conductor().gravity);
+      if (node == chain_.loaded_node()) {
+        force[1] += Scalar(resting_load());
+        if (sprung()) force[1] += spring_rate(state, rate_of_state);
+      }
+      Scalar* own = rate_of_state + first_state(node);
+      for (int i = 0; i < 2; ++i) {
+        own[i] = here.velocity[i];
+        own[2 + i] = force[i] / Scalar(inertia(node)) - damping_.mass_factor * here.velocity[i];
+      }
+      here = next;
+      pull_before = pull_behind;
+    }
+  }
 
   /// Calls set(row, column, value) for every entry of ∂rate/∂state that can differ from zero.
   template <class Set>
-  void jacobian(const Real* state, Set&& set) const;
-
-  /// Kinetic and elastic energy and that of the weights (J), up to a constant; constant along an
-  /// undamped motion.
-  Real energy(const States& state) const;
+  void jacobian(const Real* state, Set&& set) const {
+    const Nodes nodes = positions(state);
+    const auto stiffness = [&](int e) {
+      return bar_stiffness(chain_.reach(nodes, e), chain_.length(e), chain_.axial_stiffness());
+    };
+    const auto damper = [&](int e) { return bar_damping_[static_cast<std::size_t>(e)]; };
+    // Acceleration of a node by the places and velocities of a node.
+    const auto blocks = [&](int of, int by, const Matrix<Real, 2>& place,
+                            const Matrix<Real, 2>& velocity) {
+      for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+          set(first_state(of) + 2 + i, first_state(by) + j, place(i, j));
+          set(first_state(of) + 2 + i, first_state(by) + 2 + j, velocity(i, j));
+        }
+      }
+    };
+    Matrix<Real, 2> before = stiffness(0);
+    for (int node = 0; node < chain_.free_nodes(); ++node) {
+      const int own = first_state(node);
+      const Real inverse = 1.0 / inertia(node);
+      const Matrix<Real, 2> behind = stiffness(node + 1);
+      Matrix<Real, 2> place = -inverse * (before + behind);
+      Matrix<Real, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
+                                 damping_.mass_factor * Matrix<Real, 2>::Identity();
+      if (sprung() && node == chain_.loaded_node()) {
+        place(1, 1) -= inverse * absorber_.stiffness;
+        velocity(1, 1) -= inverse * absorber_.damping;
+        spring_jacobian(set);
+      }
+      for (int i = 0; i < 2; ++i) set(own + i, own + 2 + i, 1.0);
+      blocks(node, node, place, velocity);
+      if (node > 0) blocks(node, node - 1, inverse * before, inverse * damper(node));
+      if (node + 1 < chain_.free_nodes()) {
+        blocks(node, node + 1, inverse * behind, inverse * damper(node + 1));
+      }
+      before = behind;
+    }
+  }
 
   /// The smallest tension (N) of the bars: the cable is one while it is positive.
   Real margin(const Real* state) const { return chain_.smallest_tension(positions(state)); }
 
   /// Positions of the free nodes.
-  Nodes positions(const Real* state) const;
+  Nodes positions(const Real* state) const {
+    Nodes nodes(2, chain_.free_nodes());
+    for (int node = 0; node < chain_.free_nodes(); ++node)
+      nodes.col(node) << state[first_state(node)], state[first_state(node) + 1];
+    return nodes;
+  }
 
  private:
   bool sprung() const { return absorber_.reading == AbsorberReading::spring_mass; }
@@ -130,17 +217,52 @@ class BasicCableElements {
   };
   /// The supports are nodes −1 and free_nodes().
   template <class Scalar>
-  NodeMotion<Scalar> motion_of(const Scalar* state, int node) const;
+  NodeMotion<Scalar> motion_of(const Scalar* state, int node) const {
+    const Scalar zero(0);
+    if (node < 0) return {{zero, zero}, {zero, zero}};
+    if (node == chain_.free_nodes()) {
+      return {{Scalar(chain_.conductor().span), zero}, {zero, zero}};
+    }
+    const Scalar* own = state + first_state(node);
+    return {{own[0], own[1]}, {own[2], own[3]}};
+  }
   /// Force (N) of a bar on its left node, elastic and damping.
   template <class Scalar>
   Vector<Scalar, 2> pull_of(int bar, const NodeMotion<Scalar>& left,
-                            const NodeMotion<Scalar>& right) const;
+                            const NodeMotion<Scalar>& right) const {
+    const Matrix<Real, 2>& damper = bar_damping_[static_cast<std::size_t>(bar)];
+    const Vector<Scalar, 2> closing = right.velocity - left.velocity;
+    const Vector<Scalar, 2> damping(damper(0, 0) * closing[0] + damper(0, 1) * closing[1],
+                                    damper(1, 0) * closing[0] + damper(1, 1) * closing[1]);
+    return bar_pull<Scalar>(right.place - left.place, chain_.length(bar),
+                            chain_.axial_stiffness()) +
+           damping;
+  }
   /// Writes the rates of the mass on its spring; its force (N) on the loaded node.
   template <class Scalar>
-  Scalar spring_rate(const Scalar* state, Scalar* rate_of_state) const;
+  Scalar spring_rate(const Scalar* state, Scalar* rate_of_state) const {
+    const int own = first_state(chain_.loaded_node());
+    const Scalar lag = state[own + 4] - displacement(state);
+    const Scalar closing_speed = state[own + 5] - state[own + 3];
+    const Scalar spring = absorber_.stiffness * lag + absorber_.damping * closing_speed;
+    rate_of_state[own + 4] = state[own + 5];
+    rate_of_state[own + 5] = -spring / Scalar(absorber_.mass);
+    return spring;
+  }
   /// The spring's entries but those that the loaded node has without it.
   template <class Set>
-  void spring_jacobian(Set&& set) const;
+  void spring_jacobian(Set&& set) const {
+    const int own = first_state(chain_.loaded_node());
+    const Real node = inertia(chain_.loaded_node()), mass = absorber_.mass;
+    const Real stiffness = absorber_.stiffness, damping = absorber_.damping;
+    set(own + 3, own + 4, stiffness / node);
+    set(own + 3, own + 5, damping / node);
+    set(own + 4, own + 5, 1.0);
+    set(own + 5, own + 1, stiffness / mass);
+    set(own + 5, own + 3, damping / mass);
+    set(own + 5, own + 4, -stiffness / mass);
+    set(own + 5, own + 5, -damping / mass);
+  }
   Real resting_load() const { return absorber_.mass * chain_.conductor().gravity; }
 
   BasicBarChain<Real> chain_;
@@ -152,195 +274,6 @@ class BasicCableElements {
 
 /// The elements in `double`.
 using CableElements = BasicCableElements<double>;
-
-// ---------------------------------------------------------------------------------------------
-
-/// @throws InvalidParameter for m₂ below zero; of the spring–mass also for m₂ or k₂ not above zero,
-/// or c₂ below zero
-inline void validate(const HangingAbsorber& absorber) {
-  require_non_negative("absorber mass m2", absorber.mass, "kg");
-  if (absorber.reading != AbsorberReading::spring_mass) return;
-  require_positive("absorber mass m2", absorber.mass, "kg");
-  require_positive("absorber stiffness k2", absorber.stiffness, "N/m");
-  require_non_negative("absorber damping c2", absorber.damping, "N s/m");
-}
-
-template <class Real>
-BasicCableElements<Real>::BasicCableElements(const Conductor<Real>& conductor, Real position,
-                                             int elements, const HangingAbsorber& absorber,
-                                             const RayleighDamping& damping)
-    : chain_(conductor, position, elements), absorber_(absorber), damping_(damping) {
-  validate(absorber);
-  require_non_negative("mass factor alpha", damping.mass_factor, "1/s");
-  require_non_negative("stiffness factor beta", damping.stiffness_factor, "s");
-  rest_ = chain_equilibrium(chain_, resting_load());
-  for (int e = 0; e < chain_.elements(); ++e)
-    bar_damping_.emplace_back(
-        damping_.stiffness_factor *
-        bar_stiffness(chain_.reach(rest_.nodes, e), chain_.length(e), chain_.axial_stiffness()));
-}
-
-template <class Real>
-typename BasicCableElements<Real>::Start BasicCableElements<Real>::held_by(Real force) const {
-  const ChainEquilibrium held = chain_equilibrium(chain_, resting_load() + force);
-  const bool found = rest_.outcome == EquilibriumOutcome::converged;
-  Start start{States::Zero(states()), found ? held.outcome : rest_.outcome};
-  for (int node = 0; node < chain_.free_nodes(); ++node)
-    start.state.template segment<2>(first_state(node)) = held.nodes.col(node);
-  if (sprung()) {
-    const int own = first_state(chain_.loaded_node()) + 4;
-    start.state[own] = displacement(start.state);
-  }
-  return start;
-}
-
-/// @cond  documented where it is declared
-template <class Real>
-template <class Scalar>
-typename BasicCableElements<Real>::template NodeMotion<Scalar> BasicCableElements<Real>::motion_of(
-    const Scalar* state, int node) const {
-  const Scalar zero(0);
-  if (node < 0) return {{zero, zero}, {zero, zero}};
-  if (node == chain_.free_nodes()) {
-    return {{Scalar(chain_.conductor().span), zero}, {zero, zero}};
-  }
-  const Scalar* own = state + first_state(node);
-  return {{own[0], own[1]}, {own[2], own[3]}};
-}
-/// @endcond
-
-template <class Real>
-template <class Scalar>
-Vector<Scalar, 2> BasicCableElements<Real>::pull_of(int bar, const NodeMotion<Scalar>& left,
-                                                    const NodeMotion<Scalar>& right) const {
-  const Matrix<Real, 2>& damper = bar_damping_[static_cast<std::size_t>(bar)];
-  const Vector<Scalar, 2> closing = right.velocity - left.velocity;
-  const Vector<Scalar, 2> damping(damper(0, 0) * closing[0] + damper(0, 1) * closing[1],
-                                  damper(1, 0) * closing[0] + damper(1, 1) * closing[1]);
-  return bar_pull<Scalar>(right.place - left.place, chain_.length(bar), chain_.axial_stiffness()) +
-         damping;
-}
-
-template <class Real>
-template <class Scalar>
-Scalar BasicCableElements<Real>::spring_rate(const Scalar* state, Scalar* rate_of_state) const {
-  const int own = first_state(chain_.loaded_node());
-  const Scalar lag = state[own + 4] - displacement(state);
-  const Scalar closing_speed = state[own + 5] - state[own + 3];
-  const Scalar spring = absorber_.stiffness * lag + absorber_.damping * closing_speed;
-  rate_of_state[own + 4] = state[own + 5];
-  rate_of_state[own + 5] = -spring / Scalar(absorber_.mass);
-  return spring;
-}
-
-template <class Real>
-template <class Scalar>
-void BasicCableElements<Real>::rate(const Scalar* state, Scalar* rate_of_state) const {
-  // Each bar is computed once: it pulls its left node forth and its right node back.
-  NodeMotion<Scalar> here = motion_of(state, 0);
-  Vector<Scalar, 2> pull_before = pull_of(0, motion_of(state, -1), here);
-  for (int node = 0; node < chain_.free_nodes(); ++node) {
-    const NodeMotion<Scalar> next = motion_of(state, node + 1);
-    const Vector<Scalar, 2> pull_behind = pull_of(node + 1, here, next);
-    Vector<Scalar, 2> force = pull_behind - pull_before;
-    force[1] += Scalar(chain_.mass(node) * chain_.conductor().gravity);
-    if (node == chain_.loaded_node()) {
-      force[1] += Scalar(resting_load());
-      if (sprung()) force[1] += spring_rate(state, rate_of_state);
-    }
-    Scalar* own = rate_of_state + first_state(node);
-    for (int i = 0; i < 2; ++i) {
-      own[i] = here.velocity[i];
-      own[2 + i] = force[i] / Scalar(inertia(node)) - damping_.mass_factor * here.velocity[i];
-    }
-    here = next;
-    pull_before = pull_behind;
-  }
-}
-
-template <class Real>
-template <class Set>
-void BasicCableElements<Real>::spring_jacobian(Set&& set) const {
-  const int own = first_state(chain_.loaded_node());
-  const Real node = inertia(chain_.loaded_node()), mass = absorber_.mass;
-  const Real stiffness = absorber_.stiffness, damping = absorber_.damping;
-  set(own + 3, own + 4, stiffness / node);
-  set(own + 3, own + 5, damping / node);
-  set(own + 4, own + 5, 1.0);
-  set(own + 5, own + 1, stiffness / mass);
-  set(own + 5, own + 3, damping / mass);
-  set(own + 5, own + 4, -stiffness / mass);
-  set(own + 5, own + 5, -damping / mass);
-}
-
-template <class Real>
-template <class Set>
-void BasicCableElements<Real>::jacobian(const Real* state, Set&& set) const {
-  const Nodes nodes = positions(state);
-  const auto stiffness = [&](int e) {
-    return bar_stiffness(chain_.reach(nodes, e), chain_.length(e), chain_.axial_stiffness());
-  };
-  const auto damper = [&](int e) { return bar_damping_[static_cast<std::size_t>(e)]; };
-  // Acceleration of a node by the places and velocities of a node.
-  const auto blocks = [&](int of, int by, const Matrix<Real, 2>& place,
-                          const Matrix<Real, 2>& velocity) {
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) {
-        set(first_state(of) + 2 + i, first_state(by) + j, place(i, j));
-        set(first_state(of) + 2 + i, first_state(by) + 2 + j, velocity(i, j));
-      }
-    }
-  };
-  Matrix<Real, 2> before = stiffness(0);
-  for (int node = 0; node < chain_.free_nodes(); ++node) {
-    const int own = first_state(node);
-    const Real inverse = 1.0 / inertia(node);
-    const Matrix<Real, 2> behind = stiffness(node + 1);
-    Matrix<Real, 2> place = -inverse * (before + behind);
-    Matrix<Real, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
-                               damping_.mass_factor * Matrix<Real, 2>::Identity();
-    if (sprung() && node == chain_.loaded_node()) {
-      place(1, 1) -= inverse * absorber_.stiffness;
-      velocity(1, 1) -= inverse * absorber_.damping;
-      spring_jacobian(set);
-    }
-    for (int i = 0; i < 2; ++i) set(own + i, own + 2 + i, 1.0);
-    blocks(node, node, place, velocity);
-    if (node > 0) blocks(node, node - 1, inverse * before, inverse * damper(node));
-    if (node + 1 < chain_.free_nodes()) {
-      blocks(node, node + 1, inverse * behind, inverse * damper(node + 1));
-    }
-    before = behind;
-  }
-}
-
-template <class Real>
-typename BasicCableElements<Real>::Nodes BasicCableElements<Real>::positions(
-    const Real* state) const {
-  Nodes nodes(2, chain_.free_nodes());
-  for (int node = 0; node < chain_.free_nodes(); ++node)
-    nodes.col(node) << state[first_state(node)], state[first_state(node) + 1];
-  return nodes;
-}
-
-template <class Real>
-Real BasicCableElements<Real>::energy(const States& state) const {
-  const Nodes nodes = positions(state.data());
-  Real sum = -resting_load() * nodes(1, chain_.loaded_node());
-  for (int node = 0; node < chain_.free_nodes(); ++node) {
-    sum += 0.5 * inertia(node) * state.template segment<2>(first_state(node) + 2).squaredNorm();
-    sum -= chain_.mass(node) * chain_.conductor().gravity * nodes(1, node);
-  }
-  for (int e = 0; e < chain_.elements(); ++e) {
-    const Real stretch = chain_.reach(nodes, e).norm() - chain_.length(e);
-    sum += 0.5 * chain_.axial_stiffness() / chain_.length(e) * stretch * stretch;
-  }
-  if (!sprung()) return sum;
-  const int own = first_state(chain_.loaded_node());
-  const Real lag = state[own + 4] - displacement(state);
-  return sum + 0.5 * absorber_.stiffness * lag * lag +
-         0.5 * absorber_.mass * state[own + 5] * state[own + 5];
-}
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class BasicCableElements<double>;

@@ -4,10 +4,52 @@
 #include <cmath>
 #include <limits>
 
-#include "holdfast/cable/catenary.hpp"
 #include "holdfast/cable/conductor.hpp"
+#include "holdfast/core/types.hpp"
 
 namespace holdfast {
+
+/// What a segment of an elastic catenary spans, as a function of the forces at its left end.
+template <class Scalar>
+struct CatenaryExtent {
+  Scalar horizontal;             ///< m
+  Scalar vertical;               ///< m, downward
+  Matrix<Scalar, 2> derivative;  ///< ∂(horizontal, vertical)/∂(H, V) (m/N), symmetric, positive
+};
+
+/// One segment of an elastic catenary of weight w (N per unstretched metre) and axial stiffness EA:
+/// with the horizontal tension H and the upward force V that its left end exerts, the tension at
+/// the unstretched coordinate s has the components (H, V − w s), T = √(H² + (V − w s)²), and
+///
+///     x = H l/EA + (H/w) [asinh(V/H) − asinh((V − w l)/H)]
+///     y = l (2V − w l)/(2EA) + [T(0) − T(l)]/w
+///
+/// The derivative is the Hessian of the complementary energy ∫ (T²/2EA + T) ds: symmetric, and
+/// positive definite for H > 0. Source: Irvine 1981, Sect. 1.4.
+/// @param weight          w (N/m), > 0
+/// @param stiffness       EA (N), > 0
+/// @param tension         H (N), > 0
+/// @param vertical_force  V (N), of either sign
+/// @param length          l (m), ≥ 0
+template <class Scalar>
+CatenaryExtent<Scalar> catenary_extent(const Scalar& weight, const Scalar& stiffness,
+                                       const Scalar& tension, const Scalar& vertical_force,
+                                       const Scalar& length) {
+  using std::asinh;
+  using std::sqrt;
+  const Scalar end_force = vertical_force - weight * length;
+  const Scalar first = sqrt(tension * tension + vertical_force * vertical_force);
+  const Scalar last = sqrt(tension * tension + end_force * end_force);
+  const Scalar turn = (asinh(vertical_force / tension) - asinh(end_force / tension)) / weight;
+  const Scalar sines = (vertical_force / first - end_force / last) / weight;
+  const Scalar coupling = tension / weight * (Scalar(1) / first - Scalar(1) / last);
+  const Scalar stretch = length / stiffness;
+  CatenaryExtent<Scalar> extent;
+  extent.horizontal = tension * (stretch + turn);
+  extent.vertical = stretch * (vertical_force + end_force) / Scalar(2) + (first - last) / weight;
+  extent.derivative << stretch + turn - sines, coupling, coupling, stretch + sines;
+  return extent;
+}
 
 /// How an equilibrium was sought.
 enum class EquilibriumOutcome {
@@ -25,11 +67,10 @@ struct LoadedCable {
 
 /// The exact statics of an elastic cable: two catenaries that meet under the point load.
 ///
-/// The unstretched length is what gives the bare cable its sag at mid-span. With a load P (N,
-/// downward) at the unstretched coordinate s_p, the vertical force drops by P there, and (H, V)
-/// follow from the right support being at (L, 0). The two equations are the gradient of the
-/// complementary energy ∫ (T²/2EA + T) ds − H L, strictly convex in (H, V): the equilibrium is
-/// unique for every load, and Newton's method with backtracking finds it from anywhere.
+/// The unstretched length gives the bare cable its sag at mid-span. At a load P (N, downward) the
+/// vertical force drops by P, and (H, V) follow from the right support being at (L, 0): the
+/// gradient of the complementary energy ∫ (T²/2EA + T) ds − H L, strictly convex in (H, V), is zero
+/// in one place for every load, and Newton's method with backtracking finds it from anywhere.
 /// Source: Irvine 1981, Sect. 1.4.
 template <class Scalar>
 class HangingCable {
@@ -74,7 +115,38 @@ class HangingCable {
   }
 
   /// Equilibrium with a load P (N, downward positive, any size) at s_p (m), 0 < s_p < l₀.
-  LoadedCable<Scalar> under_load(const Scalar& load, const Scalar& place) const;
+  LoadedCable<Scalar> under_load(const Scalar& load, const Scalar& place) const {
+    LoadedCable<Scalar> cable = bare();
+    cable.vertical_force += load * (Scalar(1) - place / length_);
+    const auto miss_of = [&](const CatenaryExtent<Scalar>& extent) {
+      return Vector<Scalar, 2>(extent.horizontal - span_, extent.vertical);
+    };
+    auto spanned = whole(cable, load, place);
+    Scalar miss = miss_of(spanned).norm();
+    for (int step = 0; step < 200 && miss > resolution() * span_; ++step) {
+      Vector<Scalar, 2> change =
+          step_within(-(spanned.derivative.inverse() * miss_of(spanned)).eval(), cable.tension);
+      bool closer = false;
+      for (int halving = 0; halving < 40 && !closer; ++halving, change /= Scalar(2)) {
+        const LoadedCable<Scalar> trial{cable.tension + change[0], cable.vertical_force + change[1],
+                                        cable.outcome};
+        const auto trial_spanned = whole(trial, load, place);
+        const Scalar trial_miss = miss_of(trial_spanned).norm();
+        closer = trial_miss < miss;
+        if (!closer) continue;
+        cable = trial;
+        spanned = trial_spanned;
+        miss = trial_miss;
+      }
+      if (!closer) break;
+    }
+    if (miss < largest_miss() * span_) {
+      cable.outcome = EquilibriumOutcome::converged;
+      return cable;
+    }
+    const Scalar none = std::numeric_limits<Scalar>::quiet_NaN();
+    return {none, none, EquilibriumOutcome::not_converged};
+  }
 
   /// What the two catenaries span from the left to the right support, and its derivative by (H, V).
   CatenaryExtent<Scalar> whole(const LoadedCable<Scalar>& cable, const Scalar& load,
@@ -115,84 +187,44 @@ class HangingCable {
     return cable.tension / stiffness_ + cable.tension / hypot(cable.tension, vertical);
   }
 
-  void settle_length(const Conductor<Scalar>& conductor);
-  static Vector<Scalar, 2> step_within(const Vector<Scalar, 2>& newton, const Scalar& tension);
+  /// Half of the bare cable: H and l with x(l) = L/2 and y(l) = f, V = w l, by Newton's method.
+  void settle_length(const Conductor<Scalar>& conductor) {
+    const Vector<Scalar, 2> target(span_ / Scalar(2), conductor.sag);
+    Scalar tension = conductor.parabolic_tension(), half = conductor.effective_length() / Scalar(2);
+    for (int step = 0; step < 100; ++step) {
+      const Scalar support = weight_ * half;
+      const auto extent = catenary_extent<Scalar>(weight_, stiffness_, tension, support, half);
+      using std::hypot;
+      const Scalar taut = hypot(tension, support);
+      Matrix<Scalar, 2> jacobian;  // by H, and by l with V = w l
+      jacobian.col(0) = extent.derivative.col(0);
+      jacobian.col(1) << tension / stiffness_ + tension / taut,
+          support / stiffness_ + support / taut;
+      const Vector<Scalar, 2> miss(extent.horizontal - target[0], extent.vertical - target[1]);
+      bare_outcome_ = miss.norm() < largest_miss() * span_ ? EquilibriumOutcome::converged
+                                                           : EquilibriumOutcome::not_converged;
+      const Vector<Scalar, 2> change = step_within(-(jacobian.inverse() * miss).eval(), tension);
+      tension += change[0];
+      half += change[1];
+      if (!(change.cwiseAbs().cwiseQuotient(Vector<Scalar, 2>(tension, half)).maxCoeff() >
+            resolution()))
+        break;
+    }
+    bare_tension_ = tension;
+    length_ = Scalar(2) * half;
+  }
+
+  /// A Newton step cut so that the tension keeps at least a tenth of itself.
+  static Vector<Scalar, 2> step_within(const Vector<Scalar, 2>& newton, const Scalar& tension) {
+    const Scalar floor = Scalar(-0.9) * tension;
+    if (!(newton[0] < floor)) return newton;
+    return newton * (floor / newton[0]);
+  }
 
   Scalar weight_, stiffness_, span_;
   Scalar length_{}, bare_tension_{};
   EquilibriumOutcome bare_outcome_ = EquilibriumOutcome::not_converged;
 };
-
-/// Half of the bare cable: H and l with x(l) = L/2 and y(l) = f, V = w l, by Newton's method.
-template <class Scalar>
-void HangingCable<Scalar>::settle_length(const Conductor<Scalar>& conductor) {
-  const Vector<Scalar, 2> target(span_ / Scalar(2), conductor.sag);
-  Scalar tension = conductor.parabolic_tension(), half = conductor.effective_length() / Scalar(2);
-  for (int step = 0; step < 100; ++step) {
-    const Scalar support = weight_ * half;
-    const auto extent = catenary_extent<Scalar>(weight_, stiffness_, tension, support, half);
-    using std::hypot;
-    const Scalar taut = hypot(tension, support);
-    Matrix<Scalar, 2> jacobian;  // by H, and by l with V = w l
-    jacobian.col(0) = extent.derivative.col(0);
-    jacobian.col(1) << tension / stiffness_ + tension / taut, support / stiffness_ + support / taut;
-    const Vector<Scalar, 2> miss(extent.horizontal - target[0], extent.vertical - target[1]);
-    bare_outcome_ = miss.norm() < largest_miss() * span_ ? EquilibriumOutcome::converged
-                                                         : EquilibriumOutcome::not_converged;
-    const Vector<Scalar, 2> change = step_within(-(jacobian.inverse() * miss).eval(), tension);
-    tension += change[0];
-    half += change[1];
-    if (!(change.cwiseAbs().cwiseQuotient(Vector<Scalar, 2>(tension, half)).maxCoeff() >
-          resolution()))
-      break;
-  }
-  bare_tension_ = tension;
-  length_ = Scalar(2) * half;
-}
-
-/// A Newton step cut so that the tension keeps at least a tenth of itself.
-template <class Scalar>
-Vector<Scalar, 2> HangingCable<Scalar>::step_within(const Vector<Scalar, 2>& newton,
-                                                    const Scalar& tension) {
-  const Scalar floor = Scalar(-0.9) * tension;
-  if (!(newton[0] < floor)) return newton;
-  return newton * (floor / newton[0]);
-}
-
-template <class Scalar>
-LoadedCable<Scalar> HangingCable<Scalar>::under_load(const Scalar& load,
-                                                     const Scalar& place) const {
-  LoadedCable<Scalar> cable = bare();
-  cable.vertical_force += load * (Scalar(1) - place / length_);
-  const auto miss_of = [&](const CatenaryExtent<Scalar>& extent) {
-    return Vector<Scalar, 2>(extent.horizontal - span_, extent.vertical);
-  };
-  auto spanned = whole(cable, load, place);
-  Scalar miss = miss_of(spanned).norm();
-  for (int step = 0; step < 200 && miss > resolution() * span_; ++step) {
-    Vector<Scalar, 2> change =
-        step_within(-(spanned.derivative.inverse() * miss_of(spanned)).eval(), cable.tension);
-    bool closer = false;
-    for (int halving = 0; halving < 40 && !closer; ++halving, change /= Scalar(2)) {
-      const LoadedCable<Scalar> trial{cable.tension + change[0], cable.vertical_force + change[1],
-                                      cable.outcome};
-      const auto trial_spanned = whole(trial, load, place);
-      const Scalar trial_miss = miss_of(trial_spanned).norm();
-      closer = trial_miss < miss;
-      if (!closer) continue;
-      cable = trial;
-      spanned = trial_spanned;
-      miss = trial_miss;
-    }
-    if (!closer) break;
-  }
-  if (miss < largest_miss() * span_) {
-    cable.outcome = EquilibriumOutcome::converged;
-    return cable;
-  }
-  const Scalar none = std::numeric_limits<Scalar>::quiet_NaN();
-  return {none, none, EquilibriumOutcome::not_converged};
-}
 
 /// Force and displacement of the cable's point under the load, after the exact statics.
 ///
@@ -232,9 +264,8 @@ class CatenaryPointLoad {
 
   /// dP/dw (N/m) at a load P (N).
   ///
-  /// The supports stay: J d(H, V) = J_right [0, 1]ᵀ dP, with J, J_right the derivatives of the
-  /// whole cable and of its part beyond the load; the loaded point then moves by the left part's
-  /// derivative.
+  /// The supports stay: J d(H, V) = J_right [0, 1]ᵀ dP, with J, J_right of the whole cable and of
+  /// its part beyond the load; the loaded point moves by the left part's derivative.
   Scalar stiffness(const Scalar& load) const {
     const auto loaded = cable_.under_load(load, place_);
     const auto left = cable_.extent(loaded, place_).derivative;

@@ -36,10 +36,9 @@ struct CableMode {
 ///
 ///     tan y = y − (4/λ²) y³.
 ///
-/// Multiplied by cos y the equation has no pole, and opposite signs at y = (n ∓ 1/2) π, so that
-/// one bisection serves every λ² > 0: the crossovers λ² = (2nπ)², where y = nπ, the taut string
-/// and the inextensible cable. Source: H. M. Irvine, T. K. Caughey, The linear theory of free
-/// vibrations of a suspended cable, Proc. R. Soc. A 341 (1974).
+/// Multiplied by cos y it has no pole, and opposite signs at y = (n ∓ 1/2) π: one bisection serves
+/// every λ² > 0. Source: H. M. Irvine, T. K. Caughey, The linear theory of free vibrations of a
+/// suspended cable, Proc. R. Soc. A 341 (1974).
 /// @tparam Scalar  a floating-point type
 template <class Scalar>
 Scalar symmetric_frequency(int n, const Scalar& irvine_parameter) {

@@ -1,13 +1,99 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
+#include "holdfast/cable/conductor.hpp"
 #include "holdfast/cable/hanging_cable.hpp"
-#include "holdfast/cable/irvine_statics.hpp"
 #include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
 
 namespace holdfast {
+
+/// Irvine's parabolic cable under one vertical point load (Kollár 2022, Eq. 1 and its cubic).
+///
+/// Dimensionless: x̂ = x/L, P̂ = P/(μ g L), ĥ = h/H with h the additional horizontal tension:
+///
+///     ĥ³ + (2 + λ²/24) ĥ² + (1 + λ²/12) ĥ − (λ²/2) x̂_p (1 − x̂_p) P̂ (1 + P̂) = 0
+///     w(x) = μ g L²/(H (1 + ĥ)) [ P̂ x̂_< (1 − x̂_>) − (ĥ/2) x̂ (1 − x̂) ],
+///
+/// x̂_<, x̂_> the smaller and the larger of x̂, x̂_p. w counts from the bare cable. Valid for small
+/// slopes (f/L up to about 1/8) and P̂ > −1/2, where the cubic turns back.
+/// Source: H. M. Irvine, Cable Structures, MIT Press, 1981, Sect. 2.4.
+template <class Scalar>
+class IrvinePointLoad {
+ public:
+  /// @param conductor  admissible in the sense of `validate`
+  /// @param position   x_p (m), inside the span
+  IrvinePointLoad(const Conductor<Scalar>& conductor, const Scalar& position)
+      : tension_(conductor.parabolic_tension()),
+        weight_(conductor.weight()),
+        span_(conductor.span),
+        parameter_(conductor.irvine_parameter()),
+        place_(position / conductor.span) {}
+
+  /// ĥ > −1, the one root of the cubic there, for a load P (N), P > −μ g L/2.
+  ///
+  /// At ĥ = −1 the cubic is negative, and it is convex where it rises: Newton's method from the
+  /// right of the root falls onto it.
+  Scalar relative_additional_tension(const Scalar& load) const {
+    const Scalar relative = load / weight_;
+    const Scalar a = Scalar(2) + parameter_ / Scalar(24), b = Scalar(1) + parameter_ / Scalar(12);
+    const Scalar c =
+        -parameter_ / Scalar(2) * place_ * (Scalar(1) - place_) * relative * (Scalar(1) + relative);
+    using std::abs;
+    Scalar root = Scalar(1) + abs(c) / b;  // the cubic is positive there
+    for (int step = 0; step < 200; ++step) {
+      const Scalar change =
+          (((root + a) * root + b) * root + c) / ((Scalar(3) * root + Scalar(2) * a) * root + b);
+      root -= change;
+      if (!(abs(change) > Scalar(1e-16) * (Scalar(1) + abs(root)))) break;
+    }
+    return root;
+  }
+
+  /// H + h (N).
+  Scalar tension(const Scalar& load) const {
+    return tension_ * (Scalar(1) + relative_additional_tension(load));
+  }
+
+  /// w(x) of Eq. (1) (m), 0 ≤ x ≤ L, under a load P (N).
+  Scalar deflection(const Scalar& x, const Scalar& load) const {
+    const Scalar at = x / span_, added = relative_additional_tension(load);
+    const Scalar lower = at < place_ ? at : place_, upper = at < place_ ? place_ : at;
+    return scale() / (Scalar(1) + added) *
+           (load / weight_ * lower * (Scalar(1) - upper) -
+            added / Scalar(2) * at * (Scalar(1) - at));
+  }
+
+  /// w(x_p) (m) under a load P (N).
+  Scalar displacement(const Scalar& load) const { return deflection(place_ * span_, load); }
+
+  /// dP/dw at x_p (N/m): the spring that a small further load meets.
+  Scalar stiffness(const Scalar& load) const {
+    const Scalar relative = load / weight_, added = relative_additional_tension(load);
+    const Scalar form = place_ * (Scalar(1) - place_);
+    const Scalar slope = (Scalar(3) * added + Scalar(4) + parameter_ / Scalar(12)) * added +
+                         Scalar(1) + parameter_ / Scalar(12);
+    const Scalar added_rate =
+        parameter_ / Scalar(2) * form * (Scalar(1) + Scalar(2) * relative) / slope;
+    // w = scale · form · (P̂ − ĥ/2) / (1 + ĥ), differentiated by P̂.
+    const Scalar one = Scalar(1) + added;
+    const Scalar rate = (Scalar(1) - added_rate / Scalar(2)) / one -
+                        (relative - added / Scalar(2)) * added_rate / (one * one);
+    return weight_ / (scale() * form * rate);
+  }
+
+  /// −μ g L/2 (N): at this load and below Eq. (1) has nothing to say.
+  Scalar lowest_load() const { return -weight_ / Scalar(2); }
+
+ private:
+  Scalar scale() const { return weight_ * span_ / tension_; }
+
+  Scalar tension_, weight_, span_, parameter_, place_;
+};
 
 /// Statics of the place of the absorber, counted as Kollár 2022, Fig. 2 does: force and
 /// displacement from the equilibrium with the absorber's weight, downward positive.
@@ -42,7 +128,25 @@ class StaticsFromRest {
 
   /// F (N) that displaces the place by w (m): Newton's method on the rising curve w(F), kept in a
   /// bracket. @throws InvalidParameter when that force would not be above lowest_force()
-  double force(double displacement_sought) const;
+  double force(double displacement_sought) const {
+    require_finite("displacement", displacement_sought, "m");
+    const double floor = lowest_force() * (1.0 - 1e-9);
+    if (displacement_sought <= displacement(floor))
+      throw InvalidParameter("displacement", displacement_sought, "m",
+                             "one that an upward load below half of the cable's weight reaches");
+    double below = floor, above = std::abs(floor);
+    while (displacement(above) < displacement_sought) above *= 2.0;
+    double guess = std::fmin(std::fmax(stiffness(0.0) * displacement_sought, below), above);
+    for (int step = 0; step < 200; ++step) {
+      const double miss = displacement(guess) - displacement_sought;
+      (miss > 0.0 ? above : below) = guess;
+      const double change = miss * stiffness(guess);
+      if (std::abs(change) <= 1e-15 * std::abs(floor)) break;
+      const double next = guess - change;
+      guess = next > below && next < above ? next : 0.5 * (below + above);
+    }
+    return guess;
+  }
 
   /// The further force (N) at and below which the models lose their meaning: it lifts the place
   /// by half of the cable's own weight.
@@ -52,27 +156,6 @@ class StaticsFromRest {
   PointLoad model_;
   double resting_load_, resting_displacement_;
 };
-
-template <class PointLoad>
-double StaticsFromRest<PointLoad>::force(double displacement_sought) const {
-  require_finite("displacement", displacement_sought, "m");
-  const double floor = lowest_force() * (1.0 - 1e-9);
-  if (displacement_sought <= displacement(floor))
-    throw InvalidParameter("displacement", displacement_sought, "m",
-                           "one that an upward load below half of the cable's weight reaches");
-  double below = floor, above = std::abs(floor);
-  while (displacement(above) < displacement_sought) above *= 2.0;
-  double guess = std::fmin(std::fmax(stiffness(0.0) * displacement_sought, below), above);
-  for (int step = 0; step < 200; ++step) {
-    const double miss = displacement(guess) - displacement_sought;
-    (miss > 0.0 ? above : below) = guess;
-    const double change = miss * stiffness(guess);
-    if (std::abs(change) <= 1e-15 * std::abs(floor)) break;
-    const double next = guess - change;
-    guess = next > below && next < above ? next : 0.5 * (below + above);
-  }
-  return guess;
-}
 
 /// Eq. (1) at the absorber's place.
 /// @throws InvalidParameter for an inadmissible conductor, place or mass (kg)
@@ -94,6 +177,60 @@ StaticsFromRest<CatenaryPointLoad<Scalar>> exact_statics(const Conductor<Scalar>
   require_inside_span(position, conductor.span);
   require_non_negative("absorber mass m2", absorber_mass, "kg");
   return {{conductor, position}, absorber_mass * conductor.gravity};
+}
+
+/// How a straight line is laid through the force-displacement relationship of the cable (Eq. 2).
+enum class StiffnessReading {
+  tangent,        ///< slope at the equilibrium with the absorber's weight
+  secant,         ///< (F(below) − F(−above)) / (below + above)
+  least_squares,  ///< slope of the line nearest to F(w) over −above … below
+};
+
+/// Displacements (m) from the equilibrium with the absorber's weight over which k₁ is read.
+struct ReadingRange {
+  double below;  ///< downward, ≥ 0
+  double above;  ///< upward, ≥ 0
+};
+
+namespace detail {
+
+/// Slope of the straight line nearest to F(w) over `middle` ± `half`: ∫ (w − w̄) F dw/∫ (w − w̄)² dw
+/// by 16-point Gauss–Legendre, whose nodes lie in pairs about the middle.
+template <class Statics>
+double least_squares_slope(const Statics& statics, double middle, double half) {
+  static constexpr std::array<double, 8> nodes{
+      0.0950125098376374, 0.2816035507792589, 0.4580167776572274, 0.6178762444026438,
+      0.7554044083550030, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499};
+  static constexpr std::array<double, 8> weights{
+      0.1894506104550685, 0.1826034150449236, 0.1691565193950025, 0.1495959888165767,
+      0.1246289712555339, 0.0951585116824928, 0.0622535239386479, 0.0271524594117541};
+  double moment = 0.0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double offset = half * nodes[k];
+    moment +=
+        weights[k] * nodes[k] * (statics.force(middle + offset) - statics.force(middle - offset));
+  }
+  return 1.5 * moment / half;
+}
+
+}  // namespace detail
+
+/// k₁ = ΔP/Δw (N/m), Eq. (2), read from the statics at the absorber's place.
+///
+/// The least-squares line need not pass through the equilibrium.
+/// @throws InvalidParameter, but for the tangent, for a negative or empty range and where it
+/// reaches beyond what the statics are valid for
+template <class Statics>
+double conductor_stiffness(const Statics& statics, StiffnessReading reading,
+                           const ReadingRange& range) {
+  if (reading == StiffnessReading::tangent) return statics.stiffness(0.0);
+  require_non_negative("reading range below", range.below, "m");
+  require_non_negative("reading range above", range.above, "m");
+  require_positive("width of the reading range", range.below + range.above, "m");
+  const double width = range.below + range.above;
+  if (reading == StiffnessReading::secant)
+    return (statics.force(range.below) - statics.force(-range.above)) / width;
+  return detail::least_squares_slope(statics, 0.5 * (range.below - range.above), 0.5 * width);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

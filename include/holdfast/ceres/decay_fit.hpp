@@ -23,24 +23,6 @@
 /// Fits of the plant to records by Ceres Solver. Needs a package besides Eigen.
 namespace holdfast::fit {
 
-/// Fits the plant's decay from rest at z₁ = z₂ = z₀ to a record, from several starts of c₂ (if it
-/// is free): a record met by a heavily damped absorber is often met by a lightly damped one too,
-/// and both minima are reported.
-///
-/// The parameters are fitted by their logarithms, within a factor 10⁶ of the given plant's
-/// either way (c₂: of the critical damping 2 √(k₂m₂), z₀: of the record's); derivatives come from
-/// dual numbers through the motion's closed form.
-/// @param record       at least 8 instants, ascending, the first one displaced
-/// @param plant        the values of the parameters that are not free, and where the others start
-/// @param fit_options  which parameters are free and what of the record is to be met
-/// @throws InvalidParameter for an inadmissible plant, a record with fewer instants, not
-///         ascending, not finite or not starting displaced; for no free parameter, one named
-///         twice, or more of them than the measures asked for can determine
-inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
-                          const DecayFitOptions& fit_options = {});
-
-// ---------------------------------------------------------------------------------------------
-
 namespace detail {
 
 using Theta = std::array<double, unknowns>;
@@ -299,8 +281,20 @@ inline void make_robust(DecayResiduals& residuals, const DecayFitOptions& fit_op
 
 }  // namespace detail
 
+/// Fits the plant's decay from rest at z₁ = z₂ = z₀ to a record, from several starts of c₂ (if it
+/// is free): a heavily and a lightly damped absorber often meet the same record, and both minima
+/// are reported.
+///
+/// The parameters are fitted by their logarithms, within a factor 10⁶ of the given plant's (c₂: of
+/// the critical damping 2 √(k₂m₂), z₀: of the record's), with dual numbers through the closed form.
+/// @param record       at least 8 instants, ascending, the first one displaced
+/// @param plant        the values of the parameters that are not free, and where the others start
+/// @param fit_options  which parameters are free and what of the record is to be met
+/// @throws InvalidParameter for an inadmissible plant, a record with fewer instants, not
+///         ascending, not finite or not starting displaced; for no free parameter, one named
+///         twice, or more of them than the measures asked for can determine
 inline DecayFit fit_decay(const DecayRecord& record, const TwoMass<double>& plant,
-                          const DecayFitOptions& fit_options) {
+                          const DecayFitOptions& fit_options = {}) {
   detail::validate(record, plant, fit_options);
   DecayFit fit{FitOutcome::no_minimum, {}, 0};
   const DecayMeasures measures = decay_measures(record);

@@ -18,19 +18,11 @@ enum class PlantParameter {
 
 /// The value of that parameter, in its unit of TwoMass.
 inline double parameter_of(const TwoMass<double>& plant, PlantParameter parameter) {
-  switch (parameter) {
-    case PlantParameter::conductor_mass:
-      return plant.conductor_mass;
-    case PlantParameter::conductor_stiffness:
-      return plant.conductor_stiffness;
-    case PlantParameter::conductor_damping:
-      return plant.conductor_damping;
-    case PlantParameter::absorber_stiffness:
-      return plant.absorber_stiffness;
-    case PlantParameter::absorber_damping:
-      break;
-  }
-  return plant.absorber_damping;
+  using Plant = TwoMass<double>;
+  constexpr double Plant::*members[] = {&Plant::conductor_mass, &Plant::conductor_stiffness,
+                                        &Plant::conductor_damping, &Plant::absorber_stiffness,
+                                        &Plant::absorber_damping};
+  return plant.*members[static_cast<int>(parameter)];
 }
 
 /// What of the record is to be met.
@@ -47,9 +39,9 @@ inline bool is_measured(DecayTarget target) { return target != DecayTarget::time
 struct DecayFitOptions {
   std::vector<PlantParameter> free = {PlantParameter::absorber_damping};  ///< none twice
   DecayTarget target = DecayTarget::time_history;  ///< what the misfit is measured in
-  /// Huber's loss at 1.345 standard deviations, those taken from the median residual of the deepest
-  /// minimum, the same for all starts: outliers of the record then count little, and Gaussian noise
-  /// loses 5 % of its information. Only for the time history.
+  /// Huber's loss at 1.345 standard deviations, taken from the median residual of the deepest
+  /// minimum: outliers count little, Gaussian noise loses 5 % of its information. Only for the time
+  /// history.
   bool robust = true;
   /// Whether z₀ is fitted too (a measured record) or is the record's first value (a computed one).
   /// Only for the time history.
@@ -62,8 +54,7 @@ struct DecayMinimum {
   double initial_displacement;  ///< z₀ (m)
   /// Standard errors of the free parameters in the order of the question; NaN where the record does
   /// not determine them. Time history: from the residuals' scatter, with a robust loss by Huber's
-  /// sandwich formula. Measures: from their misfit, but not less than from 1 % of each. They speak
-  /// of noise; of a model that cannot follow the record, the residual speaks.
+  /// sandwich formula. Measures: from their misfit, not less than 1 % of each.
   std::vector<double> standard_errors;
   double residual;  ///< root mean square: m for the time history, relative for the measures
   /// ½ Σ loss, the minimum's depth, dimensionless: the time history is counted in |z(0)|.

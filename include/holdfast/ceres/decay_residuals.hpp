@@ -74,6 +74,7 @@ struct DecayResiduals {
   bool operator()(const Scalar* m1, const Scalar* k1, const Scalar* c1, const Scalar* k2,
                   const Scalar* c2, const Scalar* start, Scalar* residuals) const {
     const auto plant = scaled_plant<Scalar>(reference, {*m1, *k1, *c1, *k2, *c2});
+    if (!is_admissible(values_of(plant))) return false;
     if (is_measured(target)) return compare_measures(plant, residuals);
     using std::exp;
     const auto motion =

@@ -28,18 +28,15 @@ enum class LyapunovScope {
 ///
 /// The exponents are those of `LyapunovSpectrum` with S and S* pushed sample by sample, but the
 /// tangent vectors are multiplied by the maps of whole blocks and orthogonalised as rarely as
-/// conditioning allows: since (Q₂R₂)(R₁) has the same diagonal products whether or not it is
-/// factored on the way, only rounding tells the two apart. Over the blocks k of a stretch B = W_k …
-/// W₁ Q = Q' R,
+/// conditioning allows. Over the blocks k of a stretch B = W_k … W₁ Q = Q' R,
 ///
 ///     a = √(Σ_k ‖W_k … W₁ Q‖²) ‖R⁻¹‖
 ///
-/// measures how far R's diagonal, relative to itself, magnifies round-off. The length of a stretch
-/// is chosen from the growth seen in the one before; a stretch with a > `largest_amplification` is
-/// done again in halves, from the basis that it began with, down to single samples. The inner
-/// product is that of the balanced coordinates of `ItineraryBlocks`, which the exponents are freed
-/// from when they are read. Columns that a map has taken to zero are not carried on. The logarithm
-/// is taken of products of stretches, once a batch.
+/// measures how far R's diagonal magnifies round-off. The length of a stretch is chosen from the
+/// growth in the one before; one with a > `largest_amplification` is done again in halves, a block
+/// sample by sample. The inner product is that of the balanced coordinates of
+/// `ItineraryBlocks`, which the exponents are freed from when they are read. Columns that a map has
+/// taken to zero are not carried on. Logarithms are taken of products of stretches, once a batch.
 ///
 /// Work per block of six samples and vector: 25 multiply-adds (20 without processing delay); per
 /// stretch a Gram–Schmidt process on 5 × 4 (5 × 5 before the first map with a null direction).
@@ -103,13 +100,6 @@ class BlockSpectrum {
     return result;
   }
 
-  static auto lanes_of(const Number& number) {
-    std::array<typename Lanes<Number>::Value, Lanes<Number>::count> values;
-    Lanes<Number>::store(number, values.data());
-    return values;
-  }
-  static double lane_of(const Number& number, std::size_t lane) { return lanes_of(number)[lane]; }
-
   void close_with(const Blocks& open) {
     const int samples = samples_of(open[0]);
     if (samples > 0) pending_[static_cast<std::size_t>(count_++)] = open;
@@ -119,19 +109,13 @@ class BlockSpectrum {
   }
 
   LyapunovSpectrum<double, 5> read(const Orthogonal& orthogonal, std::size_t lane) const {
+    const auto of_lane = [lane](const Number& pack) { return detail::lane_of(pack, lane); };
     const Vector<Number, 5> remainder = remainder_ + orthogonal.logarithms;
-    typename LyapunovSpectrum<double, 5>::State state{Matrix<double, 5>::Zero(), sums_.lane(lane),
-                                                      Vector<double, 5>::Zero(), 0};
-    Vector<double, 5> open;
-    for (int i = 0; i < 5; ++i) {
-      const auto& alive = alive_[static_cast<std::size_t>(i)];
-      if (lane_of(select(alive, Number(1), Number(0)), lane) > 0) state.finite = i + 1;
-      open[i] = lane_of(logarithms_[i], lane);
-      state.remainder[i] = lane_of(remainder[i], lane);
-      for (int row = 0; row < 5; ++row)
-        state.basis(row, i) = lane_of(orthogonal.basis(row, i), lane);
-    }
-    state.sums.add(open, samples_);
+    LyapunovSpectrum<double, 5>::State state{orthogonal.basis.unaryExpr(of_lane), sums_.lane(lane),
+                                             remainder.unaryExpr(of_lane), 0};
+    state.sums.add(logarithms_.unaryExpr(of_lane), samples_);
+    for (const auto& alive : alive_)
+      if (of_lane(select(alive, Number(1), Number(0))) > 0) ++state.finite;
     return LyapunovSpectrum<double, 5>(state);
   }
 
@@ -148,7 +132,8 @@ class BlockSpectrum {
     }
   }
 
-  /// Takes a stretch of blocks, in halves where round-off would grow too much.
+  /// Takes a stretch of blocks, in halves where round-off would grow too much, and one block sample
+  /// by sample.
   template <int Reach, int Columns>
   void advance(const Blocks* blocks, int count) {
     using Basis = TangentBasis<Number, Columns>;
@@ -166,10 +151,9 @@ class BlockSpectrum {
                           within_range<Columns>(stretches.squares);
     if (accurate || (count == 1 && samples_of(blocks[0][0]) == 1)) {
       commit<Columns>(basis, alive, stretches.squares);
-      const auto values = lanes_of(squared);
-      learn(accurate ? *std::max_element(values.begin(), values.end()) : 0.0, count);
+      learn(accurate ? largest_lane(squared) : 0.0, count);
     } else {
-      halve<Reach, Columns>(blocks, count);
+      split<Reach, Columns>(blocks, count);
       allowed_ = std::max(1.0, 0.5 * count);
     }
   }
@@ -186,20 +170,18 @@ class BlockSpectrum {
   }
 
   template <int Reach, int Columns>
-  void halve(const Blocks* blocks, int count) {
+  void split(const Blocks* blocks, int count) {
     if (count > 1) {
       advance<Reach, Columns>(blocks, count / 2);
       advance<Reach, Columns>(blocks + count / 2, count - count / 2);
       return;
     }
-    const int samples = samples_of(blocks[0][0]);
-    Blocks first, last;
-    for (std::size_t lane = 0; lane < first.size(); ++lane) {
-      first[lane] = first_of(blocks[0][lane], samples / 2);
-      last[lane] = last_of(blocks[0][lane], samples - samples / 2);
+    for (int sample = 0; sample < samples_of(blocks[0][0]); ++sample) {
+      Blocks alone;
+      for (std::size_t lane = 0; lane < alone.size(); ++lane)
+        alone[lane] = sample_of(blocks[0][lane], sample);
+      advance<Reach, Columns>(&alone, 1);
     }
-    advance<Reach, Columns>(&first, 1);
-    advance<Reach, Columns>(&last, 1);
   }
 
   /// Marks the columns beyond the rank of a block's maps.
@@ -243,6 +225,12 @@ class BlockSpectrum {
   void take_logarithms() {
     logarithms_ += half_logarithms<5>(products_);
     products_ = Vector<Number, 5>::Constant(Number(1));
+  }
+
+  static double largest_lane(const Number& number) {
+    double values[Lanes<Number>::count];
+    Lanes<Number>::store(number, values);
+    return *std::max_element(std::begin(values), std::end(values));
   }
 
   /// Sets how many blocks may come between two orthogonalisations, from those just done.
@@ -334,12 +322,7 @@ void BlockSpectrum<Number>::close_block() {
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template BlockSpectrum<double>::BlockSpectrum(std::shared_ptr<const ItineraryBlocks>,
-                                                     LyapunovScope);
-extern template void BlockSpectrum<double>::restart(const Blocks&);
-extern template std::array<LyapunovSpectrum<double, 5>, 1> BlockSpectrum<double>::spectra(
-    const Blocks&) const;
-extern template void BlockSpectrum<double>::close_block();
+extern template class BlockSpectrum<double>;
 #endif
 
 }  // namespace holdfast

@@ -1,15 +1,17 @@
 #pragma once
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/chaos/classification.hpp"
-#include "holdfast/chaos/leading_exponent.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/chaos/recurrence.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/chaos/zero_one_test.hpp"
@@ -26,45 +28,101 @@ struct IndicatorOptions {
   std::int64_t transient = 5000;  ///< samples left out first, 0 … 10⁷
   std::int64_t samples = 20160;  ///< samples looked at, 2000 … 100 000; divisible by 2, 3, 5, 7 so
                                  ///< that many periods fit whole
-  double repeat_tolerance = 1e-9;  ///< of a repeat, relative to the extent
-  std::int64_t repeats = 3;  ///< how often a period has to repeat in half of the samples, ≥ 1
-  double recurrence_radius = 0.05;        ///< relative to the extent
-  std::int64_t recurrence_states = 1000;  ///< the last so many for closest return and recurrence,
-                                          ///< 2 … 5000
   double base_frequency = 1.0;       ///< cycles per sample whose divisions the lines are asked for
-  int largest_division = 128;        ///< of the base frequency
   std::int64_t zero_one_stride = 1;  ///< every so many samples for the 0–1 test, 1 … samples/500
-  double divergence_growth = 1e30;   ///< growth of the state over its size in the first 100 samples
-                                     ///< that counts as divergence
   bool forcing_incommensurate = false;  ///< see ChaosIndicators
 };
 
 /// @throws InvalidParameter for a member outside its range
 inline void validate(const IndicatorOptions& options) {
+  const auto samples = static_cast<double>(options.samples);
   require_within("transient", static_cast<double>(options.transient), "samples", 0.0, 1e7);
-  require_within("number of samples", static_cast<double>(options.samples), "", 2000.0, 1e5);
-  require_within("recurrence states", static_cast<double>(options.recurrence_states), "", 2.0,
-                 5000.0);
-  const double most_stride = static_cast<double>(options.samples) / 500.0;
+  require_within("number of samples", samples, "", 2000.0, 1e5);
   require_within("stride of the 0-1 test", static_cast<double>(options.zero_one_stride), "samples",
-                 1.0, most_stride);
-  require_within("growth that counts as divergence", options.divergence_growth, "", 1e3, 1e200);
+                 1.0, samples / 500.0);
 }
 
-/// Stands for a tangent map that is not known: no exponents are found.
-struct NoTangent {};
+/// The largest Lyapunov exponent of a sequence of tangent maps, with a 95 % interval that holds
+/// also where the sums are bounded.
+///
+/// First `settle` turns the basis into the directions of the exponents, and nothing is summed; then
+/// `push` sums s_n = Σ ln |R_jj|. Two things bound the error of s_n/n, the larger of which counts
+/// (`exponent_estimate`):
+///
+///  - the scatter of batch means, which a chaotic motion has;
+///  - s_n − n λ of a motion that is not chaotic (a linear loop with complex multipliers, a closed
+///    orbit) turns within bounds, and batch means of whole turns hardly scatter; the error is at
+///    most the width of those bounds over n. The width is read off the last 1/32 of the steps,
+///    where a wandering sum moves by much less than its standard error.
+template <int Size>
+class LeadingExponent {
+ public:
+  /// Begins without a map. The first argument is how many maps will be pushed after settling, ≥ 64;
+  /// the second their size, where that is known at run time alone.
+  /// @throws InvalidParameter for fewer
+  explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
+      : basis_(Matrix<double, Size>::Identity(size, size)),
+        spectrum_(basis_),
+        watched_from_(expected_steps - expected_steps / 32) {
+    require_within("number of steps", static_cast<double>(expected_steps), "", 64.0, 1e15);
+    sums_.reserve(static_cast<std::size_t>(std::min<std::int64_t>(expected_steps / 32, most_sums)));
+  }
 
-/// Stands for a system without contacts.
-struct NoContact {};
+  /// Turns the basis by one map of the transient; call before the first push.
+  void settle(const Matrix<double, Size>& tangent) {
+    const Matrix<double, Size> stretched = tangent * basis_;
+    basis_ = Eigen::HouseholderQR<Matrix<double, Size>>(stretched).householderQ();
+  }
+
+  /// Takes in one map.
+  void push(const Matrix<double, Size>& tangent) {
+    if (spectrum_.steps() == 0) spectrum_ = LyapunovSpectrum<double, Size>(basis_);
+    spectrum_.push(tangent);
+    if (spectrum_.steps() < watched_from_ || sums_.size() >= most_sums) return;
+    sums_.push_back(spectrum_.exponents() * static_cast<double>(spectrum_.steps()));
+  }
+
+  /// All exponents over the maps pushed, with standard errors by batch means alone.
+  const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
+
+  /// The largest exponent; only after at least 64 maps.
+  ExponentEstimate indicators() const {
+    Eigen::Index which = 0;
+    const double value = spectrum_.exponents().maxCoeff(&which);
+    const double steps = static_cast<double>(spectrum_.steps());
+    return exponent_estimate(value, spectrum_.standard_errors()[which],
+                             bounds_width(which, value) / steps);
+  }
+
+ private:
+  static constexpr std::size_t most_sums = 4096;
+
+  /// max − min of s_n − n λ over the watched steps.
+  double bounds_width(Eigen::Index which, double value) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t n = 0; n < sums_.size(); ++n) {
+      const double deviation = sums_[n][which] - static_cast<double>(n) * value;
+      low = std::min(low, deviation);
+      high = std::max(high, deviation);
+    }
+    return std::isfinite(high - low) ? high - low : 0.0;
+  }
+
+  Matrix<double, Size> basis_;
+  LyapunovSpectrum<double, Size> spectrum_;
+  std::int64_t watched_from_;
+  std::vector<Vector<double, Size>> sums_;
+};
 
 namespace detail {
 
-/// Notes when a state has grown beyond all measure.
+/// Notes when a state has grown beyond all measure: by 10³⁰ over the largest coordinate of the
+/// first 100 samples.
 template <int Size>
 class DivergenceGuard {
  public:
-  DivergenceGuard(double growth, const Vector<double, Size>& initial)
-      : growth_(growth), largest_(initial.cwiseAbs()), reference_(largest_.maxCoeff()) {}
+  explicit DivergenceGuard(const Vector<double, Size>& initial)
+      : largest_(initial.cwiseAbs()), reference_(largest_.maxCoeff()) {}
 
   /// True where the state is not finite or has left the bounds.
   bool leaves(const Vector<double, Size>& state) {
@@ -72,67 +130,17 @@ class DivergenceGuard {
     largest_ = largest_.cwiseMax(state.cwiseAbs());
     const double size = largest_.maxCoeff();
     if (++seen_ <= 100) reference_ = size;
-    return reference_ > 0.0 && size / growth_ > reference_;
+    return reference_ > 0.0 && size / 1e30 > reference_;
   }
 
   /// Largest |x_i| so far, coordinate by coordinate.
   const Vector<double, Size>& largest() const { return largest_; }
 
  private:
-  double growth_;
   Vector<double, Size> largest_;
   double reference_;
   int seen_ = 0;
 };
-
-/// What a run has collected.
-template <int Size>
-struct CollectedMotion {
-  std::optional<std::int64_t> diverged_at;
-  std::vector<Vector<double, Size>> states;
-  std::vector<double> observed;
-  std::vector<bool> itinerary;
-  Vector<double, Size> largest;  // |x_i| since the start
-  std::optional<ExponentEstimate> largest_exponent;
-};
-
-/// Runs transient and samples.
-template <int Size, class Advance, class Observable, class Tangent, class Contact>
-CollectedMotion<Size> collected_motion(const Vector<double, Size>& initial, Advance& advance,
-                                       Observable& observable, Tangent& tangent, Contact& contact,
-                                       const IndicatorOptions& options) {
-  CollectedMotion<Size> motion;
-  DivergenceGuard<Size> guard(options.divergence_growth, initial);
-  LeadingExponent<Size> exponent(options.samples, initial.size());
-  Vector<double, Size> state = initial, previous = initial;
-  std::int64_t index = 0;
-  // One step; false where the motion has diverged.
-  const auto step = [&] {
-    previous = state;
-    advance(state);
-    ++index;
-    if (!guard.leaves(state)) return true;
-    motion.diverged_at = index;
-    return false;
-  };
-  while (index < options.transient) {
-    if (!step()) return motion;
-    if constexpr (!std::is_same_v<Tangent, NoTangent>) exponent.settle(tangent(previous));
-  }
-  motion.states.reserve(static_cast<std::size_t>(options.samples));
-  motion.observed.reserve(static_cast<std::size_t>(options.samples));
-  for (std::int64_t taken = 0; taken < options.samples; ++taken) {
-    motion.states.push_back(state);
-    motion.observed.push_back(observable(state));
-    if (!step()) return motion;
-    if constexpr (!std::is_same_v<Tangent, NoTangent>) exponent.push(tangent(previous));
-    if constexpr (!std::is_same_v<Contact, NoContact>) motion.itinerary.push_back(contact());
-  }
-  motion.largest = guard.largest();
-  if constexpr (!std::is_same_v<Tangent, NoTangent>)
-    motion.largest_exponent = exponent.indicators();
-  return motion;
-}
 
 inline double extent_of(const std::vector<double>& series, std::size_t from, std::size_t to) {
   const auto begin = series.begin();
@@ -150,11 +158,11 @@ inline std::optional<double> extent_growth(const std::vector<double>& series) {
 }
 
 template <class Series>
-SpectralIndicators spectral_indicators(const Series& series, const IndicatorOptions& options) {
+SpectralIndicators spectral_indicators(const Series& series, double base_frequency) {
   const std::size_t size = series.size();
   const auto whole = amplitude_spectrum(series, 1.0, SpectralWindow::rectangular);
   const auto narrow = amplitude_spectrum(series, 1.0, SpectralWindow::hann);
-  const SubharmonicOptions subharmonic{options.base_frequency, options.largest_division};
+  const SubharmonicOptions subharmonic{base_frequency, 128};
   return {subharmonic_shares(whole, size, subharmonic).division, subharmonic.share,
           lines_holding(whole, size, 0.99), continuous_share(narrow, size)};
 }
@@ -166,27 +174,19 @@ inline std::vector<double> every(const std::vector<double>& series, std::int64_t
   return thinned;
 }
 
-/// What the collected series show.
+/// What the states show by their returns.
+/// @param sizes  largest |x_i| since the start
 template <int Size>
-ChaosIndicators weighed(const CollectedMotion<Size>& motion, const IndicatorOptions& options) {
-  ChaosIndicators indicators;
-  indicators.forcing_incommensurate = options.forcing_incommensurate;
-  indicators.largest_exponent = motion.largest_exponent;
-  const RepeatSearch repeat =
-      repeats_after<Size>(motion.states, options.repeat_tolerance,
-                          static_cast<std::size_t>(options.repeats), motion.largest);
+void weigh_returns(const std::vector<Vector<double, Size>>& states,
+                   const Vector<double, Size>& sizes, ChaosIndicators& indicators) {
+  constexpr double repeat_tolerance = 1e-9, recurrence_radius = 0.05;
+  const RepeatSearch repeat = repeats_after<Size>(states, repeat_tolerance, 3, sizes);
   indicators.repeat =
       RepetitionIndicators{static_cast<std::int64_t>(repeat.lag),
-                           static_cast<std::int64_t>(repeat.largest_lag), options.repeat_tolerance};
-  const auto kept = std::min(options.recurrence_states, static_cast<std::int64_t>(options.samples));
-  const std::vector<Vector<double, Size>> last(motion.states.end() - kept, motion.states.end());
+                           static_cast<std::int64_t>(repeat.largest_lag), repeat_tolerance};
+  const std::vector<Vector<double, Size>> last(states.end() - 1000, states.end());
   indicators.closest_return = closest_return<Size>(last);
-  indicators.recurrence = recurrence_shares<Size>(last, options.recurrence_radius);
-  indicators.zero_one = zero_one_test(every(motion.observed, options.zero_one_stride)).median;
-  indicators.lines = spectral_indicators(motion.observed, options);
-  indicators.extent_growth = extent_growth(motion.observed);
-  if (!motion.itinerary.empty()) indicators.switching = switching_complexity(motion.itinerary);
-  return indicators;
+  indicators.recurrence = recurrence_shares<Size>(last, recurrence_radius);
 }
 
 }  // namespace detail
@@ -203,31 +203,57 @@ ChaosIndicators weighed(const CollectedMotion<Size>& motion, const IndicatorOpti
 /// `contact()`, both of the step just taken. The basis of the exponents turns through the whole
 /// transient before their means begin.
 ///
-/// A motion diverges when its state is not finite or has grown by `divergence_growth` over the
-/// largest coordinate of its first 100 samples; nothing else is then looked at. Bounded work:
-/// transient + samples steps, the 0–1 test, one search for repetition (at worst samples²/12
-/// distances), two spectra, and recurrence_states² distances.
+/// A motion diverges when its state is not finite or has grown by 10³⁰ over the largest coordinate
+/// of its first 100 samples; nothing else is then looked at. Else a repetition is looked for to
+/// 10⁻⁹ of the extent, three times and more in half of the samples; the closest return and the
+/// recurrence at 0.05 of the extent are those of the last 1000 states; the lines are asked for the
+/// divisions of the base frequency up to 128. Bounded work: transient + samples steps, the 0–1
+/// test, one search for repetition (at worst samples²/12 distances), two spectra, and 10⁶
+/// distances.
 /// @param initial     the state at sample 0
-/// @param advance     void(Vector<double, Size>&)
-/// @param observable  double(const Vector<double, Size>&), the number that spectrum and 0–1 test
-///                    see
+/// @param advance     makes a state the next one
+/// @param observable  of a state, the number that spectrum and 0–1 test see
 /// @param options     how much of the motion to look at, and how closely
-/// @param tangent     Matrix<double, Size>(const Vector<double, Size>&), or NoTangent
-/// @param contact     bool(), true where the drive transmits, or NoContact
+/// @param tangent     ∂(next state)/∂(state); without it no exponents are found
+/// @param contact     true where the drive transmits; empty of a system without contacts
 /// @throws InvalidParameter for a plan out of its ranges or an initial state that is not finite
-template <int Size, class Advance, class Observable, class Tangent = NoTangent,
-          class Contact = NoContact>
-ChaosIndicators chaos_indicators(const Vector<double, Size>& initial, Advance advance,
-                                 Observable observable, const IndicatorOptions& options = {},
-                                 Tangent tangent = {}, Contact contact = {}) {
+template <int Size>
+ChaosIndicators chaos_indicators(
+    const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,
+    const std::function<double(const Vector<double, Size>&)>& observable,
+    const IndicatorOptions& options = {},
+    const std::function<Matrix<double, Size>(const Vector<double, Size>&)>& tangent = {},
+    const std::function<bool()>& contact = {}) {
   validate(options);
-  for (Eigen::Index i = 0; i < initial.size(); ++i) require_finite("initial state", initial[i], "");
-  const auto motion =
-      detail::collected_motion<Size>(initial, advance, observable, tangent, contact, options);
-  if (!motion.diverged_at) return detail::weighed<Size>(motion, options);
+  for (const double entry : initial) require_finite("initial state", entry, "");
   ChaosIndicators indicators;
   indicators.forcing_incommensurate = options.forcing_incommensurate;
-  indicators.diverged_at = motion.diverged_at;
+  detail::DivergenceGuard<Size> guard(initial);
+  LeadingExponent<Size> exponent(options.samples, initial.size());
+  std::vector<Vector<double, Size>> states;
+  std::vector<double> observed;
+  std::vector<bool> itinerary;
+  Vector<double, Size> state = initial;
+  for (std::int64_t index = 0; index < options.transient + options.samples; ++index) {
+    const bool is_looked_at = index >= options.transient;
+    const Vector<double, Size> before = state;
+    advance(state);
+    if (guard.leaves(state)) {
+      indicators.diverged_at = index + 1;
+      return indicators;
+    }
+    if (tangent) is_looked_at ? exponent.push(tangent(before)) : exponent.settle(tangent(before));
+    if (!is_looked_at) continue;
+    states.push_back(before);
+    observed.push_back(observable(before));
+    if (contact) itinerary.push_back(contact());
+  }
+  if (tangent) indicators.largest_exponent = exponent.indicators();
+  detail::weigh_returns<Size>(states, guard.largest(), indicators);
+  indicators.zero_one = zero_one_test(detail::every(observed, options.zero_one_stride)).median;
+  indicators.lines = detail::spectral_indicators(observed, options.base_frequency);
+  indicators.extent_growth = detail::extent_growth(observed);
+  if (contact) indicators.switching = switching_complexity(itinerary);
   return indicators;
 }
 

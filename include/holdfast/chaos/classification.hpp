@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,16 +20,15 @@ enum class AttractorType {
   periodic,               ///< the same after N samples
   quasi_periodic,         ///< two or more frequencies without a common period, neighbours stay near
   irregular_contracting,  ///< neighbours come together, yet no repetition was found
-  chaotic,                ///< bounded, and neighbours separate exponentially
+  chaotic,                ///< bounded as far as seen, neighbours separate exponentially
   diverges,               ///< leaves every bound
   undecided,              ///< the indicators are missing or contradict each other
 };
 
 /// The largest Lyapunov exponent and its 95 % interval, value ± half_width.
 struct ExponentEstimate {
-  double value;                ///< −∞ where every direction is a null direction
-  double half_width;           ///< ≥ 0
-  std::string per = "sample";  ///< the step that the exponent is of
+  double value;       ///< −∞ where every direction is a null direction
+  double half_width;  ///< ≥ 0
 
   /// The whole interval is above zero.
   bool positive() const { return value - half_width > 0.0; }
@@ -36,11 +36,9 @@ struct ExponentEstimate {
   bool negative() const { return value + half_width < 0.0; }
 };
 
-/// An estimate from an exponent and its standard error by batch means.
-///
-/// The half width is Student's 95 % quantile for the fewest batches that a series of more than 64
-/// steps has (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for
-/// the rounding of logarithms, below which no exponent is told from zero.
+/// An estimate from an exponent and its standard error by batch means. The half width is Student's
+/// 95 % quantile for the fewest batches that a series of more than 64 steps has (32) times the
+/// standard error, or the end effect where that is more; plus 10⁻¹² for the rounding of logarithms.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see LeadingExponent
@@ -94,21 +92,10 @@ struct Classification {
 
 /// `periodic(N)`, `quasi-periodic`, `irregular, exponent <= 0`, `chaotic`, `diverges`, `undecided`.
 inline std::string attractor_type_text(AttractorType kind, std::int64_t period = 0) {
-  switch (kind) {
-    case AttractorType::periodic:
-      return "periodic(" + std::to_string(period) + ")";
-    case AttractorType::quasi_periodic:
-      return "quasi-periodic";
-    case AttractorType::irregular_contracting:
-      return "irregular, exponent <= 0";
-    case AttractorType::chaotic:
-      return "chaotic";
-    case AttractorType::diverges:
-      return "diverges";
-    case AttractorType::undecided:
-      break;
-  }
-  return "undecided";
+  constexpr std::array<const char*, 6> words = {
+      "periodic", "quasi-periodic", "irregular, exponent <= 0", "chaotic", "diverges", "undecided"};
+  const std::string word = words[static_cast<std::size_t>(kind)];
+  return kind == AttractorType::periodic ? word + "(" + std::to_string(period) + ")" : word;
 }
 
 /// The text of a classification's kind, with its period where it is periodic.
@@ -130,8 +117,10 @@ inline constexpr double steady_growth = 2.0;
 
 namespace detail {
 
+/// Four significant digits at most.
 inline std::string number_text(double value) {
   std::ostringstream text;
+  text.precision(4);
   text << value;
   return text.str();
 }
@@ -165,14 +154,11 @@ class Classifier {
     return comes_together() ? contracting() : neutral();
   }
 
-  /// The same under a recorded force, or with samples that jitter.
-  ///
-  /// The spectrum of such a motion, its 0–1 test and its repetitions are those of the forcing as
-  /// much as its own, and a forcing that does not repeat is no sum of incommensurate harmonics. So
-  /// nothing is called quasi-periodic. Divergence stands, and so does chaos, by an exponent above
-  /// zero. Where the samples jitter nothing is called periodic but rest; a recurrence under a
-  /// recorded force is one of the series. Else an exponent below zero decides, whatever the rest:
-  /// neighbours come together under one and the same forcing, so that the motion follows it.
+  /// The same under a recorded force, or with samples that jitter: its spectrum, 0–1 test and
+  /// repetitions are those of the forcing as much as the motion's own. So nothing is called
+  /// quasi-periodic, and where the samples jitter nothing periodic but rest. Divergence stands, and
+  /// chaos, by an exponent above zero. Else one below zero decides: neighbours come together under
+  /// one and the same forcing, so that the motion follows it.
   Classification classify_irregularly_forced(bool samples_jitter) const {
     const Classification regular = classify();
     const bool repeats = regular.kind == AttractorType::periodic;
@@ -202,7 +188,9 @@ class Classifier {
       return undecided("Neighbours separate, but the 0-1 test does not show chaos");
     if (has_lines_alone() || has_one_base())
       return undecided("Neighbours separate, but the spectrum is one of lines");
-    return weighed(AttractorType::chaotic, "Neighbours separate exponentially in a bounded motion");
+    return weighed(AttractorType::chaotic,
+                   "Neighbours separate exponentially in a motion that stayed bounded as far as it "
+                   "was followed");
   }
 
   Classification neutral() const {
@@ -254,7 +242,7 @@ class Classifier {
     if (!indicators_.largest_exponent) return "no exponent is known";
     const ExponentEstimate& found = *indicators_.largest_exponent;
     return "largest exponent " + number_text(found.value) + " +- " + number_text(found.half_width) +
-           " per " + found.per + " (95 %)";
+           " per sample (95 %)";
   }
   std::string zero_one_text() const {
     if (!indicators_.zero_one) return "no 0-1 test was made";
@@ -305,8 +293,7 @@ class Classifier {
 /// Classifies a motion by its indicators. The first rule that applies decides:
 ///
 ///  1. left all bounds → diverges;
-///  2. a certified orbit → periodic; else a record of fewer than `fewest_forcing_periods` →
-///     undecided;
+///  2. a certified orbit → periodic; else fewer than `fewest_forcing_periods` → undecided;
 ///  3. repeats to a tolerance, three times and more → periodic, resting on recurrence; undecided
 ///     where the largest exponent is above zero: then an unstable orbit or round-off repeats;
 ///  4. no exponent, or an extent that still changes by `steady_growth` → undecided;
@@ -317,12 +304,10 @@ class Classifier {
 ///  7. exponent below zero: where forcing and sampling are incommensurate and K ≤ `zero_one_low`
 ///     and the spectrum, if known, has lines alone → quasi-periodic. Else, if a repetition was
 ///     looked for in vain → irregular, exponent <= 0: a piecewise affine loop can go on switching
-///     without a pattern while its neighbours come together. Undecided where the series is regular
-///     all the same (lines of one base, or K ≤ `zero_one_low` and lines alone): it may still be
-///     settling, or its period may be longer than the search.
+///     without a pattern while its neighbours come together. Undecided where the series has lines
+///     of one base, or K ≤ `zero_one_low` and lines alone: it may still settle, or repeat later.
 ///
-/// No statistic claims chaos alone: it takes a positive exponent and a high K that nothing
-/// contradicts. The classification is of the series that the indicators are of.
+/// No statistic claims chaos alone. The classification is of the series of the indicators.
 inline Classification classify(const ChaosIndicators& indicators) {
   return detail::Classifier(indicators).classify();
 }

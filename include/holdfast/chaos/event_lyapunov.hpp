@@ -32,35 +32,23 @@ Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
 
 }  // namespace detail
 
-/// A motion and the Lyapunov spectrum that it has had so far.
-///
-/// It stands in for the motion in run_trajectory, so that a history may be kept beside it:
-///
-///     EventLyapunov lyapunov(motion);
-///     run_trajectory(lyapunov, samples, kick, [&](const auto& sample) {
-///       … lyapunov.spectrum().exponents() …      // of the samples before this one
-///     });
+/// A motion and the Lyapunov spectrum that it has had so far. It stands in for the motion in
+/// run_trajectory, so that a history may be kept beside it.
 ///
 /// The tangent is that of VariationalFlow, orthogonalised at every sample. Of its N + 3 exponents,
-/// N being the order of the plant,
-///  - one is −∞ once the drive has been engaged for an instant: where its gap lies is a function of
-///    the state from then on;
-///  - one is −∞ unless the controller takes differences of displacements: else it does not use the
-///    displacement that it read before;
-///  - one is −∞ without processing delay: u_{j−1} is without effect from t_j on;
-///  - after a stick phase, in which Δż = 0 and the drive knows its place, no more are finite than
-///    N − 1 and the commands (and readings) that have been decided but act later, at whichever
-///    instant of it these are fewest: without processing delay one less, with one up to two less.
-///
-/// With a delay and a difference together N + 2 may be finite; one less if this is made before the
-/// first sample of all, when nothing has been read that could be varied. A gap that is never left
-/// is neutral, an exponent of 0: the motions differ in where it lies.
+/// N being the order of the plant, one each is −∞
+///  - once the drive has been engaged: where its gap lies is a function of the state from then on;
+///  - unless the controller takes differences of displacements: else it does not use the last one;
+///  - without processing delay: u_{j−1} is without effect from t_j on.
+/// After a stick phase, in which Δż = 0 and the drive knows its place, no more are finite than N −
+/// 1 and the commands (and readings) that have been decided but act later, at whichever instant of
+/// it these are fewest: without processing delay one less, with one up to two less. With a delay
+/// and a difference together N + 2 may be finite; one less if this is made before the first sample
+/// of all, when nothing has been read. A gap that is never left is neutral, an exponent of 0.
 ///
 /// An exact −∞ is told by the structural rank (structural_rank.hpp) of the product of all maps, not
-/// by a pivot: a product of maps with different kernels annihilates its directions in exact
-/// arithmetic, but shows it only up to a rounding that the maps in between magnify. Once
-/// annihilated, a direction stays so.
-/// Work per sample of the two masses: that of the tangent, and some 1500 multiply-adds for the QR.
+/// by a pivot: maps with different kernels show it only up to a rounding that those in between
+/// magnify. Work per sample of the two masses: that of the tangent, and some 1500 multiply-adds.
 template <class Contact>
 class EventLyapunov {
  public:
@@ -105,13 +93,11 @@ class EventLyapunov {
 };
 
 /// The five leading Lyapunov exponents of a motion that may switch between its samples, from where
-/// it stands, natural logarithm per sample.
+/// it stands, natural logarithm per sample. One whose `counts()` say that its changes of contact
+/// accumulate has none to be trusted from there on.
 ///
 ///     const LyapunovResult result = run_event_lyapunov(motion, {1000000, 1000, 1e-5});
 ///
-/// The outcome is `diverged` where the state left the range of the numbers, as in run_lyapunov. A
-/// motion whose `counts()` say that its changes of contact accumulate has no exponents to be
-/// trusted from there on.
 /// @param motion  left after the last sample taken
 /// @param run     how long, and with what accuracy, is averaged
 /// @param pause   called every 2¹² samples; may throw to end the run
@@ -121,12 +107,15 @@ LyapunovResult run_event_lyapunov(EventMotion<Contact>& motion, const LyapunovRu
                                   const std::function<void()>& pause = {}) {
   validate(run);
   EventLyapunov<Contact> lyapunov(motion);
-  return detail::run_average(lyapunov, run, pause);
+  detail::SingleLane lane(lyapunov, pause);
+  return detail::run_average(lane, run)[0];
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<>>&, const LyapunovRun&,
                                                   const std::function<void()>&);
+extern template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<ControlledPlant>>&,
+                                                  const LyapunovRun&, const std::function<void()>&);
 #endif
 
 }  // namespace holdfast

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
@@ -30,15 +31,9 @@ constexpr ItineraryBlock followed_by(ItineraryBlock block, bool engaged) {
   return static_cast<ItineraryBlock>(2 * block + (engaged ? 1 : 0));
 }
 
-/// The first `samples` samples of a block that has at least as many.
-constexpr ItineraryBlock first_of(ItineraryBlock block, int samples) {
-  return static_cast<ItineraryBlock>(block >> (samples_of(block) - samples));
-}
-
-/// The last `samples` samples of a block that has at least as many.
-constexpr ItineraryBlock last_of(ItineraryBlock block, int samples) {
-  const unsigned end = 1U << samples;
-  return static_cast<ItineraryBlock>((block & (end - 1)) | end);
+/// One sample of a block alone, 0 ≤ sample < samples_of(block).
+constexpr ItineraryBlock sample_of(ItineraryBlock block, int sample) {
+  return followed_by(1, ((block >> (samples_of(block) - 1 - sample)) & 1) != 0);
 }
 
 /// The tangent maps of every block: products of two constant 5 × 5 matrices, S where the force is
@@ -124,18 +119,31 @@ constexpr LaneBlocks<Number> empty_blocks() {
   return blocks;
 }
 
-/// Reads the maps of the lanes' blocks side by side; a pack type brings its own.
+/// The maps of as many blocks as a number type has lanes, entry by entry side by side.
 template <class Number>
 class LaneMaps {
+  using LaneNumbers = std::make_index_sequence<Lanes<Number>::count>;
+
  public:
-  /// Refers to a map of `blocks`, which must outlive this.
-  LaneMaps(const ItineraryBlocks& blocks, const LaneBlocks<Number>& lanes)
-      : map_(blocks.map(lanes[0])) {}
-  /// Entry of T⁻¹ M T, 0 ≤ row, column < 5.
-  const Number& operator()(int row, int column) const { return map_(row, column); }
+  /// Refers to maps of `blocks`, which must outlive this; one block a lane.
+  LaneMaps(const ItineraryBlocks& blocks, const LaneBlocks<Number>& lanes) {
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+      maps_[lane] = blocks.map(lanes[lane]).data();
+  }
+
+  /// The entry of every lane's T⁻¹ M T, 0 ≤ row, column < 5.
+  Number operator()(int row, int column) const {
+    return entry(5 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column),
+                 LaneNumbers());
+  }
 
  private:
-  const ItineraryBlocks::Map& map_;
+  template <std::size_t... Lane>
+  Number entry(std::size_t index, std::index_sequence<Lane...> /*lanes*/) const {
+    return Number{maps_[Lane][index]...};
+  }
+
+  const double* maps_[Lanes<Number>::count];
 };
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

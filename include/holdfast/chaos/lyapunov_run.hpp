@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,10 +25,8 @@ namespace holdfast {
 struct LyapunovRun {
   std::int64_t most_samples;  ///< ≥ 1, after those left out
   std::int64_t discard = 0;   ///< ≥ 0, left out at the start while motion and basis settle
-  double standard_error = 0;  ///< ≥ 0, per sample: the mean that is accurate enough; 0 never is
+  double standard_error = 0;  ///< ≥ 0, of λ₁ per sample, that is accurate enough; 0: none is
   LyapunovScope scope = LyapunovScope::all;  ///< what is computed
-  /// What has to be accurate enough: the largest exponent, or all that are finite.
-  LyapunovScope classified = LyapunovScope::largest;
 };
 
 /// @throws InvalidParameter where a field is not admissible
@@ -67,15 +66,7 @@ struct LyapunovResult {
 /// Fewest complete batches on which a run may end early.
 inline constexpr std::size_t fewest_batches = 32;
 
-/// Whether a spectrum is known as well as a run asks for.
-/// @param standard_errors  of λ₁ … λ₅
-/// @param run              which of them count, and how well
-template <class Scalar>
-bool accurate_enough(const Vector<Scalar, 5>& standard_errors, const LyapunovRun& run) {
-  const bool all = run.classified == LyapunovScope::all && run.scope == LyapunovScope::all;
-  const double error = all ? standard_errors.maxCoeff() : standard_errors[0];
-  return error <= run.standard_error && !standard_errors.hasNaN();
-}
+namespace detail {
 
 /// The five leading exponents of a spectrum as the result of a run.
 /// @tparam Size  ≥ 5
@@ -92,62 +83,89 @@ LyapunovResult lyapunov_result(LyapunovOutcome outcome,
   return result;
 }
 
-namespace detail {
+/// Averages the exponents of one motion or of several side by side, its lanes: leaves out the first
+/// samples, then goes on until each mean is accurate enough, the samples are at an end or the
+/// motion diverges.
+/// @param motions  advance(samples, go_on) goes through so many samples or fewer, where go_on()
+/// says
+///                 no or all lanes have diverged(lane); restart(), spectra() of all lanes and
+///                 complete_batches() are those of the exponents
+template <class Motions>
+auto run_average(Motions& motions, const LyapunovRun& run) {
+  constexpr std::size_t lanes = Motions::lanes;
+  std::array<LyapunovResult, lanes> results{};
+  std::array<bool, lanes> settled{};
+  const auto go_on = [&] {
+    std::size_t lane = 0;
+    while (lane < lanes && (settled[lane] || motions.diverged(lane))) ++lane;
+    return lane < lanes;
+  };
+  // The results of the lanes that are accurate enough by now, or at the end of all that are left.
+  const auto settle = [&](bool at_end) {
+    const auto spectra = motions.spectra();
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double error = spectra[lane].cautious_standard_errors()[0];
+      const bool diverged = motions.diverged(lane);
+      const bool accurate = !at_end && !diverged && error <= run.standard_error;
+      if (settled[lane] || !(at_end || accurate)) continue;
+      settled[lane] = true;
+      results[lane] = lyapunov_result(accurate   ? LyapunovOutcome::accurate
+                                      : diverged ? LyapunovOutcome::diverged
+                                                 : LyapunovOutcome::sample_limit,
+                                      spectra[lane], run);
+    }
+  };
+  motions.advance(run.discard, go_on);
+  motions.restart();
+  std::size_t judged = 0;
+  motions.advance(run.most_samples, [&] {
+    const std::size_t batches = motions.complete_batches();
+    const bool is_new = batches != judged && batches >= fewest_batches;
+    if (is_new && run.standard_error > 0.0) {
+      judged = batches;
+      settle(false);
+    }
+    return go_on();
+  });
+  settle(true);
+  return results;
+}
 
-/// Tells when a run that averages exponents has new batches to be judged by.
-class JudgingTimes {
+/// A motion with its exponents, sample by sample, as run_average() takes it.
+/// @tparam Lyapunov  sense(), advance() and state() are those of the motion, restart(), spectrum()
+///                   and complete_batches() those of the exponents
+template <class Lyapunov>
+class SingleLane {
  public:
-  explicit JudgingTimes(const LyapunovRun& run) : asked_(run.standard_error > 0) {}
+  static constexpr std::size_t lanes = 1;
 
-  /// Whether the exponents are to be judged now. @param batches  complete so far
-  bool have_come(std::size_t batches) {
-    if (batches == classified_ || batches < fewest_batches || !asked_) return false;
-    classified_ = batches;
-    return true;
+  /// @param pause  called every 2¹² samples
+  SingleLane(Lyapunov& motion, const std::function<void()>& pause)
+      : motion_(motion), pause_(pause) {}
+
+  template <class GoOn>
+  void advance(std::int64_t samples, const GoOn& go_on) {
+    constexpr std::int64_t samples_between_pauses = 1 << 12;
+    for (std::int64_t taken = 0; taken < samples && !diverged_; ++taken) {
+      if (pause_ && taken % samples_between_pauses == 0) pause_();
+      motion_.sense();
+      diverged_ = !std::isfinite(motion_.state().sum());
+      if (diverged_) return;
+      motion_.advance();
+      if (!go_on()) return;
+    }
   }
 
- private:
-  bool asked_;
-  std::size_t classified_ = 0;
-};
+  bool diverged(std::size_t /*lane*/) const { return diverged_; }
+  void restart() { motion_.restart(); }
+  auto spectra() const { return std::array{motion_.spectrum()}; }
+  std::size_t complete_batches() const { return motion_.complete_batches(); }
 
-/// Averages exponents over a run: leaves out the first samples, then goes on until the mean is
-/// accurate enough, the samples are at an end or the motion diverges.
-/// @param motion  with its exponents: sense(), advance() and state() are those of the motion,
-///                restart(), spectrum() and complete_batches() those of the exponents
-/// @param pause   called every 2¹² samples
-template <class Lyapunov>
-LyapunovResult run_average(Lyapunov& motion, const LyapunovRun& run,
-                           const std::function<void()>& pause) {
-  // Up to so many samples; whether the motion has kept within the range of numbers.
-  const auto take = [&](std::int64_t samples, const auto& ends) {
-    constexpr std::int64_t samples_between_pauses = 1 << 12;
-    for (std::int64_t taken = 0; taken < samples; ++taken) {
-      if (pause && taken % samples_between_pauses == 0) pause();
-      motion.sense();
-      if (!std::isfinite(motion.state().sum())) return false;
-      motion.advance();
-      if (ends()) break;
-    }
-    return true;
-  };
-  const bool settled = take(run.discard, [] { return false; });
-  motion.restart();
-  if (!settled) return lyapunov_result(LyapunovOutcome::diverged, motion.spectrum(), run);
-  JudgingTimes judging(run);
-  bool accurate = false;
-  const bool stayed = take(run.most_samples, [&] {
-    if (!judging.have_come(motion.complete_batches())) return false;
-    const Vector<double, 5> errors =
-        motion.spectrum().cautious_standard_errors().template head<5>();
-    accurate = accurate_enough(errors, run);
-    return accurate;
-  });
-  const auto outcome = !stayed    ? LyapunovOutcome::diverged
-                       : accurate ? LyapunovOutcome::accurate
-                                  : LyapunovOutcome::sample_limit;
-  return lyapunov_result(outcome, motion.spectrum(), run);
-}
+ private:
+  Lyapunov& motion_;
+  const std::function<void()>& pause_;
+  bool diverged_ = false;
+};
 
 }  // namespace detail
 
@@ -228,13 +246,15 @@ class SampledLyapunov : public LyapunovObserver<double> {
 /// @param motion  SampledMotion on scalars; left after the last sample taken
 /// @param blocks  of the loop whose S and S* are the tangents
 /// @param run     how long, and with what accuracy, is averaged
+/// @param pause   called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
 template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
-                            const LyapunovRun& run) {
+                            const LyapunovRun& run, const std::function<void()>& pause = {}) {
   validate(run);
   detail::SampledLyapunov<Motion> lyapunov(motion, blocks, run.scope);
-  return detail::run_average(lyapunov, run, {});
+  detail::SingleLane lane(lyapunov, pause);
+  return detail::run_average(lane, run)[0];
 }
 
 }  // namespace holdfast

@@ -128,14 +128,8 @@ Vector<Scalar, Size> LyapunovSpectrum<Scalar, Size>::cautious_standard_errors() 
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template int LyapunovSpectrum<double, 5>::rank_of(const Matrix<double, 5>&);
-extern template void LyapunovSpectrum<double, 5>::push(const Matrix<double, 5>&, int);
-extern template Vector<double, 5> LyapunovSpectrum<double, 5>::exponents() const;
-extern template Vector<double, 5> LyapunovSpectrum<double, 5>::cautious_standard_errors() const;
-extern template int LyapunovSpectrum<double, 7>::rank_of(const Matrix<double, 7>&);
-extern template void LyapunovSpectrum<double, 7>::push(const Matrix<double, 7>&, int);
-extern template Vector<double, 7> LyapunovSpectrum<double, 7>::exponents() const;
-extern template Vector<double, 7> LyapunovSpectrum<double, 7>::cautious_standard_errors() const;
+extern template class LyapunovSpectrum<double, 5>;
+extern template class LyapunovSpectrum<double, 7>;
 #endif
 
 }  // namespace holdfast

@@ -61,7 +61,7 @@ std::string certificate_text(const Orbit& orbit, const std::string& shown) {
   const double modulus = orbit.largest_multiplier();
   return text + ": " + shown + ", its largest multiplier is " +
          (modulus > 0.0 ? number_text(modulus)
-                        : "e^" + number_text(orbit.multipliers.front().log_modulus)) +
+                        : "exp(" + number_text(orbit.multipliers.front().log_modulus) + ")") +
          ", and it closes to " + number_text(orbit.closure_error) + " in m and m/s.";
 }
 
@@ -78,7 +78,7 @@ bool is_decided_by_search(ClassifiedMotion<Search>& found, const std::string& sh
     const auto samples = static_cast<double>(orbit.period_samples());
     found.indicators.certified_period = orbit.period_samples();
     found.indicators.largest_exponent =
-        ExponentEstimate{orbit.multipliers.front().log_modulus / samples, 0.0, "sample"};
+        ExponentEstimate{orbit.multipliers.front().log_modulus / samples, 0.0};
   } else {
     found.indicators.diverged_at = found.search.samples;
   }
@@ -132,19 +132,14 @@ class TrajectoryWithTangent {
   TrajectoryWithTangent(const EventMotion<Contact>& start, bool gap_counts)
       : motion_(start), tangent_(motion_), gap_counts_(gap_counts) {}
 
-  /// The types of the callables are the same for every contact, so that chaos_indicators() is
-  /// compiled once.
   ChaosIndicators indicators(const IndicatorOptions& options) {
     using State = Vector<double, size>;
-    const std::function<void(State&)> advance = [this](State& state) { take(state); };
-    const std::function<double(const State&)> displacement = [this](const State& s) {
-      return motion_.readings().displacement(s.head(motion_.state().size()));
+    const auto displacement = [this](const State& seen) {
+      return motion_.readings().displacement(seen.head(motion_.state().size()));
     };
-    const std::function<Matrix<double, size>(const State&)> tangent = [this](const State&) {
-      return map();
-    };
-    const std::function<bool()> contact = [this] { return engaged_; };
-    return chaos_indicators<size>(state(), advance, displacement, options, tangent, contact);
+    return chaos_indicators<size>(
+        state(), [this](State& after) { take(after); }, displacement, options,
+        [this](const State&) { return map(); }, [this] { return engaged_; });
   }
 
   /// The sample since which the drive has not left its gap.
@@ -331,13 +326,11 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
   validate(loop);
   validate(limits);
   require_finite("initial state", initial_state.sum(), "");
-  return with_motion(loop, initial_state, [&](const auto& motion) {
-    auto search = find_event_orbit(motion, limits);
-    EventClassificationOf<states_of<Plant>> found{{}, std::move(search), {}};
-    if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
-      detail::weigh_samples(loop, motion, found);
-    return found;
-  });
+  const auto motion = event_motion(loop, initial_state);
+  EventClassificationOf<states_of<Plant>> found{{}, find_event_orbit(motion, limits), {}};
+  if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
+    detail::weigh_samples(loop, motion, found);
+  return found;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
@@ -345,6 +338,9 @@ extern template SampledClassification classify_motion(const IdealLoop<double>&,
                                                       const Vector<double, 4>&, const OrbitLimits&);
 extern template EventClassification classify_motion(const ImplementedLoop&,
                                                     const Vector<double, 4>&, const OrbitLimits&);
+extern template EventClassificationOf<Eigen::Dynamic> classify_motion(
+    const ImplementedLoopOf<ControlledPlant>&, const Vector<double, Eigen::Dynamic>&,
+    const OrbitLimits&);
 #endif
 
 }  // namespace holdfast

@@ -15,9 +15,8 @@ namespace holdfast {
 ///
 ///     d(x, y) = max_i |x_i − y_i| / (max x_i − min x_i)
 ///
-/// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to within round-off, 10⁻¹³
-/// of its own size, is left out; one that is nothing but round-off about zero
-/// has no size to tell, and needs one given.
+/// so that 0 ≤ d ≤ 1 in any units. A coordinate that is constant to within round-off, 10⁻¹³ of its
+/// own size, is left out; one that is nothing but round-off about zero needs a size given.
 template <int Size>
 class RelativeDistance {
  public:
@@ -28,19 +27,16 @@ class RelativeDistance {
   explicit RelativeDistance(const std::vector<Vector<double, Size>>& states,
                             const Vector<double, Size>& sizes = no_sizes()) {
     require_positive("number of states", static_cast<double>(states.size()), "");
-    const Eigen::Index size = states.front().size();
-    Vector<double, Size> low = states.front(), high = states.front();
+    Vector<double, Size> low = states.front(), high = low;
     for (const auto& state : states) {
-      for (Eigen::Index i = 0; i < size; ++i) require_finite("coordinate of a state", state[i], "");
+      for (const double entry : state) require_finite("coordinate of a state", entry, "");
       low = low.cwiseMin(state);
       high = high.cwiseMax(state);
     }
-    weights_.resize(size);
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const double given = sizes.size() > 0 ? sizes[i] : 0.0;
-      const double floor = 1e-13 * std::max({std::abs(low[i]), std::abs(high[i]), given});
-      weights_[i] = high[i] - low[i] > floor ? 1.0 / (high[i] - low[i]) : 0.0;
-    }
+    Vector<double, Size> largest = low.cwiseAbs().cwiseMax(high.cwiseAbs());
+    if (sizes.size() > 0) largest = largest.cwiseMax(sizes);
+    const Vector<double, Size> extent = high - low;
+    weights_ = (extent.array() > 1e-13 * largest.array()).select(extent.cwiseInverse(), 0.0);
   }
 
   /// Stands for sizes that are not known.
@@ -57,25 +53,21 @@ class RelativeDistance {
 
 /// The closest return of a series to one of its own states.
 struct ClosestReturn {
-  double
-      distance;  ///< least d(x_j, x_{j−lag}), relative to the extent; 1 where no lag was admitted
-  std::size_t lag;  ///< samples between the two; 0 where no lag was admitted
+  double distance;  ///< least d(x_j, x_{j−lag}), relative to the extent; 1 of a single state
+  std::size_t lag;  ///< samples between the two; 0 of a single state
 };
 
-/// Least distance over all pairs of states at least `least_lag` apart.
+/// Least distance over all pairs of states.
 ///
 /// Work: N²/2 distances, N ≤ 5000.
-/// @param states     x_j at successive samples, whose extents are the measure
-/// @param least_lag  ≥ 1; neighbours in time of a finely sampled motion are close for no reason
-/// @throws InvalidParameter for no or more than 5000 states, a state not finite, or lag 0
+/// @param states  x_j at successive samples, whose extents are the measure
+/// @throws InvalidParameter for no or more than 5000 states, or a state not finite
 template <int Size>
-ClosestReturn closest_return(const std::vector<Vector<double, Size>>& states,
-                             std::size_t least_lag = 1) {
+ClosestReturn closest_return(const std::vector<Vector<double, Size>>& states) {
   require_within("number of states", static_cast<double>(states.size()), "", 1.0, 5000.0);
-  require_positive("least lag", static_cast<double>(least_lag), "");
   const RelativeDistance<Size> distance(states);
   ClosestReturn closest{1.0, 0};
-  for (std::size_t lag = least_lag; lag < states.size(); ++lag) {
+  for (std::size_t lag = 1; lag < states.size(); ++lag) {
     for (std::size_t j = lag; j < states.size(); ++j) {
       const double apart = distance(states[j], states[j - lag]);
       if (closest.lag == 0 || apart < closest.distance) closest = {apart, lag};
@@ -94,11 +86,9 @@ struct RepeatSearch {
 ///
 ///     d(x_j, x_{j−n}) ≤ tolerance   for every j ≥ N/2
 ///
-/// with room for `repeats` of them: n ≤ N / (2 repeats). A repetition to a tolerance is evidence
-/// and no proof: a motion of slow drift or of a longer period may pass a coarse tolerance.
-///
-/// Work: one distance a lag where it fails at once, as with motions that do not repeat; at worst
-/// N²/(4 repeats), N ≤ 10⁶.
+/// with room for `repeats` of them: n ≤ N / (2 repeats). It is evidence and no proof: a motion of
+/// slow drift or of a longer period may pass a coarse tolerance. Work: one distance a lag where it
+/// fails at once; at worst N²/(4 repeats), N ≤ 10⁶.
 /// @param states     x_0 … x_{N−1} at successive samples
 /// @param tolerance  relative to the extent of the second half, 0 ≤ tolerance < 1
 /// @param repeats    ≥ 1

@@ -114,20 +114,18 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double share
 ///     D(n) = mean_j [(p(j+n) − p(j))² + (q(j+n) − q(j))²] − (mean φ)² (1 − cos nc)/(1 − cos c)
 ///     K_c  = correlation of D(n) with n,   n = 1 … N/10;   K = median of K_c over c
 ///
-/// D stays bounded for a regular series and grows like n for a chaotic one. The oscillating term is
-/// the share of the mean; it is removed by taking the mean off the series first, so that K does not
-/// change when the series is shifted or scaled. The c are π/5 + (3π/5) {k g}, k = 1, 2, …, with
-/// {·} the fractional part and g = 0.7548776662466927, 1/g the root of x³ = x + 1: evenly spread,
-/// the same in every run. Few of them can meet a frequency of the series, where K_c is 1 without
-/// chaos; the median does not see them.
+/// D stays bounded for a regular series and grows like n for a chaotic one. The oscillating term,
+/// the share of the mean, is removed by taking the mean off the series first, so that K changes
+/// with neither shift nor scale. The c are π/5 + (3π/5) {k g}, k = 1, 2, …, with {·} the fractional
+/// part and g = 0.7548776662466927, 1/g the root of x³ = x + 1: evenly spread, the same in every
+/// run. At the few that meet a frequency of the series K_c is 1 without chaos; the median does not
+/// see them.
 ///
-/// The test speaks of the samples it is given: of a motion sampled much faster than it moves it
-/// says 0 for any motion, and of fewer than about 500 samples with several frequencies it
-/// may say anything. A constant series has K = 0 by definition.
+/// Of a motion sampled much faster than it moves the test says 0 whatever it is, and of fewer than
+/// about 500 samples with several frequencies it may say anything. A constant series has K = 0.
 ///
-/// At most 500 lags from 5000 evenly spaced j for each c, that is 2.5 · 10⁶ squared distances, and
-/// one cosine and sine a sample. Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8
-/// (2009), 129–145.
+/// Work: at most 500 lags from 5000 evenly spaced j for each c, and one cosine and sine a sample.
+/// Source: G. A. Gottwald, I. Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), 129–145.
 /// @param series       200 … 100 000 finite values
 /// @param frequencies  number of c, 1 … 1000
 /// @throws InvalidParameter for another number of samples or frequencies, or values not finite

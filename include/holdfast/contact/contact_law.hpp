@@ -5,8 +5,8 @@
 
 #include "holdfast/contact/dead_zone.hpp"
 #include "holdfast/contact/hysteresis.hpp"
-#include "holdfast/contact/immediate_backlash.hpp"
 #include "holdfast/contact/play.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/select.hpp"
 
 namespace holdfast {
@@ -59,7 +59,8 @@ struct BacklashParameters {
 /// @throws InvalidParameter naming the first member that is not admissible
 inline void validate(const BacklashParameters& backlash) {
   validate_backlash_width(backlash.width);
-  validate(DeadZoneContact{backlash.contact_stiffness, backlash.contact_damping});
+  require_non_negative("contact stiffness kc", backlash.contact_stiffness, "N/m");
+  require_non_negative("contact damping cc", backlash.contact_damping, "N s/m");
 }
 
 /// A drive whose law is chosen at run time.
@@ -91,13 +92,6 @@ class SampledContact {
     return zone == nullptr ? 0 : static_cast<int>(zone->touched_side());
   }
 
-  /// f (N): the force of a dead zone's stop at Δz (m) and Δż (m/s), + on the conductor, − on the
-  /// absorber; 0 for the other laws.
-  double stop_force(double relative_displacement, double relative_velocity) const {
-    const auto* zone = std::get_if<DeadZone<double>>(&law_);
-    return zone == nullptr ? 0.0 : zone->stop_force(relative_displacement, relative_velocity);
-  }
-
  private:
   using AnyLaw = std::variant<Backlash<double>, ImmediateBacklash<double>, PlayBacklash<double>,
                               DeadZone<double>, NoBacklash<double>>;
@@ -112,8 +106,7 @@ class SampledContact {
       case ContactLaw::play:
         return PlayBacklash<double>(backlash.width);
       case ContactLaw::dead_zone:
-        return DeadZone<double>(backlash.width,
-                                {backlash.contact_stiffness, backlash.contact_damping});
+        return DeadZone<double>(backlash.width);
       case ContactLaw::none:
         break;
     }

@@ -1,35 +1,20 @@
 #pragma once
 
-#include "holdfast/core/errors.hpp"
 #include "holdfast/core/select.hpp"
 
 namespace holdfast {
-
-/// The stops at the two ends of a dead zone.
-struct DeadZoneContact {
-  double stiffness = 0.0;  ///< k_c (N/m), ≥ 0
-  double damping = 0.0;    ///< c_c (N s/m), ≥ 0
-};
-
-/// Refuses stops outside the ranges that their members state.
-/// @throws InvalidParameter naming the first member that is not admissible
-inline void validate(const DeadZoneContact& contact) {
-  require_non_negative("contact stiffness kc", contact.stiffness, "N/m");
-  require_non_negative("contact damping cc", contact.damping, "N s/m");
-}
 
 /// Backlash of the drive as a dead zone in Δz = z₂ − z₁: a gap of width r₀ fixed about Δz = 0, with
 /// a stop at each end. What it decides at a sample depends on that sample alone.
 ///
 ///     side σ = +1 for Δz > r₀/2, −1 for Δz < −r₀/2, 0 between them (both ends included)
 ///     the control force is transmitted where σ ≠ 0
-///     the stop's force is f = k_c (Δz − σ r₀/2) + c_c Δż where σ ≠ 0, and 0 where σ = 0
+///     the stop adds f = k_c (Δz − σ r₀/2) + c_c Δż where σ ≠ 0 (`dynamics_on_stop`)
 ///
-/// f acts as the plant's spring k₂ and damper c₂ do: +f on the conductor, −f on the absorber. With
-/// a touched stop the plant is linear, with k₂ + k_c, c₂ + c_c and the constant force −k_c σ r₀/2
-/// in place of k₂, c₂ and none. The elastic part is continuous in Δz; the damper's part jumps by
-/// c_c Δż at the ends, and while the sides separate it may make the stop pull (c_c |Δż| >
-/// k_c (|Δz| − r₀/2)), which a real stop does not do.
+/// f acts as the plant's spring k₂ and damper c₂ do: +f on the conductor, −f on the absorber. Its
+/// elastic part is continuous in Δz; the damper's part jumps by c_c Δż at the ends, and while the
+/// sides separate it may make the stop pull (c_c |Δż| > k_c (|Δz| − r₀/2)), which a real stop does
+/// not do.
 ///
 /// r₀ = 0 means no gap: σ is never 0 (it is +1 at Δz = 0), the force is always transmitted and the
 /// stops are a spring and a damper between the masses.
@@ -40,13 +25,10 @@ inline void validate(const DeadZoneContact& contact) {
 template <class Scalar>
 class DeadZone {
  public:
-  /// @param width    r₀ (m), ≥ 0
-  /// @param contact  k_c and c_c; by default the stops exert no force
-  explicit DeadZone(const Scalar& width, const DeadZoneContact& contact = {})
+  /// @param width  r₀ (m), ≥ 0
+  explicit DeadZone(const Scalar& width)
       : width_(width),
         half_width_(width / Scalar(2)),
-        stiffness_(contact.stiffness),
-        damping_(contact.damping),
         touched_side_(0),
         inside_(Scalar(0) > Scalar(0)) {}
 
@@ -54,7 +36,7 @@ class DeadZone {
   /// @return true where the control force is transmitted during the coming period
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& /*relative_velocity*/) {
     touched_side_ = side(relative_displacement);
-    inside_ = !touches(touched_side_);
+    inside_ = !((touched_side_ > Scalar(0)) | (touched_side_ < Scalar(0)));
     return !inside_;
   }
 
@@ -68,30 +50,14 @@ class DeadZone {
     return select(at_upper, one, select(at_lower, Scalar(-one), zero));
   }
 
-  /// f (N): the force of the stop at Δz (m) and Δż (m/s), + on the conductor, − on the absorber.
-  Scalar stop_force(const Scalar& relative_displacement, const Scalar& relative_velocity) const {
-    const Scalar zero(0), touched = side(relative_displacement);
-    const Scalar penetration = relative_displacement - touched * half_width_;
-    const Scalar force = stiffness_ * penetration + damping_ * relative_velocity;
-    return select(touches(touched), force, zero);
-  }
-
   /// True where the last step found neither stop touched.
   Mask<Scalar> inside() const { return inside_; }
   /// σ at the last step; 0 before the first one.
   const Scalar& touched_side() const { return touched_side_; }
-  /// r₀ (m).
-  const Scalar& width() const { return width_; }
 
  private:
-  static Mask<Scalar> touches(const Scalar& touched) {
-    return (touched > Scalar(0)) | (touched < Scalar(0));
-  }
-
   Scalar width_;
   Scalar half_width_;
-  Scalar stiffness_;
-  Scalar damping_;
   Scalar touched_side_;
   Mask<Scalar> inside_;
 };

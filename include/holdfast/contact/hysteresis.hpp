@@ -38,7 +38,7 @@ enum class EntryTest {
 /// Source: Kollár 2022, Eqs. (7)–(8), read so that Fig. 8's switching instants come out
 /// (docs/reading-the-paper.md). One kernel for scalars and SIMD packs: about 12 comparisons and
 /// selects.
-/// @tparam Entry  `at_exit` changes rule 2: see immediate_backlash.hpp
+/// @tparam Entry  `at_exit` changes rule 2: see ImmediateBacklash
 template <class Scalar, EntryTest Entry = EntryTest::after_exit>
 class Backlash {
  public:
@@ -85,6 +85,16 @@ class Backlash {
   Scalar width_;
   BacklashMemory<Scalar> memory_;
 };
+
+/// The same backlash read so that entry is tested at the exit sample too.
+///
+/// Rule 2 ends otherwise: a sample j that leaves the gap is tested by rule 3 at once, so that with
+/// Δż_{j−1} ≠ 0 and Δż_{j−1} Δż_j ≤ 0 the drive passes from its gap straight into the next one and
+/// transmits nothing in between. From the same memory the two rules decide differently at those
+/// samples and at no others. The words of the source leave both readings open; the switching
+/// instants of its Fig. 8 exclude this one.
+template <class Scalar>
+using ImmediateBacklash = Backlash<Scalar, EntryTest::at_exit>;
 
 /// @throws InvalidParameter unless 0 ≤ width < ∞
 inline void validate_backlash_width(double width) {

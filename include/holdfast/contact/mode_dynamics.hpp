@@ -23,15 +23,11 @@ DynamicsOf<Plant> engaged_dynamics(const Plant& plant) {
 }
 
 /// The motion under a drive that crosses its gap: ẋ = A x + b_u u + c F.
-template <int States>
-AffineDynamicsOf<States> released_dynamics(const LinearPlant<double, States>& plant) {
-  return {plant.released_matrix, plant.command_input, plant.excitation,
-          Vector<double, States>::Zero(plant.order())};
-}
-/// That of the two masses, whose drive has no states of its own: ż = A z + c F.
-template <class Scalar>
-AffineDynamicsOf<4> released_dynamics(const TwoMass<Scalar>& plant) {
-  return {plant.state_matrix(), Vector<Scalar, 4>::Zero(), plant.excitation_input()};
+template <class Plant>
+DynamicsOf<Plant> released_dynamics(const Plant& plant) {
+  const auto& linear = linear_plant(plant);
+  return {linear.released_matrix, linear.command_input, linear.excitation,
+          StateOf<Plant>::Zero(linear.order())};
 }
 
 /// The motion while the sides of the drive stay together, Δż = 0: with the force that keeps them
@@ -120,29 +116,17 @@ struct GapAcceleration {
 };
 
 /// rᵀ ẋ in a mode without drift, r being the plant's relative velocity.
-template <int States>
-GapAcceleration<States> gap_acceleration(const LinearPlant<double, States>& plant,
-                                         const AffineDynamicsOf<States>& dynamics) {
-  const RowVector<double, States>& r = plant.connections.relative_velocity;
+template <class Plant>
+GapAcceleration<states_of<Plant>> gap_acceleration(const Plant& plant,
+                                                   const DynamicsOf<Plant>& dynamics) {
+  const auto r = ports_of(plant).relative_velocity;
   return {(r * dynamics.state).transpose(), r.dot(dynamics.command), r.dot(dynamics.force)};
 }
-/// That of the two masses: z̈₂ − z̈₁.
-template <class Scalar>
-GapAcceleration<4> gap_acceleration(const TwoMass<Scalar>&, const AffineDynamicsOf<4>& dynamics) {
-  return {dynamics.state.row(3).transpose() - dynamics.state.row(1).transpose(),
-          dynamics.command[3] - dynamics.command[1], dynamics.force[3] - dynamics.force[1]};
-}
 
-/// rᵀb (1/kg): how the force of the drive accelerates its own gap.
-template <int States>
-double gap_mobility(const LinearPlant<double, States>& plant) {
-  return plant.connections.relative_velocity.dot(plant.force_input);
-}
-/// −1/m₂ − 1/m₁.
-template <class Scalar>
-double gap_mobility(const TwoMass<Scalar>& plant) {
-  const Vector<Scalar, 4> input = plant.control_input();
-  return input[3] - input[1];
+/// rᵀb (1/kg): how the force of the drive accelerates its own gap; of the two masses −1/m₂ − 1/m₁.
+template <class Plant>
+double gap_mobility(const Plant& plant) {
+  return ports_of(plant).relative_velocity.dot(linear_plant(plant).force_input);
 }
 
 }  // namespace holdfast

@@ -34,20 +34,10 @@ class PlayOperator {
 
   /// y: of the last sample, or as given before the first one.
   const Scalar& output() const { return output_; }
-  /// r.
-  const Scalar& half_width() const { return half_width_; }
 
  private:
   Scalar half_width_;
   Scalar output_;
-};
-
-/// What a drive with play remembers of the past samples.
-template <class Scalar>
-struct PlayMemory {
-  Mask<Scalar> inside;   ///< transmits nothing since the last sample
-  Mask<Scalar> decided;  ///< some sample had Δż ≠ 0
-  Scalar far_side;       ///< y, the far side of the drive on the scale of Δz (m); once decided
 };
 
 /// Backlash of the drive as a play of half-width r₀/2 on sampled Δz = z₂ − z₁: Δz moves the near
@@ -75,45 +65,40 @@ template <class Scalar>
 class PlayBacklash {
  public:
   /// @param width  r₀ (m), ≥ 0
-  explicit PlayBacklash(const Scalar& width)
-      : PlayBacklash(width, {Scalar(0) > Scalar(0), Scalar(0) > Scalar(0), Scalar(0)}) {}
-
-  /// Goes on from what another one of the same width remembered.
-  PlayBacklash(const Scalar& width, const PlayMemory<Scalar>& memory)
-      : width_(width), half_width_(width / Scalar(2)), memory_(memory) {}
+  explicit PlayBacklash(const Scalar& width) : width_(width), half_width_(width / Scalar(2)) {}
 
   /// Takes in one sample. @return true where the force is transmitted during the coming period
   Mask<Scalar> step(const Scalar& relative_displacement, const Scalar& relative_velocity) {
     const Scalar zero(0);
-    const Mask<Scalar> undecided = !memory_.decided, moves_up = relative_velocity > zero;
+    const Mask<Scalar> undecided = !decided_, moves_up = relative_velocity > zero;
     const Scalar behind = select(moves_up, Scalar(relative_displacement - half_width_),
                                  Scalar(relative_displacement + half_width_));
-    const Scalar before = select(undecided, behind, memory_.far_side);
+    const Scalar before = select(undecided, behind, far_side_);
     const Scalar after = PlayOperator<Scalar>(half_width_, before).step(relative_displacement);
     // The outer branches are strict, so a far side that was pushed is another number than before.
     const Mask<Scalar> is_pushed = (after > before) | (after < before);
 
-    memory_.far_side = after;
-    memory_.decided = memory_.decided | moves_up | (relative_velocity < zero);
-    memory_.inside = (width_ > zero) & !(undecided | is_pushed);
-    return !memory_.inside;
+    far_side_ = after;
+    decided_ = decided_ | moves_up | (relative_velocity < zero);
+    inside_ = (width_ > zero) & !(undecided | is_pushed);
+    return !inside_;
   }
 
   /// True where nothing has been transmitted since the last step.
-  Mask<Scalar> inside() const { return memory_.inside; }
+  Mask<Scalar> inside() const { return inside_; }
   /// Lower end of the current gap, y − r₀/2, Δz in m; meaningful once decided.
-  Scalar lower() const { return memory_.far_side - half_width_; }
+  Scalar lower() const { return far_side_ - half_width_; }
   /// Upper end of the current gap, y + r₀/2, Δz in m; meaningful once decided.
-  Scalar upper() const { return memory_.far_side + half_width_; }
+  Scalar upper() const { return far_side_ + half_width_; }
   /// r₀ (m).
   const Scalar& width() const { return width_; }
-  /// All that the coming samples depend on.
-  const PlayMemory<Scalar>& memory() const { return memory_; }
 
  private:
   Scalar width_;
   Scalar half_width_;
-  PlayMemory<Scalar> memory_;
+  Mask<Scalar> inside_ = Scalar(0) > Scalar(0);   // transmits nothing since the last sample
+  Mask<Scalar> decided_ = Scalar(0) > Scalar(0);  // some sample had Δż ≠ 0
+  Scalar far_side_ = Scalar(0);  // y, the far side on the scale of Δz (m); once decided
 };
 
 }  // namespace holdfast

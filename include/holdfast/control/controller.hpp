@@ -110,8 +110,6 @@ class Controller {
     memory_ = memory;
     slope_ = {};
   }
-  /// P and D of the law.
-  const PdGains<double>& gains() const { return gains_; }
   /// q_z, q_v and u_max, and where the velocity comes from.
   const ControllerLimits& limits() const { return limits_; }
 

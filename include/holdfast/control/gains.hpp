@@ -1,20 +1,40 @@
 #pragma once
 
+#include <type_traits>
+
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
 
-/// Gains of the proportional–differential law u = P z₁ + D ż₁.
+/// What a controller is given at sample j.
+struct ControlSample {
+  double displacement;  ///< z₁ (m), or what the plant's ports measure in its place
+  double velocity;      ///< ż₁ (m/s), likewise
+  double elapsed;       ///< h_j (s), the time since the sample before; τ at the first one
+};
+
+/// Gains of the proportional–differential law u = P z₁ + D ż₁, which is also a controller without
+/// states (control/controlled_plant.hpp).
 /// Source: Kollár 2022, Eq. (5) and Eq. (11), whose row matrix D is [P, D, 0, 0].
 template <class Scalar>
 struct PdGains {
-  Scalar proportional;  ///< P (N/m), finite
-  Scalar differential;  ///< D (N s/m), finite
+  static constexpr int states = 0;  ///< it remembers nothing
+  Scalar proportional = Scalar(0);  ///< P (N/m), finite
+  Scalar differential = Scalar(0);  ///< D (N s/m), finite
 
   /// K = [P, D, 0, 0], 1 × 4, so that u = K z.
   RowVector<Scalar, 4> feedback_row() const {
     return {proportional, differential, Scalar(0), Scalar(0)};
+  }
+
+  /// u_j = P z₁ + D ż₁ (N) of a sample.
+  Scalar command(const ControlSample& sample, const Vector<Scalar, 0>&) const {
+    return proportional * sample.displacement + differential * sample.velocity;
+  }
+  /// [P, D].
+  RowVector<Scalar, 2> derivative(const ControlSample&, const Vector<Scalar, 0>&) const {
+    return {proportional, differential};
   }
 };
 
@@ -30,9 +50,15 @@ inline void validate(const PdGains<double>& gains) {
 /// @param absorber_mass       m₂ (kg), > 0
 /// @param frequency           excitation frequency f = ω / 2π (Hz), > 0
 /// @return P in N/m; negative above the absorber's own frequency
+/// @throws InvalidParameter outside these ranges
 template <class Scalar>
 Scalar tuned_proportional_gain(const Scalar& absorber_stiffness, const Scalar& absorber_mass,
                                const Scalar& frequency) {
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    require_positive("absorber stiffness k2", static_cast<double>(absorber_stiffness), "N/m");
+    require_positive("absorber mass m2", static_cast<double>(absorber_mass), "kg");
+    require_positive("frequency", static_cast<double>(frequency), "Hz");
+  }
   const Scalar angular_frequency = Scalar(2) * pi<Scalar> * frequency;
   return absorber_stiffness - absorber_mass * angular_frequency * angular_frequency;
 }

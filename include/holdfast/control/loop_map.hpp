@@ -31,10 +31,9 @@ struct LoopMap {
   Matrix<Scalar, Eigen::Dynamic> increment;   ///< S₀ − I, to full relative accuracy for any τ
   Vector<Scalar, Eigen::Dynamic> command;     ///< s, (N + k) × 1 per newton of u_j
   Vector<Scalar, Eigen::Dynamic> excitation;  ///< c_y, (N + k) × 1 per newton of F_j, held
-  RowVector<Scalar, Eigen::Dynamic> displacement;    ///< h_z, 1 × (N + k): what P multiplies
-  RowVector<Scalar, Eigen::Dynamic> velocity;        ///< h_v, 1 × (N + k): what D multiplies
-  RowVector<Scalar, Eigen::Dynamic> conductor;       ///< reads z (m) of the conductor, 1 × (N + k)
-  RowVector<Scalar, Eigen::Dynamic> conductor_rate;  ///< reads ż (m/s) of the conductor
+  RowVector<Scalar, Eigen::Dynamic> displacement;  ///< h_z, 1 × (N + k): what P multiplies
+  RowVector<Scalar, Eigen::Dynamic> velocity;      ///< h_v, 1 × (N + k): what D multiplies
+  RowVector<Scalar, Eigen::Dynamic> conductor;     ///< reads z (m) of the conductor, 1 × (N + k)
 
   /// N + k.
   Eigen::Index size() const { return open_map.rows(); }
@@ -53,7 +52,10 @@ struct LoopMap {
 
 /// k = max(1, ⌈δ/τ⌉), the commands on their way; a delay of a whole number of samples, up to the
 /// round-off of decimal numbers, keeps just that many.
+/// @throws InvalidParameter unless τ > 0 and 0 ≤ δ ≤ 10⁹ τ
 inline int held_commands(const Sampling<double>& sampling) {
+  require_positive("sampling period tau", sampling.period, "s");
+  require_within("processing delay", sampling.processing_delay, "s", 0.0, 1e9 * sampling.period);
   const double ratio = sampling.processing_delay / sampling.period;
   const double whole = std::round(ratio);
   const double samples = std::abs(ratio - whole) <= 1e-12 * whole ? whole : std::ceil(ratio);
@@ -98,7 +100,6 @@ LoopMap<Scalar> loop_map_keeping(const Plant& plant, const Sampling<Scalar>& sam
   map.displacement = row(ports.measured_displacement);
   map.velocity = row(ports.measured_velocity);
   map.conductor = row(ports.displacement);
-  map.conductor_rate = row(ports.velocity);
   return map;
 }
 
@@ -117,52 +118,6 @@ LoopMap<Scalar> loop_map(const Plant& plant, const Sampling<detail::Undeduced<Sc
       plant, sampling,
       held_commands(
           {static_cast<double>(sampling.period), static_cast<double>(sampling.processing_delay)}));
-}
-
-/// How fast the map of a loop moves along a line through the samplings: derivatives, per unit of
-/// whatever varies.
-template <class Scalar>
-struct LoopMapDerivative {
-  Matrix<Scalar, Eigen::Dynamic> open_map;  ///< of S₀, (N + k) × (N + k)
-  Vector<Scalar, Eigen::Dynamic> command;   ///< of s, (N + k) × 1
-
-  /// Of S₀ + s K, (N + k) × (N + k).
-  Matrix<Scalar, Eigen::Dynamic> closed_map(const LoopMap<Scalar>& map,
-                                            const PdGains<Scalar>& gains) const {
-    return open_map +
-           command * (gains.proportional * map.displacement + gains.differential * map.velocity);
-  }
-};
-
-/// The rate of a loop's map from those of τ and δ, the number of commands staying. With
-/// h = τ − δ′ = k τ − δ,
-///
-///     A_d′ = A A_d τ′,   Γ₀′ = (b + A Γ₀) h′,   Γ₀′ + Γ₁′ = (b + A (Γ₀ + Γ₁)) τ′
-/// @param plant        that of the map
-/// @param map          of `loop_map`
-/// @param period_rate  τ′
-/// @param delay_rate   δ′
-template <class Plant, class Scalar>
-LoopMapDerivative<Scalar> loop_map_derivative(const Plant& plant, const LoopMap<Scalar>& map,
-                                              const detail::Undeduced<Scalar>& period_rate,
-                                              const detail::Undeduced<Scalar>& delay_rate) {
-  using Column = Vector<Scalar, Eigen::Dynamic>;
-  const Eigen::Index k = map.held_commands, size = map.size(), n = size - k;
-  const Matrix<Scalar, Eigen::Dynamic> a = plant.state_matrix();
-  const Column b = plant.control_input();
-  const Column previous = map.open_map.col(n).head(n);
-  const Column present = (k == 1 ? map.command : Column(map.open_map.col(n + 1))).head(n);
-  const Column present_rate = (b + a * present) * (Scalar(k) * period_rate - delay_rate);
-  LoopMapDerivative<Scalar> rate{Matrix<Scalar, Eigen::Dynamic>::Zero(size, size),
-                                 Column::Zero(size)};
-  rate.open_map.topLeftCorner(n, n) = period_rate * (a * map.open_map.topLeftCorner(n, n));
-  rate.open_map.col(n).head(n) = (b + a * (present + previous)) * period_rate - present_rate;
-  if (k == 1) {
-    rate.command.head(n) = present_rate;
-  } else {
-    rate.open_map.col(n + 1).head(n) = present_rate;
-  }
-  return rate;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -90,22 +90,26 @@ SampledLoop<To, States> converted(const SampledLoop<From, States>& loop) {
 /// With Φ(h) = ∫₀ʰ e^{As} ds, found by one augmented exponential for each of the two parts of the
 /// period, every matrix of the loop is a product: A_d − I = A Φ(τ), Γ₀ = Φ(τ−δ) b, Γ₁ = e^{A(τ−δ)}
 /// Φ(δ) b, c_d = Φ(τ) c. No small matrix is the difference of large ones.
-/// @param plant     beyond that its state matrix is finite, nothing is asked of it
+/// @param plant     two masses admissible, another one finite
 /// @param sampling  0 ≤ δ ≤ τ; τ = 0, no time at all, gives the identity
 /// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`
-/// @throws InvalidParameter where the sampling is another or the state matrix is not finite
+/// @throws InvalidParameter where the sampling or the plant is another
 template <class Plant, class Scalar = ScalarOf<Plant>>
 SampledLoop<Scalar, states_of<Plant>> sampled_loop(
     const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
+  static_assert(!detail::HasController<Plant>::value,
+                "a plant with a controller of its own moves by event_motion()");
   constexpr int states = states_of<Plant>;
+  detail::require_admissible(plant);
   const Matrix<Scalar, states> a = plant.state_matrix();
-  require_finite("entries of the plant's state matrix", static_cast<double>(a.sum()), "");
+  const Vector<Scalar, states> b = plant.control_input();
+  const Scalar entries = a.sum() + b.sum() + plant.excitation_input().sum();
+  require_finite("entries of the plant's matrices", static_cast<double>(entries), "");
   const auto period = static_cast<double>(sampling.period);
   require_non_negative("sampling period tau", period, "s");
   require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
                  period);
   const Matrix<Scalar, states> identity = Matrix<Scalar, states>::Identity(a.rows(), a.cols());
-  const Vector<Scalar, states> b = plant.control_input();
   const auto before =
       zero_order_hold<Scalar, states, states>(a, identity, sampling.processing_delay);
   const auto after = zero_order_hold<Scalar, states, states>(

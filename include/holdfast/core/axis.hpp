@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "holdfast/core/errors.hpp"
 
 namespace holdfast {
 
@@ -51,5 +55,16 @@ struct Axis {
     return index;
   }
 };
+
+/// Refuses an axis that is no axis.
+/// @param axis  the axis
+/// @param name  what its values are
+/// @param unit  theirs
+/// @throws InvalidParameter unless its ends are finite and ascend and there is one value at least
+inline void validate(const Axis& axis, std::string_view name, std::string_view unit) {
+  require_finite(name, axis.min, unit);
+  require_within(name, axis.max, unit, axis.min, std::numeric_limits<double>::max());
+  require_within("number of values along an axis", static_cast<double>(axis.count), "", 1.0, 1e15);
+}
 
 }  // namespace holdfast

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace holdfast {
@@ -51,30 +52,31 @@ class InvalidParameter : public std::invalid_argument {
 
 /// Refuses NaN and infinity.
 /// @throws InvalidParameter when `value` is not finite.
-inline void require_finite(const std::string& name, double value, const std::string& unit) {
-  if (!std::isfinite(value)) throw InvalidParameter(name, value, unit, "finite");
+inline void require_finite(std::string_view name, double value, std::string_view unit) {
+  if (!std::isfinite(value))
+    throw InvalidParameter(std::string(name), value, std::string(unit), "finite");
 }
 
 /// @throws InvalidParameter unless 0 < value < ∞.
-inline void require_positive(const std::string& name, double value, const std::string& unit) {
+inline void require_positive(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value > 0))
-    throw InvalidParameter(name, value, unit, "finite and > 0");
+    throw InvalidParameter(std::string(name), value, std::string(unit), "finite and > 0");
 }
 
 /// @throws InvalidParameter unless 0 ≤ value < ∞.
-inline void require_non_negative(const std::string& name, double value, const std::string& unit) {
+inline void require_non_negative(std::string_view name, double value, std::string_view unit) {
   if (!(std::isfinite(value) && value >= 0)) {
-    throw InvalidParameter(name, value, unit, "finite and >= 0");
+    throw InvalidParameter(std::string(name), value, std::string(unit), "finite and >= 0");
   }
 }
 
 /// @throws InvalidParameter unless lower ≤ value ≤ upper.
-inline void require_within(const std::string& name, double value, const std::string& unit,
-                           double lower, double upper) {
+inline void require_within(std::string_view name, double value, std::string_view unit, double lower,
+                           double upper) {
   if (value >= lower && value <= upper) return;
   std::ostringstream range;
   range << "between " << lower << " and " << upper;
-  throw InvalidParameter(name, value, unit, range.str());
+  throw InvalidParameter(std::string(name), value, std::string(unit), range.str());
 }
 
 }  // namespace holdfast

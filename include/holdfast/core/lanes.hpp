@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+
+#include "holdfast/core/types.hpp"
 
 namespace holdfast {
 
@@ -27,5 +30,34 @@ struct Lanes {
     store_flags(second, flags + count);
   }
 };
+
+namespace detail {
+
+/// What one lane of a pack holds.
+template <class Scalar>
+auto lane_of(const Scalar& pack, std::size_t lane) {
+  typename Lanes<Scalar>::Value values[Lanes<Scalar>::count];
+  Lanes<Scalar>::store(pack, values);
+  return values[lane];
+}
+
+/// The numbers or matrices of all lanes side by side.
+/// @param of_lane  (lane) → number or matrix of fixed size
+template <class Scalar, class OfLane>
+auto from_lanes(const OfLane& of_lane) {
+  using Value = std::decay_t<decltype(of_lane(0))>;
+  if constexpr (std::is_arithmetic_v<Value>) {
+    typename Lanes<Scalar>::Value values[Lanes<Scalar>::count];
+    for (std::size_t lane = 0; lane < Lanes<Scalar>::count; ++lane) values[lane] = of_lane(lane);
+    return Lanes<Scalar>::load(values);
+  } else {
+    Matrix<Scalar, Value::RowsAtCompileTime, Value::ColsAtCompileTime> result;
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      result(i) = from_lanes<Scalar>([&](std::size_t lane) { return of_lane(lane)(i); });
+    return result;
+  }
+}
+
+}  // namespace detail
 
 }  // namespace holdfast

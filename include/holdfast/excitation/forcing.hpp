@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
@@ -71,6 +72,7 @@ class PeriodicForcing {
   /// @param amplitude  F_m (N)
   /// @param ratio      f τ = p/q in lowest terms, q ≥ 1; it replaces the product of the two, whose
   ///                   rounding would let them drift apart
+  /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   PeriodicForcing(const HarmonicInput<Value, States>& input, const Value& amplitude,
                   const Rational& ratio)
       : PeriodicForcing(table_of(input, amplitude, ratio)) {}
@@ -100,6 +102,7 @@ class PeriodicForcing {
                                                      const Rational& ratio) {
     using std::cos;
     using std::sin;
+    require_within("denominator of f tau", static_cast<double>(ratio.denominator), "", 1.0, 1e9);
     std::vector<Vector<Value, States>> additions(static_cast<std::size_t>(ratio.denominator));
     std::int64_t turned = 0;  // p k modulo q
     for (auto& addition : additions) {
@@ -114,21 +117,6 @@ class PeriodicForcing {
 
   std::shared_ptr<const std::vector<Vector<Value, States>>> additions_;
   std::size_t phase_ = 0;
-};
-
-/// A forcing of scalars that is the same in every lane of a pack.
-/// @tparam Forcing  HarmonicForcing<double> or PeriodicForcing<double>
-template <class Scalar, class Forcing>
-class SharedForcing {
- public:
-  /// Goes on where `forcing` stands.
-  explicit SharedForcing(const Forcing& forcing) : forcing_(forcing) {}
-
-  /// The addition (N × 1) of the present sampling period; goes on to the next one.
-  auto next() { return forcing_.next().template cast<Scalar>().eval(); }
-
- private:
-  Forcing forcing_;
 };
 
 }  // namespace holdfast

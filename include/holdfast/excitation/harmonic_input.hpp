@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
 
@@ -36,10 +38,15 @@ struct HarmonicInput {
 /// @param c                  N × 1, per newton of F
 /// @param period             τ (s), ≥ 0
 /// @param angular_frequency  ω = 2π f (rad/s), finite
+/// @throws InvalidParameter for another τ or ω
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
                                              const Vector<Scalar, States>& c, const Scalar& period,
                                              const Scalar& angular_frequency) {
+  if constexpr (std::is_floating_point_v<Scalar>) {
+    require_non_negative("sampling period tau", static_cast<double>(period), "s");
+    require_finite("angular frequency", static_cast<double>(angular_frequency), "rad/s");
+  }
   constexpr int size = larger_size(States, 2);
   const Eigen::Index n = a.rows();
   Matrix<Scalar, size> generator = Matrix<Scalar, size>::Zero(n + 2, n + 2);

@@ -132,10 +132,7 @@ class PhasorTable {
   /// multiply-adds.
   Vector<Scalar, States> addition(std::size_t k) const {
     const ExcitationSample<Scalar> now = phase_.at(k);
-    Vector<Scalar, States> sum(input_.cosine.size());
-    for (Eigen::Index i = 0; i < sum.size(); ++i)
-      sum[i] = input_.cosine[i] * now.cosine + input_.sine[i] * now.sine;
-    return sum;
+    return input_.cosine * now.cosine + input_.sine * now.sine;
   }
 
  private:

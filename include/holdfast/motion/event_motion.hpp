@@ -1,14 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/control/controlled_plant.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/sampled_loop.hpp"
@@ -16,32 +17,47 @@
 #include "holdfast/excitation/force_over_samples.hpp"
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/math/roots/series.hpp"
-#include "holdfast/motion/event_sample.hpp"
 #include "holdfast/motion/mode_motion.hpp"
 #include "holdfast/motion/next_event.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/motion/taylor_step.hpp"
 #include "holdfast/plant/affine_dynamics.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
-namespace detail {
-
-/// The plant that a contact says it drives; the two masses where it says nothing.
-template <class Contact, class = void>
-struct DrivenPlant {
-  using type = TwoMass<double>;
-  static PortReadings<type> readings(const Contact&) { return {}; }
-};
-template <class Contact>
-struct DrivenPlant<Contact, std::void_t<typename Contact::Plant>> {
-  using type = typename Contact::Plant;
-  static const PortReadings<type>& readings(const Contact& contact) { return contact.readings(); }
+/// What is known of a motion at one sample, with the mode of its contact from then on.
+/// @tparam States  N, the order of the plant
+template <int States>
+struct EventSampleOf : MotionSample<double, States> {
+  ContactMode mode;  ///< from t_j on; `engaged` of the sample is mode == ContactMode::engaged
 };
 
-}  // namespace detail
+/// That of the two masses.
+using EventSample = EventSampleOf<4>;
+
+/// What a motion has met with.
+struct SwitchCounts {
+  std::array<std::int64_t, 3> entered{};  ///< how often each ContactMode began
+  std::int64_t grazing = 0;  ///< changes of contact that rounding decides: a guard touches zero
+  bool accumulates = false;  ///< more than `most_switches` changes in one sampling period: those
+                             ///< after them, up to its end, were not followed, and from there on
+                             ///< the motion is not to be trusted
+};
+
+/// The observer of EventMotion::advance that does not look at what happens between the samples.
+struct IgnoreFlow {
+  /// A part of the sampling period was passed: the mode's number, its begin (s after the sample)
+  /// and its length (s).
+  void flowed(int, double, double) const {}
+  /// At t_j + δ u_j took the place of u_{j−1}.
+  void commanded() const {}
+  /// The contact changed: the numbers of the mode before and after, that of the guard that came to
+  /// zero (−1: a jump of the command or the force did it), the instant.
+  template <class Instant>
+  void switched(int, int, int, const Instant&) const {}
+};
 
 /// The motion of the sampled loop whose contact may change between the samples.
 ///
@@ -54,49 +70,58 @@ struct DrivenPlant<Contact, std::void_t<typename Contact::Plant>> {
 ///
 /// Work per sample without a change of contact: about 80 multiply-adds and a square root; per
 /// change some 2000 multiply-adds more. Nothing is allocated.
-/// @tparam Contact  DriveContact, whose law is chosen at run time; one of its laws; or any other
-///                  automaton with the members of a law. It tells the plant, the two masses or a
-///                  LinearPlant
+/// @tparam Contact  DriveContact, or what answers to the same questions
 template <class Contact = DriveContact<>>
 class EventMotion {
  public:
   /// What the contact drives.
-  using Plant = typename detail::DrivenPlant<Contact>::type;
+  using Plant = typename Contact::Plant;
   /// N, the order of the plant.
   static constexpr int states = states_of<Plant>;
   using State = StateOf<Plant>;               ///< x, N × 1
   using Sample = EventSampleOf<states>;       ///< what `sense` takes
   using Instant = ContactInstantOf<states>;   ///< what a change of contact depends on
   using Dynamics = AffineDynamicsOf<states>;  ///< the motion in one mode
-  using Expansion = TaylorStepOf<states>;     ///< its Taylor series
+  using Expansion = TaylorStep<states>;       ///< its Taylor series
 
   /// Most changes of contact in one sampling period; beyond them SwitchCounts::accumulates is set.
   static constexpr int most_switches = 1000;
-  /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
-  /// change.
-  static constexpr double most_turns_per_sample = ModeMotion<Plant>::most_turns_per_sample;
 
   /// @throws InvalidParameter where the loop is not admissible, or turns more than
-  ///         `most_turns_per_sample` in one sampling period
+  ///         `ModeMotion::most_turns_per_sample` in one sampling period
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
-        readings_(detail::DrivenPlant<Contact>::readings(contact)),
-        controller_(loop.gains, loop.limits),
+        readings_(contact.readings()),
+        controller_(detail::controller_of(loop, contact)),
         clock_(loop.sampling.period, loop.jitter),
         force_(loop.force, loop.hold, loop.sampling.period),
         contact_(contact),
         state_(initial_state) {
     validate(loop);
     for (int mode = 0; mode < Contact::modes; ++mode)
-      modes_.emplace_back(
-          with_law(contact_, [mode](const auto& law) { return law.dynamics(mode); }), loop, force_);
+      modes_.emplace_back(contact_.dynamics(mode), loop, force_);
     for (const double after : {0.0, loop.sampling.processing_delay, loop.sampling.period})
       instants_.push_back(force_.instant(after));
   }
 
   /// Takes sample j: the command, and the contact where it depends on it. Call once per sample.
   Sample sense() {
-    return with_law(contact_, [this](auto& law) { return this->sense_by(law); });
+    const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
+    force_.begin_sample(index_, time());
+    switches_ = 0;
+    contact_.sample(state_);
+    Sample sample;
+    sample.index = index_;
+    sample.time = time();
+    sample.state = state_;
+    command_ = contact_.commanded(read(
+        {readings_.measured_displacement(state_), readings_.measured_velocity(state_), elapsed}));
+    const double force = force_at(0);
+    jump({state_, first_command(), force}, IgnoreFlow());
+    sample.mode = contact_.word();
+    sample.engaged = sample.mode == ContactMode::engaged;
+    sample.control_force = contact_.transmitted({state_, command_, force});
+    return sample;
   }
 
   /// Moves from t_j to t_{j+1} under the command that the last `sense()` decided.
@@ -109,7 +134,13 @@ class EventMotion {
   ///     switched(from, to, guard, instant)      at the end of the last part, the state before
   template <class Observer>
   void advance(Observer&& observer) {
-    with_law(contact_, [&](auto& law) { advance_by(law, observer); });
+    const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
+    if (delay > 0.0) flow({previous_command_, 0.0, std::min(delay, period), 0}, observer);
+    observer.commanded();
+    if (delay < period) {
+      if (delay > 0.0) jump({state_, command_, force_at(1)}, observer);
+      flow({command_, delay, period, 1}, observer);
+    }
     previous_command_ = command_;
     ++index_;
   }
@@ -117,7 +148,7 @@ class EventMotion {
   /// Adds a displacement (m) to the conductor at the present instant; call before `sense()`.
   void displace_conductor(double displacement) {
     readings_.displace_conductor(state_, displacement);
-    with_law(contact_, [](auto& law) { law.displaced(); });
+    contact_.displaced();
   }
 
   /// j, the sample that `sense()` will take or has taken.
@@ -135,7 +166,7 @@ class EventMotion {
   /// How states of the plant are read.
   const PortReadings<Plant>& readings() const { return readings_; }
   /// The controller with what it remembers of the past samples.
-  const Controller& controller() const { return controller_; }
+  const auto& controller() const { return controller_; }
   /// The digital side and the excitation, as given.
   const DigitalLoop& loop() const { return loop_; }
   /// What the motion has met with since it began or since `restart_counts()`.
@@ -171,6 +202,18 @@ class EventMotion {
 
   static constexpr std::size_t at(int mode) { return static_cast<std::size_t>(mode); }
 
+  /// The command of a sample; the states of a controller of the plant's own move with it.
+  double read(const ControlSample& sample) {
+    if constexpr (detail::HasController<Plant>::value) {
+      auto own = state_.tail(controller_.states());
+      const OwnController::Column decided = controller_.command(sample, own);
+      own = decided.tail(own.size());
+      return decided[0];
+    } else {
+      return controller_.command(sample.displacement, sample.velocity, sample.elapsed);
+    }
+  }
+
   /// F at one of the ends of the two parts of the period.
   double force_at(std::size_t end) const {
     const PeriodInstant& instant = instants_[end];
@@ -182,43 +225,13 @@ class EventMotion {
     return loop_.sampling.processing_delay > 0.0 ? previous_command_ : command_;
   }
 
-  template <class Law>
-  Sample sense_by(Law& law) {
-    const double elapsed = index_ > 0 ? clock_.period_of(index_ - 1) : loop_.sampling.period;
-    force_.begin_sample(index_, time());
-    switches_ = 0;
-    law.sample(state_);
-    command_ = law.commanded(controller_.command(readings_.measured_displacement(state_),
-                                                 readings_.measured_velocity(state_), elapsed));
-    const double force = force_at(0);
-    jump(law, {state_, first_command(), force}, IgnoreFlow());
-    Sample sample;
-    sample.index = index_;
-    sample.time = time();
-    sample.state = state_;
-    sample.mode = law.word();
-    sample.engaged = sample.mode == ContactMode::engaged;
-    sample.control_force = law.transmitted({state_, command_, force});
-    return sample;
-  }
-
-  template <class Law, class Observer>
-  void advance_by(Law& law, Observer& observer) {
-    const double period = clock_.period_of(index_), delay = loop_.sampling.processing_delay;
-    if (delay > 0.0) flow(law, {previous_command_, 0.0, std::min(delay, period), 0}, observer);
-    observer.commanded();
-    if (!(delay < period)) return;
-    if (delay > 0.0) jump(law, {state_, command_, force_at(1)}, observer);
-    flow(law, {command_, delay, period, 1}, observer);
-  }
-
-  template <class Law, class Observer>
-  void jump(Law& law, const Instant& now, Observer&& observer) {
-    const int before = law.mode();
-    law.jumped(now);
-    if (law.mode() == before) return;
-    count(law.word());
-    observer.switched(before, law.mode(), -1, now);
+  template <class Observer>
+  void jump(const Instant& now, Observer&& observer) {
+    const int before = contact_.mode();
+    contact_.jumped(now);
+    if (contact_.mode() == before) return;
+    count(contact_.word());
+    observer.switched(before, contact_.mode(), -1, now);
   }
 
   void count(ContactMode entered) {
@@ -233,36 +246,42 @@ class EventMotion {
     std::size_t number;  // 0 before t_j + δ, 1 after it
   };
 
-  template <class Law, class Observer>
-  void flow(Law& law, const Part& part, Observer& observer) {
-    if (flow_without_event(law, part.command, part.end - part.begin, part.number)) {
-      observer.flowed(law.mode(), part.begin, part.end - part.begin);
+  template <class Observer>
+  void flow(const Part& part, Observer& observer) {
+    if (flow_without_event(part.command, part.end - part.begin, part.number)) {
+      observer.flowed(contact_.mode(), part.begin, part.end - part.begin);
       return;
     }
     double reached = part.begin;
-    while (reached < part.end) reached = flow_to_event(law, part, reached, observer);
+    while (reached < part.end) reached = flow_to_event(part, reached, observer);
   }
 
   /// A whole part of the period at once, if it is sure that the contact does not change in it.
-  template <class Law>
-  bool flow_without_event(Law& law, double command, double length, std::size_t part) {
+  bool flow_without_event(double command, double length, std::size_t part) {
     if (!force_.is_regular() || loop_.jitter.half_width > 0.0) return false;
-    const ModeGuards guards = law.guards();
-    for (int g = 0; g < guards.count; ++g)
-      if (!may_have_no_event(guards.guard[at(g)])) return false;
-    const int mode = law.mode();
+    const int mode = contact_.mode();
     ModeMotion<Plant>& here = modes_[at(mode)];
     State after = here.step(part).state(state_, command, force_.held(), force_.phases());
-    law.keep(state_, after);
-    if (guards.count > 0) {
-      const double drop_below_chord =
-          here.bound(law, mode, guards.guard[0], force_).drop_below_chord(state_, command, length);
+    contact_.keep(state_, after);
+    if (contact_.changes_between_samples()) {
+      const ModeGuards guards = contact_.guards();
       for (int g = 0; g < guards.count; ++g)
-        if (!(least_at_ends(guards.guard[at(g)], after, command, part) > drop_below_chord))
-          return false;
+        if (!may_have_no_event(guards.guard[at(g)])) return false;
+      const double drop_below_chord = here.bound(contact_, mode, guards.guard[0], force_)
+                                          .drop_below_chord(state_, command, length);
+      for (int g = 0; g < guards.count; ++g) {
+        const ModeGuard& guard = guards.guard[at(g)];
+        double begin = guard.state.dot(state_), end = guard.state.dot(after);
+        if (guard.force != 0.0) {
+          begin += guard.force * force_at(part);
+          end += guard.force * force_at(part + 1);
+        }
+        const double least = std::min(begin, end) + guard.command * command + guard.constant;
+        if (!(least > drop_below_chord)) return false;
+      }
     }
     state_ = after;
-    law.flowed();
+    contact_.flowed();
     return true;
   }
 
@@ -270,21 +289,10 @@ class EventMotion {
     return guard.zeros == 0 && !guard.unsigned_yet;
   }
 
-  /// The lesser of a guard's values at the ends of a part of the period.
-  double least_at_ends(const ModeGuard& guard, const State& after, double command,
-                       std::size_t part) const {
-    double begin = guard.state.dot(state_), end = guard.state.dot(after);
-    if (guard.force != 0.0) {
-      begin += guard.force * force_at(part);
-      end += guard.force * force_at(part + 1);
-    }
-    return std::min(begin, end) + guard.command * command + guard.constant;
-  }
-
   /// Goes on to the next change of contact, or to the end of the part. @return where it came to
-  template <class Law, class Observer>
-  double flow_to_event(Law& law, const Part& part, double begin, Observer& observer) {
-    const int mode = law.mode();
+  template <class Observer>
+  double flow_to_event(const Part& part, double begin, Observer& observer) {
+    const int mode = contact_.mode();
     const ModeMotion<Plant>& here = modes_[at(mode)];
     const double wanted = std::min(part.end, force_.next_break(begin)) - begin;
     const double length = std::min(wanted, 1.0 / here.rate());
@@ -292,38 +300,39 @@ class EventMotion {
                                 length};
     force_.expand(begin, length, stretch.force);
     const NextEvent<states> event = next_event(
-        here.dynamics(), switches_ > most_switches ? ModeGuards{} : law.guards(), stretch);
-    if (event.sign != 0.0) law.learn_sign(event.sign);
+        here.dynamics(), switches_ > most_switches ? ModeGuards{} : contact_.guards(), stretch);
+    for (int g = 0; g < 2; ++g)
+      if (event.signs[at(g)] != 0.0) contact_.learn_sign(g, event.signs[at(g)]);
     const bool whole = event.guard < 0;
     const double passed = whole ? length : event.root.at * length;
     const double reached = begin + passed;
     observer.flowed(mode, begin, passed);
     state_ = event.state;
-    if (passed > 0.0) law.flowed();
+    if (passed > 0.0) contact_.flowed();
     if (!whole) {
       const double force = value_and_slope(stretch.force, event.root.at).value;
-      change(law, event.guard, {state_, part.command, force}, observer);
+      change(event.guard, {state_, part.command, force}, observer);
       if (event.root.outcome == RootOutcome::grazing) ++counts_.grazing;
       return reached;
     }
     if (length == part.end - begin) return part.end;
-    if (length == wanted) jump(law, {state_, part.command, force_.at(reached)}, observer);
+    if (length == wanted) jump({state_, part.command, force_.at(reached)}, observer);
     return reached;
   }
 
-  template <class Law, class Observer>
-  void change(Law& law, int guard, const Instant& before, Observer& observer) {
-    const int left = law.mode();
+  template <class Observer>
+  void change(int guard, const Instant& before, Observer& observer) {
+    const int left = contact_.mode();
     Instant now = before;
-    law.reached(guard, now);
-    observer.switched(left, law.mode(), guard, before);
+    contact_.reached(guard, now);
+    observer.switched(left, contact_.mode(), guard, before);
     state_ = now.state;
-    count(law.word());
+    count(contact_.word());
   }
 
   DigitalLoop loop_;
   PortReadings<Plant> readings_;
-  Controller controller_;
+  detail::ControllerOf<Plant> controller_;
   SamplingClock clock_;
   ForceOverSamples force_;
   Contact contact_;

@@ -68,16 +68,6 @@ std::optional<Rational> forcing_ratio(const IdealLoop<double, Plant>& loop) {
   return forcing_ratio(digital_loop(loop));
 }
 
-namespace detail {
-
-template <class Scalar, class Plant, class State>
-void validate_motion(const IdealLoop<Scalar, Plant>& loop, const State& initial_state) {
-  validate(converted<double>(loop));
-  require_finite("initial state", static_cast<double>(initial_state.sum()), "");
-}
-
-}  // namespace detail
-
 /// The motion of a sampled loop whose forcing repeats every q samples.
 template <class Scalar, class Plant = TwoMass<Scalar>>
 using PeriodicallyForcedMotion =
@@ -88,6 +78,28 @@ template <class Scalar, class Plant = TwoMass<Scalar>>
 using HarmonicallyForcedMotion =
     SampledMotion<Scalar, Backlash<Scalar>, HarmonicForcing<Scalar, states_of<Plant>>, Plant>;
 
+namespace detail {
+
+/// The motion of a loop under a Forcing made of its harmonic input and of what `more` is.
+template <class Forcing, class Scalar, class Plant, class... More>
+SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
+    const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state,
+    const More&... more) {
+  validate(converted<double>(loop));
+  require_finite("initial state", static_cast<double>(initial_state.sum()), "");
+  const auto sampled = sampled_loop(loop.plant, loop.sampling);
+  const auto input =
+      harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
+  return {sampled,
+          loop.gains,
+          Forcing(input, more...),
+          Backlash<Scalar>(loop.backlash_width),
+          initial_state,
+          PortReadings<Plant>(loop.plant)};
+}
+
+}  // namespace detail
+
 /// The motion from an initial state, the forcing being exactly periodic.
 /// @param loop           the phases of the forcing come from `ratio`, not from its f
 /// @param ratio          of forcing_ratio()
@@ -97,37 +109,19 @@ template <class Scalar, class Plant>
 PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
     const StateOf<Plant>& initial_state) {
-  detail::validate_motion(loop, initial_state);
-  const auto sampled = sampled_loop(loop.plant, loop.sampling);
-  const auto input =
-      harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
-  using Forcing = PeriodicForcing<Scalar, states_of<Plant>>;
-  return {sampled,
-          loop.gains,
-          Forcing(input, loop.excitation.amplitude, ratio),
-          Backlash<Scalar>(loop.backlash_width),
-          initial_state,
-          PortReadings<Plant>(loop.plant)};
+  return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
+      loop, initial_state, loop.excitation.amplitude, ratio);
 }
 
-/// The motion from an initial state, for any ratio of the frequencies.
+/// The motion from an initial state, for any ratio of the frequencies; else as above.
 /// @param loop           with its excitation and backlash
-/// @param initial_state  x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+/// @param initial_state  x₀, N × 1
 /// @throws InvalidParameter where the loop or the state is not admissible
 template <class Scalar, class Plant>
 HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state) {
-  detail::validate_motion(loop, initial_state);
-  const auto sampled = sampled_loop(loop.plant, loop.sampling);
-  const auto input =
-      harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
-  return {sampled,
-          loop.gains,
-          input,
-          loop.excitation,
-          Backlash<Scalar>(loop.backlash_width),
-          initial_state,
-          PortReadings<Plant>(loop.plant)};
+  return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
+      loop, initial_state, loop.excitation, loop.sampling.period);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

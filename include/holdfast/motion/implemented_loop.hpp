@@ -18,7 +18,7 @@ namespace holdfast {
 
 /// A loop with the effects of its implementation: any law of the backlash, switching at samples or
 /// when it happens, any excitation, the limits of its sensors, drive and clock.
-/// @tparam Plant  TwoMass<double> or a LinearPlant<double, N>
+/// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 struct ImplementedLoopOf {
   Plant plant;                               ///< conductor, absorber and what else has states
@@ -30,12 +30,22 @@ struct ImplementedLoopOf {
 /// That of the two masses.
 using ImplementedLoop = ImplementedLoopOf<TwoMass<double>>;
 
-/// @throws InvalidParameter where any part is not admissible
+/// @throws InvalidParameter where any part is not admissible, or where there are gains or limits
+/// beside a controller of the plant's own
 template <class Plant>
 void validate(const ImplementedLoopOf<Plant>& loop) {
   validate(loop.plant);
   validate(loop.digital);
   validate(loop.backlash);
+  if constexpr (detail::HasController<Plant>::value) {
+    const PdGains<double>& gains = loop.digital.gains;
+    require_within("gain P beside a controller of one's own", gains.proportional, "N/m", 0.0, 0.0);
+    require_within("gain D beside a controller of one's own", gains.differential, "N s/m", 0.0,
+                   0.0);
+    if (!is_ideal(loop.digital.limits))
+      throw InvalidParameter("limits beside a controller of one's own", 1.0, "",
+                             "those of an ideal controller");
+  }
 }
 
 /// The loop of the paper's model as one that is built.
@@ -53,6 +63,7 @@ ImplementedLoopOf<Plant> implemented_loop(const IdealLoop<double, Plant>& loop) 
 /// @return nothing of any other loop
 template <class Plant>
 std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant>& loop) {
+  if (detail::HasController<Plant>::value) return std::nullopt;
   const DigitalLoop& digital = loop.digital;
   const std::vector<Harmonic>& lines = digital.force.harmonics;
   const bool without_backlash = loop.backlash.law == ContactLaw::none;
@@ -72,22 +83,15 @@ std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant
 }
 
 /// The motion of the loop from [z₁, ż₁, z₂, ż₂].
-/// @throws InvalidParameter where the loop is not admissible
+/// @throws InvalidParameter where the loop is not admissible or the state not finite
 template <class Plant>
 EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const StateOf<Plant>& initial_state) {
   validate(loop);
+  require_finite("initial state", initial_state.sum(), "");
   return {loop.digital,
           DriveContact<Plant>(loop.plant, loop.backlash, loop.switching, initial_state),
           initial_state};
-}
-
-/// Calls `visit` with event_motion(loop, initial_state). @return what it returns
-/// @throws InvalidParameter where the loop is not admissible
-template <class Plant, class Visit>
-auto with_motion(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& initial_state,
-                 Visit&& visit) {
-  return visit(event_motion(loop, initial_state));
 }
 
 }  // namespace holdfast

@@ -19,6 +19,37 @@
 
 namespace holdfast {
 
+namespace detail {
+
+/// The norm of a plant's own states beside those of its controller, which come last, stand still
+/// between the samples, and are seen by no guard.
+/// @tparam any  Eigen::Dynamic; a template so that only who uses it compiles it
+template <int any>
+class NormBesideController {
+ public:
+  explicit NormBesideController(const Matrix<double, any>& a)
+      : order_(order_of(a)), norm_(a.topLeftCorner(order_, order_)) {}
+  double operator()(const Vector<double, any>& x) const { return norm_(x.head(order_)); }
+  double dual(const Vector<double, any>& row) const { return norm_.dual(row.head(order_)); }
+
+ private:
+  static Eigen::Index order_of(const Matrix<double, any>& a) {
+    Eigen::Index order = a.rows();
+    while (order > 1 && a.row(order - 1).isZero(0.0) && a.col(order - 1).isZero(0.0)) --order;
+    return order;
+  }
+
+  Eigen::Index order_;
+  DecayingNorm<any> norm_;
+};
+
+template <class Plant>
+using NormOf = std::conditional_t<
+    HasController<Plant>::value, NormBesideController<Eigen::Dynamic>,
+    std::conditional_t<HasPorts<Plant>::value, DecayingNorm<states_of<Plant>>, EnergyNorm>>;
+
+}  // namespace detail
+
 /// How a plant moves in one mode of its contact over the two parts of every sampling period: 0
 /// before t_j + δ, 1 after it.
 template <class Plant>
@@ -26,7 +57,7 @@ class ModeMotion {
  public:
   static constexpr int states = states_of<Plant>;  ///< N, the order of the plant
   /// The norm that bounds the motion: energy, or that of Lyapunov's equation.
-  using Norm = std::conditional_t<detail::HasPorts<Plant>::value, DecayingNorm<states>, EnergyNorm>;
+  using Norm = detail::NormOf<Plant>;
   using Bound = NoEventBoundOf<Norm, states>;  ///< tells that no guard comes to zero
 
   /// Most ‖A‖ τ and ω τ: one Taylor series is made for each unit of them, where the contact may
@@ -50,7 +81,7 @@ class ModeMotion {
   /// 1 / the largest length (s) over which a series of `most_terms` terms is exact.
   double rate() const { return rate_; }
   /// The exact step over a whole part of the period.
-  const SubintervalStepOf<states>& step(std::size_t part) const { return steps_[part]; }
+  const SubintervalStep<states>& step(std::size_t part) const { return steps_[part]; }
 
   /// The bound for the guards of the mode, made when it is first asked for.
   /// @param law    tells the plant whose energy bounds the motion
@@ -79,7 +110,7 @@ class ModeMotion {
 
   AffineDynamicsOf<states> dynamics_;
   double rate_;
-  std::array<SubintervalStepOf<states>, 2> steps_;
+  std::array<SubintervalStep<states>, 2> steps_;
   std::optional<Bound> bound_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -31,7 +32,7 @@ template <int States>
 struct NextEvent {
   int guard = -1;                             ///< its number; −1: none comes to zero
   FirstRoot root{RootOutcome::none, 1.0, 0};  ///< where, in lengths of the stretch
-  double sign = 0.0;  ///< ±1 that a guard took first whose sign was not known; 0: none did
+  std::array<double, 2> signs{};  ///< ±1 that a guard took first whose sign was not known, else 0
   Vector<double, States> state =
       {};  ///< x there, N × 1; at the end of the stretch where there is none
 };
@@ -42,7 +43,7 @@ namespace detail {
 /// the guard may not have come out of its own rounding yet.
 template <int States>
 void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
-                    const TaylorStepOf<States>& motion, Series& series) {
+                    const TaylorStep<States>& motion, Series& series) {
   constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   double known = std::abs(guard.command * stretch.command) + std::abs(guard.constant);
   for (Eigen::Index k = 0; k < series.size(); ++k, known = 0.0) {
@@ -56,7 +57,7 @@ void clear_rounding(const GuardOf<States>& guard, const ModeStretch<States>& str
 /// g along a stretch.
 template <int States>
 Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& stretch,
-                    const TaylorStepOf<States>& motion) {
+                    const TaylorStep<States>& motion) {
   Series series = (guard.state.transpose() * motion.coefficients()).transpose();
   if (guard.force != 0.0) series += guard.force * stretch.force;
   series[0] += guard.command * stretch.command + guard.constant;
@@ -90,15 +91,16 @@ inline double first_sign(Series& series) {
 template <int States>
 NextEvent<States> next_event(const AffineDynamicsOf<States>& dynamics,
                              const GuardsOf<States>& guards, const ModeStretch<States>& stretch) {
-  const TaylorStepOf<States> motion(dynamics, stretch.state, stretch.command, stretch.force,
-                                    stretch.length);
+  const TaylorStep<States> motion(dynamics, stretch.state, stretch.command, stretch.force,
+                                  stretch.length);
   NextEvent<States> first;
   for (int g = 0; g < guards.count; ++g) {
     const GuardOf<States>& guard = guards.guard[static_cast<std::size_t>(g)];
     Series series = detail::guard_series(guard, stretch, motion);
     if (guard.unsigned_yet) {
-      first.sign = detail::first_sign(series);
-      if (first.sign != 0.0) series *= first.sign;
+      double& sign = first.signs[static_cast<std::size_t>(g)];
+      sign = detail::first_sign(series);
+      if (sign != 0.0) series *= sign;
     }
     const FirstRoot root = first_root(series);
     if (root.outcome == RootOutcome::none || (first.guard >= 0 && root.at >= first.root.at))

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
 
@@ -15,7 +16,9 @@ namespace holdfast {
 class Recorder {
  public:
   /// @param expected_samples  ≥ 0; room is made for that many, and more may come
+  /// @throws InvalidParameter for another
   explicit Recorder(std::int64_t expected_samples) {
+    require_non_negative("number of samples", static_cast<double>(expected_samples), "");
     samples_.reserve(static_cast<std::size_t>(expected_samples));
   }
 

@@ -51,7 +51,7 @@ struct MotionMemory {
 /// @tparam Law      the backlash: `step(Δz, Δż)` returns a mask that is true where the force is
 ///                  transmitted
 /// @tparam Forcing  the excitation: `next()` returns what it adds to the state over the present
-///                  sampling period
+///                  sampling period, of scalars also where it is the same in every lane of a pack
 /// @tparam Plant    whose ports are read; those of the two masses by subscripts
 template <class Scalar, class Law = Backlash<Scalar>, class Forcing = HarmonicForcing<Scalar>,
           class Plant = TwoMass<Scalar>>
@@ -96,9 +96,15 @@ class SampledMotion {
 
   /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
-    const State next = moved(loop_.transition) + loop_.previous_force * previous_force_ +
-                       loop_.present_force * present_force_ + forcing_.next();
-    state_ = next;
+    const Matrix<Scalar, states>& transition = loop_.transition;
+    // Of four states column by column: written out, the order of the sums is the same for every
+    // number type.
+    if constexpr (states == 4) {
+      move_to((transition.col(0) * state_[0] + transition.col(1) * state_[1]) +
+              (transition.col(2) * state_[2] + transition.col(3) * state_[3]));
+    } else {
+      move_to(transition * state_);
+    }
     previous_force_ = present_force_;
     ++index_;
   }
@@ -118,6 +124,8 @@ class SampledMotion {
   const Loop& loop() const { return loop_; }
   /// How states of the plant are read.
   const Readings& readings() const { return readings_; }
+  /// P (N/m) and D (N s/m).
+  const PdGains<Scalar>& gains() const { return gains_; }
   /// The backlash with what it remembers.
   const Law& law() const { return law_; }
   /// The excitation, at the phase that the next `advance()` will use.
@@ -136,15 +144,13 @@ class SampledMotion {
   }
 
  private:
-  /// A_d x; of four states column by column: written out, the order of the sums is the same for
-  /// every number type.
-  State moved(const Matrix<Scalar, states>& transition) const {
-    if constexpr (states == 4) {
-      return (transition.col(0) * state_[0] + transition.col(1) * state_[1]) +
-             (transition.col(2) * state_[2] + transition.col(3) * state_[3]);
-    } else {
-      return transition * state_;
-    }
+  /// @param moved  A_d x, as an expression: one with the forces it takes no store between them
+  template <class Moved>
+  void move_to(const Moved& moved) {
+    const State next = moved + loop_.previous_force * previous_force_ +
+                       loop_.present_force * present_force_ +
+                       forcing_.next().template cast<Scalar>();
+    state_ = next;
   }
 
   Loop loop_;
@@ -157,5 +163,21 @@ class SampledMotion {
   Scalar present_force_ = Scalar(0);
   std::int64_t index_ = 0;
 };
+
+/// A motion of the two masses in every lane of a pack, under the same forcing, which goes on where
+/// it stands.
+/// @param motion          the one of each lane, but for its state
+/// @param initial_states  z₀ of every lane, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+template <class Pack, class Forcing>
+SampledMotion<Pack, Backlash<Pack>, Forcing> in_every_lane(
+    const SampledMotion<double, Backlash<double>, Forcing>& motion,
+    const Vector<Pack, 4>& initial_states) {
+  const PdGains<double>& gains = motion.gains();
+  return {converted<Pack>(motion.loop()),
+          {Pack(gains.proportional), Pack(gains.differential)},
+          motion.forcing(),
+          Backlash<Pack>(Pack(motion.law().width())),
+          initial_states};
+}
 
 }  // namespace holdfast

@@ -18,7 +18,7 @@ namespace holdfast {
 ///     z ← transition z + command u + drift + Σ_l (g_c cos ω_l t_j + g_s sin ω_l t_j)   (exactly)
 /// @tparam States  N, the order of the plant
 template <int States>
-struct SubintervalStepOf {
+struct SubintervalStep {
   Matrix<double, States> transition;  ///< N × N
   Vector<double, States> command;     ///< N × 1 per newton of u
   Vector<double, States> drift;       ///< N × 1
@@ -29,8 +29,8 @@ struct SubintervalStepOf {
   /// @param harmonics  of the excitation, in the order of the phases that `state` is given
   /// @param begin      s from the sample
   /// @param length     s, ≥ 0
-  SubintervalStepOf(const AffineDynamicsOf<States>& dynamics,
-                    const std::vector<Harmonic>& harmonics, double begin, double length);
+  SubintervalStep(const AffineDynamicsOf<States>& dynamics, const std::vector<Harmonic>& harmonics,
+                  double begin, double length);
 
   /// The state (N × 1) at the end of the part.
   /// @param before      the state at its begin, N × 1
@@ -50,9 +50,9 @@ struct SubintervalStepOf {
 };
 
 template <int States>
-SubintervalStepOf<States>::SubintervalStepOf(const AffineDynamicsOf<States>& dynamics,
-                                             const std::vector<Harmonic>& harmonics, double begin,
-                                             double length) {
+SubintervalStep<States>::SubintervalStep(const AffineDynamicsOf<States>& dynamics,
+                                         const std::vector<Harmonic>& harmonics, double begin,
+                                         double length) {
   const Eigen::Index n = dynamics.state.rows();
   const Matrix<double, States> identity = Matrix<double, States>::Identity(n, n);
   const auto step = zero_order_hold<double, States, States>(dynamics.state, identity, length);
@@ -67,13 +67,9 @@ SubintervalStepOf<States>::SubintervalStepOf(const AffineDynamicsOf<States>& dyn
   }
 }
 
-/// That of the two masses.
-using SubintervalStep = SubintervalStepOf<4>;
-
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template SubintervalStepOf<4>::SubintervalStepOf(const AffineDynamicsOf<4>&,
-                                                        const std::vector<Harmonic>&, double,
-                                                        double);
+extern template SubintervalStep<4>::SubintervalStep(const AffineDynamicsOf<4>&,
+                                                    const std::vector<Harmonic>&, double, double);
 #endif
 
 }  // namespace holdfast

@@ -28,7 +28,7 @@ inline int terms_for(double x) {
 /// multiply-adds.
 /// @tparam States  N, the order of the plant
 template <int States>
-class TaylorStepOf {
+class TaylorStep {
  public:
   /// The z_k as columns, at most `most_terms` of them; never on the heap for a fixed order.
   using Coefficients =
@@ -39,8 +39,8 @@ class TaylorStepOf {
   /// @param command   u (N)
   /// @param force     F_k (N), one or more; its size is the number of terms
   /// @param length    h (s), ≥ 0
-  TaylorStepOf(const AffineDynamicsOf<States>& dynamics, const Vector<double, States>& state,
-               double command, const Series& force, double length)
+  TaylorStep(const AffineDynamicsOf<States>& dynamics, const Vector<double, States>& state,
+             double command, const Series& force, double length)
       : coefficients_(state.size(), force.size()) {
     coefficients_.col(0) = state;
     Vector<double, States> input = dynamics.drift + dynamics.command * command;
@@ -66,8 +66,5 @@ class TaylorStepOf {
  private:
   Coefficients coefficients_;
 };
-
-/// That of the two masses.
-using TaylorStep = TaylorStepOf<4>;
 
 }  // namespace holdfast

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "holdfast/contact/contact.hpp"
-#include "holdfast/contact/contact_tangent.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
@@ -38,7 +37,7 @@ namespace holdfast {
 /// zero: the row of g while engaged, and the row of z₁ as read unless the velocity is the
 /// difference of unrounded displacements.
 ///
-///     VariationalFlow<ExactBacklash> tangent(motion);
+///     VariationalFlow<DriveContact<>> tangent(motion);
 ///     motion.sense();
 ///     tangent.begin_sample(motion);
 ///     motion.advance(tangent);
@@ -48,7 +47,7 @@ namespace holdfast {
 /// Work per sample of the two masses: 140 multiply-adds for each of its two parts; per change of
 /// contact 1500 more, most of them for a matrix exponential. Nothing is allocated for a fixed
 /// order.
-/// @tparam Contact  of the motion; contact/contact_tangent.hpp tells what it has to offer
+/// @tparam Contact  of the motion
 template <class Contact>
 class VariationalFlow {
  public:
@@ -61,17 +60,17 @@ class VariationalFlow {
 
   /// Goes on from the sample that the motion has come to.
   explicit VariationalFlow(const EventMotion<Contact>& motion)
-      : readings_(detail::DrivenPlant<Contact>::readings(motion.contact())),
+      : readings_(motion.readings()),
         map_(Map::Identity(motion.state().size() + 3, motion.state().size() + 3)),
         pending_(Row::Zero(motion.state().size() + 3)),
-        sticking_(sticking_mode(motion.contact())),
+        sticking_(motion.contact().sticking_mode()),
         sample_rank_(inputs(motion)),
         rank_(inputs(motion)) {
     const Sampling<double>& sampling = motion.loop().sampling;
     lengths_ = {sampling.processing_delay, sampling.period - sampling.processing_delay};
     for (int mode = 0; mode < Contact::modes; ++mode) {
       dynamics_[at(mode)] = motion.dynamics(mode);
-      anchored_[at(mode)] = is_anchored(motion.contact(), mode);
+      anchored_[at(mode)] = motion.contact().is_anchored(mode);
       for (std::size_t part = 0; part < 2; ++part)
         steps_[part][at(mode)] = exponential(mode, lengths_[part]);
     }
@@ -79,26 +78,18 @@ class VariationalFlow {
 
   /// To be called after `sense()` and before `advance(tangent)`.
   void begin_sample(const EventMotion<Contact>& motion) {
-    const ControllerLimits& limits = motion.controller().limits();
-    const bool takes_effect = detail::transmits_command(motion.contact(), 0);
-    const ControllerSlope slope = takes_effect ? motion.controller().slope() : ControllerSlope{};
-    const bool reads =
-        limits.velocity == VelocitySensing::difference && limits.displacement_quantum == 0.0;
     period_ = motion.period();
     open_length_ = 0.0;
     map_.setIdentity();
-    enter(motion.contact().mode());
-    const Row displacement = readings_.measured_displacements(states_of_map());
-    pending_ = slope.displacement * displacement +
-               slope.velocity * readings_.measured_velocities(states_of_map()) +
-               slope.previous_displacement * map_.row(read_row());
-    map_.row(read_row()) = reads ? displacement : Row(Row::Zero(map_.cols()));
-    sample_rank_ = StructuralRank(inputs(motion));
     const int mode = motion.contact().mode();
+    enter(mode);
+    const Reading reading = read(motion);
+    if (!motion.contact().transmits_command()) pending_.setZero();
+    sample_rank_ = StructuralRank(inputs(motion));
     on_ranks([&](StructuralRank& rank) {
       if (!carries_anchor(mode)) rank.end(Carried::anchor);
       rank.pass(directions(mode));
-      note_sample(rank, slope, reads);
+      note_sample(rank, reading);
       rank.pass(directions(mode));
     });
   }
@@ -171,7 +162,7 @@ class VariationalFlow {
   static unsigned inputs(const EventMotion<Contact>& motion) {
     const unsigned always =
         static_cast<unsigned>(Carried::in_force) | static_cast<unsigned>(Carried::reading);
-    return is_anchored(motion.contact(), motion.contact().mode())
+    return motion.contact().is_anchored(motion.contact().mode())
                ? always | static_cast<unsigned>(Carried::anchor)
                : always;
   }
@@ -194,12 +185,44 @@ class VariationalFlow {
     note(rank_);
   }
 
+  /// What the command depends on, and whether the displacement is remembered as read.
+  struct Reading {
+    bool state, previous, remembered;
+  };
+
+  /// δu_j, and what the controller remembers of the sample.
+  Reading read(const Motion& motion) {
+    const Row displacement = readings_.measured_displacements(states_of_map());
+    const Row velocity = readings_.measured_velocities(states_of_map());
+    const bool takes_effect = motion.contact().transmits_command();
+    if constexpr (detail::HasController<typename Motion::Plant>::value) {
+      const OwnController::Derivative derivative = motion.controller().derivative();
+      const Eigen::Index own = motion.controller().states();
+      OwnController::Derivative inputs(own + 2, map_.cols());
+      inputs << displacement, velocity, map_.middleRows(order() - own, own);
+      pending_ = derivative.row(0) * inputs;
+      map_.middleRows(order() - own, own) = derivative.bottomRows(own) * inputs;
+      map_.row(read_row()).setZero();
+      return {takes_effect && !derivative.row(0).isZero(0.0), false, false};
+    } else {
+      const ControllerSlope slope = takes_effect ? motion.controller().slope() : ControllerSlope{};
+      const ControllerLimits& limits = motion.controller().limits();
+      const bool reads =
+          limits.velocity == VelocitySensing::difference && limits.displacement_quantum == 0.0;
+      pending_ = slope.displacement * displacement + slope.velocity * velocity +
+                 slope.previous_displacement * map_.row(read_row());
+      map_.row(read_row()) = reads ? displacement : Row(Row::Zero(map_.cols()));
+      return {slope.displacement != 0.0 || slope.velocity != 0.0,
+              slope.previous_displacement != 0.0, reads};
+    }
+  }
+
   /// The command depends on z and on what was read, which is then read again.
-  static void note_sample(StructuralRank& rank, const ControllerSlope& slope, bool reads) {
-    if (slope.displacement != 0.0 || slope.velocity != 0.0) rank.begin(Carried::pending);
-    if (slope.previous_displacement != 0.0) rank.become(Carried::reading, Carried::pending);
+  static void note_sample(StructuralRank& rank, const Reading& reading) {
+    if (reading.state) rank.begin(Carried::pending);
+    if (reading.previous) rank.become(Carried::reading, Carried::pending);
     rank.end(Carried::reading);
-    if (reads) rank.begin(Carried::reading);
+    if (reading.remembered) rank.begin(Carried::reading);
   }
 
   Step exponential(int mode, double length) const;

@@ -10,72 +10,54 @@
 
 namespace holdfast {
 
-/// x ↦ map x + addition.
-/// @tparam Size  N of x; 5 of z̃ = [z; u_{j−1}]
-template <class Scalar, int Size = 5>
-struct AffineMap {
-  Matrix<Scalar, Size> map;       ///< N × N
-  Vector<Scalar, Size> addition;  ///< in the units of x
+/// Products of the maps of successive samples, of few enough each for it to lose no digits.
+/// @tparam Map  N × N
+template <class Map>
+class BlockProducts {
+ public:
+  /// @param most  samples of a block, ≥ 1; a block that has grown a thousandfold is not continued
+  explicit BlockProducts(std::size_t most) : most_(most), length_(most) {}
+
+  /// The map of the next sample.
+  void append(const Map& map) {
+    if (length_ == most_ || !(blocks_.back().cwiseAbs().maxCoeff() < 1e3)) {
+      blocks_.push_back(map);
+      length_ = 1;
+    } else {
+      blocks_.back() = map * blocks_.back();
+      ++length_;
+    }
+  }
+
+  /// In the order of the samples.
+  const std::vector<Map>& blocks() const { return blocks_; }
+
+ private:
+  std::size_t most_, length_;  // samples: of a block at most, of the last one
+  std::vector<Map> blocks_;
 };
 
-/// first · x₀ + last · x_K = addition: what a sequence of K affine maps says of its two ends.
+/// A step of Newton's method towards a periodic motion: (I − M)⁻¹ of M = M_{K−1} … M₀, the product
+/// of the maps that linearise it block by block. Of an affine motion the first step is the last but
+/// for rounding.
 ///
-/// The maps x_{k+1} = M_k x_k + g_k are one block-bidiagonal system. Its inner unknowns are
-/// eliminated one after the other by orthogonal factorisations,
+/// The maps x_{k+1} = M_k x_k are one block-bidiagonal system. Its inner unknowns are eliminated
+/// one after the other by orthogonal factorisations,
 ///
 ///     Qᵀ [B; −M_k] = [R; 0],
 ///
-/// whose lower rows do not contain them, so that M = M_{K−1} … M₀, whose entries may span hundreds
-/// of decades, is never formed. Source: S. J. Wright, Stable parallel algorithms for two-point
-/// boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
-template <class Scalar, int Size = 5>
-struct CondensedBoundary {
-  Matrix<Scalar, Size> first;     ///< of x₀
-  Matrix<Scalar, Size> last;      ///< of x_K
-  Vector<Scalar, Size> addition;  ///< what the maps add on the way
-};
-
-/// The condensed boundary condition of a sequence of affine maps, at least one. Work per map: about
-/// 16 N³ multiply-adds.
-template <class Scalar, int Size>
-CondensedBoundary<Scalar, Size> condensed_boundary(
-    const std::vector<AffineMap<Scalar, Size>>& maps) {
-  constexpr int twice = Size == Eigen::Dynamic ? Eigen::Dynamic : 2 * Size;
-  const Eigen::Index n = maps.front().map.rows();
-  const Matrix<Scalar, Size> identity = Matrix<Scalar, Size>::Identity(n, n);
-  CondensedBoundary<Scalar, Size> ends{-maps.front().map, identity, maps.front().addition};
-  Matrix<Scalar, twice, Size> inner(2 * n, n);
-  Matrix<Scalar, twice, larger_size(twice, 1)> outer(2 * n, 2 * n + 1);
-  for (std::size_t k = 1; k < maps.size(); ++k) {
-    inner << ends.last, -maps[k].map;
-    outer.setZero();
-    outer.template topLeftCorner<Size, Size>(n, n) = ends.first;
-    outer.template block<Size, Size>(n, n, n, n) = identity;
-    outer.template block<Size, 1>(0, 2 * n, n, 1) = ends.addition;
-    outer.template block<Size, 1>(n, 2 * n, n, 1) = maps[k].addition;
-    const Eigen::HouseholderQR<Matrix<Scalar, twice, Size>> qr(inner);
-    outer.applyOnTheLeft(qr.householderQ().adjoint());
-    ends = {outer.template bottomLeftCorner<Size, Size>(n, n),
-            outer.template block<Size, Size>(n, n, n, n),
-            outer.template block<Size, 1>(n, 2 * n, n, 1)};
-  }
-  return ends;
-}
-
-/// The cyclic system of a sequence of affine maps, x_K = x₀, condensed to its ends.
+/// whose lower rows do not contain them, so that M, whose entries may span hundreds of decades, is
+/// never formed: first · x₀ + last · x_K = 0 is left. Source: S. J. Wright, Stable parallel
+/// algorithms for two-point boundary value problems, SIAM J. Sci. Stat. Comput. 13 (1992).
 ///
-/// Of maps that linearise a motion block by block its solution is a step of Newton's method, solved
-/// without the product of the maps; of a motion that is affine the first step leaves rounding
-/// alone.
-///
-///     const CyclicSystem system(maps);
-///     if (!system.is_singular()) x = system.first_state();
+///     const CyclicSystem<double> system(maps);
+///     if (!system.is_singular()) x += system.correction(open);
+/// @tparam Size  N of x; 5 of z̃ = [z; u_{j−1}]
 template <class Scalar, int Size = 5>
 class CyclicSystem {
  public:
-  /// @param maps  at least one
-  explicit CyclicSystem(const std::vector<AffineMap<Scalar, Size>>& maps)
-      : ends_(condensed_boundary(maps)), closed_(ends_.first + ends_.last) {}
+  /// @param maps  N × N, at least one. Work per map: about 16 N³ multiply-adds.
+  explicit CyclicSystem(const std::vector<Matrix<Scalar, Size>>& maps);
 
   /// 1 is a multiplier of the sequence to working precision: no solution, or a continuum of them.
   bool is_singular() const {
@@ -84,34 +66,40 @@ class CyclicSystem {
     return !(smallest_pivot > rounding * closed_.maxPivot());
   }
 
-  /// x₀.
-  Vector<Scalar, Size> first_state() const { return closed_.solve(ends_.addition); }
-
-  /// What a motion that these maps linearise is to begin with in addition, to close:
-  /// (I − M)⁻¹ open.
+  /// What x₀ is to be in addition for the motion to close: (I − M)⁻¹ open.
   /// @param open  x_K − x₀ of the motion
   Vector<Scalar, Size> correction(const Vector<Scalar, Size>& open) const {
-    return closed_.solve(ends_.last * open);
+    return closed_.solve(last_ * open);
   }
 
  private:
-  CondensedBoundary<Scalar, Size> ends_;
-  Eigen::FullPivLU<Matrix<Scalar, Size>> closed_;
+  Matrix<Scalar, Size> last_;
+  Eigen::FullPivLU<Matrix<Scalar, Size>> closed_;  // first + last
 };
 
-/// The linear parts of affine maps.
 template <class Scalar, int Size>
-std::vector<Matrix<Scalar, Size>> maps_of(const std::vector<AffineMap<Scalar, Size>>& blocks) {
-  std::vector<Matrix<Scalar, Size>> maps;
-  maps.reserve(blocks.size());
-  for (const auto& block : blocks) maps.push_back(block.map);
-  return maps;
+CyclicSystem<Scalar, Size>::CyclicSystem(const std::vector<Matrix<Scalar, Size>>& maps) {
+  constexpr int twice = Size == Eigen::Dynamic ? Eigen::Dynamic : 2 * Size;
+  const Eigen::Index n = maps.front().rows();
+  const Matrix<Scalar, Size> identity = Matrix<Scalar, Size>::Identity(n, n);
+  Matrix<Scalar, Size> first = -maps.front();
+  last_ = identity;
+  Matrix<Scalar, twice, Size> inner(2 * n, n);
+  Matrix<Scalar, twice> outer(2 * n, 2 * n);
+  for (std::size_t k = 1; k < maps.size(); ++k) {
+    inner << last_, -maps[k];
+    outer.setZero();
+    outer.template topLeftCorner<Size, Size>(n, n) = first;
+    outer.template bottomRightCorner<Size, Size>(n, n) = identity;
+    const Eigen::HouseholderQR<Matrix<Scalar, twice, Size>> qr(inner);
+    outer.applyOnTheLeft(qr.householderQ().adjoint());
+    first = outer.template bottomLeftCorner<Size, Size>(n, n);
+    last_ = outer.template bottomRightCorner<Size, Size>(n, n);
+  }
+  closed_.compute(first + last_);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template CondensedBoundary<double> condensed_boundary(const std::vector<AffineMap<double>>&);
-extern template CondensedBoundary<double, Eigen::Dynamic> condensed_boundary(
-    const std::vector<AffineMap<double, Eigen::Dynamic>>&);
 extern template class CyclicSystem<double>;
 extern template class CyclicSystem<double, Eigen::Dynamic>;
 #endif

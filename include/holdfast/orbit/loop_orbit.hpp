@@ -54,20 +54,29 @@ struct LoopOrbit {
   }
 };
 
-/// Whether what was solved for is an orbit of the motion.
-enum class CandidateOutcome {
-  verified,         ///< the periodic solution switches as the motion did for which it was solved
-  singular,         ///< 1 is a multiplier: no periodic solution, or many
-  other_itinerary,  ///< the solution would switch otherwise: there is no such orbit
-  on_surface,       ///< it touches a switching surface, so that rounding decides its contacts
+/// How the search for the periodic orbit of a motion ended, or what one solution of it is.
+enum class OrbitOutcome {
+  certified,       ///< the motion was seen to tend to the orbit; of one solution: it switches as
+                   ///< the motion did for which it was solved
+  approaching,     ///< an attracting orbit was proposed, but the motion was not seen to come to it
+  on_surface,      ///< its contacts repeat, but the orbit touches a switching surface: the result
+                   ///< depends on rounding, and no certificate can be given
+  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
+                   ///< does not repeat
+  diverges,        ///< the motion grows without bound
+  none_found,      ///< no orbit in the given number of samples, or q is beyond the largest period;
+                   ///< of one solution: 1 is a multiplier, so that there is none, or many
+  not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
 };
 
-/// A periodic solution, verified or not.
+/// What a search for a periodic orbit found, or one solution of it.
 /// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
 template <class Orbit>
-struct OrbitCandidateOf {
-  CandidateOutcome outcome;    ///< whether the solution keeps to its itinerary
-  std::optional<Orbit> orbit;  ///< none where it is singular
+struct OrbitResultOf {
+  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< how the search ended
+  std::optional<Orbit> orbit;  ///< certified, approached, touching a surface, or not reproduced
+  std::int64_t samples = 0;    ///< of the motion that was looked at
+  int candidates = 0;          ///< periods that were solved for
 };
 
 namespace detail {
@@ -100,6 +109,12 @@ inline bool touches_surface(const StateScale& extent, double error, double displ
   const double share = 256.0 * std::numeric_limits<double>::epsilon() + 64.0 * error;
   const auto rounding = [share](double whole) { return whole > 0.0 ? share * whole : 0.0; };
   return displacement <= rounding(extent.displacement) || velocity <= rounding(extent.velocity);
+}
+
+/// What one solution is.
+inline OrbitOutcome outcome_of(bool touches, bool switches_alike) {
+  if (touches) return OrbitOutcome::on_surface;
+  return switches_alike ? OrbitOutcome::certified : OrbitOutcome::not_reproduced;
 }
 
 }  // namespace detail

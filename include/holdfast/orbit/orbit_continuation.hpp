@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
@@ -36,12 +36,23 @@ struct BranchEnd {
 
 namespace detail {
 
-/// An orbit's sequence of contacts solved at one value of a parameter: all that may end it, each
-/// positive while the orbit lasts.
+/// An orbit's itinerary solved at one value of a parameter: all that may end the orbit, the
+/// distances as shares of its own size, each positive while it lasts; −1 where there is no
+/// solution.
 struct BranchPoint {
-  bool solved = false;
   Borders borders;
   Multiplier multiplier{};
+  double by_displacement = -1.0, by_velocity = -1.0, by_multiplier = -1.0;
+
+  double margin() const { return std::min({by_displacement, by_velocity, by_multiplier}); }
+
+  BranchEnd end(double parameter) const {
+    BranchEnd end{BranchEndOutcome::unit_circle, parameter, {}, multiplier, 0};
+    if (by_multiplier == margin()) return end;
+    end.outcome = BranchEndOutcome::border_collision;
+    end.border = by_displacement < by_velocity ? borders.displacement : borders.velocity;
+    return end;
+  }
 };
 
 /// Continues an orbit along a family of loops by its itinerary.
@@ -58,47 +69,20 @@ class OrbitContinuation {
   BranchPoint at(double parameter) {
     ++solutions_;
     const IdealLoop<double> loop = family_(parameter);
-    require_ratio(loop);
-    if (has_backlash_ != (loop.backlash_width > 0.0))
-      throw InvalidParameter("backlash width along the path", loop.backlash_width, "m",
-                             has_backlash_ ? "> 0: without backlash the rule is another one"
-                                           : "0, as it is at the orbit");
+    require_same_rule(loop);
     const ItineraryMaps<double> maps(loop, orbit_.ratio);
-    const auto blocks = affine_blocks(maps, orbit_.itinerary);
+    const auto blocks = maps_of_blocks(maps, orbit_.itinerary);
     const auto solution = periodic_solution(maps, orbit_.itinerary, blocks);
     BranchPoint point;
-    point.solved = solution.has_value();
-    if (!point.solved) return point;
+    if (!solution) return point;
     point.borders = pattern_.stays_inside()
                         ? borders_in_best_gap(solution->states, loop.backlash_width)
                         : borders_of(pattern_, solution->states, loop.backlash_width);
-    point.multiplier = multipliers_of_product(maps_of(blocks)).front();
+    point.multiplier = multipliers_of_product(blocks).front();
+    point.by_displacement = point.borders.displacement.distance / extent_.displacement;
+    point.by_velocity = point.borders.velocity.distance / extent_.velocity;
+    point.by_multiplier = -point.multiplier.log_modulus;
     return point;
-  }
-
-  /// The smallest of the distances, each as a share of the orbit's own size; negative past the end.
-  double margin(const BranchPoint& point) const {
-    if (!point.solved) return -1.0;
-    return std::min({point.borders.displacement.distance / extent_.displacement,
-                     point.borders.velocity.distance / extent_.velocity,
-                     -point.multiplier.log_modulus});
-  }
-
-  BranchEnd end(double parameter, const BranchPoint& point) const {
-    BranchEnd result;
-    result.parameter = parameter;
-    result.multiplier = point.multiplier;
-    result.solutions = solutions_;
-    const double by_displacement = point.borders.displacement.distance / extent_.displacement;
-    const double by_velocity = point.borders.velocity.distance / extent_.velocity;
-    const bool by_multiplier =
-        !point.solved || -point.multiplier.log_modulus <= std::min(by_displacement, by_velocity);
-    result.outcome =
-        by_multiplier ? BranchEndOutcome::unit_circle : BranchEndOutcome::border_collision;
-    if (!by_multiplier)
-      result.border =
-          by_displacement < by_velocity ? point.borders.displacement : point.borders.velocity;
-    return result;
   }
 
   int solutions() const { return solutions_; }
@@ -107,22 +91,25 @@ class OrbitContinuation {
   /// Of an orbit that stays in the gap: it is there in every gap that holds it, so the one counts
   /// that holds it best.
   static Borders borders_in_best_gap(const std::vector<Vector<double, 5>>& states, double width) {
-    std::size_t lowest = 0, highest = 0;
-    const auto at = [&](std::size_t j) { return relative_displacement(states[j]); };
-    for (std::size_t j = 1; j < states.size(); ++j) {
-      if (at(j) < at(lowest)) lowest = j;
-      if (at(j) > at(highest)) highest = j;
-    }
-    const double clearance = (width - (at(highest) - at(lowest))) / 2.0;
-    return {{clearance, SwitchingSurface::gap_upper, static_cast<std::int64_t>(highest)}, {}};
+    const auto less = [](const auto& a, const auto& b) {
+      return relative_displacement(a) < relative_displacement(b);
+    };
+    const auto lowest = std::min_element(states.begin(), states.end(), less);
+    const auto highest = std::max_element(states.begin(), states.end(), less);
+    const double reach = relative_displacement(*highest) - relative_displacement(*lowest);
+    return {{(width - reach) / 2.0, SwitchingSurface::gap_upper, highest - states.begin()}, {}};
   }
 
-  void require_ratio(const IdealLoop<double>& loop) const {
+  void require_same_rule(const IdealLoop<double>& loop) const {
     const double given = loop.excitation.frequency * loop.sampling.period;
     const double kept =
         static_cast<double>(orbit_.ratio.numerator) / static_cast<double>(orbit_.ratio.denominator);
     if (loop.excitation.amplitude > 0.0 && !(std::abs(given - kept) <= 1e-9 * kept))
       throw InvalidParameter("f tau along the path", given, "", "that of the orbit");
+    if (has_backlash_ != (loop.backlash_width > 0.0))
+      throw InvalidParameter("backlash width along the path", loop.backlash_width, "m",
+                             has_backlash_ ? "> 0: without backlash the rule is another one"
+                                           : "0, as it is at the orbit");
   }
 
   const Family& family_;
@@ -160,27 +147,26 @@ BranchEnd continue_orbit(const Family& family, const PeriodicOrbit& orbit, doubl
   require_finite("end of the path", to, "");
   require_within("number of steps", steps, "", 1.0, 1e6);
   detail::OrbitContinuation<Family> continuation(family, orbit, family(from).backlash_width);
+  const auto margin = [&](double value) { return continuation.at(value).margin(); };
+  BranchEnd end;
+  end.parameter = to;
   double last = from;
   for (int k = 1; k <= steps; ++k) {
     const double next = k == steps ? to : from + (to - from) * k / steps;
-    const detail::BranchPoint point = continuation.at(next);
-    if (continuation.margin(point) > 0.0) {
+    if (margin(next) > 0.0) {
       last = next;
       continue;
     }
-    const auto margin = [&continuation](double value) {
-      return continuation.margin(continuation.at(value));
-    };
     const SignChange<double> bracket{std::min(last, next), std::max(last, next),
                                      last < next ? 1.0 : -1.0, last < next ? -1.0 : 1.0};
     const double tolerance =
         4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(last), std::abs(next));
     const auto found = bracketing_root(margin, bracket, tolerance);
     const double position = last < next ? found.upper : found.lower;
-    return continuation.end(position, continuation.at(position));
+    end = continuation.at(position).end(position);
+    end.solutions = continuation.solutions();
+    return end;
   }
-  BranchEnd end;
-  end.parameter = to;
   end.multiplier = continuation.at(to).multiplier;
   end.solutions = continuation.solutions();
   return end;

@@ -16,9 +16,6 @@
 
 namespace holdfast {
 
-/// What a search for a periodic orbit of an IdealLoop found.
-using OrbitResult = OrbitResultOf<PeriodicOrbit>;
-
 namespace detail {
 
 /// A motion of an IdealLoop as ReturnSearch asks for it: a return whose contacts have repeated is
@@ -33,7 +30,6 @@ class SampledSearchModel {
   using State = typename Motion::State;
   using Memory = decltype(std::declval<Motion>().memory());
   using Symbol = Itinerary::value_type;
-  using Candidate = OrbitCandidate;
   using Result = OrbitResult;
   using Seen = SeenMotion<Symbol, Plant>;
 
@@ -45,7 +41,7 @@ class SampledSearchModel {
         ratio_(ratio),
         maps_(loop, ratio),
         motion_(motion),
-        weights_(DeviationScale(loop).weights()) {}
+        weights_(deviation_weights(loop)) {}
 
   const PortReadings<Plant>& readings() const { return motion_.readings(); }
   const State& state() const { return motion_.state(); }
@@ -70,45 +66,41 @@ class SampledSearchModel {
   }
 
   /// The orbit of the contacts; none where it touches a surface and the motion does not follow it.
-  Candidate solve(Seen& seen, std::int64_t period, const Memory& reference) {
-    Candidate found =
+  Result solve(Seen& seen, std::int64_t period, const Memory& reference) {
+    Result found =
         solved({seen.itinerary.end() - period, seen.itinerary.end()}, reference.backlash);
-    if (found.outcome == CandidateOutcome::on_surface && !follows(*found.orbit, seen))
+    if (found.outcome == OrbitOutcome::on_surface && !follows(*found.orbit, seen))
       found.orbit.reset();
     return found;
   }
 
-  bool is_same(const Candidate& known, const Candidate& other, const Seen&) const {
-    return other.outcome == CandidateOutcome::verified &&
+  bool is_same(const Result& known, const Result& other, const Seen&) const {
+    return other.outcome == OrbitOutcome::certified &&
            known.orbit->itinerary == other.orbit->itinerary;
   }
 
-  void approach(const Candidate& candidate, const Seen&) {
-    if (candidate.outcome == CandidateOutcome::verified)
-      points_ = attraction_balls(loop_, *candidate.orbit);
+  void approach(const Result& found, const Seen&) {
+    if (found.outcome == OrbitOutcome::certified) balls_ = attraction_balls(loop_, *found.orbit);
   }
 
-  bool has_come(const Candidate& candidate, const Seen&) const {
-    return candidate.outcome == CandidateOutcome::on_surface ||
-           std::any_of(points_.begin(), points_.end(), [this](const AttractionBall& point) {
-             return attracts(point, motion_.memory(), weights_);
+  bool has_come(const Result& found, const Seen&) const {
+    return found.outcome == OrbitOutcome::on_surface ||
+           std::any_of(balls_.begin(), balls_.end(), [this](const AttractionBall& ball) {
+             return attracts(ball, motion_.memory(), weights_);
            });
   }
 
   /// The same orbit with its shortest period.
-  Result result_of(const Candidate& found) const {
-    if (!found.orbit || found.outcome == CandidateOutcome::other_itinerary)
-      return {{}, found.orbit, 0, 0};
-    const PeriodicOrbit& orbit = *found.orbit;
+  PeriodicOrbit shortened(const PeriodicOrbit& orbit) const {
     const auto step = static_cast<std::size_t>(ratio_.denominator);
     const auto period = static_cast<std::ptrdiff_t>(
         shortest_period(orbit.states, orbit.itinerary, step, StateScale(orbit.states)));
     const auto begin = orbit.itinerary.begin();
-    if (begin + period == orbit.itinerary.end()) return {{}, found.orbit, 0, 0};
-    const Candidate shorter = solved({begin, begin + period}, orbit.memory);
-    const bool is_orbit = shorter.outcome == CandidateOutcome::verified ||
-                          shorter.outcome == CandidateOutcome::on_surface;
-    return {{}, is_orbit ? shorter.orbit : found.orbit, 0, 0};
+    if (begin + period == orbit.itinerary.end()) return orbit;
+    const Result shorter = solved({begin, begin + period}, orbit.memory);
+    const bool is_orbit =
+        shorter.outcome == OrbitOutcome::certified || shorter.outcome == OrbitOutcome::on_surface;
+    return is_orbit ? *shorter.orbit : orbit;
   }
 
  private:
@@ -125,7 +117,7 @@ class SampledSearchModel {
     return same_itinerary && seen.came_nearer(first, before, seen.extent.share_of(state() - first));
   }
 
-  Candidate solved(const Itinerary& itinerary, const BacklashMemory<Scalar>& memory) const {
+  Result solved(const Itinerary& itinerary, const BacklashMemory<Scalar>& memory) const {
     const Backlash<Scalar> law(loop_.backlash_width, memory);
     return orbit_of_itinerary(loop_, ratio_, maps_, itinerary, law);
   }
@@ -135,7 +127,7 @@ class SampledSearchModel {
   ItineraryMaps<Scalar> maps_;
   Motion motion_;
   Vector<Scalar, 6> weights_;
-  std::vector<AttractionBall> points_;  // of the proposed orbit
+  std::vector<AttractionBall> balls_;  // of the proposed orbit
 };
 
 /// The orbit of a motion that stands at a stroboscopic instant.
@@ -143,7 +135,11 @@ template <class Scalar>
 OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
                             const OrbitLimits& limits,
                             const PeriodicallyForcedMotion<Scalar>& motion) {
-  return ReturnSearch(SampledSearchModel<Scalar>(loop, ratio, motion), ratio, limits).run();
+  const SampledSearchModel<Scalar> model(loop, ratio, motion);
+  OrbitResult found = ReturnSearch(model, ratio, limits).run();
+  if (found.orbit && found.outcome != OrbitOutcome::not_reproduced)
+    found.orbit = model.shortened(*found.orbit);
+  return found;
 }
 
 }  // namespace detail
@@ -156,7 +152,7 @@ OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio
 /// `certified` means that the motion lies within the orbit's radius of attraction: it tends to it.
 ///
 /// Bounded work: at most `most_samples` samples of the motion (one period more where the orbit
-/// touches a surface) and as many to be solved for, one byte each; and 70 bytes a sample of the
+/// touches a surface) and as many to be solved for, one byte each; and 90 bytes a sample of the
 /// orbit.
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
@@ -170,9 +166,8 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   require_finite("initial state", initial_state.sum(), "");
   validate(limits);
   const std::optional<Rational> ratio = forcing_ratio(loop);
-  if (!ratio) return {OrbitOutcome::incommensurate, std::nullopt, 0, 0};
-  if (ratio->denominator > limits.largest_period)
-    return {OrbitOutcome::none_found, std::nullopt, 0, 0};
+  if (!ratio) return {OrbitOutcome::incommensurate, {}};
+  if (ratio->denominator > limits.largest_period) return {};
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -42,8 +41,8 @@ struct PeriodicOrbit : LoopOrbit<5> {
   }
 };
 
-/// An itinerary with its solution, verified or not.
-using OrbitCandidate = OrbitCandidateOf<PeriodicOrbit>;
+/// What a search for a periodic orbit of an IdealLoop found.
+using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 
 /// The states of a motion that repeats a given itinerary for ever.
 template <class Scalar>
@@ -70,29 +69,26 @@ Vector<Scalar, 5> follow_itinerary(const ItineraryMaps<Scalar>& maps, const Itin
 
 }  // namespace detail
 
-/// Solves z̃_N = z̃₀ for an itinerary: (I − M) z̃₀ = g without forming M or g.
-///
-/// The first state comes from the cyclic system of the blocks; the others follow by the maps
-/// themselves, and what is left open after one period is divided out once more.
+/// Solves z̃_N = z̃₀ for an itinerary, (I − M) z̃₀ = g without forming M or g: what a motion from rest
+/// leaves open after one period is divided out, three times for the last digits.
 /// @param maps       of the loop
 /// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
-/// @param blocks     affine_blocks() of the sequence
+/// @param blocks     maps_of_blocks() of the sequence
 /// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
 ///         periodic solution, or a continuum of them
 template <class Scalar>
 std::optional<PeriodicSolution<Scalar>> periodic_solution(
     const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
-    const std::vector<AffineMap<Scalar>>& blocks) {
+    const std::vector<Matrix<Scalar, 5>>& blocks) {
   const CyclicSystem<Scalar> system(blocks);
   if (system.is_singular()) return std::nullopt;
   PeriodicSolution<Scalar> solution;
-  solution.states.resize(itinerary.size());
-  solution.states.front() = maps.units().cwiseProduct(system.first_state());
-  Vector<Scalar, 5> open, correction;
-  for (int refinement = 0; refinement < 3; ++refinement) {
+  solution.states.assign(itinerary.size(), Vector<Scalar, 5>::Zero());
+  Vector<Scalar, 5> open, correction = Vector<Scalar, 5>::Zero();
+  for (int turn = 0; turn < 4; ++turn) {
+    solution.states.front() += correction;
     open = detail::follow_itinerary(maps, itinerary, solution.states) - solution.states.front();
     correction = maps.units().cwiseProduct(system.correction(open.cwiseQuotient(maps.units())));
-    if (refinement < 2) solution.states.front() += correction;
   }
   solution.closure_error = open.template head<4>().norm();
   solution.state_error = StateScale(solution.states).share_of(correction);
@@ -106,18 +102,19 @@ std::optional<PeriodicSolution<Scalar>> periodic_solution(
 /// @param maps       of the same loop and ratio
 /// @param itinerary  N samples, N ≥ 1 a multiple of q, the first one at phase 0 of the forcing
 /// @param law        the backlash before the first sample, as the motion that led here left it
+/// @return `certified` where the solution has this itinerary, attracting or not
 /// Work: about 500 multiply-adds a sample; memory about 70 bytes a sample.
 /// @tparam Scalar  `double`; a template so that only who calls it compiles it
 template <class Scalar>
-OrbitCandidate orbit_of_itinerary(const IdealLoop<Scalar>& loop, const Rational& ratio,
-                                  const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
-                                  const Backlash<Scalar>& law) {
-  const std::vector<AffineMap<Scalar>> blocks = affine_blocks(maps, itinerary);
+OrbitResult orbit_of_itinerary(const IdealLoop<Scalar>& loop, const Rational& ratio,
+                               const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
+                               const Backlash<Scalar>& law) {
+  const std::vector<Matrix<Scalar, 5>> blocks = maps_of_blocks(maps, itinerary);
   auto solution = periodic_solution(maps, itinerary, blocks);
-  if (!solution) return {CandidateOutcome::singular, std::nullopt};
+  if (!solution) return {};
   const SwitchingPattern pattern = switching_pattern(solution->states, law);
   PeriodicOrbit orbit{{ratio, loop.sampling.period, std::move(solution->states),
-                       multipliers_of_product(maps_of(blocks)), solution->closure_error},
+                       multipliers_of_product(blocks), solution->closure_error},
                       itinerary,
                       pattern.memory,
                       {}};
@@ -125,18 +122,49 @@ OrbitCandidate orbit_of_itinerary(const IdealLoop<Scalar>& loop, const Rational&
   const bool touches = detail::touches_surface(StateScale(orbit.states), solution->state_error,
                                                std::abs(orbit.borders.displacement.distance),
                                                std::abs(orbit.borders.velocity.distance));
-  const auto outcome = touches                             ? CandidateOutcome::on_surface
-                       : has_itinerary(pattern, itinerary) ? CandidateOutcome::verified
-                                                           : CandidateOutcome::other_itinerary;
-  return {outcome, std::move(orbit)};
+  return {detail::outcome_of(touches, has_itinerary(pattern, itinerary)), std::move(orbit)};
+}
+
+/// How a certificate of a periodic orbit stands in another number type.
+struct OrbitVerification {
+  bool same_itinerary = false;  ///< the orbit solved there reproduces the itinerary
+  double displacement_difference = std::numeric_limits<double>::infinity();  ///< largest (m)
+  double velocity_difference = std::numeric_limits<double>::infinity();      ///< largest (m/s)
+  double closure_error = std::numeric_limits<double>::infinity();  ///< ‖z_N − z₀‖ there (SI)
+};
+
+/// Computes an orbit again from its itinerary, all of it in the number type `Precise`:
+/// matrix exponentials, forcing, solution and backlash.
+///
+///     verify_orbit<long double>(loop, orbit).same_itinerary
+///
+/// @param loop   the one that the orbit was found for
+/// @param orbit  certified
+/// @return infinite differences where the sequence is singular there
+template <class Precise>
+OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
+  const ItineraryMaps<Precise> maps(converted<Precise>(loop), orbit.ratio);
+  const auto solution =
+      periodic_solution(maps, orbit.itinerary, maps_of_blocks(maps, orbit.itinerary));
+  if (!solution) return {};
+  const BacklashMemory<double>& memory = orbit.memory;
+  const Backlash<Precise> law(Precise(loop.backlash_width),
+                              {memory.inside, Precise(memory.lower), Precise(memory.upper),
+                               Precise(memory.previous_velocity)});
+  StateScale largest;
+  for (std::size_t j = 0; j < orbit.states.size(); ++j)
+    largest.include(
+        Vector<Precise, 5>(solution->states[j] - orbit.states[j].template cast<Precise>()));
+  return {has_itinerary(switching_pattern(solution->states, law), orbit.itinerary),
+          largest.displacement, largest.velocity, static_cast<double>(solution->closure_error)};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template std::optional<PeriodicSolution<double>> periodic_solution(
-    const ItineraryMaps<double>&, const Itinerary&, const std::vector<AffineMap<double>>&);
-extern template OrbitCandidate orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
-                                                  const ItineraryMaps<double>&, const Itinerary&,
-                                                  const Backlash<double>&);
+    const ItineraryMaps<double>&, const Itinerary&, const std::vector<Matrix<double, 5>>&);
+extern template OrbitResult orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
+                                               const ItineraryMaps<double>&, const Itinerary&,
+                                               const Backlash<double>&);
 #endif
 
 }  // namespace holdfast

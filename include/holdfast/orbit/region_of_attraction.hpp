@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/core/types.hpp"
@@ -39,58 +37,16 @@ struct AttractionBall {
   double radius;                  ///< m, or m a metre of clearance; > 0
 };
 
-namespace detail {
-
-/// The number type of a loop such as IdealLoop.
-template <class Loop>
-using ScalarOf = std::decay_t<decltype(std::declval<const Loop&>().sampling.period)>;
-
-}  // namespace detail
-
-/// The weights by which deviations of an orbit are measured.
-///
-///     DeviationScale(loop).weights();
-///
-/// @tparam Loop  IdealLoop, or a loop with its members
-template <class Loop>
-struct DeviationScale {
-  using Scalar = detail::ScalarOf<Loop>;  ///< the number type of the loop
-
-  Scalar angular_frequency;  ///< ω (rad/s)
-  Scalar stiffness;          ///< k₁ (N/m)
-
-  /// ω is √(k₁/m₁) where the excitation has no amplitude.
-  explicit DeviationScale(const Loop& loop)
-      : angular_frequency(
-            loop.excitation.amplitude > 0.0
-                ? loop.excitation.angular_frequency()
-                : std::sqrt(loop.plant.conductor_stiffness / loop.plant.conductor_mass)),
-        stiffness(loop.plant.conductor_stiffness) {}
-
-  /// Each in metres.
-  Vector<Scalar, 6> weights() const {
-    return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
-  }
-};
-
-namespace detail {
-
-/// The deviation by DeviationScale; infinite where contact or direction of the drive differ.
-template <class Memory>
-double deviation_from(const AttractionBall& point, const Memory& motion,
-                      const Vector<double, 6>& weights) {
-  const BacklashMemory<double>& drive = motion.backlash;
-  const bool same_direction = drive.previous_velocity * point.memory.previous_velocity > 0.0;
-  const bool same_side = drive.inside == point.memory.inside && (drive.inside || same_direction);
-  if (!same_side) return std::numeric_limits<double>::infinity();
-  const bool gap_counts = drive.inside && !point.stays_inside;
-  Vector<double, 6> deviation;
-  deviation << motion.state - point.state.head<4>(), motion.previous_force - point.state[4],
-      gap_counts ? drive.lower - point.memory.lower : 0.0;
-  return deviation.cwiseProduct(weights).norm();
+/// The weights by which deviations of an orbit are measured, [1, 1/ω, 1, 1/ω, 1/k₁, 1], each in
+/// metres; ω is √(k₁/m₁) where the excitation has no amplitude.
+template <class Scalar>
+Vector<Scalar, 6> deviation_weights(const IdealLoop<Scalar>& loop) {
+  const Scalar stiffness = loop.plant.conductor_stiffness;
+  const Scalar angular_frequency = loop.excitation.amplitude > 0.0
+                                       ? loop.excitation.angular_frequency()
+                                       : std::sqrt(stiffness / loop.plant.conductor_mass);
+  return {1.0, 1.0 / angular_frequency, 1.0, 1.0 / angular_frequency, 1.0 / stiffness, 1.0};
 }
-
-}  // namespace detail
 
 /// The radius of the neighbourhood for a drive that remembers this (m); not positive where its gap
 /// does not hold an orbit that stays inside.
@@ -103,10 +59,17 @@ inline double attraction_radius(const AttractionBall& point, const BacklashMemor
 /// neighbourhood.
 /// @param point    the neighbourhood, at the same phase of the forcing
 /// @param motion   its memory(), before the sample
-/// @param weights  DeviationScale::weights()
+/// @param weights  deviation_weights()
 template <class Memory>
 bool attracts(const AttractionBall& point, const Memory& motion, const Vector<double, 6>& weights) {
-  return detail::deviation_from(point, motion, weights) < attraction_radius(point, motion.backlash);
+  const BacklashMemory<double>& drive = motion.backlash;
+  const bool same_direction = drive.previous_velocity * point.memory.previous_velocity > 0.0;
+  if (drive.inside != point.memory.inside || !(drive.inside || same_direction)) return false;
+  const bool gap_counts = drive.inside && !point.stays_inside;
+  Vector<double, 6> deviation;
+  deviation << motion.state - point.state.head<4>(), motion.previous_force - point.state[4],
+      gap_counts ? drive.lower - point.memory.lower : 0.0;
+  return deviation.cwiseProduct(weights).norm() < attraction_radius(point, drive);
 }
 
 namespace detail {
@@ -122,21 +85,28 @@ struct DeviationSegment {
 template <class Scalar>
 class DeviationFlow {
  public:
-  template <class Loop>
-  DeviationFlow(const Loop& loop, const ItineraryMaps<Scalar>& maps, const PeriodicOrbit& orbit)
-      : orbit_(orbit),
-        weights_(DeviationScale(loop).weights()),
-        pattern_(
+  DeviationFlow(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps,
+                const PeriodicOrbit& orbit)
+      : pattern_(
             switching_pattern(orbit.states, Backlash<Scalar>(loop.backlash_width, orbit.memory))),
-        lower_(pattern_.memory.lower),
-        width_(loop.backlash_width),
-        stays_inside_(pattern_.stays_inside()) {
+        stays_inside_(pattern_.stays_inside()),
+        distances_(orbit.states.size()) {
+    const Vector<Scalar, 6> weights = deviation_weights(loop);
     for (const bool engaged : {false, true}) {
       Matrix<Scalar, 6>& map = maps_[engaged ? 1 : 0];
       map.setZero();
       map.template topLeftCorner<5, 5>() = maps.map(engaged);
-      map = weights_.asDiagonal() * map * weights_.cwiseInverse().asDiagonal();
+      map = weights.asDiagonal() * map * weights.cwiseInverse().asDiagonal();
     }
+    relative_ = {Row::Unit(2) / weights[2] - Row::Unit(0) / weights[0],
+                 Row::Unit(3) / weights[3] - Row::Unit(1) / weights[1]};
+    for_each_border(pattern_, orbit.states, loop.backlash_width,
+                    [this](std::size_t j, SwitchingSurface surface, double distance) {
+                      Distances& here = distances_[j];
+                      const bool reverses = surface == SwitchingSurface::reversal;
+                      double& least = reverses ? here.velocity : here.displacement;
+                      least = std::min(least, stays_inside_ ? 1.0 : distance);
+                    });
   }
 
   /// The segment of the next `samples` samples.
@@ -145,64 +115,44 @@ class DeviationFlow {
     Matrix<Scalar, 6> flow = Matrix<Scalar, 6>::Identity();
     for (std::int64_t k = 0; k < samples; ++k) {
       take_sample(flow, segment);
-      if (++sample_ == orbit_.states.size()) sample_ = 0;
+      if (++sample_ == distances_.size()) sample_ = 0;
     }
     segment.growth = flow.norm();
     return segment;
   }
 
  private:
-  /// Δz and Δż of a deviation as rows for scaled ones.
-  RowVector<Scalar, 6> relative(int first) const {
-    RowVector<Scalar, 6> row = RowVector<Scalar, 6>::Zero();
-    row[first] = -1.0 / weights_[first];
-    row[first + 2] = 1.0 / weights_[first + 2];
-    return row;
-  }
+  using Row = RowVector<Scalar, 6>;
+
+  /// Of a sample from the surfaces that its decision rests on (m, m/s); of an orbit that stays
+  /// inside 1, for a metre of clearance.
+  struct Distances {
+    double displacement = std::numeric_limits<double>::infinity();
+    double velocity = std::numeric_limits<double>::infinity();
+  };
 
   void take_sample(Matrix<Scalar, 6>& flow, DeviationSegment& segment) {
     const ContactDecision& decision = pattern_.decisions[sample_];
-    const Vector<Scalar, 5>& state = orbit_.states[sample_];
-    const auto limit = [&](const RowVector<Scalar, 6>& row, double distance) {
+    const auto limit = [&](const Row& row, double distance) {
       segment.radius = std::min(segment.radius, distance / (row * flow).norm());
     };
-    if (decision.velocity_sign != 0) limit(relative(1), std::abs(relative_velocity(state)));
-    const RowVector<Scalar, 6> displacement = relative(0);
-    if (decision.was_inside) limit(from_gap(displacement), distance_to_end(decision, state));
-    const bool enters = !decision.was_inside && !decision.engaged;
-    if (enters) enter(state);
+    if (decision.velocity_sign != 0) limit(relative_[1], distances_[sample_].velocity);
+    if (decision.was_inside) {
+      Row from_gap = relative_[0];
+      if (!stays_inside_) from_gap[5] = -1.0;
+      limit(from_gap, distances_[sample_].displacement);
+    }
     Matrix<Scalar, 6> map = maps_[decision.engaged ? 1 : 0];
-    if (enters) map.row(5) = displacement;
+    if (!decision.was_inside && !decision.engaged) map.row(5) = relative_[0];
     if (decision.was_inside && !decision.engaged && !stays_inside_) map(5, 5) = 1.0;
     flow = map * flow;
   }
 
-  RowVector<Scalar, 6> from_gap(RowVector<Scalar, 6> displacement) const {
-    displacement[5] = stays_inside_ ? 0.0 : -1.0;
-    return displacement;
-  }
-
-  double distance_to_end(const ContactDecision& decision, const Vector<Scalar, 5>& state) const {
-    if (stays_inside_) return 1.0;
-    const double above = relative_displacement(state) - lower_;
-    if (decision.exit_side < 0) return -above;
-    if (decision.exit_side > 0) return above - width_;
-    return std::min(above, width_ - above);
-  }
-
-  void enter(const Vector<Scalar, 5>& state) {
-    const std::size_t before = (sample_ + orbit_.states.size() - 1) % orbit_.states.size();
-    const bool from_positive = pattern_.decisions[before].velocity_sign > 0;
-    lower_ = relative_displacement(state) - (from_positive ? width_ : 0.0);
-  }
-
-  const PeriodicOrbit& orbit_;
-  Vector<Scalar, 6> weights_;
   SwitchingPattern pattern_;
-  double lower_;
-  double width_;
   bool stays_inside_;
+  std::vector<Distances> distances_;
   std::array<Matrix<Scalar, 6>, 2> maps_;
+  std::array<Row, 2> relative_;  // Δz and Δż of scaled deviations
   std::size_t sample_ = 0;
 };
 
@@ -230,43 +180,44 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
   return radii;
 }
 
-/// The segments of one period, each of `length` common periods but perhaps a shorter last one; or
-/// one segment of several whole periods.
-template <class Loop, class Scalar>
-std::vector<DeviationSegment> deviation_segments(const Loop& loop,
-                                                 const ItineraryMaps<Scalar>& maps,
+/// The segments of one period, each of `length` common periods of q samples but perhaps a shorter
+/// last one; or one segment of several whole periods.
+/// @param flow  from the first sample on
+template <class Scalar>
+std::vector<DeviationSegment> deviation_segments(DeviationFlow<Scalar> flow,
                                                  const PeriodicOrbit& orbit, std::int64_t length) {
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t whole = std::max(orbit.period_samples() / step, length);
-  DeviationFlow<Scalar> flow(loop, maps, orbit);
   std::vector<DeviationSegment> segments;
   for (std::int64_t done = 0; done < whole; done += length)
     segments.push_back(flow.next(step * std::min(length, whole - done)));
   return segments;
 }
 
-template <class Loop>
-std::vector<AttractionBall> points_with_radii(const Loop& loop, const PeriodicOrbit& orbit,
-                                              std::int64_t samples_of_segment,
-                                              const std::vector<double>& radii) {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+/// The neighbourhoods at the starts of the segments.
+template <class Scalar>
+std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
+                                             const PeriodicOrbit& orbit,
+                                             std::int64_t samples_of_segment,
+                                             const std::vector<double>& radii) {
+  AttractionBall ball{};
+  ball.stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
+  ball.lowest = std::numeric_limits<double>::infinity();
+  ball.highest = -ball.lowest;
   for (const auto& state : orbit.states) {
-    lowest = std::min(lowest, relative_displacement(state));
-    highest = std::max(highest, relative_displacement(state));
+    ball.lowest = std::min(ball.lowest, relative_displacement(state));
+    ball.highest = std::max(ball.highest, relative_displacement(state));
   }
-  const bool stays_inside = orbit.memory.inside && orbit.engaged_fraction() == 0.0;
-  std::vector<AttractionBall> points;
-  Backlash<ScalarOf<Loop>> law(loop.backlash_width, orbit.memory);
-  for (std::int64_t j = 0; j < orbit.period_samples(); ++j) {
-    const auto& state = orbit.states[static_cast<std::size_t>(j)];
-    if (j % samples_of_segment == 0) {
-      const double radius = radii[static_cast<std::size_t>(j / samples_of_segment)];
-      if (radius > 0.0)
-        points.push_back({j, state, law.memory(), stays_inside, lowest, highest, radius});
-    }
-    law.step(relative_displacement(state), relative_velocity(state));
+  std::vector<AttractionBall> balls;
+  Backlash<Scalar> law(loop.backlash_width, orbit.memory);
+  for (; ball.sample < orbit.period_samples(); ++ball.sample) {
+    ball.state = orbit.states[static_cast<std::size_t>(ball.sample)];
+    ball.memory = law.memory();
+    ball.radius = radii[static_cast<std::size_t>(ball.sample / samples_of_segment)];
+    if (ball.sample % samples_of_segment == 0 && ball.radius > 0.0) balls.push_back(ball);
+    law.step(relative_displacement(ball.state), relative_velocity(ball.state));
   }
-  return points;
+  return balls;
 }
 
 }  // namespace detail
@@ -283,19 +234,20 @@ std::vector<AttractionBall> points_with_radii(const Loop& loop, const PeriodicOr
 /// @return in the order of the orbit; empty where no segments of up to 64 periods, or 10⁶ samples,
 ///         contract
 /// Work: about 300 multiply-adds a sample for every length of segment that is tried.
-/// @tparam Loop  IdealLoop<double>; a template so that only who calls it compiles it
-template <class Loop>
-std::vector<AttractionBall> attraction_balls(const Loop& loop, const PeriodicOrbit& orbit) {
-  const ItineraryMaps<detail::ScalarOf<Loop>> maps(loop, orbit.ratio);
+/// @tparam Scalar  `double`; a template so that only who calls it compiles it
+template <class Scalar>
+std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
+                                             const PeriodicOrbit& orbit) {
+  const detail::DeviationFlow<Scalar> flow(loop, ItineraryMaps<Scalar>(loop, orbit.ratio), orbit);
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t common_periods = orbit.period_samples() / step;
   // Segments of more than one period hold whole ones, to begin where they are used again.
   std::int64_t length = 1;
   const std::int64_t longest = std::max(64 * common_periods, 1'000'000 / step);
   while (length <= longest) {
-    const auto segments = detail::deviation_segments(loop, maps, orbit, length);
-    const std::vector<double> radii = detail::attraction_radii(segments);
-    if (!radii.empty()) return detail::points_with_radii(loop, orbit, step * length, radii);
+    const std::vector<double> radii =
+        detail::attraction_radii(detail::deviation_segments(flow, orbit, length));
+    if (!radii.empty()) return detail::balls_with_radii(loop, orbit, step * length, radii);
     length = length < common_periods ? std::min(2 * length, common_periods) : 2 * length;
   }
   return {};

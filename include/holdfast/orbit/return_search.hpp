@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
@@ -15,19 +13,6 @@
 #include "holdfast/orbit/state_scale.hpp"
 
 namespace holdfast {
-
-/// How the search for the periodic orbit of a motion ended.
-enum class OrbitOutcome {
-  certified,       ///< the motion was seen to tend to the orbit
-  approaching,     ///< an attracting orbit was proposed, but the motion was not seen to come to it
-  on_surface,      ///< its contacts repeat, but the orbit touches a switching surface: the result
-                   ///< depends on rounding, and no certificate can be given
-  incommensurate,  ///< f τ is no fraction p/q with q ≤ 10⁶: the forcing's phase is a state that
-                   ///< does not repeat
-  diverges,        ///< the motion grows without bound
-  none_found,      ///< no orbit in the given number of samples, or q is beyond the largest period
-  not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
-};
 
 /// How long and how far to look for an orbit.
 struct OrbitLimits {
@@ -43,16 +28,6 @@ inline void validate(const OrbitLimits& limits) {
   require_within("largest period", static_cast<double>(limits.largest_period), "samples", 1.0, 1e8);
   require_within("number of samples", static_cast<double>(limits.most_samples), "", 0.0, 1e9);
 }
-
-/// What a search for a periodic orbit found.
-/// @tparam Orbit  PeriodicOrbit or EventOrbitOf<N>
-template <class Orbit>
-struct OrbitResultOf {
-  OrbitOutcome outcome = OrbitOutcome::none_found;  ///< how the search ended
-  std::optional<Orbit> orbit;  ///< certified, approached, touching a surface, or not reproduced
-  std::int64_t samples = 0;    ///< of the motion that was looked at
-  int candidates = 0;          ///< periods that were solved for
-};
 
 namespace detail {
 
@@ -85,14 +60,13 @@ struct SeenMotion {
 /// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
 ///                take_sample()) with what is particular to it:
 ///
-///     samples_per_solved                  samples taken before one more is solved for
-///     may_repeat(seen, period)            a near return is worth solving for
-///     solve(seen, period, reference)      the orbit that it may have come to; where it took
-///                                         samples to see that, they are added to `seen`
-///     is_same(known, other, seen)         of two candidates
-///     approach(candidate, seen)           the motion is watched from now on,
-///     has_come(candidate, seen)           and asked for at every stroboscopic instant
-///     result_of(candidate)                what the Result shows of it
+///     Result, samples_per_solved        an OrbitResultOf; samples taken before one is solved for
+///     may_repeat(seen, period)          a near return is worth solving for
+///     solve(seen, period, reference)    the orbit that it may have come to; where it took samples
+///                                       to see that, they are added to `seen`
+///     is_same(known, other, seen)       of two orbits
+///     approach(found, seen)             the motion is watched from now on for coming to this one,
+///     has_come(found, seen)             and asked for that at every stroboscopic instant
 template <class Model>
 class ReturnSearch {
  public:
@@ -117,22 +91,18 @@ class ReturnSearch {
     while (seen_.taken() + ratio_.denominator <= limits_.most_samples) {
       take_stroboscopic_instant();
       if (limits_.watch) limits_.watch();
-      if (!(model_.state().cwiseAbs().maxCoeff() < 1e100)) return finish(OrbitOutcome::diverges);
-      if (!model_.is_followed()) return finish(OrbitOutcome::none_found);
-      if (has_come() || look_for_return())
-        return finish(
-            touches_surface(*proposed_) ? OrbitOutcome::on_surface : OrbitOutcome::certified,
-            *proposed_);
+      if (!(model_.state().cwiseAbs().maxCoeff() < 1e100))
+        return finish(OrbitOutcome::diverges, {});
+      if (!model_.is_followed()) return finish(OrbitOutcome::none_found, {});
+      if (has_come() || look_for_return()) return finish(proposed_.outcome, proposed_);
       if (seen_.taken() >= 2 * std::max(seen_.reference, ratio_.denominator)) set_reference();
     }
-    if (proposed_) return finish(OrbitOutcome::approaching, *proposed_);
-    if (failed_) return finish(OrbitOutcome::not_reproduced, *failed_);
-    return finish(OrbitOutcome::none_found);
+    if (proposed_.orbit) return finish(OrbitOutcome::approaching, proposed_);
+    return finish(failed_.outcome, failed_);
   }
 
  private:
   using State = typename Model::State;
-  using Candidate = typename Model::Candidate;
 
   void take_stroboscopic_instant() {
     for (std::int64_t j = 0; j < ratio_.denominator; ++j)
@@ -154,7 +124,7 @@ class ReturnSearch {
            ((model_.state() - reference_.state).cwiseAbs().array() <= near.array()).all();
   }
 
-  bool has_come() { return proposed_ && model_.has_come(*proposed_, seen_); }
+  bool has_come() { return proposed_.orbit && model_.has_come(proposed_, seen_); }
 
   /// @return whether a return was found to be that of the motion's orbit
   bool look_for_return() {
@@ -166,34 +136,25 @@ class ReturnSearch {
     solved_samples_ += period;
     ++candidates_;
     const std::int64_t taken = seen_.taken();
-    const Candidate candidate = model_.solve(seen_, period, reference_);
+    const Result found = model_.solve(seen_, period, reference_);
     if (seen_.taken() > taken) set_reference();
-    if (!candidate.orbit) return false;
-    if (candidate.outcome == CandidateOutcome::other_itinerary) {
-      failed_ = candidate;
+    if (!found.orbit) return false;
+    if (found.outcome == OrbitOutcome::not_reproduced) {
+      failed_ = found;
       return false;
     }
-    return (touches_surface(candidate) || candidate.orbit->is_attracting()) && propose(candidate);
-  }
-
-  static bool touches_surface(const Candidate& candidate) {
-    return candidate.outcome == CandidateOutcome::on_surface;
-  }
-
-  /// From now on the motion is watched for coming to this orbit.
-  bool propose(const Candidate& candidate) {
-    if (proposed_ && model_.is_same(*proposed_, candidate, seen_)) return false;
-    proposed_ = candidate;
-    model_.approach(*proposed_, seen_);
+    if (found.outcome == OrbitOutcome::certified && !found.orbit->is_attracting()) return false;
+    if (proposed_.orbit && model_.is_same(proposed_, found, seen_)) return false;
+    proposed_ = found;
+    model_.approach(proposed_, seen_);
     return has_come();
   }
 
-  Result finish(OrbitOutcome outcome, const Candidate& found = {}) const {
-    Result result = model_.result_of(found);
-    result.outcome = outcome;
-    result.samples = seen_.taken();
-    result.candidates = candidates_;
-    return result;
+  Result finish(OrbitOutcome outcome, Result found) const {
+    found.outcome = outcome;
+    found.samples = seen_.taken();
+    found.candidates = candidates_;
+    return found;
   }
 
   Model model_;
@@ -204,8 +165,8 @@ class ReturnSearch {
   State largest_, largest_ever_;  // |x_i| since the reference, and of all
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
-  std::optional<Candidate> proposed_;  // certified but for the motion's coming to it
-  std::optional<Candidate> failed_;
+  Result proposed_;  // certified but for the motion's coming to it
+  Result failed_;    // not reproduced
 };
 
 }  // namespace detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -62,21 +61,40 @@ ContactDecision decide(Backlash<Scalar>& law, const Vector<Scalar, 5>& state) {
   const Scalar lower = law.lower();
   decision.engaged = law.step(displacement, velocity);
   const bool velocity_counts = decision.engaged || !decision.was_inside;
-  if (velocity_counts && law.width() > Scalar(0)) {
+  if (velocity_counts && law.width() > Scalar(0))
     decision.velocity_sign = velocity < Scalar(0) ? std::int8_t{-1} : std::int8_t{1};
-  }
   if (decision.was_inside && decision.engaged)
     decision.exit_side = displacement < lower ? std::int8_t{-1} : std::int8_t{1};
   return decision;
 }
 
-}  // namespace detail
-
-namespace detail {
-
-template <class Scalar>
-bool same_contact(const BacklashMemory<Scalar>& memory, const BacklashMemory<Scalar>& other) {
-  return memory.inside == other.inside && (!memory.inside || memory.lower == other.lower);
+/// Shows every surface that a sample's decision rests on, visit(sample, surface, distance), the
+/// distance as that of Borders.
+template <class Scalar, class Visit>
+void for_each_border(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
+                     double width, const Visit& visit) {
+  double lower = pattern.memory.lower, upper = pattern.memory.upper;
+  const std::size_t samples = states.size();
+  // The first turn finds the gap that the motion itself is in at the start.
+  for (std::size_t k = 0; k < 2 * samples; ++k) {
+    const std::size_t j = k % samples;
+    const ContactDecision& decision = pattern.decisions[j];
+    const double displacement = relative_displacement(states[j]);
+    if (!decision.was_inside && !decision.engaged) {
+      const bool from_positive = pattern.decisions[(j + samples - 1) % samples].velocity_sign > 0;
+      lower = from_positive ? displacement - width : displacement;
+      upper = lower + width;
+    }
+    if (k < samples) continue;
+    if (decision.velocity_sign != 0)
+      visit(j, SwitchingSurface::reversal, decision.velocity_sign * relative_velocity(states[j]));
+    if (!decision.was_inside) continue;
+    const double inward = decision.engaged ? -1.0 : 1.0;
+    if (decision.exit_side <= 0)
+      visit(j, SwitchingSurface::gap_lower, inward * (displacement - lower));
+    if (decision.exit_side > 0 || !decision.engaged)
+      visit(j, SwitchingSurface::gap_upper, inward * (upper - displacement));
+  }
 }
 
 }  // namespace detail
@@ -94,7 +112,9 @@ SwitchingPattern switching_pattern(const std::vector<Vector<Scalar, 5>>& states,
     const BacklashMemory<Scalar> before = law.memory();
     pattern.decisions.clear();
     for (const auto& state : states) pattern.decisions.push_back(detail::decide(law, state));
-    pattern.repeats = turn > 0 && detail::same_contact(before, law.memory());
+    const bool same_gap =
+        before.inside == law.inside() && (!before.inside || before.lower == law.lower());
+    pattern.repeats = turn > 0 && same_gap;
     pattern.memory = {before.inside, static_cast<double>(before.lower),
                       static_cast<double>(before.upper),
                       static_cast<double>(before.previous_velocity)};
@@ -129,35 +149,13 @@ template <class Scalar>
 Borders borders_of(const SwitchingPattern& pattern, const std::vector<Vector<Scalar, 5>>& states,
                    double width) {
   Borders nearest;
-  double lower = pattern.memory.lower, upper = pattern.memory.upper;
-  const std::size_t samples = states.size();
-  const auto keep_nearer = [](Border& best, double distance, SwitchingSurface surface,
-                              std::size_t sample) {
-    if (distance < best.distance) best = {distance, surface, static_cast<std::int64_t>(sample)};
-  };
-  // The first turn finds the gap that the motion itself is in at the start.
-  for (std::size_t k = 0; k < 2 * samples; ++k) {
-    const std::size_t j = k % samples;
-    const ContactDecision& decision = pattern.decisions[j];
-    const double displacement = relative_displacement(states[j]);
-    if (!decision.was_inside && !decision.engaged) {
-      const bool from_positive = pattern.decisions[(j + samples - 1) % samples].velocity_sign > 0;
-      lower = from_positive ? displacement - width : displacement;
-      upper = lower + width;
-    }
-    if (k < samples) continue;
-    if (decision.velocity_sign != 0)
-      keep_nearer(nearest.velocity, decision.velocity_sign * relative_velocity(states[j]),
-                  SwitchingSurface::reversal, j);
-    if (!decision.was_inside) continue;
-    const double inward = decision.engaged ? -1.0 : 1.0;
-    if (decision.exit_side <= 0)
-      keep_nearer(nearest.displacement, inward * (displacement - lower),
-                  SwitchingSurface::gap_lower, j);
-    if (decision.exit_side >= 0 && (!decision.engaged || decision.exit_side > 0))
-      keep_nearer(nearest.displacement, inward * (upper - displacement),
-                  SwitchingSurface::gap_upper, j);
-  }
+  detail::for_each_border(pattern, states, width,
+                          [&](std::size_t j, SwitchingSurface surface, double distance) {
+                            const bool reverses = surface == SwitchingSurface::reversal;
+                            Border& best = reverses ? nearest.velocity : nearest.displacement;
+                            if (distance < best.distance)
+                              best = {distance, surface, static_cast<std::int64_t>(j)};
+                          });
   return nearest;
 }
 

@@ -71,7 +71,7 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
   using Point = AttractionBall;
 
   IdealLoop<Scalar> loop;
-  Vector<double, 6> weights = DeviationScale(loop).weights();
+  Vector<double, 6> weights = deviation_weights(loop);
 
   std::vector<Point> points_of(const Orbit& orbit) const { return attraction_balls(loop, orbit); }
   /// Inside a gap at most half the gap's width.

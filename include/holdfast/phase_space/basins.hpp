@@ -195,7 +195,7 @@ struct BatchedMotions {
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>& motions, const AttractorSet<Loop>& known,
                const Tiles& for_tiles) {
-    const auto batch = travel(start, loop.gains, ratio);
+    const auto batch = travel(start);
     constexpr std::size_t tile = 64;
     for_tiles(motions.size(), tile, [&](std::size_t first, std::size_t number) {
       auto own = batch;
@@ -208,9 +208,7 @@ struct BatchedMotions {
 }  // namespace detail
 
 /// find_basins() of an IdealLoop with another way to move the motions on.
-/// @param travel          travel(motion, gains, ratio) gives what has MotionBatch's run() and can
-/// be
-///                        copied
+/// @param travel          travel(motion) gives what has MotionBatch's run() and can be copied
 /// @param loop            the loop with its excitation and backlash
 /// @param initial_states  each (m, m/s, m, m/s), finite; may be none
 /// @param limits          of each search for one motion's own orbit
@@ -242,9 +240,7 @@ template <class Scalar, class Tiles>
 BasinMap find_basins(const IdealLoop<double>& loop,
                      const std::vector<Vector<double, 4>>& initial_states,
                      const OrbitLimits& limits, const Tiles& for_tiles) {
-  const auto travel = [](const auto& motion, const PdGains<double>& gains, const Rational& ratio) {
-    return MotionBatch<Scalar>(motion, gains, ratio);
-  };
+  const auto travel = [](const auto& motion) { return MotionBatch<Scalar>(motion); };
   return find_basins_by(travel, loop, initial_states, limits, for_tiles);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -56,19 +57,19 @@ class CoverageOf {
         fraction(readings_.velocity(sample.state), window_.velocity_min, window_.velocity_max);
     if (!(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0)) return;
     const double side = static_cast<double>(side_);
-    const std::size_t cell =
-        static_cast<std::size_t>(x * side) * side_ + static_cast<std::size_t>(y * side);
-    if (!visited_cells_[cell]) ++visited_;
-    visited_cells_[cell] = true;
+    visited_cells_[static_cast<std::size_t>(x * side) * side_ +
+                   static_cast<std::size_t>(y * side)] = true;
   }
 
   /// Number of cells of the window, visited or not.
   std::size_t cells() const { return visited_cells_.size(); }
   /// Number of cells in which at least one sample has been.
-  std::size_t visited() const { return visited_; }
+  std::size_t visited() const {
+    return static_cast<std::size_t>(std::count(visited_cells_.begin(), visited_cells_.end(), true));
+  }
   /// visited() over cells(), 0 … 1.
   double visited_fraction() const {
-    return static_cast<double>(visited_) / static_cast<double>(cells());
+    return static_cast<double>(visited()) / static_cast<double>(cells());
   }
 
  private:
@@ -80,7 +81,6 @@ class CoverageOf {
   std::size_t side_;
   PortReadings<Plant> readings_;
   std::vector<bool> visited_cells_;
-  std::size_t visited_ = 0;
 };
 
 /// That of the two masses.

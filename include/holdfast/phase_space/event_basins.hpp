@@ -15,7 +15,7 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
-#include "holdfast/orbit/event/repeating_motion.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
@@ -70,16 +70,18 @@ class ApproachingMotion {
 
  public:
   /// @param start  at a stroboscopic instant (sampling and forcing in phase)
-  ApproachingMotion(const EventMotion<Contact>& start, const Rational& ratio,
-                    const Attractors& attractor_set)
-      : attractor_set_(attractor_set), motion_(start, ratio.denominator) {}
+  ApproachingMotion(const EventMotion<Contact>& start, const Rational& ratio)
+      : motion_(start, ratio.denominator) {}
 
-  /// @return the number of the orbit that it comes to; −1: none in so many samples
-  int run(const OrbitLimits& limits, std::int64_t samples) {
+  /// @return the number of the orbit of `known` that it comes to; −1: none in so many samples
+  int run(const Attractors& known, const OrbitLimits& limits, std::int64_t samples) {
     while (taken_ < samples && is_followed()) {
       if (limits.watch) limits.watch();
-      const auto* const entry = attractor_set_.near(motion_.point());
-      if (entry != nullptr && comes_to(*entry)) return entry->orbit;
+      const auto* const entry = known.near(motion_.point());
+      if (entry != nullptr) {
+        const EventOrbit& orbit = known.orbits()[static_cast<std::size_t>(entry->orbit)];
+        if (comes_to(orbit, entry->point)) return entry->orbit;
+      }
       for (std::int64_t j = 0; j < motion_.period(); ++j) take();
     }
     return -1;
@@ -101,28 +103,23 @@ class ApproachingMotion {
 
   /// Whether the motion keeps to the orbit's modes and comes nearer over two of its periods, in the
   /// second one as its largest multiplier asks.
-  bool comes_to(const Attractors::Entry& entry) {
-    const EventOrbit& orbit = attractor_set_.orbits()[static_cast<std::size_t>(entry.orbit)];
-    const double before = entry.point.distance(state());
-    if (!keeps_to(orbit, entry.point.sample)) return false;
-    const double between = entry.point.distance(state());
-    if (!keeps_to(orbit, entry.point.sample)) return false;
-    const double after = entry.point.distance(state());
+  template <class Point>
+  bool comes_to(const EventOrbit& orbit, const Point& point) {
+    double distances[3] = {point.distance(state())};
+    for (const int period : {1, 2}) {
+      bool keeps = true;
+      for (std::size_t j = 0; j < orbit.modes.size(); ++j)
+        keeps = take() == orbit.modes[(point.sample + j) % orbit.modes.size()] && keeps;
+      if (!keeps) return false;
+      distances[period] = point.distance(state());
+    }
     // μ itself is the factor in the long run only: a deviation turns while it shrinks.
     constexpr double share = 0.9, rounding = 1e-11;
     const double factor = std::exp(share * orbit.multipliers.front().log_modulus);
-    return between <= std::max(before, rounding) && after <= std::max(factor * between, rounding);
+    return distances[1] <= std::max(distances[0], rounding) &&
+           distances[2] <= std::max(factor * distances[1], rounding);
   }
 
-  /// One period.
-  bool keeps_to(const EventOrbit& orbit, std::size_t first) {
-    bool keeps = true;
-    for (std::size_t j = 0; j < orbit.modes.size(); ++j)
-      keeps = take() == orbit.modes[(first + j) % orbit.modes.size()] && keeps;
-    return keeps;
-  }
-
-  const Attractors& attractor_set_;
   RepeatingMotion<Contact> motion_;
   std::int64_t taken_ = 0;
 };
@@ -141,14 +138,13 @@ struct SingleMotions {
 
   FoundOrbit<EventOrbit> search(const ActiveTrajectory& from,
                                 const AttractorSet<Loop>& known) const {
-    return with_motion(loop, from.memory.state, [&](const auto& motion) {
-      const int number =
-          ApproachingMotion(motion, ratio, known).run(limits, patience(known.orbits()));
-      if (number >= 0) return FoundOrbit<EventOrbit>{{OrbitOutcome::certified, number}, {}};
-      auto found = find_event_orbit(motion, ratio, limits);
-      if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
-      return FoundOrbit<EventOrbit>{{found.outcome, -1}, std::move(found.orbit)};
-    });
+    const auto motion = event_motion(loop, from.memory.state);
+    const int number =
+        ApproachingMotion(motion, ratio).run(known, limits, patience(known.orbits()));
+    if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
+    auto found = find_event_orbit(motion, limits);
+    if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
+    return {{found.outcome, -1}, std::move(found.orbit)};
   }
 
   /// They move on in their searches alone.

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "holdfast/contact/hysteresis.hpp"
-#include "holdfast/control/gains.hpp"
-#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
@@ -38,50 +35,34 @@ struct ActiveTrajectory {
 
 namespace detail {
 
-/// The lanes of a motion's memory as numbers: z₁ … ż₂, u, inside, lower, upper, Δż.
+/// The memories of all lanes side by side. @param of_lane  (lane) → const
+/// ForcedMotionMemory<double>&
+template <class Scalar, class OfLane>
+ForcedMotionMemory<Scalar> packed_memory(const OfLane& of_lane) {
+  const auto number = [&](const auto& part) {
+    return from_lanes<Scalar>([&](std::size_t lane) -> double { return part(of_lane(lane)); });
+  };
+  using Memory = ForcedMotionMemory<double>;
+  return {from_lanes<Scalar>([&](std::size_t lane) { return of_lane(lane).state; }),
+          number([](const Memory& of) { return of.previous_force; }),
+          {number([](const Memory& of) { return of.backlash.inside ? 1.0 : 0.0; }) > Scalar(0.5),
+           number([](const Memory& of) { return of.backlash.lower; }),
+           number([](const Memory& of) { return of.backlash.upper; }),
+           number([](const Memory& of) { return of.backlash.previous_velocity; })}};
+}
+
+/// That of one lane.
 template <class Scalar>
-class MemoryLanes {
-  using Lane = Lanes<Scalar>;
-
- public:
-  void put(std::size_t lane, const ForcedMotionMemory<double>& memory) {
-    for (std::size_t k = 0; k < 4; ++k)
-      numbers_[k][lane] = memory.state[static_cast<Eigen::Index>(k)];
-    numbers_[4][lane] = memory.previous_force;
-    numbers_[5][lane] = memory.backlash.inside ? 1.0 : 0.0;
-    numbers_[6][lane] = memory.backlash.lower;
-    numbers_[7][lane] = memory.backlash.upper;
-    numbers_[8][lane] = memory.backlash.previous_velocity;
-  }
-
-  ForcedMotionMemory<double> get(std::size_t lane) const {
-    return {{numbers_[0][lane], numbers_[1][lane], numbers_[2][lane], numbers_[3][lane]},
-            numbers_[4][lane],
-            {numbers_[5][lane] > 0.5, numbers_[6][lane], numbers_[7][lane], numbers_[8][lane]}};
-  }
-
-  void read(const ForcedMotionMemory<Scalar>& memory) {
-    for (std::size_t k = 0; k < 4; ++k)
-      Lane::store(memory.state[static_cast<Eigen::Index>(k)], numbers_[k].data());
-    std::array<std::uint8_t, Lane::count> inside;
-    Lane::store_flags(memory.backlash.inside, inside.data());
-    std::copy(inside.begin(), inside.end(), numbers_[5].begin());
-    Lane::store(memory.previous_force, numbers_[4].data());
-    Lane::store(memory.backlash.lower, numbers_[6].data());
-    Lane::store(memory.backlash.upper, numbers_[7].data());
-    Lane::store(memory.backlash.previous_velocity, numbers_[8].data());
-  }
-
-  ForcedMotionMemory<Scalar> pack() const {
-    const auto load = [this](std::size_t k) { return Lane::load(numbers_[k].data()); };
-    return {{load(0), load(1), load(2), load(3)},
-            load(4),
-            {load(5) > Scalar(0.5), load(6), load(7), load(8)}};
-  }
-
- private:
-  std::array<std::array<double, Lane::count>, 9> numbers_{};
-};
+ForcedMotionMemory<double> memory_of_lane(const ForcedMotionMemory<Scalar>& memory,
+                                          std::size_t lane) {
+  const auto number = [lane](const Scalar& pack) { return lane_of(pack, lane); };
+  const auto& [inside, lower, upper, velocity] = memory.backlash;
+  return {{number(memory.state[0]), number(memory.state[1]), number(memory.state[2]),
+           number(memory.state[3])},
+          number(memory.previous_force),
+          {number(select(inside, Scalar(1), Scalar(0))) > 0.5, number(lower), number(upper),
+           number(velocity)}};
+}
 
 }  // namespace detail
 
@@ -90,20 +71,10 @@ class MemoryLanes {
 /// the next motion as soon as its own has ended.
 template <class Scalar>
 class MotionBatch {
-  using Lane = Lanes<Scalar>;
-  using Forcing = SharedForcing<Scalar, PeriodicForcing<double>>;
-
  public:
   /// @param motion  of the loop, at a stroboscopic instant; its state does not matter
-  /// @param gains   of the loop
-  /// @param ratio   of forcing_ratio(loop)
-  MotionBatch(const PeriodicallyForcedMotion<double>& motion, const PdGains<double>& gains,
-              const Rational& ratio)
-      : ratio_(ratio),
-        motion_(converted<Scalar>(motion.loop()),
-                {Scalar(gains.proportional), Scalar(gains.differential)}, Forcing(motion.forcing()),
-                Backlash<Scalar>(Scalar(motion.law().width())),
-                Vector<Scalar, 4>::Constant(Scalar(0))) {}
+  explicit MotionBatch(const PeriodicallyForcedMotion<double>& motion)
+      : motion_(in_every_lane(motion, Vector<Scalar, 4>::Constant(Scalar(0)).eval())) {}
 
   /// @param motions        attracted and diverged ones are marked, the others have moved on by at
   ///                       least `samples` samples, a whole number of common periods
@@ -117,21 +88,19 @@ class MotionBatch {
            const Attractors& attractor_set) {
     require_positive("number of samples", static_cast<double>(samples), "");
     // Looking costs about as much as twenty samples of all lanes.
-    const std::int64_t looks_every = (63 / ratio_.denominator + 1) * ratio_.denominator;
+    const auto period = static_cast<std::int64_t>(motion_.forcing().samples());
+    const std::int64_t looks_every = (63 / period + 1) * period;
     const std::int64_t looks = (samples + looks_every - 1) / looks_every;
-    std::size_t next = 0;
-    for (Place& place : places_) start(place, motions, count, next, looks);
-    while (std::any_of(places_.begin(), places_.end(),
-                       [](const Place& place) { return place.motion != nullptr; })) {
-      motion_.restore(lanes_.pack());
-      for (std::int64_t j = 0; j < looks_every; ++j) {
-        motion_.sense();
-        motion_.advance();
-      }
-      lanes_.read(motion_.memory());
-      for (std::size_t lane = 0; lane < Lane::count; ++lane) {
-        if (look(lane, attractor_set)) start(places_[lane], motions, count, next, looks);
-      }
+    ActiveTrajectory* const end = motions + count;
+    const auto start_next = [&](Place& place) {
+      place = motions == end ? Place{} : Place{motions++, looks};
+    };
+    std::for_each(places_.begin(), places_.end(), start_next);
+    const auto is_taken = [](const Place& place) { return place.motion != nullptr; };
+    while (std::any_of(places_.begin(), places_.end(), is_taken)) {
+      advance(looks_every);
+      for (Place& place : places_)
+        if (is_taken(place) && has_ended(place, attractor_set)) start_next(place);
     }
   }
 
@@ -141,31 +110,34 @@ class MotionBatch {
     std::int64_t looks_left = 0;
   };
 
-  /// Puts the next motion, if there is one, into a lane.
-  void start(Place& place, ActiveTrajectory* motions, std::size_t count, std::size_t& next,
-             std::int64_t looks) {
-    place = {};
-    if (next == count) return;
-    place = {motions + next++, looks};
-    lanes_.put(static_cast<std::size_t>(&place - places_.data()), place.motion->memory);
+  /// Moves all lanes on; an empty one is at rest.
+  void advance(std::int64_t samples) {
+    motion_.restore(
+        detail::packed_memory<Scalar>([&](std::size_t lane) -> const ForcedMotionMemory<double>& {
+          return places_[lane].motion != nullptr ? places_[lane].motion->memory : at_rest_;
+        }));
+    for (std::int64_t j = 0; j < samples; ++j) {
+      motion_.sense();
+      motion_.advance();
+    }
+    const ForcedMotionMemory<Scalar> memory = motion_.memory();
+    for (std::size_t lane = 0; lane < places_.size(); ++lane)
+      if (places_[lane].motion != nullptr)
+        places_[lane].motion->memory = detail::memory_of_lane(memory, lane);
   }
 
   /// Whether a lane's motion has ended, or its samples have.
   template <class Attractors>
-  bool look(std::size_t lane, const Attractors& attractor_set) {
-    Place& place = places_[lane];
-    if (place.motion == nullptr) return false;
+  static bool has_ended(Place& place, const Attractors& attractor_set) {
     ActiveTrajectory& motion = *place.motion;
-    motion.memory = lanes_.get(lane);
     motion.diverged = !(motion.memory.state.cwiseAbs().maxCoeff() < 1e100);
     if (!motion.diverged) motion.orbit = attractor_set.attracted_by(motion.memory);
     return motion.diverged || motion.orbit >= 0 || --place.looks_left == 0;
   }
 
-  Rational ratio_;
-  SampledMotion<Scalar, Backlash<Scalar>, Forcing> motion_;
-  detail::MemoryLanes<Scalar> lanes_;
-  std::array<Place, Lane::count> places_;
+  SampledMotion<Scalar, Backlash<Scalar>, PeriodicForcing<double>> motion_;
+  ForcedMotionMemory<double> at_rest_ = memory_of_start(Vector<double, 4>::Zero());
+  std::array<Place, Lanes<Scalar>::count> places_;
 };
 
 }  // namespace holdfast

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +14,7 @@
 #include "holdfast/excitation/harmonic.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/divergence.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/plant/linear_plant.hpp"
@@ -53,32 +53,6 @@ namespace detail {
 /// The plant of the loops on a path.
 template <class Family>
 using PlantOfFamily = std::decay_t<decltype(std::declval<const Family&>()(0.0).plant)>;
-
-/// Scale of the static deflection (m) under a force (N).
-inline double static_deflection(const TwoMass<double>& plant, double force) {
-  return force / plant.conductor_stiffness;
-}
-/// That of a plant of order N: the largest entry of A⁻¹ c F, or of c F where A has no inverse.
-template <int States>
-double static_deflection(const LinearPlant<double, States>& plant, double force) {
-  const double bend =
-      plant.state_matrix().partialPivLu().solve(plant.excitation_input()).cwiseAbs().maxCoeff();
-  return force * (std::isfinite(bend) ? bend : plant.excitation_input().cwiseAbs().maxCoeff());
-}
-
-/// A size that no bounded motion reaches: 10¹² times all that sets its scale.
-template <class Plant>
-double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
-  const MultiHarmonicForce& force = loop.digital.force;
-  double largest = 0.0;
-  if (force.record)
-    for (const double row : force.record->forces()) largest = std::max(largest, std::abs(row));
-  for (const Harmonic& harmonic : force.harmonics) largest += harmonic.amplitude;
-  const double deflection = static_deflection(loop.plant, largest);
-  const double scale = deflection * (1.0 + force.highest_angular_frequency()) +
-                       loop.backlash.width + state.cwiseAbs().maxCoeff();
-  return 1e12 * std::max(scale, 1e-100);
-}
 
 /// Shows the states of a motion once every forcing period after the transient; leaves the last of
 /// them in `state`. @return false where it leaves the range of numbers

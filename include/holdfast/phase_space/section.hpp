@@ -191,12 +191,10 @@ class TurnFinder {
 ///     run_section(motion, samples, [](const SectionPoint& at) { … });
 ///
 /// A stick, Δż = 0 for some time, is one point, at its beginning, whether Δz goes back or on
-/// afterwards; `rising` then tells that Δż came to zero from below. Where it goes on the next point
-/// has the same `rising`. A point is `engaged` where the drive transmits all of the command from
-/// the point on: with exact switching and a gap never, since a turn out of contact with the far
-/// side enters the gap or a stick. Where Δż only touches zero, but for rounding, there is no point.
-/// At the first sample Δż has the sign that it has there; a motion that begins with Δż = 0 does not
-/// begin with a point.
+/// afterwards (the next point then has the same `rising`); `rising` tells that Δż came to zero from
+/// below. A point is `engaged` where the drive transmits all of the command from it on: with exact
+/// switching and a gap never. Where Δż only touches zero, but for rounding, there is no point, and
+/// a motion that begins with Δż = 0 does not begin with one.
 /// @param motion    before the first sample to be looked at; a further call goes on from there
 /// @param samples   how many sampling periods
 /// @param observer  called with each `SectionPointOf` the plant's order, in the order of time

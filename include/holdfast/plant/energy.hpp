@@ -13,8 +13,9 @@ namespace holdfast {
 /// by itself, in any units, and ‖z(t)‖ ≤ ‖z(0)‖ + ∫ ‖b u + c F‖ ds.
 class EnergyNorm {
  public:
-  /// The norm that belongs to one plant, whose k₁, k₂, m₁ and m₂ must be > 0.
-  explicit EnergyNorm(const TwoMass<double>& plant) : plant_(plant) {}
+  /// The norm that belongs to one plant.
+  /// @throws InvalidParameter where that is not admissible
+  explicit EnergyNorm(const TwoMass<double>& plant) : plant_(plant) { validate(plant); }
 
   /// ‖z‖ (√J).
   double operator()(const Vector<double, 4>& state) const {

@@ -14,9 +14,14 @@ namespace holdfast {
 
 /// z(t) = e^{At} z(0) of the plant without control that starts at rest, conductor and absorber both
 /// displaced by z₀: what is left when a load on the conductor is removed.
+/// @param plant         admissible
+/// @param displacement  z₀ (m)
+/// @param time          t (s), ≥ 0
+/// @throws InvalidParameter for another plant; z₀ and t are unchecked
 template <class Scalar>
 Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& displacement,
                                 const Scalar& time) {
+  detail::require_admissible(plant);
   const Matrix<Scalar, 4> exponent = plant.state_matrix() * time;
   return exponential(exponent) *
          Vector<Scalar, 4>(displacement, Scalar(0), displacement, Scalar(0));
@@ -24,9 +29,13 @@ Vector<Scalar, 4> free_decay_at(const TwoMass<Scalar>& plant, const Scalar& disp
 
 /// z₁ (m) of that motion at the given instants (s), ascending from the first, which is the start.
 /// The transition e^{Ah} is made again only where the interval h changes.
+/// @throws InvalidParameter for a plant that is not admissible or times that are not finite and
+/// ascending
 template <class Scalar>
 std::vector<Scalar> free_decay(const TwoMass<Scalar>& plant, const Scalar& displacement,
                                const std::vector<double>& times) {
+  detail::require_admissible(plant);
+  holdfast::detail::require_ascending(times);
   std::vector<Scalar> displacements;
   if (times.empty()) return displacements;
   displacements.reserve(times.size());
@@ -59,8 +68,10 @@ struct RelativeDecay {
 
 /// The crossings and peaks of the plant's decay from 1 m, sampled 400 times in the period of both
 /// masses on the conductor's spring, over four such periods.
+/// @throws InvalidParameter for a plant that is not admissible
 template <class Scalar>
 DecayEvents free_decay_events(const TwoMass<Scalar>& plant) {
+  detail::require_admissible(plant);
   constexpr int samples_per_period = 400, periods = 4;
   const double period =
       2.0 * pi<double> *

@@ -25,7 +25,7 @@ struct LinearPlant {
   Vector<Number, States> command_input;    ///< b_u, N × 1 per newton of u; 0 of an ideal drive
   Vector<Number, States> excitation;       ///< c, N × 1 per newton of F
   RowVector<Number, States> drive_force;   ///< f, 1 × N; 0 of an ideal drive
-  Number direct_transmission;              ///< g: 1 of an ideal drive, 0 of one that lags
+  Number direct_transmission{1};           ///< g: 1 of an ideal drive, 0 of one that lags
   Ports<Number, States> connections;       ///< what is measured, and what the gap sees
 
   /// A + b f, N × N: the state while the drive transmits.
@@ -45,11 +45,18 @@ struct LinearPlant {
 };
 
 /// The two masses as a plant of order 4, x = [z₁, ż₁, z₂, ż₂].
+/// @throws InvalidParameter where they are not admissible
 template <class Scalar>
 LinearPlant<Scalar, 4> linear_plant(const TwoMass<Scalar>& plant) {
+  detail::require_admissible(plant);
   return {plant.state_matrix(),     plant.control_input(),        Vector<Scalar, 4>::Zero(),
           plant.excitation_input(), RowVector<Scalar, 4>::Zero(), Scalar(1),
           two_mass_ports<Scalar>()};
+}
+/// A linear plant itself.
+template <class Scalar, int States>
+const LinearPlant<Scalar, States>& linear_plant(const LinearPlant<Scalar, States>& plant) {
+  return plant;
 }
 
 namespace detail {
@@ -151,20 +158,31 @@ LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Sca
 }
 
 /// Refuses a plant that a loop cannot be closed on.
-/// @throws InvalidParameter unless all is finite, the sizes agree, and the force of the drive moves
-/// its own gap (Δz̈ answers to s at once: rᵀb ≠ 0 of the relative velocity r)
+/// @throws InvalidParameter unless all is finite, the sizes agree, the drive's force is one of the
+/// command or of the state, and it moves its own gap (Δz̈ answers to s at once: rᵀb ≠ 0 of the
+/// relative velocity r)
 template <int States>
 void validate(const LinearPlant<double, States>& plant) {
   const Eigen::Index n = plant.order();
-  const bool sized = plant.released_matrix.cols() == n && plant.force_input.size() == n &&
-                     plant.command_input.size() == n && plant.excitation.size() == n &&
-                     plant.drive_force.size() == n && plant.ports().displacement.size() == n;
-  if (!sized || n < 1)
+  const Ports<double, States>& ports = plant.ports();
+  bool sized = n >= 1 && plant.released_matrix.cols() == n;
+  double sum = plant.released_matrix.sum() + plant.direct_transmission;
+  const auto take = [&](const auto& row_or_column) {
+    sized = sized && row_or_column.size() == n;
+    sum += row_or_column.sum();
+  };
+  take(plant.force_input), take(plant.command_input), take(plant.excitation);
+  take(plant.drive_force), take(ports.displacement), take(ports.velocity);
+  take(ports.measured_displacement), take(ports.measured_velocity);
+  take(ports.relative_displacement), take(ports.relative_velocity);
+  take(ports.displacement_lift), take(ports.velocity_lift);
+  if (!sized)
     throw InvalidParameter("order of the plant", static_cast<double>(n), "",
-                           "the same of all its matrices, at least 1");
-  require_finite("entries of the plant",
-                 plant.state_matrix().sum() + plant.control_input().sum() + plant.excitation.sum(),
-                 "");
+                           "the same of all its matrices and ports, at least 1");
+  require_finite("sum of the entries of the plant", sum, "");
+  if (plant.control_input().isZero(0.0) && plant.drive_force.isZero(0.0))
+    throw InvalidParameter("direct transmission g", plant.direct_transmission, "",
+                           "unlike zero where the command moves nothing else");
   const double answer = plant.ports().relative_velocity.dot(plant.force_input);
   if (!(std::abs(answer) > 0.0))
     throw InvalidParameter("relative acceleration per newton of the drive", answer, "1/kg",

@@ -5,8 +5,10 @@
 #include <complex>
 #include <vector>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -22,9 +24,12 @@ struct NaturalMode {
 
 /// The oscillating modes of a plant without control and force, the slowest first.
 /// A mode of overcritical damping (ζ ≥ 1) is two real eigenvalues and not among them.
-/// @param plant  has state_matrix(), in 1/s; its parameters must be finite
+/// @param plant  has state_matrix(), in 1/s
+/// @throws InvalidParameter for two masses that are not admissible, or a matrix that is not finite
 template <class Plant>
 std::vector<NaturalMode> natural_modes(const Plant& plant) {
+  detail::require_admissible(plant);
+  require_finite("entries of the plant's state matrix", plant.state_matrix().sum(), "");
   std::vector<NaturalMode> modes;
   for (const std::complex<double>& value : eigenvalues(plant.state_matrix()))
     if (value.imag() > 0.0) modes.push_back({value});

@@ -26,6 +26,13 @@ template <class Plant>
 struct HasPorts<Plant, std::void_t<decltype(std::declval<const Plant&>().ports())>>
     : std::true_type {};
 
+/// Whether a plant has a controller of its own (control/controlled_plant.hpp).
+template <class Plant, class = void>
+struct HasController : std::false_type {};
+template <class Plant>
+struct HasController<Plant, std::void_t<decltype(std::declval<const Plant&>().controller)>>
+    : std::true_type {};
+
 }  // namespace detail
 
 /// The number type of a plant.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
@@ -58,6 +60,16 @@ inline void validate(const TwoMass<double>& plant) {
   require_non_negative("absorber damping c2", plant.absorber_damping, "N s/m");
 }
 
+/// Whether `validate` would take a plant.
+inline bool is_admissible(const TwoMass<double>& plant) {
+  try {
+    validate(plant);
+    return true;
+  } catch (const InvalidParameter&) {
+    return false;
+  }
+}
+
 /// Δz = z₂ − z₁ (m) of a state that begins with [z₁, ż₁, z₂, ż₂].
 template <class Scalar, int Size>
 Scalar relative_displacement(const Vector<Scalar, Size>& state) {
@@ -76,6 +88,19 @@ TwoMass<To> converted(const TwoMass<From>& plant) {
   return {To(plant.conductor_mass), To(plant.conductor_stiffness), To(plant.conductor_damping),
           To(plant.absorber_mass),  To(plant.absorber_stiffness),  To(plant.absorber_damping)};
 }
+
+namespace detail {
+
+/// Refuses two masses outside their ranges; of packs and duals, and of other plants, nothing is
+/// asked here.
+template <class Plant>
+void require_admissible(const Plant&) {}
+template <class Scalar>
+void require_admissible(const TwoMass<Scalar>& plant) {
+  if constexpr (std::is_floating_point_v<Scalar>) validate(converted<double>(plant));
+}
+
+}  // namespace detail
 
 /// The plant of Kollár 2022, Table 1: a small-scale span with the absorber at one tenth of its
 /// length.

@@ -48,9 +48,7 @@ inline void stability_chart(const LoopChart& chart, std::uint8_t* stable, int th
   const std::int64_t columns = chart.fast.values.count;
   parallel_rows(chart.slow.values.count, detail::rows_of_tile, threads, Rows(chart),
                 [&](Rows& rows, std::int64_t first, std::int64_t count) {
-                  for (std::int64_t row = first; row < first + count; ++row) {
-                    rows.fill(row, stable + row * columns);
-                  }
+                  rows.fill(first, count, stable + first * columns);
                 });
 }
 

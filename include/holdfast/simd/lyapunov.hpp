@@ -1,17 +1,24 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
+#include "holdfast/chaos/block_spectrum.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
-#include "holdfast/control/loop_input.hpp"
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/excitation/forcing.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+#include "holdfast/core/types.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
-#include "holdfast/simd/lyapunov_group.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/simd/pack.hpp"
 #include "holdfast/simd/parallel_rows.hpp"
 
@@ -19,21 +26,121 @@ namespace holdfast::simd {
 
 namespace detail {
 
+/// Motions of one loop with their exponents, as many as some packs have lanes.
+/// @tparam Forcing  PeriodicForcing<double> or HarmonicForcing<double>
 template <class Forcing>
-std::vector<LyapunovResult> lyapunov_spectra(const MotionFamily<Forcing>& family,
-                                             const std::shared_ptr<const ItineraryBlocks>& blocks,
-                                             const std::vector<Vector<double, 4>>& initial_states,
-                                             const LyapunovRun& run, int threads) {
-  using Group = LyapunovGroup<MotionFamily<Forcing>>;
-  std::vector<LyapunovResult> results(initial_states.size());
-  parallel_rows(static_cast<std::int64_t>(initial_states.size()),
-                static_cast<std::int64_t>(lanes_of_group), threads, Group(family, blocks, run),
-                [&](Group& group, std::int64_t first, std::int64_t count) {
-                  group.compute(initial_states.data() + first, static_cast<std::size_t>(count),
-                                results.data() + first);
-                });
-  return results;
-}
+class LyapunovGroup {
+  using Number = Pack<double>;
+  using SingleMotion = SampledMotion<double, Backlash<double>, Forcing>;
+  static constexpr std::size_t pack_lanes = Lanes<Number>::count;
+  /// Packs step in turn, so that one's latency hides behind the other's.
+  static constexpr std::size_t packs = 2;
+  using Blocks = std::array<LaneBlocks<Number>, packs>;
+
+ public:
+  static constexpr std::size_t lanes = packs * pack_lanes;
+
+  /// @param start  a motion of the loop; its state does not matter
+  LyapunovGroup(const SingleMotion& start, const std::shared_ptr<const ItineraryBlocks>& blocks,
+                const LyapunovRun& run)
+      : start_(start), blocks_(blocks), run_(run) {}
+
+  /// @param initial_states  `count` of them, 1 ≤ count ≤ lanes
+  void compute(const Vector<double, 4>* initial_states, std::size_t count,
+               LyapunovResult* results) {
+    begin(initial_states, count);
+    const auto averages = holdfast::detail::run_average(*this, run_);
+    for (std::size_t k = 0; k < count; ++k)
+      results[k] = diverged_[k] ? alone(initial_states[k]) : averages[k];
+  }
+
+  /// Goes through `samples` samples, or fewer when `go_on` says no after a block.
+  template <class GoOn>
+  void advance(std::int64_t samples, const GoOn& go_on) {
+    open_ = itinerary(0);
+    for (; samples >= ItineraryBlocks::length; samples -= ItineraryBlocks::length) {
+      const Blocks blocks = itinerary(ItineraryBlocks::length);
+      for (std::size_t pack = 0; pack < packs; ++pack) spectra_[pack].push(blocks[pack]);
+      if (!go_on()) return;
+    }
+    open_ = itinerary(static_cast<int>(samples));
+  }
+
+  bool diverged(std::size_t lane) const { return diverged_[lane]; }
+
+  void restart() {
+    for (std::size_t pack = 0; pack < packs; ++pack) spectra_[pack].restart(open_[pack]);
+  }
+
+  std::vector<LyapunovSpectrum<double, 5>> spectra() const {
+    std::vector<LyapunovSpectrum<double, 5>> all;
+    for (std::size_t pack = 0; pack < packs; ++pack)
+      for (const auto& spectrum : spectra_[pack].spectra(open_[pack])) all.push_back(spectrum);
+    return all;
+  }
+
+  std::size_t complete_batches() const { return spectra_[0].complete_batches(); }
+
+ private:
+  /// Lanes beyond the last motion repeat it.
+  void begin(const Vector<double, 4>* initial_states, std::size_t count) {
+    motions_.clear();
+    spectra_.clear();
+    for (std::size_t pack = 0; pack < packs; ++pack) {
+      const Vector<Number, 4> states = holdfast::detail::from_lanes<Number>([&](std::size_t lane) {
+        return initial_states[std::min(pack * pack_lanes + lane, count - 1)];
+      });
+      motions_.push_back(in_every_lane(start_, states));
+      spectra_.emplace_back(blocks_, run_.scope);
+    }
+    diverged_.fill(false);
+  }
+
+  /// The contacts of the next samples of all lanes.
+  Blocks itinerary(int samples) {
+    std::array<Number, packs> codes;  // whole numbers below 2⁸
+    codes.fill(Number(1.0));
+    for (int taken = 0; taken < samples; ++taken) {
+      for (std::size_t pack = 0; pack < packs; ++pack) {
+        const auto engaged = motions_[pack].sense().engaged;
+        codes[pack] = codes[pack] + codes[pack] + select(engaged, Number(1.0), Number(0.0));
+        motions_[pack].advance();
+      }
+    }
+    Blocks blocks;
+    for (std::size_t pack = 0; pack < packs; ++pack) {
+      double values[pack_lanes];
+      Lanes<Number>::store(codes[pack], values);
+      for (std::size_t lane = 0; lane < pack_lanes; ++lane)
+        blocks[pack][lane] = static_cast<ItineraryBlock>(values[lane]);
+      find_diverged(pack);
+    }
+    return blocks;
+  }
+
+  void find_diverged(std::size_t pack) {
+    const Number sum = motions_[pack].state().sum();
+    if (all(sum - sum == Number(0.0))) return;
+    for (std::size_t lane = 0; lane < pack_lanes; ++lane) {
+      bool& diverged = diverged_[pack * pack_lanes + lane];
+      diverged = diverged || !std::isfinite(holdfast::detail::lane_of(sum, lane));
+    }
+  }
+
+  /// A motion that leaves the range of the number type, sample by sample.
+  LyapunovResult alone(const Vector<double, 4>& initial_state) const {
+    SingleMotion motion = in_every_lane(start_, initial_state);
+    return run_lyapunov(motion, blocks_, run_);
+  }
+
+  SingleMotion start_;
+  std::shared_ptr<const ItineraryBlocks> blocks_;
+  LyapunovRun run_;
+  std::vector<SampledMotion<Number, Backlash<Number>, Forcing>> motions_;
+  std::vector<BlockSpectrum<Number>> spectra_;
+  Blocks open_;  // the last blocks, incomplete
+  std::array<bool, lanes> diverged_{};
+};
 
 }  // namespace detail
 
@@ -57,21 +164,25 @@ inline std::vector<LyapunovResult> lyapunov_spectra(
   validate(loop);
   validate(run);
   validate(tangent_sampling);
-  const SampledLoop<double> sampled = sampled_loop(loop.plant, loop.sampling);
   const auto blocks = std::make_shared<const ItineraryBlocks>(
       sampled_loop(loop.plant, tangent_sampling), loop.gains);
-  const HarmonicInput<double> input =
-      harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
+  std::vector<LyapunovResult> results(initial_states.size());
+  const auto run_from = [&](const auto& start) {
+    using Group = detail::LyapunovGroup<std::decay_t<decltype(start.forcing())>>;
+    parallel_rows(static_cast<std::int64_t>(initial_states.size()),
+                  static_cast<std::int64_t>(Group::lanes), threads, Group(start, blocks, run),
+                  [&](Group& group, std::int64_t first, std::int64_t count) {
+                    group.compute(initial_states.data() + first, static_cast<std::size_t>(count),
+                                  results.data() + first);
+                  });
+  };
+  const Vector<double, 4> rest = Vector<double, 4>::Zero();
   if (const auto ratio = forcing_ratio(loop)) {
-    using Forcing = PeriodicForcing<double>;
-    const detail::MotionFamily<Forcing> family{sampled, loop,
-                                               Forcing(input, loop.excitation.amplitude, *ratio)};
-    return detail::lyapunov_spectra(family, blocks, initial_states, run, threads);
+    run_from(periodically_forced_motion(loop, *ratio, rest));
+  } else {
+    run_from(harmonically_forced_motion(loop, rest));
   }
-  using Forcing = HarmonicForcing<double>;
-  const detail::MotionFamily<Forcing> family{sampled, loop,
-                                             Forcing(input, loop.excitation, loop.sampling.period)};
-  return detail::lyapunov_spectra(family, blocks, initial_states, run, threads);
+  return results;
 }
 
 /// The same with the tangents of the motion itself.

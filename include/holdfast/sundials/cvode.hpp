@@ -37,8 +37,7 @@ struct HasMargin<System, std::void_t<decltype(std::declval<const System&>().marg
 /// @tparam System  has `int states()`, `void rate(const double* y, double* rate)`; with also
 /// `int half_bandwidth()` and `jacobian(y, set)`, set(row, column, value), it is taken to be stiff:
 /// BDF and Newton's method with a banded matrix; without, Adams' method and a fixed point. With
-/// `double margin(const double* y)` the integration ends where that falls to zero, looked for in
-/// every step of the integrator, whatever the instants that are asked for.
+/// `double margin(const double* y)` the integration ends where that falls to zero.
 ///
 /// The system must outlive the integrator. Not to be copied or moved: CVODE holds its address.
 template <class System>
@@ -49,7 +48,19 @@ class Integrator : public detail::Session {
   /// @param tolerances     local error per step, and the limit of steps
   /// @throws InvalidParameter for another number of them, or tolerances that are not positive
   Integrator(const System& system, const Eigen::VectorXd& initial_state,
-             const Tolerances& tolerances);
+             const Tolerances& tolerances)
+      : Session(tolerances), system_(system) {
+    if (initial_state.size() != system.states())
+      throw InvalidParameter("number of initial states", static_cast<double>(initial_state.size()),
+                             "", "states() of the system");
+    open(banded ? CV_BDF : CV_ADAMS, &Integrator::rate, initial_state, tolerances, this);
+    if (outcome_ != IntegrationOutcome::completed) return;
+    if constexpr (banded)
+      use_banded_newton();
+    else
+      use_fixed_point();
+    if constexpr (bounded) watch_margin();
+  }
 
   /// Integrates to the instant `time` (s). Once it has failed it stays failed.
   IntegrationOutcome advance_to(double time) {
@@ -99,7 +110,17 @@ class Integrator : public detail::Session {
     return 0;
   }
 
-  void use_banded_newton();
+  void use_banded_newton() {
+    const int reach = system_.half_bandwidth();
+    matrix_.reset(SUNBandMatrix(system_.states(), reach, reach, context_.get()));
+    if (lacks_memory(matrix_ != nullptr)) return;
+    linear_solver_.reset(SUNLinSol_Band(state_.get(), matrix_.get(), context_.get()));
+    if (lacks_memory(linear_solver_ != nullptr)) return;
+    if (lacks_memory_for_matrix(system_.states(), reach)) return;
+    check(CVodeSetLinearSolver(memory_.get(), linear_solver_.get(), matrix_.get()));
+    check(CVodeSetJacFn(memory_.get(), &Integrator::jacobian));
+  }
+
   void watch_margin() {
     if (outcome_ != IntegrationOutcome::completed) return;
     if (system_.margin(state()) <= 0.0) {
@@ -112,35 +133,5 @@ class Integrator : public detail::Session {
   const System& system_;
   double time_ = 0.0;
 };
-
-// ---------------------------------------------------------------------------------------------
-
-template <class System>
-Integrator<System>::Integrator(const System& system, const Eigen::VectorXd& initial_state,
-                               const Tolerances& tolerances)
-    : Session(tolerances), system_(system) {
-  if (initial_state.size() != system.states())
-    throw InvalidParameter("number of initial states", static_cast<double>(initial_state.size()),
-                           "", "states() of the system");
-  open(banded ? CV_BDF : CV_ADAMS, &Integrator::rate, initial_state, tolerances, this);
-  if (outcome_ != IntegrationOutcome::completed) return;
-  if constexpr (banded)
-    use_banded_newton();
-  else
-    use_fixed_point();
-  if constexpr (bounded) watch_margin();
-}
-
-template <class System>
-void Integrator<System>::use_banded_newton() {
-  const int reach = system_.half_bandwidth();
-  matrix_.reset(SUNBandMatrix(system_.states(), reach, reach, context_.get()));
-  if (lacks_memory(matrix_ != nullptr)) return;
-  linear_solver_.reset(SUNLinSol_Band(state_.get(), matrix_.get(), context_.get()));
-  if (lacks_memory(linear_solver_ != nullptr)) return;
-  if (lacks_memory_for_matrix(system_.states(), reach)) return;
-  check(CVodeSetLinearSolver(memory_.get(), linear_solver_.get(), matrix_.get()));
-  check(CVodeSetJacFn(memory_.get(), &Integrator::jacobian));
-}
 
 }  // namespace holdfast::cvode

@@ -8,7 +8,9 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdlib>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -17,8 +19,7 @@
 
 /// Time integration of the library's continuous models by CVODE, SUNDIALS 6 and 7.
 ///
-/// The one part of the library, with ceres/, that needs a package besides Eigen. SUNDIALS itself
-/// owns the global namespace `sundials`, hence this name.
+/// SUNDIALS itself owns the global namespace `sundials`, hence this name.
 namespace holdfast::cvode {
 
 /// How an integration ended; each case is a family of CVODE's return flags.
@@ -38,38 +39,27 @@ enum class IntegrationOutcome {
 
 /// The outcome that a flag of CVODE means.
 inline IntegrationOutcome outcome_of_flag(int flag) {
-  switch (flag) {
-    case CV_SUCCESS:
-    case CV_TSTOP_RETURN:
-      return IntegrationOutcome::completed;
-    case CV_ROOT_RETURN:
-      return IntegrationOutcome::model_ended;
-    case CV_TOO_MUCH_WORK:
-      return IntegrationOutcome::too_much_work;
-    case CV_TOO_MUCH_ACC:
-      return IntegrationOutcome::too_much_accuracy;
-    case CV_ERR_FAILURE:
-      return IntegrationOutcome::error_test_failed;
-    case CV_CONV_FAILURE:
-    case CV_NLS_INIT_FAIL:
-    case CV_NLS_SETUP_FAIL:
-    case CV_NLS_FAIL:
-      return IntegrationOutcome::convergence_failed;
-    case CV_LINIT_FAIL:
-    case CV_LSETUP_FAIL:
-    case CV_LSOLVE_FAIL:
-      return IntegrationOutcome::linear_solver_failed;
-    case CV_RHSFUNC_FAIL:
-    case CV_FIRST_RHSFUNC_ERR:
-    case CV_REPTD_RHSFUNC_ERR:
-    case CV_UNREC_RHSFUNC_ERR:
-      return IntegrationOutcome::right_hand_side_failed;
-    case CV_MEM_FAIL:
-    case CV_MEM_NULL:
-      return IntegrationOutcome::out_of_memory;
-    default:
-      return IntegrationOutcome::refused;
-  }
+  using Outcome = IntegrationOutcome;
+  struct Family {
+    Outcome outcome;
+    std::initializer_list<int> flags;
+  };
+  static const Family families[] = {
+      {Outcome::completed, {CV_SUCCESS, CV_TSTOP_RETURN}},
+      {Outcome::model_ended, {CV_ROOT_RETURN}},
+      {Outcome::too_much_work, {CV_TOO_MUCH_WORK}},
+      {Outcome::too_much_accuracy, {CV_TOO_MUCH_ACC}},
+      {Outcome::error_test_failed, {CV_ERR_FAILURE}},
+      {Outcome::convergence_failed,
+       {CV_CONV_FAILURE, CV_NLS_INIT_FAIL, CV_NLS_SETUP_FAIL, CV_NLS_FAIL}},
+      {Outcome::linear_solver_failed, {CV_LINIT_FAIL, CV_LSETUP_FAIL, CV_LSOLVE_FAIL}},
+      {Outcome::right_hand_side_failed,
+       {CV_RHSFUNC_FAIL, CV_FIRST_RHSFUNC_ERR, CV_REPTD_RHSFUNC_ERR, CV_UNREC_RHSFUNC_ERR}},
+      {Outcome::out_of_memory, {CV_MEM_FAIL, CV_MEM_NULL}}};
+  for (const Family& family : families)
+    if (std::find(family.flags.begin(), family.flags.end(), flag) != family.flags.end())
+      return family.outcome;
+  return Outcome::refused;
 }
 
 /// CVODE's name of a flag: "CV_TOO_MUCH_WORK".
@@ -154,8 +144,29 @@ class Session {
 
   /// Makes ready to integrate from t = 0; `user_data` is what CVODE hands to the functions.
   void open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
-            const Tolerances& tolerances, void* user_data);
-  void use_fixed_point();
+            const Tolerances& tolerances, void* user_data) {
+    if (lacks_memory(context_ != nullptr)) return;
+    state_.reset(N_VNew_Serial(initial_state.size(), context_.get()));
+    if (lacks_memory(state_ != nullptr)) return;
+    Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), initial_state.size()) =
+        initial_state;
+    if (lacks_memory_for_vectors(initial_state.size(), vectors_of_integrator)) return;
+    memory_.reset(CVodeCreate(method, context_.get()));
+    if (lacks_memory(memory_ != nullptr)) return;
+    listen_to_messages();
+    check(CVodeInit(memory_.get(), rate, 0.0, state_.get()));
+    check(CVodeSetUserData(memory_.get(), user_data));
+    check(CVodeSStolerances(memory_.get(), tolerances.relative, tolerances.absolute));
+    check(CVodeSetMaxNumSteps(memory_.get(), tolerances.largest_number_of_steps));
+    check(CVodeSetMaxHnilWarns(memory_.get(), -1));  // SUNDIALS 7 prints these warnings itself
+  }
+
+  void use_fixed_point() {
+    if (outcome_ != IntegrationOutcome::completed) return;
+    nonlinear_solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
+    if (lacks_memory(nonlinear_solver_ != nullptr)) return;
+    check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
+  }
 
   bool check(int flag) {
     if (outcome_ != IntegrationOutcome::completed) return false;
@@ -166,8 +177,8 @@ class Session {
     return false;
   }
 
-  /// SUNDIALS 6 uses its own copies of vectors and matrices without a look whether there was memory
-  /// for them. Hence as much is asked for beforehand, and given back.
+  /// SUNDIALS 6 does not look whether there was memory for its own vectors and matrices: as much is
+  /// asked for beforehand, and given back.
   bool lacks_memory_for_vectors(sunindextype states, sunindextype vectors) {
     const SerialVector spare(N_VNew_Serial(states * vectors, context_.get()));
     return lacks_memory(spare != nullptr);
@@ -220,31 +231,6 @@ class Session {
   void listen_to_messages() { SUNContext_PushErrHandler(context_.get(), &note_message, this); }
 #endif
 };
-
-inline void Session::open(int method, CVRhsFn rate, const Eigen::VectorXd& initial_state,
-                          const Tolerances& tolerances, void* user_data) {
-  if (lacks_memory(context_ != nullptr)) return;
-  state_.reset(N_VNew_Serial(initial_state.size(), context_.get()));
-  if (lacks_memory(state_ != nullptr)) return;
-  Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(state_.get()), initial_state.size()) =
-      initial_state;
-  if (lacks_memory_for_vectors(initial_state.size(), vectors_of_integrator)) return;
-  memory_.reset(CVodeCreate(method, context_.get()));
-  if (lacks_memory(memory_ != nullptr)) return;
-  listen_to_messages();
-  check(CVodeInit(memory_.get(), rate, 0.0, state_.get()));
-  check(CVodeSetUserData(memory_.get(), user_data));
-  check(CVodeSStolerances(memory_.get(), tolerances.relative, tolerances.absolute));
-  check(CVodeSetMaxNumSteps(memory_.get(), tolerances.largest_number_of_steps));
-  check(CVodeSetMaxHnilWarns(memory_.get(), -1));  // SUNDIALS 7 prints these warnings itself
-}
-
-inline void Session::use_fixed_point() {
-  if (outcome_ != IntegrationOutcome::completed) return;
-  nonlinear_solver_.reset(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
-  if (lacks_memory(nonlinear_solver_ != nullptr)) return;
-  check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
-}
 
 }  // namespace detail
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "holdfast/cable/elements.hpp"
@@ -29,16 +30,17 @@ struct LoadRemoval {
 };
 
 /// Removes `force` (N) from the cable at rest and follows it.
-/// @param cable       `CableElements` or `CondensedCable`
+/// @param cable       `CableElements`, or what else has its members
 /// @param force       N, downward positive
 /// @param duration    s, > 0; the record ends at the last multiple of the interval not after it
 /// @param interval    s between the record's instants, > 0
 /// @param tolerances  local error per step, and the limit of steps in an interval
-/// @param at_each     called with no arguments before each instant; what it throws ends the run
+/// @param at_each     called before each instant; what it throws ends the run
 /// @throws InvalidParameter outside these ranges, and for 2⁵³ instants or more
-template <class Cable, class AtEach>
+template <class Cable>
 LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
-                         const Tolerances& tolerances, AtEach&& at_each) {
+                         const Tolerances& tolerances = {},
+                         const std::function<void()>& at_each = {}) {
   require_finite("force", force, "N");
   require_positive("interval", interval, "s");
   require_positive("duration", duration, "s");
@@ -52,7 +54,7 @@ LoadRemoval load_removal(const Cable& cable, double force, double duration, doub
   Integrator<Cable> integrator(cable, start.state, tolerances);
   result.initial_displacement = cable.displacement(start.state);
   for (std::int64_t k = 0; k <= intervals; ++k) {
-    at_each();
+    if (at_each) at_each();
     const double time = static_cast<double>(k) * interval;
     if (k > 0) integrator.advance_to(time);
     result.last_time = integrator.time();
@@ -70,13 +72,6 @@ LoadRemoval load_removal(const Cable& cable, double force, double duration, doub
   }
   result.cost = integrator.cost();
   return result;
-}
-
-/// The same, not to be ended from outside.
-template <class Cable>
-LoadRemoval load_removal(const Cable& cable, double force, double duration, double interval,
-                         const Tolerances& tolerances = {}) {
-  return load_removal(cable, force, duration, interval, tolerances, [] {});
 }
 
 }  // namespace holdfast::cvode

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -11,7 +10,6 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/motion/instant.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -22,81 +20,18 @@ namespace holdfast {
 
 namespace detail {
 
-/// The samples of a motion whose clock may jitter: those not after the duration, and of them those
-/// not before half of it.
-inline SampleSpan sample_span(const SamplingClock& clock, double duration) {
-  SampleSpan span = sample_span(0, duration, clock.period());
-  if (clock.jitter().half_width == 0.0) return span;
-  // No sample deviates by half a period from the grid, and each comes after the one before.
-  while (not_before(duration, clock.time(span.samples))) ++span.samples;
-  while (!not_before(duration, clock.time(span.samples - 1))) --span.samples;
-  const auto is_steady = [&](std::int64_t index) {
-    return not_before(clock.time(index), 0.5 * duration);
-  };
-  std::int64_t& first = span.first_steady;
-  first = std::min(first, span.samples);
-  while (first > 0 && is_steady(first - 1)) --first;
-  while (first < span.samples && !is_steady(first)) ++first;
-  return span;
-}
-
-/// Of a motion whose changes of contact accumulate after some samples.
-inline MotionMetrics unfollowed_metrics(std::int64_t samples) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {MotionEnd::accumulates, samples, nan, nan, nan, nan, nan, nan, nan, nan};
-}
-
-/// Takes the samples of one motion, each into all that is kept of them.
+/// Δż of a state; zero where the ports leave nothing of it but rounding, as in a stick. The two
+/// masses have ż₂ = ż₁ there to the last bit.
 template <class Plant>
-class EventTrack {
-  using Sample = EventSampleOf<states_of<Plant>>;
-
- public:
-  EventTrack(const SampleSpan& span, const PortReadings<Plant>& readings)
-      : span_(span), readings_(readings) {}
-
-  void observe(const Sample& sample) {
-    const double velocity = velocity_of(sample.state);
-    const bool reverses = is_reversal(previous_velocity_, velocity);
-    previous_velocity_ = velocity;
-    observer_.observe_extremum(readings_.displacement(sample.state));
-    observer_.observe_load(sample, readings_);
-    if (sample.index < span_.first_steady) return;
-    if (sample.index == span_.first_steady) observer_.begin_steady(true, reverses);
-    observer_.observe_steady(sample, readings_, reverses);
+double drive_velocity(const PortReadings<Plant>& readings, const StateOf<Plant>& state) {
+  const double velocity = readings.relative_velocity(state);
+  if constexpr (HasPorts<Plant>::value) {
+    constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    const double size = readings.velocity_row().cwiseAbs().dot(state.cwiseAbs());
+    if (std::abs(velocity) <= rounding * size) return 0.0;
   }
-
-  MotionMetrics completed(const SamplingClock& clock) const {
-    const LaneSums sums = observer_.lane(0);
-    MotionMetrics metrics = completed_metrics(sums, span_);
-    const double time = clock.time(span_.samples - 1) - clock.time(span_.first_steady);
-    if (time > 0.0) metrics.reversals_per_s = sums.steady.reversals / time;
-    return metrics;
-  }
-
-  /// @param samples  with a finite state
-  MotionMetrics diverged(std::int64_t samples) const {
-    return diverged_metrics(observer_.lane(0), samples);
-  }
-
- private:
-  /// Δż; zero where the ports leave nothing of it but rounding, as in a stick. The two masses have
-  /// ż₂ = ż₁ there to the last bit.
-  double velocity_of(const StateOf<Plant>& state) const {
-    const double velocity = readings_.relative_velocity(state);
-    if constexpr (HasPorts<Plant>::value) {
-      constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-      const double size = readings_.velocity_row().cwiseAbs().dot(state.cwiseAbs());
-      if (std::abs(velocity) <= rounding * size) return 0.0;
-    }
-    return velocity;
-  }
-
-  SampleSpan span_;
-  PortReadings<Plant> readings_;
-  MetricObserver<double> observer_;
-  double previous_velocity_ = 0.0;
-};
+  return velocity;
+}
 
 }  // namespace detail
 
@@ -125,18 +60,29 @@ MotionMetrics event_metrics(const ImplementedLoopOf<Plant>& loop,
   constexpr std::int64_t samples_between_pauses = 1 << 14;
   validate(loop);
   for (const double entry : initial_state) require_finite("initial state", entry, "SI");
-  const SamplingClock clock(loop.digital.sampling.period, loop.digital.jitter);
-  const detail::SampleSpan span = detail::sample_span(clock, duration);
+  const detail::SampleSpan span = detail::sample_span(
+      0, duration, SamplingClock(loop.digital.sampling.period, loop.digital.jitter));
   auto motion = event_motion(loop, initial_state);
-  detail::EventTrack<Plant> track(span, motion.readings());
+  const PortReadings<Plant> readings = motion.readings();
+  MetricObserver<double> observer;
+  double velocity_before = 0.0;
   for (std::int64_t taken = 0; taken < span.samples; ++taken) {
     if (pause && taken % samples_between_pauses == 0) pause();
-    if (!std::isfinite(motion.state().sum())) return track.diverged(taken);
-    track.observe(motion.sense());
+    if (!std::isfinite(motion.state().sum())) return detail::diverged_metrics(observer, taken);
+    const auto sample = motion.sense();
+    const double displacement = readings.displacement(sample.state);
+    const double velocity = detail::drive_velocity(readings, sample.state);
+    const bool reverses = is_reversal(velocity_before, velocity);
+    velocity_before = velocity;
+    observer.observe_extremum(displacement);
+    observer.observe_load(sample.control_force, readings.relative_displacement(sample.state));
+    if (sample.index == span.first_steady) observer.begin_steady(true, reverses);
+    if (sample.index >= span.first_steady)
+      observer.observe_steady(displacement, sample.control_force, sample.engaged, reverses);
     motion.advance();
-    if (motion.counts().accumulates) return detail::unfollowed_metrics(taken + 1);
+    if (motion.counts().accumulates) return {MotionEnd::accumulates, taken + 1};
   }
-  return track.completed(clock);
+  return detail::completed_metrics(observer, span);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

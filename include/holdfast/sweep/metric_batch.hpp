@@ -13,17 +13,6 @@
 
 namespace holdfast {
 
-/// Looks at no sample. Others are derived from it and hide what they do.
-struct IgnoreSwitching {
-  /// Called at every sample with the numbers of the motions in the lanes, the sample's index and
-  /// the lanes that transmit.
-  template <class LaneMask>
-  void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
-                  const LaneMask& /*engaged*/) const {}
-  /// Called every some hundred samples; may throw in a derived one.
-  void pause() const {}
-};
-
 namespace detail {
 
 /// The samples of all motions, neighbours of about equal numbers of them; equal ones keep their
@@ -34,7 +23,7 @@ inline std::vector<SampleSpan> ordered_spans(const SweepMotion* motions, std::si
   std::vector<SampleSpan> spans(count);
   for (std::size_t k = 0; k < count; ++k) {
     validate(motions[k]);
-    spans[k] = sample_span(k, duration, motions[k].loop.sampling.period);
+    spans[k] = sample_span(k, duration, SamplingClock(motions[k].loop.sampling.period));
   }
   std::stable_sort(spans.begin(), spans.end(),
                    [](const auto& a, const auto& b) { return a.samples < b.samples; });
@@ -42,14 +31,14 @@ inline std::vector<SampleSpan> ordered_spans(const SweepMotion* motions, std::si
 }
 
 /// The metrics of motions whose samples are known and ordered, group by group.
-template <class Scalar, class MatricesOfLoop, class SwitchingObserver>
+/// @param source  SweepMatrices or its like
+template <class Scalar, class Source>
 void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::size_t count,
-                   MotionMetrics* results, const MatricesOfLoop& matrices,
-                   SwitchingObserver& observer) {
-  using Group = MetricGroup<Scalar, MatricesOfLoop>;
-  Group group(matrices);
+                   MotionMetrics* results, Source& source) {
+  using Group = MetricGroup<Scalar, Source>;
+  Group group(source);
   for (std::size_t first = 0; first < count; first += Group::lanes)
-    group.compute(motions, spans + first, std::min(Group::lanes, count - first), results, observer);
+    group.compute(motions, spans + first, std::min(Group::lanes, count - first), results);
 }
 
 }  // namespace detail
@@ -68,17 +57,18 @@ void group_metrics(const SweepMotion* motions, const SampleSpan* spans, std::siz
 /// @param count     number of motions, ≥ 0
 /// @param duration  s, ≥ 0
 /// @param results   as many, in the order of the motions
-/// @param observer  called at every sample j with the numbers of the motions in the lanes, j, and
-///                  the mask of the lanes that transmit; also beyond a motion's last sample, and
-///                  for a motion that repeats in spare lanes or is done again; and its pause()
-///                  every some hundred samples, which may throw to end all
+/// @param source    SweepMatrices, or what is derived from it to be called at every sample j with
+/// the
+///                  numbers of the motions in the lanes, j, and the mask of the lanes that
+///                  transmit; also beyond a motion's last sample, and for a motion that repeats in
+///                  spare lanes or is done again; and its pause() every some hundred samples, which
+///                  may throw to end all
 /// @throws InvalidParameter where a motion or the duration is not admissible
-template <class Scalar, class SwitchingObserver = IgnoreSwitching>
+template <class Scalar, class Source = detail::SweepMatrices>
 void motion_metrics(const SweepMotion* motions, std::size_t count, double duration,
-                    MotionMetrics* results, SwitchingObserver&& observer = SwitchingObserver()) {
+                    MotionMetrics* results, Source&& source = Source()) {
   const std::vector<detail::SampleSpan> spans = detail::ordered_spans(motions, count, duration);
-  detail::group_metrics<Scalar>(motions, spans.data(), count, results, detail::SweepMatrices(),
-                                observer);
+  detail::group_metrics<Scalar>(motions, spans.data(), count, results, source);
 }
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -16,21 +17,107 @@
 #include "holdfast/excitation/forcing.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/phasor_table.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/sweep/metric_observer.hpp"
-#include "holdfast/sweep/metric_track.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 
 namespace holdfast::detail {
 
+/// What is looked at in a stretch of samples; what no lane needs is left out.
+struct Watch {
+  bool extremum;    ///< some first extremum is still to come
+  bool steady;      ///< some lane is steady
+  bool divergence;  ///< some state is so large that it may leave the range of the number type
+};
+
+/// Size of a state beyond which every sample is looked at for divergence, and one that must not be
+/// met before that has begun.
+inline constexpr double large_state = 1e60, unseen_state = 1e200;
+
+/// A pack of motions with their metrics.
+///
+/// Work per sample: 42 operations of the motion (24 multiply-adds of the loop, 12 of the forcing, 2
+/// of the gains, 4 additions), 15 of the backlash (5 additions, 6 comparisons, 4 selects), 4 of the
+/// metrics (largest and smallest); 8 more where steady, 8 while a first extremum is sought.
+template <class Scalar>
+class MetricTrack {
+ public:
+  using Motion = SampledMotion<Scalar, Backlash<Scalar>, PhasorForcing<Scalar>>;
+
+  explicit MetricTrack(const Motion& motion) : motion_(motion) {}
+
+  /// Takes one sample. @return where the drive transmits
+  template <bool Extremum, bool Steady, bool Divergence>
+  Mask<Scalar> step() {
+    const Scalar velocity_before = motion_.law().memory().previous_velocity;
+    const auto sample = motion_.sense();
+    Scalar displacement = motion_.readings().displacement(sample.state);
+    observer_.observe_load(sample.control_force,
+                           motion_.readings().relative_displacement(sample.state));
+    if constexpr (Steady)
+      observer_.observe_steady(displacement, sample.control_force, sample.engaged,
+                               is_reversal(velocity_before, velocity(sample.state)));
+    if constexpr (Divergence) {
+      finite_ = finite_ & is_finite(sample.state);
+      finite_samples_ = finite_samples_ + select(finite_, Scalar(1), Scalar(0));
+      displacement = select(finite_, displacement, Scalar(MotionMetrics::unknown));
+    }
+    if constexpr (Extremum) observer_.observe_extremum(displacement);
+    motion_.advance();
+    return sample.engaged;
+  }
+
+  /// Begins the steady samples of the lanes in the mask at the present sample.
+  void begin_steady(const Mask<Scalar>& lanes) {
+    observer_.begin_steady(
+        lanes, is_reversal(motion_.law().memory().previous_velocity, velocity(motion_.state())));
+  }
+
+  /// Begins to look for divergence; until now every sample of the lanes that are looked at was
+  /// finite.
+  void begin_watching_divergence() {
+    finite_samples_ =
+        select(finite_, Scalar(static_cast<double>(motion_.index())), finite_samples_);
+  }
+
+  /// Σ |z_i| of the present state; its entries differ in unit, which does not matter to a magnitude
+  /// of tens of decades.
+  Scalar size() const {
+    using std::abs;
+    Scalar result = abs(motion_.state()[0]);
+    for (int i = 1; i < 4; ++i) result = result + abs(motion_.state()[i]);
+    return result;
+  }
+
+  Mask<Scalar> finite() const { return finite_; }
+  const Scalar& finite_samples() const { return finite_samples_; }
+  const MetricObserver<Scalar>& observer() const { return observer_; }
+
+ private:
+  Scalar velocity(const Vector<Scalar, 4>& state) const {
+    return motion_.readings().relative_velocity(state);
+  }
+
+  static Mask<Scalar> is_finite(const Vector<Scalar, 4>& state) {
+    const Scalar sum = state.sum();
+    return Scalar(0) * sum == Scalar(0);
+  }
+
+  Motion motion_;
+  MetricObserver<Scalar> observer_;
+  Mask<Scalar> finite_ = Scalar(0) == Scalar(0);
+  Scalar finite_samples_ = Scalar(0);
+};
+
 /// Some motions side by side, each with its own loop and number of samples, from their start to
 /// their metrics.
 ///
 /// The lanes go in step; where one begins to be steady or has had its samples, the others pause for
 /// a moment. Thus no sample asks whose it is, and no lane's arithmetic depends on its neighbours.
-/// @tparam MatricesOfLoop  gives the matrices of a loop, as SweepMatrices does
-template <class Scalar, class MatricesOfLoop = SweepMatrices>
+/// @tparam Source  gives the matrices of a loop and looks at the samples, as SweepMatrices does
+template <class Scalar, class Source = SweepMatrices>
 class MetricGroup {
   using Lane = Lanes<Scalar>;
 
@@ -41,22 +128,21 @@ class MetricGroup {
  public:
   static constexpr std::size_t lanes = packs * Lane::count;
 
-  explicit MetricGroup(const MatricesOfLoop& matrices = MatricesOfLoop()) : matrices_(matrices) {
+  explicit MetricGroup(Source& source) : source_(source) {
     tables_.reserve(packs);
     tracks_.reserve(packs);
   }
 
   /// @param spans    `count` of them, 1 ≤ count ≤ lanes
   /// @param results  one for each motion, in the order of `motions`
-  template <class SwitchingObserver>
   void compute(const SweepMotion* motions, const SampleSpan* spans, std::size_t count,
-               MotionMetrics* results, SwitchingObserver& observer) {
+               MotionMetrics* results) {
     start(motions, spans, count);
-    run(results, observer, false);
+    run(results, false);
     const std::vector<SampleSpan> unseen = std::exchange(unseen_, {});
     if (unseen.empty()) return;
     start(motions, unseen.data(), unseen.size());
-    run(results, observer, true);
+    run(results, true);
   }
 
  private:
@@ -85,37 +171,36 @@ class MetricGroup {
   MetricTrack<Scalar> make_track(const Motion& motion) {
     std::array<SweepMatrices::Matrices, Lane::count> matrices;
     for (std::size_t lane = 0; lane < Lane::count; ++lane)
-      matrices[lane] = matrices_.of(motion(lane).loop);
-    const auto number = [&](const auto& of) {
-      return from_lanes<Scalar>([&](std::size_t lane) { return of(motion(lane).loop); });
+      matrices[lane] = source_.of(motion(lane).loop);
+    const auto of_loop = [&](const auto& part) {
+      return from_lanes<Scalar>([&](std::size_t lane) { return part(motion(lane).loop); });
     };
     using Loop = IdealLoop<double>;
     const SampledLoop<Scalar> loop = loop_from_lanes<Scalar>(matrices);
     tables_.emplace_back(
-        input_from_lanes<Scalar>(matrices),
-        HarmonicExcitation<Scalar>{number([](const Loop& of) { return of.excitation.amplitude; }),
-                                   number([](const Loop& of) { return of.excitation.frequency; })},
+        HarmonicInput<Scalar>{
+            from_lanes<Scalar>([&](std::size_t lane) { return matrices[lane].input.cosine; }),
+            from_lanes<Scalar>([&](std::size_t lane) { return matrices[lane].input.sine; })},
+        HarmonicExcitation<Scalar>{of_loop([](const Loop& of) { return of.excitation.amplitude; }),
+                                   of_loop([](const Loop& of) { return of.excitation.frequency; })},
         loop.sampling.period);
-    const PdGains<Scalar> gains{number([](const Loop& of) { return of.gains.proportional; }),
-                                number([](const Loop& of) { return of.gains.differential; })};
-    const Scalar width = number([](const Loop& of) { return of.backlash_width; });
+    const PdGains<Scalar> gains{of_loop([](const Loop& of) { return of.gains.proportional; }),
+                                of_loop([](const Loop& of) { return of.gains.differential; })};
+    const Scalar width = of_loop([](const Loop& of) { return of.backlash_width; });
     return MetricTrack<Scalar>(typename MetricTrack<Scalar>::Motion(
         loop, gains, PhasorForcing<Scalar>(tables_.back()), Backlash<Scalar>(width),
-        matrix_from_lanes<Scalar, 4, 1>([&](std::size_t lane) -> const auto& {
-          return motion(lane).initial_state;
-        })));
+        from_lanes<Scalar>([&](std::size_t lane) { return motion(lane).initial_state; })));
   }
 
-  template <class SwitchingObserver>
-  void run(MotionMetrics* results, SwitchingObserver& observer, bool always_watch) {
+  void run(MotionMetrics* results, bool always_watch) {
     while (std::find(open_.begin(), open_.end(), true) != open_.end()) {
-      observer.pause();
+      source_.pause();
       begin_steady();
       const Watch watch = to_watch(always_watch);
       if (watch.divergence) {
         for (auto& track : tracks_) track.begin_watching_divergence();
       }
-      take(next_pause(), watch, observer);
+      take(next_pause(), watch);
       if (watch.divergence) {
         close_diverged(results);
       } else {
@@ -136,7 +221,7 @@ class MetricGroup {
   }
 
   Watch to_watch(bool always_watch) const {
-    const auto found = flags([](const auto& track) { return track.extremum_found(); });
+    const auto found = flags([](const auto& track) { return track.observer().extremum_found(); });
     const auto small = flags([](const auto& track) { return track.size() < Scalar(large_state); });
     Watch watch{false, false, always_watch};
     for (std::size_t k = 0; k < lanes; ++k) {
@@ -158,35 +243,32 @@ class MetricGroup {
     return pause;
   }
 
-  template <class SwitchingObserver>
-  void take(std::int64_t end, const Watch& watch, SwitchingObserver& observer) {
+  void take(std::int64_t end, const Watch& watch) {
     if (watch.divergence) {
-      take<true, true, true>(end, observer, Packs());
+      take<true, true, true>(end, Packs());
     } else if (watch.extremum && watch.steady) {
-      take<true, true, false>(end, observer, Packs());
+      take<true, true, false>(end, Packs());
     } else if (watch.extremum) {
-      take<true, false, false>(end, observer, Packs());
+      take<true, false, false>(end, Packs());
     } else if (watch.steady) {
-      take<false, true, false>(end, observer, Packs());
+      take<false, true, false>(end, Packs());
     } else {
-      take<false, false, false>(end, observer, Packs());
+      take<false, false, false>(end, Packs());
     }
   }
 
   /// The loop over samples. It works on copies of the tracks, which the compiler then keeps in
   /// registers, and all that it calls must be inlined for that.
-  template <bool Extremum, bool Steady, bool Divergence, class SwitchingObserver,
-            std::size_t... Pack>
-  [[gnu::flatten]] void take(std::int64_t end, SwitchingObserver& observer,
-                             std::index_sequence<Pack...> /*packs*/) {
+  template <bool Extremum, bool Steady, bool Divergence, std::size_t... Pack>
+  [[gnu::flatten]] void take(std::int64_t end, std::index_sequence<Pack...> /*packs*/) {
     constexpr auto block = static_cast<std::int64_t>(PhasorTable<Scalar>::block);
     const auto go = [&](auto... track) {
       for (std::int64_t j = index_; j < end;) {
         if (j % block == 0) (tables_[Pack].turn_to(j), ...);
         const std::int64_t block_end = std::min(end, (j / block + 1) * block);
         for (; j < block_end; ++j) {
-          (observer(numbers_.data() + Pack * Lane::count, j,
-                    track.template step<Extremum, Steady, Divergence>()),
+          (source_(numbers_.data() + Pack * Lane::count, j,
+                   track.template step<Extremum, Steady, Divergence>()),
            ...);
         }
       }
@@ -200,7 +282,8 @@ class MetricGroup {
     for (std::size_t k = 0; k < lanes; ++k) {
       if (!open_[k] || spans_[k].samples != index_) continue;
       open_[k] = false;
-      results[numbers_[k]] = completed_metrics(lane(k), spans_[k]);
+      results[numbers_[k]] =
+          completed_metrics(track_of(k).observer().lane(k % Lane::count), spans_[k]);
     }
   }
 
@@ -209,7 +292,9 @@ class MetricGroup {
     for (std::size_t k = 0; k < lanes; ++k) {
       if (!open_[k] || finite[k] != 0) continue;
       open_[k] = false;
-      results[numbers_[k]] = diverged_metrics(lane(k), finite_samples(k));
+      const double samples = lane_of(track_of(k).finite_samples(), k % Lane::count);
+      results[numbers_[k]] = diverged_metrics(track_of(k).observer().lane(k % Lane::count),
+                                              static_cast<std::int64_t>(samples));
     }
   }
 
@@ -223,15 +308,7 @@ class MetricGroup {
     }
   }
 
-  LaneSums lane(std::size_t k) const {
-    return tracks_[k / Lane::count].observer().lane(k % Lane::count);
-  }
-
-  std::int64_t finite_samples(std::size_t k) const {
-    double values[Lane::count];
-    Lane::store(tracks_[k / Lane::count].finite_samples(), values);
-    return static_cast<std::int64_t>(values[k % Lane::count]);
-  }
+  const MetricTrack<Scalar>& track_of(std::size_t k) const { return tracks_[k / Lane::count]; }
 
   /// One byte a lane of a mask of every track.
   template <class MaskOfTrack>
@@ -242,7 +319,7 @@ class MetricGroup {
     return result;
   }
 
-  MatricesOfLoop matrices_;
+  Source& source_;
   std::vector<PhasorTable<Scalar>> tables_;
   std::vector<MetricTrack<Scalar>> tracks_;
   std::array<SampleSpan, lanes> spans_{};

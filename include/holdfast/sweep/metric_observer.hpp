@@ -1,128 +1,167 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
+#include "holdfast/control/sampling_clock.hpp"
 #include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 
-namespace holdfast::detail {
+namespace holdfast {
 
-/// What the samples of one motion leave for its metrics.
-struct LaneSums {
-  double first_peak, force_peak, stroke;
-  SteadySums<double> steady;
-};
-
-/// What the metrics of one motion, or of as many as a pack has lanes, need of its samples. The
-/// drivers, MetricTrack of the sampled map and EventTrack of the event-driven flow, decide which
-/// samples are looked at.
+/// Whether a velocity that was not zero changed its sign or became zero: the reversal by which the
+/// drive enters its gap (contact/hysteresis.hpp).
 template <class Scalar>
-class MetricObserver {
- public:
-  /// Takes u and Δz of a sample.
-  /// @param readings  of the plant
-  template <class Sample, class Readings>
-  void observe_load(const Sample& sample, const Readings& readings) {
-    load_.observe(sample.control_force, readings.relative_displacement(sample.state));
-  }
-  /// Takes a steady sample. @param reverses  whether Δż changed its sign since the one before
-  template <class Sample, class Readings>
-  void observe_steady(const Sample& sample, const Readings& readings,
-                      const Mask<Scalar>& reverses) {
-    steady_.observe(readings.displacement(sample.state), sample.control_force, sample.engaged,
-                    reverses);
-  }
-  /// Takes z of a sample; NaN where no extremum is sought any more.
-  void observe_extremum(const Scalar& displacement) { extremum_.observe(displacement); }
+Mask<Scalar> is_reversal(const Scalar& before, const Scalar& now) {
+  const Scalar zero(0);
+  return ((before > zero) & (now <= zero)) | ((before < zero) & (now >= zero));
+}
 
-  /// Begins the steady samples of the lanes in the mask, at the sample about to be taken.
-  /// @param reverses  of that sample
-  void begin_steady(const Mask<Scalar>& lanes, const Mask<Scalar>& reverses) {
-    steady_.restart(lanes, reverses);
+/// What the metrics of a motion, or of as many as a pack has lanes, need of its samples. Its
+/// drivers, MetricTrack of the sampled map and event_metrics() of the event-driven flow, decide
+/// which samples it is shown.
+template <class Scalar>
+struct MetricObserver {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();  ///< ∞
+
+  Scalar before_last = Scalar(MotionMetrics::unknown);  ///< z₁ (m) two samples ago, NaN: none yet
+  Scalar last = Scalar(MotionMetrics::unknown);         ///< z₁ (m) of the sample before
+  Scalar first_peak = Scalar(MotionMetrics::unknown);   ///< |z₁| (m) at its first strict turn
+  Scalar force_peak = Scalar(0);                        ///< max |u| (N)
+  Scalar highest = Scalar(-infinity);                   ///< max Δz (m)
+  Scalar lowest = Scalar(infinity);                     ///< min Δz (m)
+  Scalar steady_peak = Scalar(0);                       ///< max |z₁| (m) of the steady samples
+  Scalar squares = Scalar(0);                           ///< Σ z₁² (m²) of the steady samples
+  Scalar force_squares = Scalar(0);                     ///< Σ u² (N²) of the steady samples
+  Scalar engaged = Scalar(0);    ///< steady samples at which the drive transmits
+  Scalar reversals = Scalar(0);  ///< of Δż, from one steady sample to the next
+
+  /// Takes z₁ (m) of a sample; an extremum is known at the sample after it. About 4 comparisons and
+  /// 3 selects.
+  void observe_extremum(const Scalar& displacement) {
+    using std::abs;
+    // A comparison with a sample that has not been is false.
+    const Mask<Scalar> turns = ((last > before_last) & (displacement < last)) |
+                               ((last < before_last) & (displacement > last));
+    first_peak = select(turns & !extremum_found(), Scalar(abs(last)), first_peak);
+    before_last = last;
+    last = displacement;
   }
 
   /// The lanes in which there is a first extremum by now.
-  Mask<Scalar> extremum_found() const { return extremum_.found(); }
+  Mask<Scalar> extremum_found() const { return first_peak == first_peak; }
 
-  /// All that one lane holds.
-  LaneSums lane(std::size_t lane) const {
-    const auto number = [lane](const Scalar& pack) {
-      double values[Lanes<Scalar>::count];
-      Lanes<Scalar>::store(pack, values);
-      return values[lane];
-    };
-    return {number(extremum_.size()),
-            number(load_.force()),
-            number(load_.stroke()),
-            {number(steady_.peak), number(steady_.squares), number(steady_.force_squares),
-             number(steady_.engaged), number(steady_.reversals)}};
+  /// Takes u (N) and Δz (m) of a sample.
+  void observe_load(const Scalar& force, const Scalar& relative_displacement) {
+    using std::abs;
+    using std::max;
+    using std::min;
+    force_peak = max(force_peak, Scalar(abs(force)));
+    highest = max(highest, relative_displacement);
+    lowest = min(lowest, relative_displacement);
   }
 
- private:
-  FirstExtremum<Scalar> extremum_;
-  LoadExtent<Scalar> load_;
-  SteadySums<Scalar> steady_;
+  /// Takes a steady sample.
+  /// @param displacement  z₁ (m)
+  /// @param force         u (N)
+  /// @param transmits     whether the drive does
+  /// @param reverses      whether Δż changed its sign since the sample before
+  void observe_steady(const Scalar& displacement, const Scalar& force,
+                      const Mask<Scalar>& transmits, const Mask<Scalar>& reverses) {
+    using std::abs;
+    using std::max;
+    const Scalar zero(0), one(1);
+    steady_peak = max(steady_peak, Scalar(abs(displacement)));
+    squares = squares + displacement * displacement;
+    force_squares = force_squares + force * force;
+    engaged = engaged + select(transmits, one, zero);
+    reversals = reversals + select(reverses, one, zero);
+  }
+
+  /// Begins the steady samples of the lanes in the mask, at the sample about to be taken.
+  /// @param lanes     which begin
+  /// @param reverses  of that sample: its reversal began before and does not count
+  void begin_steady(const Mask<Scalar>& lanes, const Mask<Scalar>& reverses) {
+    const Scalar zero(0);
+    for (Scalar* sum : {&steady_peak, &squares, &force_squares, &engaged})
+      *sum = select(lanes, zero, *sum);
+    reversals = select(lanes, select(reverses, Scalar(-1), zero), reversals);
+  }
+
+  /// What one lane has kept.
+  MetricObserver<double> lane(std::size_t lane) const {
+    MetricObserver<double> kept;
+    kept.first_peak = detail::lane_of(first_peak, lane);
+    kept.force_peak = detail::lane_of(force_peak, lane);
+    kept.highest = detail::lane_of(highest, lane);
+    kept.lowest = detail::lane_of(lowest, lane);
+    kept.steady_peak = detail::lane_of(steady_peak, lane);
+    kept.squares = detail::lane_of(squares, lane);
+    kept.force_squares = detail::lane_of(force_squares, lane);
+    kept.engaged = detail::lane_of(engaged, lane);
+    kept.reversals = detail::lane_of(reversals, lane);
+    return kept;
+  }
 };
+
+namespace detail {
 
 /// The samples of one motion.
 struct SampleSpan {
   std::size_t motion;         ///< its number
-  double period;              ///< τ (s)
   std::int64_t first_steady;  ///< ≤ samples; as many as there are samples where none is steady
   std::int64_t samples;       ///< ≥ 1
+  double steady_time;         ///< s, from the first steady sample to the last
 };
 
+/// The samples not after the duration, and of them those not before half of it.
 /// @throws InvalidParameter where there is no such number of samples
-inline SampleSpan sample_span(std::size_t motion, double duration, double period) {
-  SampleSpan span{motion, period, 0, samples_within(duration, period)};
+inline SampleSpan sample_span(std::size_t motion, double duration, const SamplingClock& clock) {
+  std::int64_t samples = samples_within(duration, clock.period());
+  if (clock.jitter().half_width > 0.0) {
+    // No sample deviates by half a period from the grid, and each comes after the one before.
+    while (not_before(duration, clock.time(samples))) ++samples;
+    while (!not_before(duration, clock.time(samples - 1))) --samples;
+  }
   const auto is_steady = [&](std::int64_t index) {
-    return not_before(static_cast<double>(index) * period, 0.5 * duration);
+    return not_before(clock.time(index), 0.5 * duration);
   };
   // Half the duration by division is right to a sample or two.
-  const double near = std::floor(0.5 * duration / period) - 2.0;
-  span.first_steady = near > 0.0 ? static_cast<std::int64_t>(near) : 0;
-  while (span.first_steady > 0 && is_steady(span.first_steady - 1)) --span.first_steady;
-  while (span.first_steady < span.samples && !is_steady(span.first_steady)) ++span.first_steady;
-  return span;
+  const double near = std::floor(0.5 * duration / clock.period()) - 2.0;
+  std::int64_t first = std::min(near > 0.0 ? static_cast<std::int64_t>(near) : 0, samples);
+  while (first > 0 && is_steady(first - 1)) --first;
+  while (first < samples && !is_steady(first)) ++first;
+  return {motion, first, samples, clock.time(samples - 1) - clock.time(first)};
 }
 
-inline MotionMetrics completed_metrics(const LaneSums& sums, const SampleSpan& span) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  MotionMetrics metrics{
-      MotionEnd::completed, span.samples, sums.first_peak, nan, nan, nan, sums.force_peak, nan, nan,
-      sums.stroke};
+inline MotionMetrics completed_metrics(const MetricObserver<double>& seen, const SampleSpan& span) {
+  MotionMetrics metrics{MotionEnd::completed, span.samples, seen.first_peak};
+  metrics.force_peak = seen.force_peak;
+  metrics.absorber_stroke = seen.highest - seen.lowest;
   const auto count = static_cast<double>(span.samples - span.first_steady);
   if (count == 0.0) return metrics;
-  metrics.steady_peak = sums.steady.peak;
-  metrics.steady_rms = std::sqrt(sums.steady.squares / count);
-  metrics.engaged_fraction = sums.steady.engaged / count;
-  metrics.force_rms = std::sqrt(sums.steady.force_squares / count);
-  const double first = static_cast<double>(span.first_steady) * span.period;
-  const double last = static_cast<double>(span.samples - 1) * span.period;
-  if (last > first) metrics.reversals_per_s = sums.steady.reversals / (last - first);
+  metrics.steady_peak = seen.steady_peak;
+  metrics.steady_rms = std::sqrt(seen.squares / count);
+  metrics.engaged_fraction = seen.engaged / count;
+  metrics.force_rms = std::sqrt(seen.force_squares / count);
+  if (span.steady_time > 0.0) metrics.reversals_per_s = seen.reversals / span.steady_time;
   return metrics;
 }
 
 /// @param samples  with a finite state
-inline MotionMetrics diverged_metrics(const LaneSums& sums, std::int64_t samples) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {MotionEnd::diverged,
-          samples,
-          sums.first_peak,
-          infinity,
-          infinity,
-          nan,
-          infinity,
-          infinity,
-          nan,
-          infinity};
+inline MotionMetrics diverged_metrics(const MetricObserver<double>& seen, std::int64_t samples) {
+  MotionMetrics metrics{MotionEnd::diverged, samples, seen.first_peak};
+  for (double* number : {&metrics.steady_peak, &metrics.steady_rms, &metrics.force_peak,
+                         &metrics.force_rms, &metrics.absorber_stroke})
+    *number = std::numeric_limits<double>::infinity();
+  return metrics;
 }
 
-}  // namespace holdfast::detail
+}  // namespace detail
+}  // namespace holdfast

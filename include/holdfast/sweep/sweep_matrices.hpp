@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "holdfast/control/loop_input.hpp"
@@ -14,7 +15,7 @@
 namespace holdfast::detail {
 
 /// The matrices of one loop after another. Their exponentials cost some microseconds; cells of a
-/// sweep in a row often share them.
+/// sweep in a row often share them. It looks at no sample; what is derived from it may hide that.
 class SweepMatrices {
  public:
   struct Matrices {
@@ -40,6 +41,14 @@ class SweepMatrices {
     return matrices_;
   }
 
+  /// Called at every sample with the numbers of the motions in the lanes, the sample's index and
+  /// the lanes that transmit.
+  template <class LaneMask>
+  void operator()(const std::size_t* /*motions*/, std::int64_t /*index*/,
+                  const LaneMask& /*engaged*/) const {}
+  /// Called every some hundred samples; may throw in a derived one.
+  void pause() const {}
+
  private:
   /// Of no loop yet, but copied with the rest.
   static Matrices of_no_loop() {
@@ -52,62 +61,25 @@ class SweepMatrices {
   Matrices matrices_ = of_no_loop();
 };
 
-/// One number of every lane. @param number  (lane) → double
-template <class Scalar, class Number>
-Scalar from_lanes(const Number& number) {
-  double values[Lanes<Scalar>::count];
-  for (std::size_t lane = 0; lane < Lanes<Scalar>::count; ++lane) values[lane] = number(lane);
-  return Lanes<Scalar>::load(values);
-}
-
-/// One matrix of every lane. @param matrix  (lane) → Matrix<double, Rows, Columns>
-template <class Scalar, int Rows, int Columns, class Matrices>
-Matrix<Scalar, Rows, Columns> matrix_from_lanes(const Matrices& matrix) {
-  Matrix<Scalar, Rows, Columns> result;
-  for (int i = 0; i < Rows; ++i) {
-    for (int j = 0; j < Columns; ++j) {
-      result(i, j) = from_lanes<Scalar>([&](std::size_t lane) { return matrix(lane)(i, j); });
-    }
-  }
-  return result;
-}
-
 /// The sampled loop of every lane.
 template <class Scalar>
 SampledLoop<Scalar> loop_from_lanes(
     const std::array<SweepMatrices::Matrices, Lanes<Scalar>::count>& lanes) {
-  const auto number = [&](auto member) {
+  using Loop = SampledLoop<double>;
+  const auto lane = [&](auto member) {
+    return from_lanes<Scalar>([&](std::size_t k) -> const auto& {
+      return lanes[k].sampled.*member;
+    });
+  };
+  const auto time = [&](auto member) {
     return from_lanes<Scalar>([&](std::size_t k) { return lanes[k].sampled.sampling.*member; });
   };
-  const auto vector = [&](auto member) {
-    return matrix_from_lanes<Scalar, 4, 1>([&](std::size_t k) -> const auto& {
-      return lanes[k].sampled.*member;
-    });
-  };
-  const auto square = [&](auto member) {
-    return matrix_from_lanes<Scalar, 4, 4>([&](std::size_t k) -> const auto& {
-      return lanes[k].sampled.*member;
-    });
-  };
-  using Loop = SampledLoop<double>;
-  return {{number(&Sampling<double>::period), number(&Sampling<double>::processing_delay)},
-          square(&Loop::transition),
-          square(&Loop::increment),
-          vector(&Loop::previous_force),
-          vector(&Loop::present_force),
-          vector(&Loop::held_excitation)};
-}
-
-/// The input of the excitation of every lane.
-template <class Scalar>
-HarmonicInput<Scalar> input_from_lanes(
-    const std::array<SweepMatrices::Matrices, Lanes<Scalar>::count>& lanes) {
-  const auto vector = [&](auto member) {
-    return matrix_from_lanes<Scalar, 4, 1>([&](std::size_t k) -> const auto& {
-      return lanes[k].input.*member;
-    });
-  };
-  return {vector(&HarmonicInput<double>::cosine), vector(&HarmonicInput<double>::sine)};
+  return {{time(&Sampling<double>::period), time(&Sampling<double>::processing_delay)},
+          lane(&Loop::transition),
+          lane(&Loop::increment),
+          lane(&Loop::previous_force),
+          lane(&Loop::present_force),
+          lane(&Loop::held_excitation)};
 }
 
 }  // namespace holdfast::detail

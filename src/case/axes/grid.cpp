@@ -29,6 +29,11 @@ double GridAxis::at(std::size_t index) const {
   return std::get<Axis>(values).at(number);
 }
 
+std::size_t index_along(const std::vector<GridAxis>& axes, std::size_t axis, std::size_t cell) {
+  for (std::size_t faster = axes.size() - 1; faster > axis; --faster) cell /= axes[faster].count();
+  return cell % axes[axis].count();
+}
+
 GridAxis grid_axis(const CaseKey& key, const KeyValues& axis) {
   return {{key.name, table_unit(key.unit), key.description}, axis.values};
 }

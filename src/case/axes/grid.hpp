@@ -21,6 +21,10 @@ struct GridAxis {
   double at(std::size_t index) const;
 };
 
+/// The index along one axis of a cell of their product, cells being numbered with the first axis
+/// slowest.
+std::size_t index_along(const std::vector<GridAxis>& axes, std::size_t axis, std::size_t cell);
+
 /// An axis over a key of the case, as a table names and describes it; units as N.s/m.
 GridAxis grid_axis(const CaseKey& key, const KeyValues& axis);
 GridAxis grid_axis(const KeyAxis& axis);

@@ -19,6 +19,14 @@ StiffnessReading stiffness_reading_of(const Case& the_case) {
   return reading == "secant" ? StiffnessReading::secant : StiffnessReading::least_squares;
 }
 
+/// A range of the readings that the user has not chosen is not to blame, but the key that he gave.
+std::string blame_for_range(const Case& the_case, const char* key, const char* range) {
+  const bool by_key = the_case.places.count(key) > 0 && the_case.places.count(range) == 0;
+  return by_key ? std::string(key) + " = " + format_number(case_value(the_case, key)) +
+                      " m is too small for "
+                : "";
+}
+
 }  // namespace
 
 bool plant_is_reduced(const Case& the_case) {
@@ -50,12 +58,14 @@ void require_reading_range(const Case& the_case) {
   const auto irvine = irvine_statics_of(the_case);
   const double highest = irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));
   if (!(-range.above > highest))
-    throw WrongInput("reduction.reading_above = " + format_number(range.above) +
+    throw WrongInput(blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
+                     "reduction.reading_above = " + format_number(range.above) +
                      " m: the absorber's place cannot be lifted so far before the statics end; "
                      "admissible is less than " +
                      format_rounded(-highest) + " m");
   if (!(range.below <= the_case.conductor.sag))
-    throw WrongInput("reduction.reading_below = " + format_number(range.below) +
+    throw WrongInput(blame_for_range(the_case, "conductor.sag", "reduction.reading_below") +
+                     "reduction.reading_below = " + format_number(range.below) +
                      " m: admissible is at most the sag, " + format_number(the_case.conductor.sag) +
                      " m");
 }
@@ -82,15 +92,6 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
 std::string borrowed_cable_warning(const Case& the_case) {
   if (!the_case.plant_given || the_case.conductor_given) return "";
   return "the case gives [plant] and no [conductor]: the cable is that of the built-in case";
-}
-
-std::string deep_cable_warning(const Case& the_case) {
-  const double ratio = the_case.conductor.sag / the_case.conductor.span;
-  if (ratio <= 0.125) return "";
-  return "conductor.sag is " + format_rounded(ratio) +
-         " of conductor.span: Eq. 1 and Irvine's modes are those of shallow cables, up to 0.125; "
-         "the "
-         "exact statics and the finite elements hold";
 }
 
 void require_force_within_statics(const Case& the_case, double force) {

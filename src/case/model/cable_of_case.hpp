@@ -5,7 +5,6 @@
 
 #include "case/case.hpp"
 #include "holdfast/cable/statics.hpp"
-#include "holdfast/cable/stiffness_reading.hpp"
 
 namespace holdfast::program {
 
@@ -33,10 +32,6 @@ std::pair<double, double> default_frequencies(const Case& the_case);
 /// What the user of a job about the cable has to know where the case gives a plant alone: whose
 /// cable it is. Empty otherwise.
 std::string borrowed_cable_warning(const Case& the_case);
-
-/// What the user has to know of a sag above an eighth of the span: Eq. 1 and Irvine's modes are
-/// those of shallow cables. Empty otherwise.
-std::string deep_cable_warning(const Case& the_case);
 
 /// Throws WrongInput where a force (N) on the absorber's place lies outside what Eq. 1 and the
 /// exact statics are valid for: it would lift the cable by half of its own weight.

@@ -60,7 +60,12 @@ IdealLoop<double> uncontrolled(IdealLoop<double> loop) {
 }
 
 bool is_of_the_paper(const Case& the_case, Switching switching) {
-  return ideal_loop(implemented_loop_of(the_case, switching)).has_value();
+  const auto excitation = effective_excitation(the_case);
+  const ContactLaw law = law_of(the_case.backlash.law);
+  return switching == Switching::sampled && is_ideal(limits_of(the_case)) &&
+         the_case.control.jitter == 0.0 && the_case.force_record == nullptr &&
+         excitation.harmonics.empty() && !(excitation.noise_rms > 0.0) &&
+         (law == ContactLaw::none || law == ContactLaw::kollar);
 }
 
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {

@@ -27,4 +27,12 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
 /// The loop with P = D = 0 and a drive without backlash.
 ImplementedLoop uncontrolled(ImplementedLoop loop);
 
+/// Calls `visit` with the loop: in the paper's model where that is all there is to the case, else
+/// with all that the case says of it.
+template <class Visit>
+auto with_loop_of(const Case& the_case, Switching switching, const Visit& visit) {
+  if (is_of_the_paper(the_case, switching)) return visit(ideal_loop_of(the_case));
+  return visit(implemented_loop_of(the_case, switching));
+}
+
 }  // namespace holdfast::program

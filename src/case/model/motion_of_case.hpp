@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 
 #include "case/model/loop_of_case.hpp"
 #include "io/text/text.hpp"
@@ -27,8 +26,7 @@ auto with_motion_of(const Case& the_case, const MotionChoice& choice, Visit&& vi
     return visit(harmonically_forced_motion(choice.controlled ? loop : uncontrolled(loop), state));
   }
   const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
-  return with_motion(choice.controlled ? loop : uncontrolled(loop), state,
-                     std::forward<Visit>(visit));
+  return visit(event_motion(choice.controlled ? loop : uncontrolled(loop), state));
 }
 
 /// Throws NoAnswer where a motion's changes of contact accumulate, so that it is not to be trusted;

@@ -50,13 +50,24 @@ double end_of_force(const Case& the_case) {
                                : std::numeric_limits<double>::infinity();
 }
 
+void require_bearable(double samples) {
+  constexpr double most = 1e10;
+  if (samples > most)
+    throw NoAnswer("the motions would have " + format_rounded(samples) +
+                   " samples, more than the " + format_rounded(most) +
+                   " that are followed: a shorter duration or a longer control.sampling_period has "
+                   "fewer");
+}
+
 std::int64_t samples_of(const Case& the_case, double duration) {
   const double end = end_of_force(the_case);
   if (duration > end) {
     throw WrongInput("the motion lasts " + format_number(duration) +
                      " s, but the force in excitation.record ends at " + format_number(end) + " s");
   }
-  return samples_within(duration, the_case.control.sampling_period);
+  const std::int64_t samples = samples_within(duration, the_case.control.sampling_period);
+  require_bearable(static_cast<double>(samples));
+  return samples;
 }
 
 }  // namespace holdfast::program

@@ -9,7 +9,7 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/chart/operating_point.hpp"
+#include "holdfast/stability/chart/loop_chart.hpp"
 
 namespace holdfast::program {
 
@@ -27,8 +27,12 @@ Vector<double, 4> initial_state_of(const Case& the_case);
 /// Seconds that the case's force lasts: to the last row of its record; infinite without one.
 double end_of_force(const Case& the_case);
 
+/// Throws NoAnswer where motions have more samples than are followed, 10¹⁰.
+void require_bearable(double samples);
+
 /// Number of samples of a motion of the case at t = 0, τ, … up to the last one not after
-/// `duration`, s. Throws WrongInput where the recorded force of the case ends before.
+/// `duration`, s. Throws WrongInput where the recorded force of the case ends before, NoAnswer
+/// where they are not bearable.
 std::int64_t samples_of(const Case& the_case, double duration);
 
 }  // namespace holdfast::program

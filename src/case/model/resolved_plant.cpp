@@ -1,7 +1,5 @@
 #include "case/model/resolved_plant.hpp"
 
-#include <cmath>
-#include <optional>
 #include <vector>
 
 #include "case/case_keys.hpp"
@@ -49,37 +47,6 @@ std::string distant_force_text(const Case& the_case) {
          "reduction.second_frequency to two about it";
 }
 
-/// The plant of the conductor, c2 apart; none where it has none.
-std::optional<TwoMass<double>> plant_of_conductor(const Case& the_case) {
-  try {
-    return plant_without_absorber_damping(the_case);
-  } catch (const WrongInput&) {
-    return std::nullopt;
-  } catch (const NoAnswer&) {
-    return std::nullopt;
-  }
-}
-
-/// What the conductor makes of the plant where every key of [plant] is given all the same.
-std::string overruled_conductor_text(const Case& the_case) {
-  if (!the_case.conductor_given || !the_case.plant_given) return "";
-  const std::optional<TwoMass<double>> conductors = plant_of_conductor(the_case);
-  if (!conductors) return "";
-  const TwoMass<double>& reduced = *conductors;
-  const TwoMass<double> given = plant_of(the_case);
-  constexpr double tolerance = 0.1;
-  const auto differ = [](double a, double b) { return std::abs(a - b) > tolerance * std::abs(b); };
-  const bool same = !differ(given.conductor_mass, reduced.conductor_mass) &&
-                    !differ(given.conductor_stiffness, reduced.conductor_stiffness) &&
-                    !differ(given.absorber_stiffness, reduced.absorber_stiffness);
-  if (same) return "";
-  return "every key of [plant] is given, so that [conductor] does not count for it; the conductor "
-         "would give m1 = " +
-         format_rounded(reduced.conductor_mass) +
-         " kg, k1 = " + format_rounded(reduced.conductor_stiffness) +
-         " N/m, k2 = " + format_rounded(reduced.absorber_stiffness) + " N/m";
-}
-
 std::string joined_texts(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() || text.empty() ? "" : "; ") + text;
@@ -97,7 +64,7 @@ std::string settle_damping(Case& the_case) {
 }  // namespace
 
 std::string settle_plant(Case& the_case) {
-  if (!plant_is_reduced(the_case)) return overruled_conductor_text(the_case);
+  if (!plant_is_reduced(the_case)) return "";
   const std::vector<const CaseKey*> given = given_of_plant(the_case);
   Case as_given = the_case;
   take_plant(the_case, plant_without_absorber_damping(the_case));

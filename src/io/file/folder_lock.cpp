@@ -15,8 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Gives 0 or the system's error number.
-int lock(int descriptor) {
+bool means_no_locks_here(int error) {
+  return error == ENOLCK || error == EOPNOTSUPP || error == ENOSYS;
+}
+
+}  // namespace
+
+int lock_file(int descriptor) {
   int status = 0;
   do {
     status = flock(descriptor, LOCK_EX | LOCK_NB);
@@ -24,19 +29,12 @@ int lock(int descriptor) {
   return status == 0 ? 0 : errno;
 }
 
-bool means_no_locks_here(int error) {
-  return error == ENOLCK || error == EOPNOTSUPP || error == ENOSYS;
-}
-
-/// Whether the open file is still the one of that name: its last holder may have removed it.
-bool is_still_there(int descriptor, const fs::path& file) {
+bool has_name(int descriptor, const fs::path& name) {
   struct stat opened {};
   struct stat named {};
-  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 &&
+  return fstat(descriptor, &opened) == 0 && lstat(name.c_str(), &named) == 0 &&
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
-
-}  // namespace
 
 FolderLock::FolderLock(const fs::path& folder) {
   constexpr mode_t everyone_may_read_and_write = 0666;  // less the user's umask
@@ -44,12 +42,16 @@ FolderLock::FolderLock(const fs::path& folder) {
   while (!descriptor_.is_open()) {
     // Network file systems lock only what is open for writing.
     Descriptor opened(
-        open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, everyone_may_read_and_write));
+        open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, everyone_may_read_and_write));
+    if (!opened.is_open() && errno == ELOOP)
+      throw WrongInput("cannot write " + file.string() +
+                       ": is a symbolic link, which may lead anywhere");
     if (!opened.is_open()) refuse_to_write(file, errno);
-    const int error = lock(opened.number());
+    const int error = lock_file(opened.number());
     if (error == EWOULDBLOCK) throw OutputError(folder.string() + " is in use by another program");
     if (error != 0 && !means_no_locks_here(error)) refuse_to_write(file, error);
-    if (is_still_there(opened.number(), file)) descriptor_ = std::move(opened);
+    // Its last holder may have removed it.
+    if (has_name(opened.number(), file)) descriptor_ = std::move(opened);
   }
 }
 

@@ -1,11 +1,13 @@
 #include "io/file/input.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
 #include <vector>
 
+#include "io/file/descriptor.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
@@ -16,22 +18,31 @@ namespace {
   throw WrongInput("cannot read " + file.string() + ": " + why);
 }
 
+/// A pipe waits here for its writer, until a signal comes.
+Descriptor open_to_read(const std::filesystem::path& file) {
+  for (;;) {
+    Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    if (opened.is_open()) return opened;
+    if (errno != EINTR) refuse(file, std::generic_category().message(errno));
+    throw_if_interrupted();
+  }
+}
+
 }  // namespace
 
 std::string read_input(const std::filesystem::path& file) {
   constexpr std::size_t largest = std::size_t{1} << 31;  // an endless device shall end
-  using Handle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  const Handle handle(std::fopen(file.c_str(), "rb"), &std::fclose);
-  if (!handle) refuse(file, std::generic_category().message(errno));
+  const Descriptor opened = open_to_read(file);
   std::string text;
   std::vector<char> chunk(std::size_t{1} << 16);
-  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), handle.get())) {
-    text.append(chunk.data(), count);
+  for (;;) {
+    const ssize_t count = ::read(opened.number(), chunk.data(), chunk.size());
+    if (count == 0) return text;
+    if (count < 0 && errno != EINTR) refuse(file, std::generic_category().message(errno));
     throw_if_interrupted();
+    if (count > 0) text.append(chunk.data(), static_cast<std::size_t>(count));
     if (text.size() > largest) refuse(file, "too large");
   }
-  if (std::ferror(handle.get()) != 0) refuse(file, std::generic_category().message(errno));
-  return text;
 }
 
 void require_not_overwritten(const std::filesystem::path& input,

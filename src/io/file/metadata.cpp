@@ -5,6 +5,7 @@
 
 #include "case/case_file.hpp"
 #include "io/file/build_record.hpp"
+#include "io/text/text.hpp"
 
 #ifndef HOLDFAST_VERSION
 #error "the build defines HOLDFAST_VERSION"
@@ -73,15 +74,33 @@ void append_trust(Json& json, const TrustedDigits& trusted) {
   if (!trusted.least.empty()) json["least_trusted"] = trusted.least;
 }
 
+Json of_file(const Written& file) {
+  return {{"bytes", file.bytes}, {"crc64_xz", hexadecimal(file.checksum, 16)}};
+}
+
 }  // namespace
 
+Json picture_metadata(const JobContext& context, const std::string& file_name,
+                      const Written& picture) {
+  Json note = Json::object();
+  note["holdfast"] = origin(context);
+  note["holdfast"]["picture"] = of_file(picture);
+  Json json;
+  json["url"] = url_of(file_name);
+  json["dc:title"] = "holdfast " + context.job;
+  json["notes"] = Json::array({note});
+  return json;
+}
+
 Json table_metadata(const JobContext& context, const std::vector<Column>& columns,
-                    const std::string& file_name, const TrustedDigits& trusted) {
+                    const std::string& file_name, const TrustedDigits& trusted,
+                    const std::optional<Written>& table) {
   Json described = Json::array();
   for (const Column& column : columns) described.push_back(column_metadata(column));
   Json note = Json::object();
   note["holdfast"] = origin(context);
   append_trust(note["holdfast"], trusted);
+  if (table) note["holdfast"]["table"] = of_file(*table);
   Json json;
   json["@context"] = "http://www.w3.org/ns/csvw";
   json["url"] = url_of(file_name);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,12 @@ namespace holdfast::program {
 /// `trusted_until_s` for a motion and `least_trusted` for a table of single quantities.
 nlohmann::ordered_json table_metadata(const JobContext& context, const std::vector<Column>& columns,
                                       const std::string& file_name,
-                                      const TrustedDigits& trusted = {});
+                                      const TrustedDigits& trusted = {},
+                                      const std::optional<Written>& table = std::nullopt);
+
+/// The same of a picture, which has no columns.
+nlohmann::ordered_json picture_metadata(const JobContext& context, const std::string& file_name,
+                                        const Written& picture);
 
 /// FILE-metadata.json beside FILE.
 std::filesystem::path metadata_path(const std::filesystem::path& file);

@@ -4,12 +4,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <string>
 
+#include "io/file/folder_lock.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/text/checksum.hpp"
+#include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "process/progress.hpp"
 #include "process/system_words.hpp"
 
 namespace holdfast::program {
@@ -38,10 +41,45 @@ fs::path follow_links(fs::path path) {
   return path;
 }
 
-std::string unique_name() {
-  static std::atomic<unsigned> count{0};
-  return ".holdfast-" + std::to_string(getpid()) + "-" + std::to_string(count.fetch_add(1)) +
-         ".tmp";
+/// The name, of several, under which a file is written before it gets its own. The checksum stands
+/// for that one, which may itself be as long as the system admits.
+fs::path temporary_for(const fs::path& target, unsigned number) {
+  constexpr std::size_t digits = 16;
+  return target.parent_path() /
+         (".holdfast-" + hexadecimal(checksum(target.filename().string()), digits) + "-" +
+          std::to_string(number) + ".tmp");
+}
+
+/// Removes a temporary file that no process writes any more: its lock is free. One of another user,
+/// or on a file system without locks, stays.
+bool remove_left(const fs::path& temporary) {
+  struct stat status {};
+  const Descriptor left(open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const bool ours = left.is_open() && fstat(left.number(), &status) == 0 &&
+                    S_ISREG(status.st_mode) && status.st_uid == geteuid();
+  return ours && lock_file(left.number()) == 0 && has_name(left.number(), temporary) &&
+         unlink(temporary.c_str()) == 0;
+}
+
+/// Opens a new file beside the target and locks it, so that other runs of the same output know it
+/// to be in use, and removes what such runs have left that were killed. None is open where none can
+/// be made, and the reason is in errno.
+Descriptor open_temporary(const fs::path& target, fs::path& file) {
+  constexpr unsigned most = 1000;
+  unsigned number = 0;
+  Descriptor opened;
+  while (!opened.is_open() && number < most) {
+    file = temporary_for(target, number++);
+    remove_left(file);
+    opened = Descriptor(open_new_file(file));
+    if (!opened.is_open() && errno != EEXIST) return opened;
+    // Another run may have found it before it was locked.
+    const bool lost = opened.is_open() && (lock_file(opened.number()) == EWOULDBLOCK ||
+                                           !has_name(opened.number(), file));
+    if (lost) opened = Descriptor();
+  }
+  while (remove_left(temporary_for(target, number))) ++number;
+  return opened;
 }
 
 }  // namespace
@@ -53,10 +91,24 @@ bool is_netcdf_name(const std::optional<fs::path>& path) {
          name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+bool is_picture_name(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  return ending == ".svg" || ending == ".png" || ending == ".pdf";
+}
+
+void require_output_name(const fs::path& path, bool drawn) {
+  const std::string ending = path.extension().string();
+  if (ending.empty() || ending == ".csv" || is_netcdf_name(path)) return;
+  if (drawn && is_picture_name(path)) return;
+  throw WrongInput("--output " + path.string() +
+                   ": tables are written as .csv, those of cells as .nc too, and " +
+                   (drawn ? "the picture as .svg, .png or .pdf" : "this job has no picture") +
+                   "; " + ending + " is none of these");
+}
+
 OutputFile::OutputFile(const std::optional<fs::path>& path) {
   if (!path || *path == "-") {
     shown_ = "standard output";
-    descriptor_ = STDOUT_FILENO;
     return;
   }
   if (path->empty()) throw WrongInput("cannot write to a file without a name");
@@ -68,77 +120,73 @@ OutputFile::OutputFile(const std::optional<fs::path>& path) {
     refuse_path(shown_, "is a folder");
   if (exists && access(path->c_str(), W_OK) != 0) refuse_path(shown_, system_words(errno));
   if (exists && !S_ISREG(status.st_mode)) {
-    open_device();
+    target_ = shown_;
+    file_ = Descriptor(open(target_.c_str(), O_WRONLY | O_CLOEXEC));
   } else {
     target_ = follow_links(*path);
-    open_temporary();
+    fs::path opened;
+    file_ = open_temporary(target_, opened);
+    if (file_.is_open()) temporary_ = opened;
   }
-}
-
-OutputFile::~OutputFile() { discard(); }
-
-void OutputFile::open_device() {
-  target_ = shown_;
-  descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor_ < 0) refuse_to_open(shown_, errno);
-  owns_descriptor_ = true;
-}
-
-void OutputFile::open_temporary() {
-  fs::path opened;
-  descriptor_ = open_new_file([this] { return target_.parent_path() / unique_name(); }, opened);
-  if (descriptor_ < 0) refuse_to_open(shown_, errno);
-  temporary_ = opened;
-  owns_descriptor_ = true;
+  if (!file_.is_open()) refuse_to_open(shown_, errno);
   // Absolute, since the handler of a second signal does not know of a change of folder.
-  guard_ = std::make_unique<RemovedBySignal>(fs::absolute(temporary_).c_str());
+  if (is_file()) guard_ = std::make_unique<RemovedBySignal>(fs::absolute(temporary_).c_str());
+}
+
+OutputFile::~OutputFile() {
+  if (is_file() && !committed_) unlink(temporary_.c_str());
+}
+
+void OutputFile::fail(int error) const {
+  throw OutputError("cannot write " + shown_.string() + ": " + system_words(error));
 }
 
 void OutputFile::write(std::string_view bytes) {
+  const int descriptor = file_.is_open() ? file_.number() : STDOUT_FILENO;
+  if (!file_.is_open()) yield_terminal_to_result();
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
     if (written >= 0) {
+      const auto taken = bytes.substr(0, static_cast<std::size_t>(written));
+      if (is_file()) written_ = {written_.bytes + taken.size(), checksum(taken, written_.checksum)};
       bytes.remove_prefix(static_cast<std::size_t>(written));
       continue;
     }
-    if (errno == EINTR) {
-      throw_if_interrupted();
-      continue;
-    }
     if (errno == EPIPE) throw OutputError(shown_.string() + " was closed by its reader");
-    throw OutputError("cannot write " + shown_.string() + ": " + system_words(errno));
+    if (errno != EINTR) fail(errno);
+    throw_if_interrupted();
   }
 }
 
 void OutputFile::finish() {
-  if (finished_) return;
-  close_descriptor();
-  finished_ = true;
+  if (!file_.is_open()) return;
+  if (is_file()) lock_ = Descriptor(fcntl(file_.number(), F_DUPFD_CLOEXEC, 0));
+  // Some file systems report a lack of space only here.
+  if (close(file_.release()) != 0 && errno != EINTR) fail(errno);
 }
 
-void OutputFile::close_descriptor() {
-  if (!owns_descriptor_) return;
-  owns_descriptor_ = false;
-  // Some file systems report a lack of space only here.
-  if (close(descriptor_) != 0 && errno != EINTR) {
-    throw OutputError("cannot write " + shown_.string() + ": " + system_words(errno));
-  }
+void OutputFile::appear() {
+  if (is_file() && rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  committed_ = true;
+  guard_.reset();
+  lock_ = Descriptor();
 }
 
 void OutputFile::commit() {
   throw_if_interrupted();
   finish();
-  if (is_file() && rename(temporary_.c_str(), target_.c_str()) != 0) {
-    throw OutputError("cannot write " + shown_.string() + ": " + system_words(errno));
-  }
-  committed_ = true;
-  guard_.reset();
+  appear();
 }
 
-void OutputFile::discard() noexcept {
-  if (owns_descriptor_) close(descriptor_);
-  owns_descriptor_ = false;
-  if (is_file() && !committed_) unlink(temporary_.c_str());
+void commit_together(OutputFile& file, OutputFile& companion) {
+  file.finish();
+  companion.finish();
+  const SignalsHeld held;
+  throw_if_interrupted();
+  const fs::path& before = companion.target();
+  if (unlink(before.c_str()) != 0 && errno != ENOENT) companion.fail(errno);
+  file.appear();
+  companion.appear();
 }
 
 }  // namespace holdfast::program

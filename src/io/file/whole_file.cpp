@@ -39,6 +39,15 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
+/// Forces a file to the disk, where its file system can.
+int synchronise(int descriptor) {
+  int status = 0;
+  do {
+    status = fsync(descriptor);
+  } while (status != 0 && errno == EINTR);
+  return status == 0 || errno == EINVAL || errno == ENOSYS ? 0 : errno;
+}
+
 /// As much as there is, up to the size of the text, which is cut to it.
 int read_all(int descriptor, std::string& text) {
   std::size_t filled = 0;
@@ -65,26 +74,23 @@ int read_regular(int descriptor, std::string& text) {
 
 }  // namespace
 
-int open_new_file(const std::function<std::filesystem::path()>& next_name,
-                  std::filesystem::path& file) {
-  constexpr int most_attempts = 100;
+int open_new_file(const fs::path& file) {
   constexpr mode_t everyone_may_read_and_write = 0666;  // less the user's umask
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    file = next_name();
-    const int descriptor =
-        open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, everyone_may_read_and_write);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
-  return -1;
+  return open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, everyone_may_read_and_write);
 }
 
 int write_whole_file(const fs::path& file, std::string_view bytes) {
   fs::path temporary;
-  const int descriptor = open_new_file([&file] { return temporary_beside(file); }, temporary);
+  int descriptor = -1;
+  do {  // a process that was killed may have had our number
+    temporary = temporary_beside(file);
+    descriptor = open_new_file(temporary);
+  } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) return errno;
   int error = write_all(descriptor, bytes);
-  // Some file systems report a lack of space only here. The file is not forced to the disk, which
-  // would cost more than most tiles do; whoever reads it must know a truncated one.
+  // On the disk before it has its name: what counts as done shall outlast a loss of power.
+  if (error == 0) error = synchronise(descriptor);
+  // Some file systems report a lack of space only here.
   if (close(descriptor) != 0 && errno != EINTR && error == 0) error = errno;
   if (error == 0 && rename(temporary.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) unlink(temporary.c_str());

@@ -1,22 +1,18 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace holdfast::program {
 
-/// Makes and opens for writing a file that was not there before, under the first free one of some
-/// names: a name left over by a process that was killed and had our number is passed over.
-/// @param next_name  a name that it has not given before
-/// @return the descriptor, and `file` is its name; or −1, and the reason is in errno
-int open_new_file(const std::function<std::filesystem::path()>& next_name,
-                  std::filesystem::path& file);
+/// Makes and opens for writing a file that was not there before, not even as a link. Gives the
+/// descriptor; or −1, and the reason is in errno.
+int open_new_file(const std::filesystem::path& file);
 
-/// Writes a file that appears whole or not at all, in place of one that has the name already. Gives
-/// 0, or the system's error number, and then nothing is left of it.
+/// Writes a file that appears whole or not at all, in place of one that has the name already, and
+/// is on the disk by then. Gives 0, or the system's error number, and then nothing is left of it.
 ///
 /// The bytes go to a temporary file beside it, `.NAME-PROCESS-COUNT.tmp`, which is then renamed; a
 /// process that is killed leaves that one. Any number of threads and processes may write one file.

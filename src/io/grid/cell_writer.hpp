@@ -5,21 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "case/axes/grid.hpp"
-#include "process/job_context.hpp"
+#include "io/grid/grid_output.hpp"
 
 namespace holdfast::program {
-
-/// What a column tells of every cell of a grid. Its values are handed over as doubles; by the
-/// datatype of the column they are
-///  - "double": written as they are;
-///  - "integer": whole, within ±2⁵³; with words 0, 1, 2, … for them, which only netCDF tells;
-///  - "string": 0, 1, 2, … for the words.
-struct CellColumn {
-  Column column;
-  /// Without blanks, at most 128: "periodic", "chaotic".
-  std::vector<std::string> words = {};
-};
 
 /// One way in which the cells of a grid become a file, in ascending order, the first axis slowest,
 /// in bounded memory: with values that are such as their columns say, and never more than there
@@ -40,33 +28,29 @@ class CellWriter {
   CellWriter() = default;
 };
 
-/// How cells are handed over: in any portions, or in whole lines of the last axis.
-enum class CellPortions { any, lines };
+/// The bytes of a Table with a column for each axis, then the columns, at less cost.
+/// Throws what Table throws.
+std::unique_ptr<CellWriter> csv_cells(const JobContext& context, const GridLayout& layout);
 
-/// A netCDF-4 file when the output's name ends in `.nc`, else a CSV table with its metadata: the
-/// bytes of a Table with a column for each axis, then the columns, at less cost.
+/// NetCDF-4 after the CF conventions 1.10, readable as it is by xarray and ncdump: the axes are
+/// dimensions with coordinate variables of their names, in which a dot becomes an underscore (the
+/// attribute `key` keeps it), the columns variables over all of them: doubles, integers of 64 bits,
+/// and for words bytes with their meanings. The file's attributes hold version, job, options and
+/// the full case as TOML; there is no metadata file beside it. Cells are written a chunk_shape() at
+/// a time, so that each is compressed once; memory holds one chunk of every column, for any grid.
 ///
-/// NetCDF is written after the CF conventions 1.10, readable as it is by xarray and ncdump: the
-/// axes are dimensions with coordinate variables of their names, the columns variables over all of
-/// them: doubles, integers of 64 bits, and for words bytes with their meanings. The file's
-/// attributes hold version, job, options and the full case as TOML; there is no metadata file
-/// beside it. Cells are written 2^16 at a time, or a line where that
-/// is more and lines are handed over, in chunks of so many at most that are contiguous in their
-/// order, so that each chunk is compressed once; memory holds a chunk and a portion of every
-/// column, for any grid.
-///
-/// Throws NoAnswer where netCDF is asked for and missing, WrongInput where its output is no file,
-/// and what OutputFile, NetcdfFile and Table throw.
-std::unique_ptr<CellWriter> cell_writer(const JobContext& context, std::vector<GridAxis> axes,
-                                        const std::vector<CellColumn>& columns,
-                                        CellPortions portions);
+/// Throws NoAnswer where the library is missing, WrongInput where the output is no file,
+/// OutputError where a call of the library fails, and what OutputFile throws.
+std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, const GridLayout& layout);
 
-/// Its two kinds.
-std::unique_ptr<CellWriter> csv_cells(const JobContext& context, std::vector<GridAxis> axes,
-                                      const std::vector<CellColumn>& columns);
-std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context,
-                                         const std::vector<GridAxis>& axes,
-                                         const std::vector<CellColumn>& columns,
-                                         CellPortions portions);
+/// A unit of the program's columns, `N.s/m`, as UDUNITS likes it: `N s m-1`; "1" for none.
+std::string udunits(const std::string& unit);
+
+/// Most values of a chunk: enough for the compression to pay and few enough to keep in memory.
+constexpr std::size_t values_in_chunk = std::size_t{1} << 16;
+
+/// A chunk that is contiguous when cells are written in order, the last axis fastest: whole along
+/// the last axes, one cell along the first ones, in part along one between them.
+std::vector<std::size_t> chunk_shape(const std::vector<std::size_t>& shape);
 
 }  // namespace holdfast::program

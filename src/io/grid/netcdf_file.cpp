@@ -1,20 +1,24 @@
 #include "io/grid/netcdf_file.hpp"
 
-#include <algorithm>
-#include <string_view>
+#include <utility>
 
-#include "io/text/text.hpp"
+#include "io/text/filled.hpp"
 
 #ifdef HOLDFAST_HAS_NETCDF
 #include <netcdf.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <functional>
 #include <limits>
 #include <numeric>
-#include <system_error>
 
 #include "io/grid/netcdf_library.hpp"
+#include "process/child.hpp"
 #include "process/errors.hpp"
+#include "process/system_words.hpp"
 
 // The library's function of that name, which is not linked but loaded.
 #define NETCDF(function) netcdf_function<decltype(function)>(#function)
@@ -22,52 +26,40 @@
 
 namespace holdfast::program {
 
-std::string udunits(const std::string& unit) {
-  std::string text;
-  bool divided = false;
-  for (const std::string_view quotient : split(unit, '/')) {
-    for (const std::string_view factor : split(quotient, '.')) {
-      if (factor.empty() || factor == "1") continue;
-      const bool has_power = factor.find_first_of("0123456789") != std::string_view::npos;
-      const std::size_t letters = std::min(factor.find_first_of("0123456789"), factor.size());
-      text += (text.empty() ? "" : " ") + std::string(factor.substr(0, letters));
-      if (divided) text += '-';
-      if (has_power) text += factor.substr(letters);
-      if (divided && !has_power) text += '1';
-    }
-    divided = true;
-  }
-  return text.empty() ? "1" : text;
-}
+std::string cf_name(std::string name) { return replaced(std::move(name), ".", "_"); }
 
 #ifdef HOLDFAST_HAS_NETCDF
 
 namespace {
 
+static_assert(NetcdfFile::whole_file == NC_GLOBAL, "the library's number for all of a file");
+
+constexpr int unknown_error = 255;
+
+/// The system's last error number as an exit code.
+int code_of_error() { return errno > 0 && errno < unknown_error ? errno : unknown_error; }
+
+extern "C" void holdfast_on_crash(int) { _exit(code_of_error()); }
+
 /// The library has one word for whatever the system says to HDF5; the system's own says more.
 std::string words_for(int status, int error) {
   const bool machine = error == ENOSPC || error == EDQUOT || error == EIO || error == EFBIG;
-  if (machine) return std::generic_category().message(error);
-  return NETCDF(nc_strerror)(status);
+  return machine ? system_words(error) : NETCDF(nc_strerror)(status);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
+int type_of(NetcdfFile::Type type) {
+  if (type == NetcdfFile::Type::real) return NC_DOUBLE;
+  return type == NetcdfFile::Type::integer ? NC_INT64 : NC_BYTE;
 }
 
 }  // namespace
 
 NetcdfFile::NetcdfFile(const OutputFile& output) : shown_(output.target().string()) {
+  if (!output.is_file())
+    throw WrongInput("cannot write " + shown_ + ": netCDF needs a regular file");
   // Absolute, since a name with a colon could pass for a URL.
-  const std::string path = std::filesystem::absolute(output.temporary()).string();
-  check(NETCDF(nc_create)(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
-  open_ = true;
-}
-
-NetcdfFile::~NetcdfFile() {
-  if (open_) NETCDF(nc_close)(id_);
+  path_ = std::filesystem::absolute(output.temporary()).string();
+  check(NETCDF(nc_create)(path_.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
 }
 
 void NetcdfFile::check(int status) const {
@@ -75,80 +67,77 @@ void NetcdfFile::check(int status) const {
   throw OutputError("cannot write " + shown_ + ": " + words_for(status, errno));
 }
 
-NetcdfFile::Number NetcdfFile::add_dimension(const std::string& name, std::size_t count) {
+NetcdfFile::Number NetcdfFile::add_dimension(const std::string& name, std::size_t count) const {
   Number number = 0;
-  check(NETCDF(nc_def_dim)(id_, name.c_str(), count, &number));
+  check(NETCDF(nc_def_dim)(id_, cf_name(name).c_str(), count, &number));
   return number;
 }
 
-NetcdfFile::Number NetcdfFile::add_variable(const std::string& name, int type,
+NetcdfFile::Number NetcdfFile::add_variable(const std::string& name, Type type,
                                             const std::vector<Number>& dimensions,
-                                            const double* none) {
+                                            bool may_miss) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Number number = 0;
-  check(NETCDF(nc_def_var)(id_, name.c_str(), type, static_cast<int>(dimensions.size()),
-                           dimensions.data(), &number));
-  check(NETCDF(nc_def_var_fill)(id_, number, none != nullptr ? NC_FILL : NC_NOFILL, none));
+  check(NETCDF(nc_def_var)(id_, cf_name(name).c_str(), type_of(type),
+                           static_cast<int>(dimensions.size()), dimensions.data(), &number));
+  check(NETCDF(nc_def_var_fill)(id_, number, may_miss ? NC_FILL : NC_NOFILL,
+                                may_miss ? &none : nullptr));
   return number;
 }
 
-NetcdfFile::Number NetcdfFile::add_coordinate(const std::string& name, Number dimension) {
-  return add_variable(name, NC_DOUBLE, {dimension});  // misses no value (CF 2.5.1)
-}
-
-NetcdfFile::Number NetcdfFile::add_reals(const std::string& name,
-                                         const std::vector<Number>& dimensions) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  return add_variable(name, NC_DOUBLE, dimensions, &none);
-}
-
-NetcdfFile::Number NetcdfFile::add_integers(const std::string& name,
-                                            const std::vector<Number>& dimensions) {
-  return add_variable(name, NC_INT64, dimensions);
-}
-
-NetcdfFile::Number NetcdfFile::add_flags(const std::string& name,
-                                         const std::vector<Number>& dimensions,
-                                         const std::vector<std::string>& words) {
-  const Number number = add_variable(name, NC_BYTE, dimensions);
-  std::vector<signed char> values(words.size());
-  std::iota(values.begin(), values.end(), static_cast<signed char>(0));
-  check(
-      NETCDF(nc_put_att_schar)(id_, number, "flag_values", NC_BYTE, values.size(), values.data()));
-  set_attribute(number, "flag_meanings", joined(words));
-  return number;
-}
-
-void NetcdfFile::set_chunks(Number variable, const Shape& shape) {
+void NetcdfFile::set_chunks(Number variable, const Shape& chunk) const {
   constexpr int shuffle = 1, deflate = 1, level = 1;
-  check(NETCDF(nc_def_var_chunking)(id_, variable, NC_CHUNKED, shape.data()));
+  check(NETCDF(nc_def_var_chunking)(id_, variable, NC_CHUNKED, chunk.data()));
   check(NETCDF(nc_def_var_deflate)(id_, variable, shuffle, deflate, level));
-}
-
-void NetcdfFile::set_cache(Number variable, std::size_t bytes) {
-  constexpr std::size_t slots = 101;
   // With any preference for whole chunks HDF5 never lets go of those that stick out of the grid.
   constexpr float preference_for_whole_chunks = 0.0F;
-  check(NETCDF(nc_set_var_chunk_cache)(id_, variable, bytes, slots, preference_for_whole_chunks));
+  constexpr std::size_t slots = 101;
+  const std::size_t values =
+      std::accumulate(chunk.begin(), chunk.end(), std::size_t{1}, std::multiplies<>());
+  check(NETCDF(nc_set_var_chunk_cache)(id_, variable, values * sizeof(double), slots,
+                                       preference_for_whole_chunks));
 }
 
-void NetcdfFile::set_attribute(const std::string& name, const std::string& text) {
-  set_attribute(NC_GLOBAL, name, text);
+void NetcdfFile::set_attribute(Number variable, const char* name, const std::string& text) const {
+  check(NETCDF(nc_put_att_text)(id_, variable, name, text.size(), text.data()));
 }
 
-void NetcdfFile::set_attribute(Number variable, const std::string& name, const std::string& text) {
-  check(NETCDF(nc_put_att_text)(id_, variable, name.c_str(), text.size(), text.data()));
+void NetcdfFile::set_attribute(Number variable, const char* name,
+                               const std::vector<signed char>& bytes) const {
+  check(NETCDF(nc_put_att_schar)(id_, variable, name, NC_BYTE, bytes.size(), bytes.data()));
 }
 
-void NetcdfFile::begin_values() { check(NETCDF(nc_enddef)(id_)); }
+void NetcdfFile::begin_values() const { check(NETCDF(nc_enddef)(id_)); }
 
 void NetcdfFile::write(Number variable, const Shape& start, const Shape& count,
-                       const void* values) {
+                       const void* values) const {
   check(NETCDF(nc_put_vara)(id_, variable, start.data(), count.data(), values));
 }
 
-void NetcdfFile::close() {
-  open_ = false;
-  check(NETCDF(nc_close)(id_));
+bool NetcdfFile::close_and_read(const std::vector<Number>& variables, const Shape& last) const {
+  int again = 0, found = 0;
+  bool good = NETCDF(nc_close)(id_) == NC_NOERR &&
+              NETCDF(nc_open)(path_.c_str(), NC_NOWRITE, &again) == NC_NOERR &&
+              NETCDF(nc_inq_nvars)(again, &found) == NC_NOERR;
+  for (const Number variable : variables) {
+    double value = 0.0;
+    good = good && variable < found &&
+           NETCDF(nc_get_var1_double)(again, variable, last.data(), &value) == NC_NOERR;
+  }
+  return good;
+}
+
+void NetcdfFile::finish(const std::vector<Number>& variables, const Shape& last) const {
+  check(NETCDF(nc_sync)(id_));
+  const int code = run_in_child([&] {
+    for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT}) std::signal(fatal, holdfast_on_crash);
+    errno = 0;
+    return close_and_read(variables, last) ? 0 : code_of_error();
+  });
+  if (code == 0) return;
+  const bool said = code > 0 && code != unknown_error;
+  throw OutputError("cannot write " + shown_ + ": " +
+                    (said ? system_words(code) : "the netCDF library could not finish it"));
 }
 
 #endif

@@ -6,6 +6,8 @@
 
 #ifdef HOLDFAST_HAS_NETCDF
 #include <dlfcn.h>
+
+#include <cstdlib>
 #endif
 
 namespace holdfast::program {
@@ -28,8 +30,13 @@ void forgo_tidying_at_exit(void* library) {
   if (forgo != nullptr) forgo();
 }
 
+/// HDF5 locks the files that it opens, as this program does with what it writes until it is whole;
+/// both would keep each other away, and some file systems have no locks at all.
+void forgo_locks() { setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1); }
+
 /// The library with which the program was built, or the one of that name on this machine.
 void* load() {
+  forgo_locks();
   const std::string path = HOLDFAST_NETCDF_LIBRARY;
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {

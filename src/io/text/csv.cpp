@@ -176,19 +176,17 @@ class CsvScanner {
   std::size_t line_ = 1;
 };
 
+/// Says which columns they are, not what they are called: the file may be none of the user's.
 void refuse_repeated_names(const std::vector<std::string>& names, const std::string& file) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto rest = names.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-    if (std::find(rest, names.end(), names[i]) != names.end()) {
-      throw WrongInput(file + ":1: two columns are named \"" + names[i] + "\"");
-    }
-  }
-}
-
-std::string joined_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
+  std::vector<std::pair<std::string_view, std::size_t>> sorted;
+  for (std::size_t i = 0; i < names.size(); ++i) sorted.emplace_back(names[i], i);
+  std::sort(sorted.begin(), sorted.end());
+  const auto same =
+      std::adjacent_find(sorted.begin(), sorted.end(),
+                         [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (same == sorted.end()) return;
+  throw WrongInput(file + ":1: the columns " + std::to_string(same->second + 1) + " and " +
+                   std::to_string(std::next(same)->second + 1) + " have one name");
 }
 
 }  // namespace
@@ -200,10 +198,15 @@ bool CsvTable::has(std::string_view column) const {
 std::size_t CsvTable::index(std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);
   if (found == names_.end()) {
-    throw WrongInput(name_ + ": has no column \"" + std::string(column) + "\" but " +
-                     joined_names(names_));
+    throw WrongInput(name_ + ": has no column \"" + std::string(column) + "\" among its " +
+                     std::to_string(names_.size()));
   }
   return static_cast<std::size_t>(found - names_.begin());
+}
+
+void CsvTable::require(const std::vector<std::string>& columns) {
+  for (const std::string& column : columns) index(column);
+  known_ = true;
 }
 
 const std::string& CsvTable::text(std::size_t row, std::string_view column) const {
@@ -214,8 +217,11 @@ double CsvTable::number_at(std::size_t row, std::size_t column) const {
   const std::string& cell = cells_.at(row * names_.size() + column);
   const auto value = parse_number(trimmed(cell));
   if (!value) {
-    throw WrongInput(name_ + ":" + std::to_string(lines_[row]) + ": " + names_[column] + " = \"" +
-                     cell + "\" is not a number");
+    const std::string place = name_ + ":" + std::to_string(lines_[row]) + ": ";
+    throw WrongInput(
+        place +
+        (known_ ? names_[column] + " = \"" + cell + "\"" : "column " + std::to_string(column + 1)) +
+        " is not a number");
   }
   return *value;
 }

@@ -70,14 +70,19 @@ class CsvWriter {
   std::string buffer_;
 };
 
-/// A table read from CSV: text cells, with numbers on request.
+/// A table read from CSV: text cells, with numbers on request. What is wrong with it is told by
+/// line and column; a cell is quoted only where require() has shown that the file is what it was
+/// taken for, as whoever names a file need not be allowed to read it.
 class CsvTable {
  public:
   const std::vector<std::string>& names() const { return names_; }
   std::size_t rows() const { return lines_.size(); }
   bool has(std::string_view column) const;
 
-  /// Throws WrongInput when there is no such column; it names those there are.
+  /// Throws WrongInput unless there are these columns.
+  void require(const std::vector<std::string>& columns);
+
+  /// Throws WrongInput when there is no such column.
   const std::string& text(std::size_t row, std::string_view column) const;
   /// Throws WrongInput with file and line for a cell that is not a number; `inf`, `nan` are.
   double number(std::size_t row, std::string_view column) const;
@@ -95,6 +100,7 @@ class CsvTable {
   std::vector<std::string> names_;
   std::vector<std::string> cells_;  // row after row
   std::vector<std::size_t> lines_;
+  bool known_ = false;  // it has the columns of what it was taken for
 };
 
 /// Reads a CSV file with a header row: LF or CRLF, quoted fields that may hold both, blank lines

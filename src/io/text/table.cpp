@@ -1,7 +1,5 @@
 #include "io/text/table.hpp"
 
-#include <system_error>
-
 #include "io/file/metadata.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
@@ -33,22 +31,22 @@ Table::Table(const JobContext& context, const std::vector<Column>& columns)
 
 void Table::commit() {
   writer_.flush();
-  output_.finish();
   if (!metadata_) {
     output_.commit();
     return;
   }
   const std::string name = output_.target().filename().string();
-  metadata_->write(json_text(table_metadata(context_, columns_, name, trusted_)));
-  // The table last: whoever sees it finds its metadata.
-  metadata_->commit();
-  try {
-    output_.commit();
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(metadata_->target(), ignored);
-    throw;
-  }
+  metadata_->write(
+      json_text(table_metadata(context_, columns_, name, trusted_, output_.written())));
+  commit_together(output_, *metadata_);
+}
+
+void require_text_meant(const JobContext& context, std::int64_t count, const std::string& what,
+                        const std::string& instead) {
+  constexpr std::int64_t most = 10'000'000;
+  if (count > most && !context.yes)
+    throw WrongInput(std::to_string(count) + " " + what + " are a table of gigabytes: " + instead +
+                     "; give --yes if text is meant");
 }
 
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {

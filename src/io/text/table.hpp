@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "io/file/output.hpp"
@@ -44,6 +46,13 @@ class Table {
   std::vector<Column> columns_;
   TrustedDigits trusted_;
 };
+
+/// Throws WrongInput where so many rows or cells would be more text than anybody reads, unless
+/// --yes says that they are meant.
+/// @param what      "cells", "rows"
+/// @param instead   what makes fewer, or another file
+void require_text_meant(const JobContext& context, std::int64_t count, const std::string& what,
+                        const std::string& instead);
 
 /// Puts the digits of a table into its metadata and, where there are few, tells the user.
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted);

@@ -5,39 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace holdfast::program {
 namespace {
 
 /// Whether the byte is not the first of a character of UTF-8.
 bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
-
-/// Code points that UTF-8 writes with so many bytes begin here; below is an overlong form.
-constexpr std::array<unsigned, 5> least_code_point = {0, 0, 0x80, 0x800, 0x10000};
-
-/// Bytes that a first byte announces; 0: it is none.
-std::size_t announced_length(unsigned char first) {
-  if (first < 0x80U) return 1;
-  if ((first & 0xE0U) == 0xC0U) return 2;
-  if ((first & 0xF0U) == 0xE0U) return 3;
-  return (first & 0xF8U) == 0xF0U ? 4 : 0;
-}
-
-/// Bytes of the first character of a text that is not empty; 0 where it is not UTF-8.
-std::size_t length_of_character(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = announced_length(first);
-  if (length <= 1) return length;
-  if (text.size() < length) return 0;
-  unsigned code_point = first & (0xFFU >> (length + 1));
-  for (std::size_t k = 1; k < length; ++k) {
-    if (!is_continuation(text[k])) return 0;
-    code_point = code_point << 6U | (static_cast<unsigned char>(text[k]) & 0x3FU);
-  }
-  const bool surrogate = code_point >= 0xD800U && code_point <= 0xDFFFU;
-  const bool admissible = code_point >= least_code_point[length] && code_point <= 0x10FFFFU;
-  return admissible && !surrogate ? length : 0;
-}
 
 bool is_control(char character) {
   const auto code = static_cast<unsigned char>(character);
@@ -69,12 +43,12 @@ std::string shortened(std::string text, std::size_t longest) {
 }
 
 bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = length_of_character(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
+  try {
+    nlohmann::json(text).dump();  // which refuses other bytes
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
   }
-  return true;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -110,6 +84,14 @@ std::string format_rounded(double value) {
   const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value,
                                     std::chars_format::general, 5);
   return std::string(digits.data(), result.ptr);
+}
+
+std::string hexadecimal(std::uint64_t number, std::size_t digits) {
+  std::string text(digits, '0');
+  for (std::size_t i = 0; i < digits; ++i) {
+    text[digits - 1 - i] = "0123456789abcdef"[(number >> (4 * i)) & 0xF];
+  }
+  return text;
 }
 
 std::optional<double> parse_number(std::string_view text) {

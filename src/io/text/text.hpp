@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,9 @@ std::string format_number(double value);
 
 /// Five significant digits at most, for messages: `0.6`, `1354.1`, `2e-07`.
 std::string format_rounded(double value);
+
+/// So many lowest hexadecimal digits of a number: `00ff`.
+std::string hexadecimal(std::uint64_t number, std::size_t digits);
 
 /// The number that the whole text stands for, or nothing. `inf` and `nan` are numbers here.
 std::optional<double> parse_number(std::string_view text);

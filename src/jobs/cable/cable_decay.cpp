@@ -1,7 +1,6 @@
 #include "jobs/cable/cable_decay.hpp"
 
-#include "case/model/cable_of_case.hpp"
-#include "case/model/elements_of_case.hpp"
+#include "holdfast/plant/free_decay.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -17,6 +16,13 @@ CableDecayOptions usual_decay(const Case& the_case) {
   const double period = 1.0 / the_case.reduction.first_frequency;
   const double force = the_case.absorber.mass * the_case.conductor.gravity / 8.0;
   return {force, 6.0 * period, period / 250.0};
+}
+
+DecayRecord plant_decay(const TwoMass<double>& plant, double force, bool equal_displacement,
+                        const CableDecay& cable) {
+  const double start =
+      equal_displacement ? cable.initial_displacement : force / plant.conductor_stiffness;
+  return {cable.record.times, free_decay(plant, start, cable.record.times)};
 }
 
 #ifdef HOLDFAST_HAS_SUNDIALS

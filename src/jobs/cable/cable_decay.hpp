@@ -1,10 +1,22 @@
 #pragma once
 
 #include "case/case.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "holdfast/cable/elements.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast::program {
+
+/// The continuous cable, with the damping ratio of the conductor at the two frequencies of
+/// [reduction]; the spring and damper of `spring_mass` are those of [plant].
+inline CableElements elements_of(const Case& the_case, int elements, AbsorberReading reading) {
+  const HangingAbsorber absorber{reading, the_case.absorber.mass, the_case.plant.absorber_stiffness,
+                                 the_case.plant.absorber_damping};
+  return {conductor_of(the_case), the_case.absorber.position, elements, absorber,
+          rayleigh_damping(the_case.conductor.damping_ratio, the_case.reduction.first_frequency,
+                           the_case.reduction.second_frequency)};
+}
 
 /// Whether the program was built with SUNDIALS.
 bool has_sundials();
@@ -35,5 +47,10 @@ struct CableDecay {
 /// CVODE gives up, in its words, or where the program was built without SUNDIALS, naming the
 /// package.
 CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options);
+
+/// The plant's decay at the instants of the cable's: from where the cable starts, or from where the
+/// same force (N) holds the plant, F/k1.
+DecayRecord plant_decay(const TwoMass<double>& plant, double force, bool equal_displacement,
+                        const CableDecay& cable);
 
 }  // namespace holdfast::program

@@ -1,19 +1,21 @@
 #include "jobs/charts/chart_rows.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/chart/loop_chart_rows.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/charts/row_blocks.hpp"
-#include "kernels/rows_on_packs.hpp"
+#include "jobs/columns.hpp"
+#include "kernels/pack_kernels.hpp"
 #include "process/errors.hpp"
+#include "process/interrupt.hpp"
+#include "process/progress.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -27,6 +29,17 @@ std::size_t row_length(std::int64_t columns) {
                      " values: at most " + std::to_string(most) +
                      " along the second axis, any number along the first");
   return static_cast<std::size_t>(columns);
+}
+
+/// Rows that a thread takes at a time. It depends on the chart alone, as the results may not depend
+/// on the number of threads.
+std::int64_t rows_of_tile(std::int64_t columns) { return columns <= 65536 ? 32 : 8; }
+
+/// Rows that are held in memory: many tiles, so that no thread waits long for the last one, but no
+/// more than some tens of megabytes where rows are of a usual length.
+std::int64_t rows_of_block(std::int64_t columns) {
+  const std::int64_t tiles = (std::int64_t{1} << 21) / (columns * rows_of_tile(columns));
+  return rows_of_tile(columns) * std::clamp(tiles, std::int64_t{1}, std::int64_t{16});
 }
 
 /// The values of a block of rows: flags, then as many columns of numbers as the chart has.
@@ -44,14 +57,13 @@ class Block {
 
   std::int64_t columns() const { return static_cast<std::int64_t>(columns_); }
 
-  void append_to(GridTable& table, std::int64_t rows) {
-    for (std::int64_t row = 0; row < rows; ++row) {
-      std::vector<GridValues> values = {flags(row)};
-      for (std::size_t column = 0; column < numbers_.size(); ++column) {
-        values.emplace_back(numbers(column, row));
-      }
-      table.append_row(values);
-    }
+  void append_to(GridOutput& output, std::int64_t rows) const {
+    std::vector<double> stable(flags_.size());
+    std::transform(flags_.begin(), flags_.end(), stable.begin(),
+                   [](std::uint8_t flag) { return flag != 0 ? 1.0 : 0.0; });
+    std::vector<const double*> values = {stable.data()};
+    for (const std::vector<double>& numbers : numbers_) values.push_back(numbers.data());
+    output.append(rows * columns(), values);
   }
 
  private:
@@ -62,64 +74,46 @@ class Block {
   std::vector<std::vector<double>> numbers_;
 };
 
-/// Computes and appends all rows; `compute(kernel, row, count, offset, block)`.
+/// Computes and appends all rows block by block: `compute(kernel, first, count, offset, block)` on
+/// many threads, `offset` being the first row's place in the block. Throws Interrupted.
 template <class Kernel, class Compute>
 void append_rows(const JobContext& context, std::int64_t rows, Block block, const Kernel& kernel,
-                 GridTable& table, const Compute& compute) {
+                 GridOutput& output, const Compute& compute) {
   Progress progress(static_cast<std::uint64_t>(rows), context.job, progress_wanted(context));
-  for_row_blocks(
-      rows, block.columns(), context.threads, progress, kernel,
-      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset) {
-        compute(own, first, count, offset, block);
-      },
-      [&](std::int64_t, std::int64_t count) { block.append_to(table, count); });
-}
-
-/// Both parts of a chart with the spectral radius.
-template <int Degree>
-struct RadiusKernels {
-  StabilityChartRows<double, HurwitzOnPacks> stability;
-  RadiusChartRows<double, Degree, RadiusOnPacks<Degree>> radius;
-
-  RadiusKernels(const LoopChart& chart, const PackKernels& kernels)
-      : stability(chart, HurwitzOnPacks(kernels)), radius(chart, RadiusOnPacks<Degree>(kernels)) {}
-
-  void fill(std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-    for (std::int64_t row = 0; row < count; ++row) {
-      stability.fill(first + row, block.flags(offset + row));
-    }
-    radius.fill(first, count, block.numbers(0, offset));
+  const std::int64_t block_rows = rows_of_block(block.columns());
+  for (std::int64_t begin = 0; begin < rows; begin += block_rows) {
+    throw_if_interrupted();
+    const std::int64_t count = std::min(block_rows, rows - begin);
+    parallel_rows(count, rows_of_tile(block.columns()), context.threads, kernel,
+                  [&](Kernel& own, std::int64_t first, std::int64_t tile) {
+                    if (!interrupted()) compute(own, begin + first, tile, first, block);
+                  });
+    throw_if_interrupted();
+    block.append_to(output, count);
+    progress.advance(static_cast<std::uint64_t>(count));
   }
-};
-
-template <int Degree>
-void append_radius_chart(const JobContext& context, const LoopChart& chart, GridTable& table) {
-  using Kernels = RadiusKernels<Degree>;
-  append_rows(context, chart.slow.values.count, Block(chart.fast.values.count, 1),
-              Kernels(chart, pack_kernels(context.instructions)), table,
-              [](Kernels& own, std::int64_t first, std::int64_t count, std::int64_t offset,
-                 Block& block) { own.fill(first, count, offset, block); });
 }
 
 }  // namespace
 
+std::vector<GridAxis> gain_axes(const GainGrid& grid) {
+  const std::vector<Column> columns = columns_of("gain axes");
+  return {{columns[0], grid.proportional}, {columns[1], grid.differential}};
+}
+
 void append_sampled_chart(const JobContext& context, const LoopChart& chart, bool radius,
-                          GridTable& table) {
-  if (radius && has_processing_delay(chart)) return append_radius_chart<6>(context, chart, table);
-  if (radius) return append_radius_chart<5>(context, chart, table);
-  using Kernel = StabilityChartRows<double, HurwitzOnPacks>;
+                          GridOutput& output) {
+  using Kernel = CopiedKernel<ChartKernel>;
   append_rows(
-      context, chart.slow.values.count, Block(chart.fast.values.count, 0),
-      Kernel(chart, HurwitzOnPacks(pack_kernels(context.instructions))), table,
-      [](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-        for (std::int64_t row = 0; row < count; ++row) {
-          own.fill(first + row, block.flags(offset + row));
-        }
+      context, chart.slow.values.count, Block(chart.fast.values.count, radius ? 1 : 0),
+      Kernel(pack_kernels(context.instructions).chart(chart, radius)), output,
+      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
+        own->fill(first, count, block.flags(offset), radius ? block.numbers(0, offset) : nullptr);
       });
 }
 
 void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
-                             const GainGrid& grid, bool abscissa, GridTable& table) {
+                             const GainGrid& grid, bool abscissa, GridOutput& output) {
   using Kernel = StabilityRows<4>;
   const auto abscissa_at = [&](const PdGains<double>& gains) {
     const Matrix<double, 4> closed =
@@ -128,7 +122,7 @@ void append_continuous_chart(const JobContext& context, const TwoMass<double>& p
   };
   append_rows(
       context, grid.proportional.count, Block(grid.differential.count, abscissa ? 1 : 0),
-      Kernel(characteristic_polynomial(plant), grid.differential), table,
+      Kernel(characteristic_polynomial(plant), grid.differential), output,
       [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
         for (std::int64_t row = 0; row < count; ++row) {
           own.fill(grid.proportional.at(first + row), block.flags(offset + row));
@@ -143,23 +137,21 @@ void append_continuous_chart(const JobContext& context, const TwoMass<double>& p
 
 void append_response_chart(const JobContext& context, const SampledLoop<double>& loop,
                            const SteadyResponse<double>& response, double force_amplitude,
-                           const GainGrid& grid, GridTable& table) {
+                           const GainGrid& grid, GridOutput& output) {
   using Kernel = StabilityRows<5>;
-  const Kernel kernel(characteristic_polynomial(loop).transformed(in_half_plane<double, 6>),
-                      grid.differential);
+  const Kernel kernel(in_half_plane(characteristic_polynomial(loop)), grid.differential);
   append_rows(
-      context, grid.proportional.count, Block(grid.differential.count, 2), kernel, table,
+      context, grid.proportional.count, Block(grid.differential.count, 2), kernel, output,
       [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
         for (std::int64_t row = offset; row < offset + count; ++row) {
           own.fill(grid.proportional.at(first + row - offset), block.flags(row));
           for (std::int64_t j = 0; j < grid.differential.count; ++j) {
             const bool stable = block.flags(row)[j] != 0;
-            const double ratio =
-                stable ? response.ratio_to_uncontrolled(grid.at(first + row - offset, j))
-                       : std::numeric_limits<double>::quiet_NaN();
+            constexpr double none = std::numeric_limits<double>::quiet_NaN();
+            const PdGains<double> gains = grid.at(first + row - offset, j);
             block.numbers(0, row)[j] =
-                force_amplitude * response.uncontrolled_amplitude_per_force() * ratio;
-            block.numbers(1, row)[j] = ratio;
+                stable ? force_amplitude * response.amplitude_per_force(gains) : none;
+            block.numbers(1, row)[j] = stable ? response.ratio_to_uncontrolled(gains) : none;
           }
         }
       });

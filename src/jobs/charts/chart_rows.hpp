@@ -4,26 +4,29 @@
 #include "holdfast/stability/chart/chart.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "holdfast/stability/response/response.hpp"
-#include "io/grid/grid_table.hpp"
+#include "io/grid/grid_output.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {
 
-/// Each computes a chart on the threads that the job was given and appends its rows to the table in
-/// order, a block of rows in memory at a time; progress goes to standard error. They do not commit.
-/// Throw Interrupted, InvalidParameter, and what GridTable throws.
+/// The axes of a chart over P and D.
+std::vector<GridAxis> gain_axes(const GainGrid& grid);
+
+/// Each computes a chart on the threads that the job was given and appends its cells to the output
+/// in order, a block of rows in memory at a time; progress goes to standard error. They do not
+/// commit. Throw Interrupted, InvalidParameter, and what GridOutput throws.
 
 /// Columns: stable and, with `radius`, the spectral radius of the sampled loop.
 void append_sampled_chart(const JobContext& context, const LoopChart& chart, bool radius,
-                          GridTable& table);
+                          GridOutput& output);
 
 /// Columns: stable and, with `abscissa`, the spectral abscissa (1/s) of the continuous loop.
 void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
-                             const GainGrid& grid, bool abscissa, GridTable& table);
+                             const GainGrid& grid, bool abscissa, GridOutput& output);
 
 /// Columns: stable, amplitude (m) and its ratio to that without control; nan where unstable.
 void append_response_chart(const JobContext& context, const SampledLoop<double>& loop,
                            const SteadyResponse<double>& response, double force_amplitude,
-                           const GainGrid& grid, GridTable& table);
+                           const GainGrid& grid, GridOutput& output);
 
 }  // namespace holdfast::program

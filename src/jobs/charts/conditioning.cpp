@@ -43,4 +43,21 @@ std::string open_sign_warning(const LyapunovResult& result) {
          ", is not told from zero: a longer --duration may tell its sign";
 }
 
+std::string stepped_reading_warning(const Case& the_case) {
+  const auto& control = the_case.control;
+  if (control.displacement_quantum == 0.0 && control.velocity_quantum == 0.0) return "";
+  return "the reading has steps (control.displacement_quantum, control.velocity_quantum), between "
+         "which its derivative is zero: the exponents are those of neighbours within one step; "
+         "deviation follows neighbours that are farther apart";
+}
+
+std::string short_average_warning(const Case& the_case, double averaged) {
+  constexpr double least_periods = 20.0;
+  const double periods = averaged * effective_excitation(the_case).frequency;
+  if (!(periods < least_periods)) return "";
+  return "the exponents are averaged over " + format_rounded(periods) +
+         " forcing periods: of fewer than 20 they tell the beginning, not the motion; "
+         "take a longer --duration";
+}
+
 }  // namespace holdfast::program

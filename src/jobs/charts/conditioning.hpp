@@ -25,4 +25,11 @@ std::string near_border_warning(double border_share);
 /// Of a largest exponent whose sign is not known.
 std::string open_sign_warning(const LyapunovResult& result);
 
+/// Of exponents along a motion whose reading has steps: between two of them its derivative is zero.
+std::string stepped_reading_warning(const Case& the_case);
+
+/// Of exponents averaged over few forcing periods.
+/// @param averaged  s
+std::string short_average_warning(const Case& the_case, double averaged);
+
 }  // namespace holdfast::program

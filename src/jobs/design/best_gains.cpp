@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
+#include "jobs/design/gain_margins.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -21,11 +23,23 @@ const MinimumAmplitude& BestGains::of(const IdealLoop<double>& loop) {
   // Neighbours in a sweep often differ in nothing that the gain depends on.
   if (!known_ || !have_one_answer(*known_, loop)) {
     const double radius = std::exp(-10.0 * loop.sampling.period / duration_);
-    answer_ = minimum_amplitude(loop.plant, {loop.sampling, loop.hold, radius},
+    answer_ = minimum_amplitude(loop.plant, {loop.sampling, loop.hold, radius, usual_margin, true},
                                 loop.excitation.frequency, loop.gains.proportional);
     known_ = loop;
   }
   return answer_;
+}
+
+MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {
+  const TwoMass<double> plant = plant_of(the_case);
+  MaxDelayOptions question;
+  question.criterion = DelayCriterion::attenuates;
+  question.hold = force_hold_of(the_case);
+  question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
+  question.frequency = frequency;
+  question.proportional_gain =
+      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
+  return question;
 }
 
 }  // namespace holdfast::program

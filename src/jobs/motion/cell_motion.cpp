@@ -9,6 +9,7 @@
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
+#include "holdfast/motion/divergence.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "jobs/motion/motion_run.hpp"
@@ -55,13 +56,30 @@ std::int64_t certified_period(const Search& search) {
 LyapunovResult exponents_of_paper(const SweepMotion& cell, const LyapunovRun& run) {
   const auto blocks = std::make_shared<const ItineraryBlocks>(
       sampled_loop(cell.loop.plant, cell.loop.sampling), cell.loop.gains);
-  InterruptibleMotion motion(harmonically_forced_motion(cell.loop, cell.initial_state));
-  return run_lyapunov(motion, blocks, run);
+  auto motion = harmonically_forced_motion(cell.loop, cell.initial_state);
+  return run_lyapunov(motion, blocks, run, throw_if_interrupted);
 }
 
 bool has_one_harmonic(const DigitalLoop& digital) {
   return digital.force.harmonics.size() == 1 && digital.force.record == nullptr &&
          digital.jitter.half_width == 0.0;
+}
+
+/// Time between samples (s) of a motion that no computer takes part in: 200 or more to a period of
+/// the force; where these would be millions, fewer whose phases are spread over it evenly.
+double period_that_shows(double frequency, double duration) {
+  constexpr double samples_of_cycle = 200.0, samples_of_motion = 20000.0, most_samples = 4e6;
+  const double longest = duration / samples_of_motion;
+  const double fine = 1.0 / (samples_of_cycle * frequency);
+  if (duration <= most_samples * fine) return duration > 0.0 ? std::min(longest, fine) : fine;
+  constexpr double golden_section = 0.38196601125010515;
+  return (std::floor(longest * frequency) + golden_section) / frequency;
+}
+
+double divergence_bound(const CellMotion& motion) {
+  const auto& [loop, initial_state] = motion.of_paper;
+  return holdfast::divergence_bound(motion.built ? *motion.built : implemented_loop(loop),
+                                    initial_state);
 }
 
 }  // namespace
@@ -72,7 +90,7 @@ CellMotion cell_motion(const Case& the_case, Switching switching, double duratio
   validate(motion.of_paper.loop);
   if (is_of_the_paper(the_case, switching)) return motion;
   motion.built = implemented_loop_of(the_case, switching);
-  with_motion(*motion.built, motion.of_paper.initial_state, [](const auto&) { return true; });
+  event_motion(*motion.built, motion.of_paper.initial_state);  // refuses what is not admissible
   return motion;
 }
 
@@ -81,14 +99,19 @@ void set_differential_gain(CellMotion& motion, double gain) {
   if (motion.built) motion.built->digital.gains.differential = gain;
 }
 
-CellMotion without_control(const CellMotion& motion) {
+CellMotion without_control(const CellMotion& motion, double duration) {
   CellMotion free = motion;
-  free.of_paper.loop = uncontrolled(motion.of_paper.loop);
-  free.of_paper.loop.sampling.processing_delay = 0.0;  // of a force that is zero
+  IdealLoop<double>& loop = free.of_paper.loop;
+  loop = uncontrolled(loop);
+  loop.hold = ForceHold::exact;
+  loop.sampling = {period_that_shows(loop.excitation.frequency, duration)};
   if (!motion.built || has_one_harmonic(motion.built->digital)) {
     free.built = std::nullopt;
   } else {
     free.built = uncontrolled(*motion.built);
+    free.built->digital.hold = loop.hold;
+    free.built->digital.sampling = loop.sampling;
+    free.built->digital.jitter = {};
   }
   return free;
 }
@@ -109,7 +132,15 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
     }
   }
   batch_metrics(of_paper, places, duration, set, all);
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    if (all[k].steady_peak > divergence_bound(motions[k])) all[k] = diverging(all[k]);
   return all;
+}
+
+MotionMetrics diverging(const MotionMetrics& metrics) {
+  MetricObserver<double> seen;
+  seen.first_peak = metrics.first_peak;
+  return detail::diverged_metrics(seen, metrics.samples);
 }
 
 double largest_exponent_of(const CellMotion& motion, double duration) {
@@ -117,13 +148,13 @@ double largest_exponent_of(const CellMotion& motion, double duration) {
   const SweepMotion& cell = motion.of_paper;
   const std::int64_t steps = samples_within(duration, cell.loop.sampling.period) - 1;
   if (steps < 1) return unknown;
-  const LyapunovRun run{steps, 0, 0.0, LyapunovScope::largest, LyapunovScope::largest};
+  const LyapunovRun run{steps, 0, 0.0, LyapunovScope::largest};
+  const auto exponents_between_samples = [&] {
+    auto built = event_motion(*motion.built, cell.initial_state);
+    return run_event_lyapunov(built, run, throw_if_interrupted);
+  };
   const LyapunovResult result =
-      motion.built ? with_motion(*motion.built, cell.initial_state,
-                                 [&](auto built) {
-                                   return run_event_lyapunov(built, run, throw_if_interrupted);
-                                 })
-                   : exponents_of_paper(cell, run);
+      motion.built ? exponents_between_samples() : exponents_of_paper(cell, run);
   return result.outcome == LyapunovOutcome::diverged ? unknown : result.exponents[0];
 }
 
@@ -131,19 +162,17 @@ std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {
   const SweepMotion& cell = motion.of_paper;
   if (!motion.built)
     return certified_period(find_periodic_orbit(cell.loop, cell.initial_state, limits));
-  return with_motion(*motion.built, cell.initial_state, [&](const auto& built) {
-    return certified_period(find_event_orbit(built, limits));
-  });
+  return certified_period(
+      find_event_orbit(event_motion(*motion.built, cell.initial_state), limits));
 }
 
 CellVerdict verdict_of(const CellMotion& motion, const OrbitLimits& limits) {
-  const SweepMotion& cell = motion.of_paper;
-  if (motion.built) {
-    const EventClassification found = classify_motion(*motion.built, cell.initial_state, limits);
+  const auto verdict = [](const auto& found) -> CellVerdict {
     return {found.classification.kind, found.indicators.certified_period.value_or(0)};
-  }
-  const SampledClassification found = classify_motion(cell.loop, cell.initial_state, limits);
-  return {found.classification.kind, found.indicators.certified_period.value_or(0)};
+  };
+  const SweepMotion& cell = motion.of_paper;
+  return motion.built ? verdict(classify_motion(*motion.built, cell.initial_state, limits))
+                      : verdict(classify_motion(cell.loop, cell.initial_state, limits));
 }
 
 }  // namespace holdfast::program

@@ -28,14 +28,20 @@ CellMotion cell_motion(const Case& the_case, Switching switching, double duratio
 
 void set_differential_gain(CellMotion& motion, double gain);
 
-/// The same with P = D = 0 and a drive without backlash; of the paper's model where nothing else of
-/// the loop is left.
-CellMotion without_control(const CellMotion& motion);
+/// The plant alone under the force that acts on it, which no computer holds: P = D = 0, a drive
+/// without backlash, and samples that show the peaks of the motion; of the paper's model where
+/// nothing else of the loop is left.
+/// @param duration  s, of the motion
+CellMotion without_control(const CellMotion& motion, double duration);
 
 /// The metrics of each motion; those of the paper's model side by side, on the packs of the
-/// instruction set. Throws Interrupted.
+/// instruction set. A motion that passes the divergence_bound() of its loop has diverged. Throws
+/// Interrupted.
 std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, double duration,
                                       InstructionSet set);
+
+/// The metrics of a motion that is known to diverge beyond the samples that were taken of it.
+MotionMetrics diverging(const MotionMetrics& metrics);
 
 /// Per sample, over the whole duration; NaN where the motion diverges or is a single sample.
 double largest_exponent_of(const CellMotion& motion, double duration);

@@ -7,6 +7,7 @@
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/phase_space/deviation.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -47,6 +48,16 @@ void take_root(Fewest& fewest, const ReducedMasses& found, const FrequencyReduct
 }
 
 }  // namespace
+
+std::string trust_warning(const TrustedDigits& trusted) {
+  if (!is_worth_telling(trusted)) return "";
+  const std::string few = "fewer than six digits that the next wider number type confirms";
+  if (trusted.until)
+    return "after t = " + format_number(*trusted.until) + " s the result has " + few +
+           ": rounding decides it (trusted_digits in the metadata)";
+  return (trusted.least.empty() ? "the result" : trusted.least) + " has " + few +
+         " (trusted_digits in the metadata)";
+}
 
 MotionDigits::MotionDigits(const IdealLoop<double>& loop, const Vector<double, 4>& initial_state,
                            const std::optional<Kick>& kick, double from)

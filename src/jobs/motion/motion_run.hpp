@@ -19,24 +19,6 @@ inline void look_for_interrupt(std::int64_t sample) {
   if (sample % samples_between_looks == 0) throw_if_interrupted();
 }
 
-/// A motion whose samples are taken one by one, for kernels that take no observer.
-template <class Motion>
-class InterruptibleMotion {
- public:
-  explicit InterruptibleMotion(Motion motion) : motion_(std::move(motion)) {}
-
-  auto sense() {
-    look_for_interrupt(motion_.index());
-    return motion_.sense();
-  }
-  void advance() { motion_.advance(); }
-  const auto& state() const { return motion_.state(); }
-  double time() const { return motion_.time(); }
-
- private:
-  Motion motion_;
-};
-
 /// Throws NoAnswer: the motion diverged at `time`, s.
 [[noreturn]] inline void refuse_diverging(double time) {
   throw NoAnswer("the motion diverges: it leaves the range of numbers at t = " +

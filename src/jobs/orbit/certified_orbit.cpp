@@ -11,8 +11,10 @@
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
+#include "io/text/names.hpp"
 #include "io/text/text.hpp"
 #include "jobs/charts/conditioning.hpp"
+#include "jobs/job_texts.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
@@ -26,40 +28,24 @@ struct Ratio {
   double cycles_per_sample;
 };
 
+constexpr Named<OrbitOutcome> reasons[] = {
+    {OrbitOutcome::incommensurate, "incommensurate"}, {OrbitOutcome::diverges, "diverges"},
+    {OrbitOutcome::on_surface, "on surface"},         {OrbitOutcome::approaching, "approaching"},
+    {OrbitOutcome::not_reproduced, "not reproduced"}, {OrbitOutcome::none_found, "none found"}};
+
 /// Why there is no certificate, as a sentence without its end.
 /// @param found  of either model
 template <class Result>
 std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t largest_period) {
-  const std::string looked_at = std::to_string(found.samples) + " samples";
-  const std::string period = std::to_string(found.orbit ? found.orbit->period_samples() : 0);
-  switch (found.outcome) {
-    case OrbitOutcome::incommensurate:
-      return "sampling and excitation never coincide: f tau = " +
-             format_number(ratio.cycles_per_sample) +
-             " is no fraction p/q with q up to 1000000, or the force is a record, or the samples "
-             "jitter; so no motion repeats, and the job verdict says what it is";
-    case OrbitOutcome::diverges:
-      return "the motion diverges, so it comes to no orbit";
-    case OrbitOutcome::on_surface:
-      return "the motion repeats after " + period +
-             " sample(s) but touches a switching surface, so that rounding decides its contacts: "
-             "there is no certificate";
-    case OrbitOutcome::approaching:
-      return "the motion comes near a certified orbit of " + period + " sample(s), but in " +
-             looked_at + " not within its radius of capture; a larger --max-period looks longer";
-    case OrbitOutcome::not_reproduced:
-      return "the contacts repeat, but their exact solution switches otherwise: no orbit in " +
-             looked_at + "; the job verdict says more";
-    default:
-      if (found.samples == 0)
-        return "sampling and excitation coincide only every " +
-               std::to_string(ratio.fraction->denominator) +
-               " samples; give --max-period at least as many";
-      return "no periodic orbit of up to " + std::to_string(largest_period) + " samples in " +
-             looked_at +
-             " of the motion; a larger --max-period looks further, the job verdict weighs "
-             "the evidence";
-  }
+  const bool unlooked = found.outcome == OrbitOutcome::none_found && found.samples == 0;
+  const std::int64_t coincidence = ratio.fraction ? ratio.fraction->denominator : 0;
+  return text_of(
+      job_texts()["no orbit"][unlooked ? "not looked for" : name_in(reasons, found.outcome)],
+      {{"cycles", format_number(ratio.cycles_per_sample)},
+       {"period", std::to_string(found.orbit ? found.orbit->period_samples() : 0)},
+       {"samples", std::to_string(found.samples)},
+       {"coincidence", std::to_string(coincidence)},
+       {"longest", std::to_string(largest_period)}});
 }
 
 template <class Result>
@@ -72,8 +58,8 @@ auto certified(Result found, const Ratio& ratio, const OrbitLimits& limits, bool
 
 }  // namespace
 
-PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_period) {
-  const IdealLoop<double> loop = ideal_loop_of(context.case_data);
+PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>& loop,
+                              std::int64_t largest_period) {
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
   return certified(find_periodic_orbit(loop, initial_state_of(context.case_data), limits),
                    {forcing_ratio(loop), loop.excitation.frequency * loop.sampling.period}, limits,
@@ -86,9 +72,8 @@ EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loo
   const Ratio ratio{forcing_ratio(digital),
                     digital.force.harmonics.front().frequency * digital.sampling.period};
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  return with_motion(loop, initial_state_of(context.case_data), [&](const auto& motion) {
-    return certified(find_event_orbit(motion, limits), ratio, limits, context.quiet);
-  });
+  const auto motion = event_motion(loop, initial_state_of(context.case_data));
+  return certified(find_event_orbit(motion, limits), ratio, limits, context.quiet);
 }
 
 OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {

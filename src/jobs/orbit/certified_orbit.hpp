@@ -4,18 +4,17 @@
 
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
-#include "holdfast/orbit/orbit_verification.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {
 
-/// The periodic orbit that the case's motion of the paper's model comes to. Warns where a switching
-/// surface is near. Throws NoAnswer, saying why, where there is none, or none with a certificate.
+/// The periodic orbit that the motion of the loop, in either model, comes to from the case's
+/// initial state. Warns where a switching surface is near. Throws NoAnswer, saying why, where there
+/// is none, or none with a certificate.
 /// @param largest_period  samples
-PeriodicOrbit certified_orbit(const JobContext& context, std::int64_t largest_period);
-
-/// That of any loop from the case's initial state.
+PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>& loop,
+                              std::int64_t largest_period);
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period);
 

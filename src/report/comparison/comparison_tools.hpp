@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,10 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "report/comparison/comparison.hpp"
+#include "report/figures/figure.hpp"
 #include "report/page/html.hpp"
 
 namespace holdfast::program {
@@ -38,21 +41,34 @@ struct PaperLoop {
             Backlash<double>(backlash_width),
             Vector<double, 4>{initial_displacement, 0.0, 0.0, 0.0}};
   }
+
+  /// The observer once it has seen a motion of so many seconds.
+  template <class Observer>
+  Observer seen_by(Observer observer, double duration,
+                   const std::optional<Kick>& kick = std::nullopt) const {
+    auto moving = motion();
+    run_trajectory(moving, samples_within(duration, sampling_period), kick, observer);
+    return observer;
+  }
 };
+
+/// δ/τ: what the paper's numbers belong to, and what its Eq. 14 prints.
+constexpr double delay_fractions[] = {0.0, 1.0};
+/// @delay@ of the rows.
+Values delay_of(double fraction);
 
 /// The rows of the comparison, one after the other; `why` is kept only where they differ.
 class Comparisons {
  public:
   /// A number of the paper beside ours, in its unit.
-  /// @param paper  with its number and unit at the end: "about 30 ms", "−33.7 N s/m"
-  void number(const std::string& quantity, const std::string& paper, double tolerance, double ours,
-              const std::string& reading, const std::string& why = "");
+  /// @param row     its name in texts/comparison.toml; there the paper's number and unit stand at
+  ///                the end of what it prints: "about 30 ms", "−33.7 N s/m"
+  /// @param values  what the texts of the row leave open
+  void number(const std::string& row, double ours, const Values& values = {});
 
   /// A statement of the paper that holds or does not.
-  void statement(const std::string& quantity, const std::string& paper, const std::string& ours,
-                 bool holds, const std::string& reading, const std::string& why = "") {
-    rows.push_back({quantity, paper, ours, reading, holds, holds ? "" : why});
-  }
+  void statement(const std::string& row, const std::string& ours, bool holds,
+                 const Values& values = {});
 
   std::vector<Comparison> rows;
 };

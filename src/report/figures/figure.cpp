@@ -3,21 +3,56 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
+namespace {
 
-std::string replaced(std::string text, const std::string& part, const std::string& other) {
-  for (std::size_t at = text.find(part); at != std::string::npos;
-       at = text.find(part, at + other.size()))
-    text.replace(at, part.size(), other);
+const toml::table& texts() {
+  static const toml::table parsed = toml::parse(figures_texts);
+  return parsed;
+}
+
+/// The text with values that hold other ones.
+std::string resolved(std::string text, const Values& values) {
+  for (std::string before; before != text;) {
+    before = text;
+    text = filled(text, values);
+  }
   return text;
 }
 
-std::string filled(std::string text, const Values& values) {
-  for (const auto& [key, value] : values) text = replaced(text, "@" + key + "@", value);
-  return text;
+/// The suffix of each table's name and its command, without quotes.
+void add_tables(Figure& figure, const toml::array* tables, const Values& values) {
+  if (tables == nullptr) return;
+  for (const toml::node& node : *tables) {
+    const toml::array& table = *node.as_array();
+    figure.tables.push_back({figure.name + resolved(text_of(table[0]), values),
+                             words_of(resolved(text_of(table[1]), values))});
+  }
+}
+
+/// @param panels  beside those that the row itself has
+Figure figure_of(const toml::array& row, const Values& others, std::vector<Values> panels) {
+  if (row.size() > 5)
+    for (const toml::node& panel : *row[5].as_array())
+      panels.push_back(values_of(*panel.as_table()));
+  Figure figure;
+  figure.name = text_of(row[0]);
+  figure.title = text_of(row[3]);
+  figure.caption = text_of(row[4]);
+  const Values values = joined(values_of(*row[2].as_table()), others);
+  return figure_of_kind(std::move(figure), text_of(row[1]), nullptr, values, panels);
+}
+
+}  // namespace
+
+Values values_of(const toml::table& table) {
+  Values values;
+  for (const auto& [key, value] : table) values.emplace_back(key.str(), text_of(value));
+  return values;
 }
 
 std::vector<std::string> words_of(const std::string& command) {
@@ -25,6 +60,13 @@ std::vector<std::string> words_of(const std::string& command) {
   for (const std::string_view word : split(command, ' '))
     if (!word.empty()) words.emplace_back(word);
   return words;
+}
+
+std::string rounded(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+  return replaced(text, "-", "−");
 }
 
 double rounded_up(double value) {
@@ -39,5 +81,43 @@ LengthUnit length_unit_for(double length) {
   if (found != units.end()) return *found;
   return length > 0.0 ? units.back() : units.front();  // the latter: nothing moves
 }
+
+std::vector<Figure> listed_figures(const std::string& list, const Values& values,
+                                   const std::vector<Values>& panels) {
+  std::vector<Figure> figures;
+  for (const toml::node& row : *texts()[list].as_array())
+    figures.push_back(figure_of(*row.as_array(), values, panels));
+  return figures;
+}
+
+Figure figure_of_kind(Figure figure, const std::string& kind_name, const toml::array* tables,
+                      const Values& given, const std::vector<Values>& panels) {
+  const auto kind = texts()["kind"][kind_name];
+  const Values values = joined(given, values_of(*texts()["words"].as_table()));
+  figure.title = resolved(figure.title, values);
+  figure.caption = resolved(figure.caption, values);
+  figure.plot = resolved(text_of(kind["plot"]), values);
+  figure.height = kind["height"].value<double>().value();
+  add_tables(figure, tables != nullptr ? tables : kind["tables"].as_array(), values);
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const Values of_panel = joined(joined({{"k", std::to_string(k + 1)}}, panels[k]), values);
+    figure.plot += resolved(text_of(kind["panel"]), of_panel);
+    add_tables(figure, kind["panel_tables"].as_array(), of_panel);
+  }
+  if (!panels.empty()) figure.plot += "unset multiplot\n";
+  return figure;
+}
+
+std::string listed_text(const std::string& name) { return texts()[name].value_or(std::string()); }
+
+std::string listed_word(const std::string& name) {
+  return texts()["words"][name].value_or(std::string());
+}
+
+std::string terminal_text(const std::string& ending) {
+  return texts()["terminal"][ending].value_or(std::string());
+}
+
+const toml::array& listed_pictures() { return *texts()["pictures"].as_array(); }
 
 }  // namespace holdfast::program

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "case/case.hpp"
+#include "io/text/compiled_texts.hpp"
 
 namespace holdfast::program {
 
@@ -29,19 +31,57 @@ struct Figure {
   std::string plot;
   double height = 360.0;        ///< of the picture, in points; its width is 640
   LengthUnit length_unit = {};  ///< of length_unit_for()
+  std::string heading = {};     ///< in the picture itself, "" where it stands above it
 };
 
-/// The text with another one wherever a part stands.
-std::string replaced(std::string text, const std::string& part, const std::string& other);
+/// One list after the other.
+template <class List>
+List joined(List first, const List& others) {
+  first.insert(first.end(), others.begin(), others.end());
+  return first;
+}
 
-/// What @KEY@ stands for in a text, key by key.
-using Values = std::vector<std::pair<std::string, std::string>>;
+/// The figures of a list of texts/figures.toml, which is compiled in.
+/// @param list    "paper"
+/// @param values  what the texts leave open to the program
+/// @param panels  the same for each of the panels, where the list has none
+std::vector<Figure> listed_figures(const std::string& list, const Values& values = {},
+                                   const std::vector<Values>& panels = {});
 
-/// The text with every @KEY@ replaced, in the order of the values.
-std::string filled(std::string text, const Values& values);
+/// The texts of a table.
+Values values_of(const toml::table& table);
+
+/// A figure of a kind of that file.
+/// @param figure  its name, title and caption
+/// @param tables  of each the suffix of its name and its command; null: those of the kind
+Figure figure_of_kind(Figure figure, const std::string& kind_name, const toml::array* tables,
+                      const Values& given, const std::vector<Values>& panels);
+
+/// A text of that file that is no figure's; "" where there is none.
+std::string listed_text(const std::string& name);
+std::string listed_word(const std::string& name);
+std::string terminal_text(const std::string& ending);
+
+/// The rows of its list of pictures.
+const toml::array& listed_pictures();
+
+/// The figures of a case with its settings.
+/// @param builtin  the case is the paper's: Figs. 2–13 of Kollár 2022, with the settings that their
+///                 captions give, and some beyond them
+std::vector<Figure> figures_of(const Case& the_case, bool builtin);
+
+/// "P" and "D": a window of gains around those of the case, as wide as the gains themselves.
+Values window_of_gains(const Case& the_case);
+
+/// Where the spectrum of a motion ends (Hz): behind the fourth harmonic of the force, or where the
+/// samples show no more.
+std::string greatest_frequency(const Case& the_case);
 
 /// The arguments of a command line without quotes.
 std::vector<std::string> words_of(const std::string& command);
+
+/// Text of a number with so many significant digits.
+std::string rounded(double value, int digits);
 
 /// A little above the value, with one digit: where an axis ends.
 double rounded_up(double value);

@@ -1,35 +1,22 @@
 #include "report/figures/gnuplot.hpp"
 
 #include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
+#include <cstdio>
+#include <memory>
 
 #include "io/file/input.hpp"
 #include "io/file/output.hpp"
 #include "io/text/text.hpp"
+#include "process/child.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
 
-// Colours of M. Okabe and K. Ito, told apart by all kinds of colour vision; dashes tell them apart
-// in grey.
-constexpr const char* gnuplot_style =
-    "set encoding utf8\n"
-    "set datafile separator comma\n"
-    "set datafile missing 'nan'\n"
-    "set border 3 lw 0.8 lc rgb '#444444'\n"
-    "set tics nomirror out textcolor rgb '#222222'\n"
-    "set grid lw 0.5 lc rgb '#dddddd' dt 1\n"
-    "set style line 1 lw 1.6 lc rgb '#0072b2'\n"
-    "set style line 2 lw 1.6 lc rgb '#d55e00' dt (8,3)\n"
-    "set style line 3 lw 1.6 lc rgb '#009e73' dt (3,2)\n"
-    "set style line 4 lw 1.6 lc rgb '#777777'\n"
-    "set key outside top center horizontal samplen 3\n";
+namespace fs = std::filesystem;
 
 /// The commands with blanks in the labels of x and y that do not break, as those beside a change of
 /// font are lost in SVG. Inside the braces the blank belongs to gnuplot's syntax.
@@ -45,55 +32,75 @@ std::string with_unbroken_labels(const std::string& plot) {
   return text;
 }
 
-/// Runs gnuplot in a folder: commands, then a script or an option. Its messages go to a file. Gives
-/// its exit status, or −1 if it could not start.
-int run_gnuplot(const std::filesystem::path& folder, const std::string& commands,
-                const std::string& argument, const std::filesystem::path& messages) {
-  const std::string place = folder.string();
-  const std::string message_file = messages.string();
-  const pid_t child = fork();
-  if (child < 0) return -1;
-  if (child == 0) {
-    const int null_input = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    const int log = open(message_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (null_input < 0 || log < 0 || chdir(place.c_str()) != 0) _exit(127);
-    dup2(null_input, STDIN_FILENO);
-    dup2(log, STDOUT_FILENO);
-    dup2(log, STDERR_FILENO);
-    restore_signals_of_child();
-    execlp("gnuplot", "gnuplot", "-e", commands.c_str(), argument.c_str(),
-           static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return -1;
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+/// The environment without what makes gnuplot read files of the user's or choose for itself.
+std::vector<char*> environment_of_gnuplot() {
+  std::vector<char*> kept;
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    if (std::string_view(*variable).substr(0, 3) != "GNU") kept.push_back(*variable);
+  kept.push_back(nullptr);
+  return kept;
 }
 
-/// The name of a file that gnuplot writes and that goes with the object.
-class PassingFile {
- public:
-  explicit PassingFile(const std::filesystem::path& path)
-      : path_(std::filesystem::absolute(path)), guard_(path_.c_str()) {}
-  ~PassingFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  PassingFile(const PassingFile&) = delete;
-  PassingFile& operator=(const PassingFile&) = delete;
-  PassingFile(PassingFile&&) = delete;
-  PassingFile& operator=(PassingFile&&) = delete;
+/// Runs gnuplot in a folder as it comes, whatever ~/.gnuplot says: commands, then a script or an
+/// option. Its standard output goes to one file, its messages to an open one. Gives its exit
+/// status, or another number than 0 if it could not start.
+int run_gnuplot(const fs::path& folder, const std::string& commands, const std::string& argument,
+                const fs::path& output, int messages) {
+  std::vector<char*> environment = environment_of_gnuplot();
+  return run_in_child([&] {
+    const int null_input = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int picture = open(output.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+    if (null_input < 0 || picture < 0 || chdir(folder.c_str()) != 0) return 127;
+    dup2(null_input, STDIN_FILENO);
+    dup2(picture, STDOUT_FILENO);
+    dup2(messages >= 0 ? messages : null_input, STDERR_FILENO);
+    restore_signals_of_child();
+    environ = environment.data();
+    execlp("gnuplot", "gnuplot", "-d", "-e", commands.c_str(), argument.c_str(),
+           static_cast<char*>(nullptr));
+    return 127;
+  });
+}
 
-  const std::filesystem::path& path() const { return path_; }
+/// What gnuplot says, in a file without a name.
+class Messages {
+ public:
+  Messages() : file_(std::tmpfile(), &std::fclose) {}
+
+  /// -1 where there can be no such file.
+  int descriptor() const { return file_ ? fileno(file_.get()) : -1; }
+
+  std::string text() const {
+    std::string text(1000, '\0');
+    if (file_) std::rewind(file_.get());
+    text.resize(file_ ? std::fread(text.data(), 1, text.size(), file_.get()) : 0);
+    return text;
+  }
 
  private:
-  std::filesystem::path path_;
-  RemovedBySignal guard_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
+/// Whether all of a picture is there: gnuplot does not tell that a disk is full.
+bool is_whole(std::string_view picture, const std::string& ending) {
+  using namespace std::string_view_literals;
+  const std::string_view end = ending == ".svg"   ? "</svg>"sv
+                               : ending == ".png" ? "IEND\xae\x42\x60\x82"sv
+                                                  : "%%EOF"sv;
+  const std::size_t last = picture.find_last_not_of(" \r\n\t");
+  if (last == std::string_view::npos || last + 1 < end.size()) return false;
+  return picture.substr(last + 1 - end.size(), end.size()) == end;
+}
+
+/// The line that gives a picture its heading: above the key, or in its place.
+std::string heading_line(const Figure& figure) {
+  if (figure.heading.empty()) return "";
+  const bool has_key = figure.plot.find("unset key") == std::string::npos;
+  return std::string(has_key ? "set key title '" : "set title '") +
+         replaced(figure.heading, "'", "''") + "' noenhanced\n";
+}
+
+void write_file(const fs::path& path, const std::string& text) {
   OutputFile file(path);
   file.write(text);
   file.commit();
@@ -101,36 +108,41 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-bool gnuplot_available() { return run_gnuplot(".", "", "--version", "/dev/null") == 0; }
+bool gnuplot_available() { return run_gnuplot(".", "", "--version", "/dev/null", -1) == 0; }
 
-std::string gnuplot_script(const Figure& figure) {
-  std::string plot = with_unbroken_labels(figure.plot);
+std::string gnuplot_script(const Figure& figure, const std::string& ending) {
+  const std::string ahead = figure.heading.empty() ? "" : figure.heading + ": ";
+  Values values = {{"unit", figure.length_unit.name},
+                   {"ahead", replaced(ahead, "'", "''")},
+                   {"length", format_number(figure.length_unit.per_metre)}};
   for (const TableRequest& table : figure.tables)
-    plot = replaced(plot, "@" + table.name.substr(figure.name.size()) + "@",
-                    "'data/" + table.name + ".csv' skip 1");
-  plot = filled(plot, {{"unit", figure.length_unit.name},
-                       {"length", format_number(figure.length_unit.per_metre)}});
-  return "set terminal svg size 640," + format_number(figure.height) +
-         " dynamic enhanced standalone font 'Helvetica,Arial,sans-serif,13' background rgb "
-         "'white'\n" +
-         "if (!exists('picture')) picture = 'pictures/" + figure.name +
-         ".svg'\nset output picture\n" + gnuplot_style + plot + "unset output\n";
+    values.emplace_back(table.name.substr(figure.name.size()),
+                        "'data/" + table.name + ".csv' skip 1");
+  const Values height = {{"height", format_number(figure.height)}};
+  return filled(listed_text("script"),
+                {{"name", figure.name},
+                 {"ending", ending},
+                 {"terminal", filled(terminal_text(ending), height)},
+                 {"heading", heading_line(figure)},
+                 {"plot", filled(with_unbroken_labels(figure.plot), values)}});
 }
 
-void draw(const Figure& figure, const std::filesystem::path& folder) {
-  const std::filesystem::path pictures = folder / "pictures";
-  const std::filesystem::path script = pictures / (figure.name + ".gp");
-  const PassingFile partial(pictures / (figure.name + ".svg.partial"));
-  const PassingFile messages(pictures / (figure.name + ".log.partial"));
-  write_file(script, gnuplot_script(figure));
-  const int status = run_gnuplot(folder, "picture = 'pictures/" + figure.name + ".svg.partial'",
-                                 "pictures/" + figure.name + ".gp", messages.path());
-  if (status != 0) {
+void draw(const Figure& figure, const fs::path& folder, const std::string& ending) {
+  const fs::path pictures = folder / "pictures";
+  write_file(pictures / (figure.name + ".gp"), gnuplot_script(figure, ending));
+  OutputFile picture(pictures / (figure.name + ending));
+  const Messages messages;
+  const int status =
+      run_gnuplot(folder, "picture = '/dev/stdout'", "pictures/" + figure.name + ".gp",
+                  fs::absolute(picture.temporary()), messages.descriptor());
+  const bool whole = is_whole(read_input(picture.temporary()), ending);
+  if (status != 0 || !whole) {
     throw_if_interrupted();  // a terminal sends its signal to gnuplot as well
-    throw OutputError("gnuplot could not draw " + figure.name + ": " +
-                      one_line(read_input(messages.path())));
+    throw OutputError(
+        "gnuplot could not draw " + figure.name + ": " +
+        (status != 0 ? one_line(messages.text()) : "the picture is cut off; is the disk full?"));
   }
-  std::filesystem::rename(partial.path(), pictures / (figure.name + ".svg"));
+  picture.commit();
 }
 
 }  // namespace holdfast::program

@@ -12,10 +12,13 @@ bool gnuplot_available();
 
 /// The whole gnuplot script of a figure: style, axes, tables. It is run in the report's folder and
 /// reads data/NAME.csv.
-std::string gnuplot_script(const Figure& figure);
+/// @param ending  of the picture: ".svg", ".png" or ".pdf"
+std::string gnuplot_script(const Figure& figure, const std::string& ending = ".svg");
 
-/// Draws pictures/NAME.svg in the report's folder and leaves the script beside it as NAME.gp.
-/// The picture appears whole or not at all. Throws OutputError when gnuplot fails, in its words.
-void draw(const Figure& figure, const std::filesystem::path& folder);
+/// Draws pictures/NAME.svg in the report's folder, or with another ending, and leaves the script
+/// beside it as NAME.gp. The picture appears whole or not at all. Throws OutputError when gnuplot
+/// fails, in its words.
+void draw(const Figure& figure, const std::filesystem::path& folder,
+          const std::string& ending = ".svg");
 
 }  // namespace holdfast::program

@@ -3,31 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 #include "case/case_keys.hpp"
+#include "case/model/held_force.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/control/gains.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "io/text/text.hpp"
 #include "jobs/design/best_gains.hpp"
-#include "jobs/motion/cell_motion.hpp"
+#include "jobs/design/gain_margins.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
-#include "report/page/command_line.hpp"
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"
+#include "report/page/vibration.hpp"
 #include "report/switching/switching_study.hpp"
 
 namespace holdfast::program {
 namespace {
-
-/// Seconds of a motion: 20, or as long as the case's force lasts.
-double duration_of(const Case& the_case) { return std::min(20.0, end_of_force(the_case)); }
 
 std::string millimetres(double length) { return rounded(1e3 * length, 3) + " mm"; }
 std::string milliseconds(double time) { return rounded(1e3 * time, 3) + " ms"; }
@@ -39,67 +35,58 @@ std::string range_of(double value) {
   return text + ":" + text + ":1";
 }
 
-/// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
-struct Vibration {
-  double controlled, free;
-  double engaged;  ///< share of the samples at which the drive transmits
-  double force;    ///< N, the largest that the computer asks for
+/// A share of the vibration without control above which control is not worth its drive.
+constexpr double worthwhile = 0.95;
 
-  double ratio() const { return controlled / free; }
-  bool is_reduced() const { return controlled < free; }
-};
+/// Of the vibration without control: so little more or less is the same vibration.
+constexpr double negligible = 0.005;
 
-/// Largest |z₁| (m) of the steady motion without control.
-double free_vibration(const Case& the_case, InstructionSet set) {
-  const double duration = duration_of(the_case);
-  const CellMotion motion = cell_motion(the_case, Switching::sampled, duration);
-  return metrics_of({without_control(motion)}, duration, set).front().steady_peak;
+/// The question of the name, with what is said of it whatever the answer.
+Answer asked(const std::string& name, const Values& values) {
+  return {page_text(name + " question"), "", page_text(name + " detail", values),
+          words_of(page_text(name + " command", values))};
 }
 
-/// @param free  free_vibration() of each of them
-std::vector<Vibration> vibrations_of(const std::vector<Case>& cases, double free,
-                                     InstructionSet set, Switching switching = Switching::sampled) {
-  const double duration = duration_of(cases.front());
-  std::vector<CellMotion> motions;
-  motions.reserve(cases.size());
-  for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
-  std::vector<Vibration> vibrations;
-  vibrations.reserve(cases.size());
-  for (const MotionMetrics& metrics : metrics_of(motions, duration, set))
-    vibrations.push_back({metrics.steady_peak, free, metrics.engaged_fraction, metrics.force_peak});
-  return vibrations;
+/// A loop that is unstable without its play lives on it: the text says so.
+std::string help_text(const Question& question, const Vibration& vibration) {
+  const bool lives_on_play = question.is_unstable_without_play();
+  const char* helps = !vibration.is_reduced()          ? "No"
+                      : lives_on_play                  ? "It lives on its play"
+                      : vibration.ratio() < worthwhile ? "Yes"
+                                                       : "Hardly";
+  const char* text = "vibration left";
+  if (question.motion.stays_in_play)
+    text = "idle drive";
+  else if (!lives_on_play && std::abs(vibration.ratio() - 1.0) < negligible)
+    text = "same vibration";
+  const Values values = {{"helps", helps},
+                         {"ratio", percent(vibration.ratio())},
+                         {"controlled", millimetres(vibration.controlled)},
+                         {"free", millimetres(vibration.free)},
+                         {"radius", rounded(question.radius_without_play, 5)}};
+  return page_text(text, values) + (lives_on_play ? page_text("bounded by play", values) : "");
 }
 
-std::string help_text(const Vibration& vibration) {
-  constexpr double negligible = 0.005;
-  if (vibration.engaged == 0.0)
-    return "No: the drive never leaves its play, and the vibration is that without control.";
-  if (std::abs(vibration.ratio() - 1.0) < negligible)
-    return "No: the vibration is the same as without control, " + millimetres(vibration.free) + ".";
-  return std::string(vibration.is_reduced() ? "Yes: " : "No: ") + percent(vibration.ratio()) +
-         " of the vibration is left, " + millimetres(vibration.controlled) + " of " +
-         millimetres(vibration.free) + ".";
-}
-
-/// What a loop that is unstable owes to its play.
-std::string instability_text(const Case& the_case) {
-  const double radius = spectral_radius(loop_of(the_case).engaged_map(gains_of(the_case)));
-  if (radius < 1.0) return "";
-  return " But without play the loop is unstable with these gains (spectral radius " +
-         rounded(radius, 5) + "): nothing but the play bounds the motion.";
+/// What the force of the paper, held over a sample, would make of the vibration without control.
+std::string held_force_text(const Question& question) {
+  const Case& the_case = question.the_case;
+  if (held_force_warning(the_case, "").empty()) return "";
+  const double share =
+      held_share(the_case, the_case.control.sampling_period, excitation_of(the_case).frequency);
+  return page_text("force held", {{"held", millimetres(share * question.free)},
+                                  {"true", millimetres(question.free)}});
 }
 
 std::string force_text(const Vibration& vibration) {
-  return " The computer asks the drive for up to " + rounded(vibration.force, 3) + " N.";
+  return page_text("force asked for", {{"force", rounded(vibration.force, 3)}});
 }
 
 /// What is left where the drive switches when it happens and not at samples.
-std::string exact_switching_text(const Case& the_case, double free, InstructionSet set) {
-  if (!(the_case.backlash.width > 0.0)) return "";
-  const Vibration exact = vibrations_of({the_case}, free, set, Switching::exact).front();
+std::string exact_switching_text(const Question& question) {
+  if (!(question.the_case.backlash.width > 0.0)) return "";
+  const Vibration exact = vibrations_of({question.the_case}, question, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
-  return " A drive that enters and leaves its play when it happens, not at samples, leaves " +
-         percent(exact.ratio()) + ".";
+  return page_text("left by exact switching", {{"ratio", percent(exact.ratio())}});
 }
 
 /// The gains and the play that the user's case leaves to the built-in one.
@@ -109,27 +96,33 @@ std::string borrowed_text(const Case& the_case) {
   for (const char* key : {"control.proportional_gain", "control.differential_gain",
                           "control.sampling_period", "backlash.width"})
     if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
-  if (names.empty()) return "";
-  return " Your case does not give " + names + ": the built-in value stands in.";
+  return names.empty() ? "" : page_text("not given", {{"names", names}});
 }
 
-Answer does_it_help(const Case& the_case, const Vibration& vibration, InstructionSet set) {
-  Answer answer{"Does control help here?", "",
-                "Largest |z₁| in the second half of " + rounded(duration_of(the_case), 3) +
-                    " s from the case's initial state, with its backlash of " +
-                    millimetres(the_case.backlash.width) +
-                    ", beside the same without control force.",
-                words_of("sweep --axis backlash.width=" + range_of(the_case.backlash.width) +
-                         " --metric steady_peak --metric ratio_to_uncontrolled")};
-  if (!(vibration.free > 0.0)) {
-    answer.answer = "Nothing vibrates without control either: there is nothing to reduce.";
-  } else if (!std::isfinite(vibration.controlled)) {
-    answer.answer = "No: with these gains the motion grows without end.";
+Answer what_is_doubtful(const std::vector<std::string>& doubts) {
+  Answer answer = asked("doubt", {});
+  for (const std::string& doubt : doubts)
+    answer.answer += (answer.answer.empty() ? "" : " ") + doubt + (doubt.back() == '?' ? "" : ".");
+  return answer;
+}
+
+Answer does_it_help(const Question& question) {
+  const Case& the_case = question.the_case;
+  const Vibration vibration = vibrations_of({the_case}, question).front();
+  Answer answer = asked("help", {{"duration", rounded(duration_of(the_case), 3)},
+                                 {"play", millimetres(the_case.backlash.width)},
+                                 {"range", range_of(the_case.backlash.width)}});
+  if (question.motion.diverges || !std::isfinite(vibration.controlled)) {
+    answer.answer = page_text("diverges");
+  } else if (2.0 * the_case.control.sampling_period * excitation_of(the_case).frequency > 1.0) {
+    answer.answer = page_text("unseen");
+  } else if (!(vibration.free > 0.0)) {
+    answer.answer = page_text("nothing to reduce");
   } else {
-    answer.answer = help_text(vibration) + instability_text(the_case);
-    answer.detail += force_text(vibration) + exact_switching_text(the_case, vibration.free, set);
+    answer.answer = help_text(question, vibration);
+    answer.detail += force_text(vibration) + exact_switching_text(question);
   }
-  answer.detail += borrowed_text(the_case);
+  answer.detail += held_force_text(question) + borrowed_text(the_case);
   return answer;
 }
 
@@ -147,54 +140,79 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
 std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
   const StabilityMargins margins =
       stability_margins(plant_of(the_case), sampling_of(the_case), gains);
-  if (margins.outcome == MarginOutcome::not_stable) return "With it the loop is not stable.";
-  return "With it the loop is stable for D " +
-         stretch_text(margins.differential_gain, 1.0, "N s/m") + ", for P " +
-         stretch_text(margins.proportional_gain, 1.0, "N/m") + ", and for sampling periods " +
-         stretch_text(margins.sampling_period, 1e3, "ms") + ", each alone.";
+  if (margins.outcome == MarginOutcome::not_stable) return page_text("not stable with it");
+  return page_text("stable with it",
+                   {{"D", stretch_text(margins.differential_gain, 1.0, "N s/m")},
+                    {"P", stretch_text(margins.proportional_gain, 1.0, "N/m")},
+                    {"periods", stretch_text(margins.sampling_period, 1e3, "ms")}});
+}
+
+/// "; gain margin 9 dB, phase margin 15°, delay margin more than 10 ms, spectral radius 0.999".
+std::string gain_margins_text(const Case& the_case, const PdGains<double>& gains) {
+  const GainMargins margins = gain_margins(the_case, gains);
+  const auto number = [](double value, const char* unit) {
+    return std::isfinite(value) ? rounded(value, 3) + unit : std::string("without end");
+  };
+  return page_text("margins of gain", {{"gain", number(margins.gain_decibels, " dB")},
+                                       {"phase", number(margins.phase_degrees, "°")},
+                                       {"delay", (margins.is_delay_of_search ? "at least " : "") +
+                                                     milliseconds(margins.delay)},
+                                       {"radius", rounded(margins.spectral_radius, 6)}});
 }
 
 std::string gain_of_case_text(const Case& the_case) {
-  const TwoMass<double> plant = plant_of(the_case);
-  const double tuned = tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
-                                               excitation_of(the_case).frequency);
+  const double tuned =
+      tuned_delay_question(the_case, excitation_of(the_case).frequency).proportional_gain;
   const PdGains<double> gains = gains_of(the_case);
-  return " The case has D = " + damping(gains.differential) +
-         " and P = " + rounded(gains.proportional, 4) +
-         " N/m; tuned to its frequency (Eq. 6) P is " + rounded(tuned, 4) + " N/m.";
+  return page_text("gains of case", {{"D", damping(gains.differential)},
+                                     {"P", rounded(gains.proportional, 4)},
+                                     {"tuned", rounded(tuned, 4)}});
 }
 
-/// What a gain leaves with the play that the case has.
-std::string in_play_text(const Case& the_case, double differential_gain, double free,
-                         InstructionSet set) {
-  if (!(the_case.backlash.width > 0.0)) return "";
-  const Case changed = case_with(the_case, "control.differential_gain", differential_gain);
-  const Vibration vibration = vibrations_of({changed}, free, set).front();
-  if (!std::isfinite(vibration.ratio())) return "";
-  return " With the case's play of " + millimetres(the_case.backlash.width) + " it leaves " +
-         percent(vibration.ratio()) + "." + force_text(vibration);
+/// The vibration with a gain and the play that the case has; nothing where there is none.
+std::optional<Vibration> in_play(const Question& question, double differential_gain) {
+  if (!(question.the_case.backlash.width > 0.0)) return std::nullopt;
+  const Case changed = case_with(question.the_case, "control.differential_gain", differential_gain);
+  const Vibration vibration = vibrations_of({changed}, question).front();
+  return std::isfinite(vibration.ratio()) ? std::optional(vibration) : std::nullopt;
 }
 
-Answer which_gain(const Case& the_case, double free, InstructionSet set) {
+/// Adds to the answer what the play makes of a gain; where it spoils the gain, to its first
+/// sentence.
+void add_play(Answer& answer, const Question& question, double differential_gain, double ideal) {
+  const std::optional<Vibration> vibration = in_play(question, differential_gain);
+  if (!vibration) return;
+  const bool spoilt = ideal < worthwhile && !(vibration->ratio() < worthwhile);
+  const Values values = {{"play", millimetres(question.the_case.backlash.width)},
+                         {"ratio", percent(vibration->ratio())}};
+  if (spoilt) answer.answer += page_text("spoilt by play", values);
+  answer.detail += (spoilt ? "" : page_text("left in play", values)) + force_text(*vibration);
+}
+
+Answer which_gain(const Question& question) {
+  const Case& the_case = question.the_case;
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   const double duration = duration_of(the_case);
   const MinimumAmplitude best = BestGains(duration).of(loop);
   const double largest_radius = std::exp(-10.0 * loop.sampling.period / duration);
-  Answer answer{"Which D?", "", "", {"design", "--largest-radius", format_number(largest_radius)}};
+  const PdGains<double> gains{loop.gains.proportional, best.differential_gain};
+  const bool is_found = std::isfinite(best.differential_gain);
+  const Values values = {{"settled", rounded(0.5 * duration, 3)},
+                         {"margins", is_found ? gain_margins_text(the_case, gains) : ""},
+                         {"D", damping(best.differential_gain)},
+                         {"ratio", percent(best.ratio_to_uncontrolled)},
+                         {"radius", format_number(largest_radius)},
+                         {"margin", format_number(usual_margin)}};
+  Answer answer = asked("gain", values);
   if (best.outcome == MinimumAmplitudeOutcome::none) {
-    answer.answer = "None: at the case's P no D lets the motion settle in " +
-                    rounded(0.5 * duration, 3) + " s.";
+    answer.answer = page_text("no gain settles", values);
   } else if (best.outcome == MinimumAmplitudeOutcome::aliased) {
-    answer.answer =
-        "None: the computer takes fewer than two samples in a period of the vibration and does "
-        "not see it.";
+    answer.answer = page_text("aliased");
   } else {
-    answer.answer = "D = " + damping(best.differential_gain) + ": with an ideal drive it leaves " +
-                    percent(best.ratio_to_uncontrolled) + " of the amplitude without control.";
-    answer.detail = "Of the gains that let the motion settle in " + rounded(0.5 * duration, 3) +
-                    " s the one of least steady amplitude. " +
-                    margins_text(the_case, {loop.gains.proportional, best.differential_gain}) +
-                    in_play_text(the_case, best.differential_gain, free, set);
+    const bool is_worthwhile = best.ratio_to_uncontrolled < worthwhile;
+    answer.answer = page_text(is_worthwhile ? "best gain" : "no gain worth it", values);
+    answer.detail = page_text("best of settling", values) + margins_text(the_case, gains);
+    add_play(answer, question, best.differential_gain, best.ratio_to_uncontrolled);
   }
   answer.detail += gain_of_case_text(the_case);
   return answer;
@@ -205,59 +223,86 @@ std::string own_period_text(const Case& the_case) {
   const StabilityMargins margins =
       stability_margins(plant_of(the_case), sampling_of(the_case), gains_of(the_case));
   const MarginEnd& longest = margins.sampling_period.above;
-  std::string text = "; with the gains of the case ";
+  const char* limit = "no limit";
   if (margins.outcome == MarginOutcome::not_stable)
-    text += "the loop is not stable even now";
+    limit = "not stable even now";
   else if (longest.outcome == MarginEndOutcome::boundary)
-    text += "it is stable up to " + milliseconds(longest.position);
-  else
-    text += "no limit of stability was found";
-  return text + "; the case has " + milliseconds(the_case.control.sampling_period) + ".";
+    limit = "stable up to";
+  return page_text("own period",
+                   {{"limit", page_text(limit, {{"longest", milliseconds(longest.position)}})},
+                    {"own", milliseconds(the_case.control.sampling_period)}});
 }
 
 Answer how_slow(const Case& the_case) {
-  const TwoMass<double> plant = plant_of(the_case);
-  MaxDelayOptions question;
-  question.criterion = DelayCriterion::attenuates;
-  question.hold = force_hold_of(the_case);
-  question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
-  question.frequency = excitation_of(the_case).frequency;
-  question.proportional_gain =
-      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, question.frequency);
-  const MaxDelay longest = max_sampling_period(plant, question);
-  Answer answer{"How slow may the computer be?",
-                "",
-                "Up to there some D, P being tuned to the excitation, is stable and leaves less "
-                "vibration than no control; the drive is ideal, and the processing delay keeps its "
-                "share of the period.",
-                {"max-delay", "--frequency", range_of(question.frequency)}};
-  const std::string own = own_period_text(the_case);
-  if (!(longest.sampling_period > 0.0))
-    answer.answer = "No sampling period serves at this frequency" + own;
-  else if (std::isinf(longest.sampling_period))
-    answer.answer = "No largest sampling period was found" + own;
-  else
-    answer.answer =
-        "Up to " + milliseconds(longest.sampling_period) + " a sample if D is chosen for it" + own;
+  const MaxDelayOptions question =
+      tuned_delay_question(the_case, excitation_of(the_case).frequency);
+  const MaxDelay longest = max_sampling_period(plant_of(the_case), question);
+  Answer answer = asked("slow", {{"range", range_of(question.frequency)}});
+  if (longest.sampling_period > 0.0 && std::isfinite(longest.sampling_period)) {
+    const std::string held =
+        held_force_warning(the_case, longest.sampling_period, question.frequency,
+                           "what attenuates is judged by the force as it is held");
+    answer.detail += held.empty() ? "" : " At that period: " + held + ".";
+  }
+  const char* text = "up to a period";
+  if (longest.outcome == MaxDelayOutcome::beyond_search) text = "at least a period";
+  if (!(longest.sampling_period > 0.0)) text = "no period serves";
+  answer.answer = page_text(text, {{"longest", milliseconds(longest.sampling_period)}}) +
+                  own_period_text(the_case);
   return answer;
 }
 
-/// The first of ascending widths with which control does not reduce the vibration.
-std::optional<std::size_t> first_too_wide(const Case& the_case, const std::vector<double>& widths,
-                                          double free, InstructionSet set) {
+/// Whether control reduces the vibration with each of some widths of the play. A loop that is
+/// unstable without play is not served by none, however slowly its motion grows.
+std::vector<char> widths_that_serve(const Question& question, const std::vector<double>& widths) {
   std::vector<Case> cases;
   cases.reserve(widths.size());
-  for (const double width : widths) cases.push_back(case_with(the_case, "backlash.width", width));
-  const std::vector<Vibration> vibrations = vibrations_of(cases, free, set);
-  for (std::size_t k = 0; k < widths.size(); ++k)
-    if (!vibrations[k].is_reduced()) return k;
-  return std::nullopt;
+  for (const double width : widths)
+    cases.push_back(case_with(question.the_case, "backlash.width", width));
+  const std::vector<Vibration> vibrations = vibrations_of(cases, question);
+  std::vector<char> serve(widths.size());
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const bool grows = widths[k] == 0.0 && question.is_unstable_without_play();
+    serve[k] = vibrations[k].ratio() < 1.0 - negligible && !grows ? 1 : 0;
+  }
+  return serve;
 }
 
 std::vector<double> evenly(double from, double to, int parts) {
   std::vector<double> values;
   for (int part = 0; part <= parts; ++part) values.push_back(from + (to - from) * part / parts);
   return values;
+}
+
+/// How far from a width that serves towards one that does not all serve, in twenty steps.
+double limit_between(const Question& question, double serving, double failing) {
+  const std::vector<double> widths = evenly(serving, failing, 20);
+  const std::vector<char> serve = widths_that_serve(question, widths);
+  const auto first = std::find(serve.begin(), serve.end(), 0) - serve.begin();
+  return widths[static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0))];
+}
+
+/// What is said of the first stretch of widths that serve; it begins without play but where the
+/// loop needs its play.
+std::string play_text(const Question& question, const std::vector<double>& widths) {
+  const std::vector<char> serve = widths_that_serve(question, widths);
+  const auto begin = std::find(serve.begin(), serve.end(), 1);
+  const auto end = std::find(begin, serve.end(), 0);
+  const auto width = [&](auto place) {
+    return widths[static_cast<std::size_t>(place - serve.begin())];
+  };
+  const auto limit = [&](auto serving, auto failing) {
+    return millimetres(limit_between(question, width(serving), width(failing)));
+  };
+  Values values = {{"own", millimetres(question.the_case.backlash.width)},
+                   {"widest", millimetres(widths.back())}};
+  if (begin == serve.end()) return page_text("no play", values);
+  if (end != serve.end()) values.emplace_back("limit", limit(end - 1, end));
+  if (begin == serve.begin())
+    return page_text(end == serve.end() ? "every play" : "up to a play", values);
+  values.emplace_back("least", limit(begin, begin - 1));
+  values.emplace_back("why", question.is_unstable_without_play() ? page_text("needs play") : "");
+  return page_text(end == serve.end() ? "from a play on" : "between two plays", values);
 }
 
 /// The play that swallows the whole motion without control, and some half as much again.
@@ -268,67 +313,36 @@ double widest_play(const Case& the_case) {
   return std::ceil(1.5 * swing * per_unit) / per_unit;
 }
 
-Answer how_much_play(const Case& the_case, const Vibration& vibration, InstructionSet set) {
-  constexpr int parts = 120, finer_parts = 20;
-  const double widest = widest_play(the_case), step = widest / parts;
-  Answer answer{
-      "How much play may the belt have?", "",
-      "With the case's gains, from its initial state. " + std::to_string(parts) + " widths up to " +
-          millimetres(widest) +
-          " were tried, and those about the limit more finely. Wider ones may serve too, but not "
-          "all of them.",
-      words_of("sweep --axis backlash.width=0:" + format_number(widest) + ":" +
-               std::to_string(parts + 1) + " --metric ratio_to_uncontrolled")};
-  if (!(vibration.free > 0.0)) {
-    answer.answer = "Nothing vibrates: any.";
-    return answer;
-  }
-  const auto coarse = first_too_wide(the_case, evenly(0.0, widest, parts), vibration.free, set);
-  const std::string own = "; the case has " + millimetres(the_case.backlash.width) + ".";
-  if (!coarse) {
-    answer.answer = "Every play up to " + millimetres(widest) + " that was tried serves" + own;
-  } else if (*coarse == 0) {
-    answer.answer = "None: control does not help without any play either" + own;
-  } else {
-    const double begin = step * static_cast<double>(*coarse - 1);
-    const auto widths = evenly(begin, begin + step, finer_parts);
-    const std::size_t first =
-        first_too_wide(the_case, widths, vibration.free, set).value_or(widths.size() - 1);
-    answer.answer =
-        "Up to " + millimetres(widths[first > 0 ? first - 1 : 0]) + " it still helps" + own;
-  }
+Answer how_much_play(const Question& question) {
+  constexpr int parts = 120;
+  const double widest = widest_play(question.the_case);
+  Answer answer = asked("play", {{"parts", std::to_string(parts)},
+                                 {"widest", millimetres(widest)},
+                                 {"end", format_number(widest)},
+                                 {"count", std::to_string(parts + 1)}});
+  answer.answer =
+      question.free > 0.0 ? play_text(question, evenly(0.0, widest, parts)) : page_text("any play");
   return answer;
 }
 
-Answer what_motion(const Case& the_case) {
-  const MotionRow row = motion_of_the_case(the_case);
+Answer what_motion(const MotionRow& row) {
   const bool has_period = !row.period.empty() && row.period != "–";
-  return {"What is the motion?", row.verdict + (has_period ? ": " + row.period : "") + ".",
+  return {page_text("motion question"), row.verdict + (has_period ? ": " + row.period : "") + ".",
           row.rests_on, row.arguments};
 }
 
 }  // namespace
 
-std::vector<Answer> answers_of(const Case& the_case, InstructionSet set) {
-  const Vibration vibration = vibrations_of({the_case}, free_vibration(the_case, set), set).front();
-  std::vector<Answer> answers = {does_it_help(the_case, vibration, set),
-                                 which_gain(the_case, vibration.free, set), how_slow(the_case)};
+std::vector<Answer> answers_of(const JobContext& context) {
+  const Case& the_case = context.case_data;
+  const Question question = question_about(the_case, context.instructions);
+  std::vector<Answer> answers;
+  if (!context.doubts.empty()) answers.push_back(what_is_doubtful(context.doubts));
+  answers.insert(answers.end(), {does_it_help(question), which_gain(question), how_slow(the_case)});
   throw_if_interrupted();
-  answers.push_back(how_much_play(the_case, vibration, set));
-  answers.push_back(what_motion(the_case));
+  answers.push_back(how_much_play(question));
+  answers.push_back(what_motion(question.motion));
   return answers;
-}
-
-std::string html_of(const std::vector<Answer>& answers,
-                    const std::vector<std::string>& case_arguments) {
-  std::string html = "<section id=\"answers\">\n<h2>The answers</h2>\n";
-  for (const Answer& answer : answers) {
-    html += "<div class=\"answer\">\n<h3>" + escaped(answer.question) +
-            "</h3>\n<p class=\"said\">" + escaped(answer.answer) + "</p>\n<p class=\"why\">" +
-            escaped(answer.detail) + "</p>\n<pre>" +
-            escaped(shell_text(answer.arguments, case_arguments)) + "</pre>\n</div>\n";
-  }
-  return html + "</section>\n";
 }
 
 }  // namespace holdfast::program

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
-#include "kernels/instruction_set.hpp"
+#include "process/job_context.hpp"
 
 namespace holdfast::program {
 
@@ -16,14 +15,9 @@ struct Answer {
   std::vector<std::string> arguments;  ///< of the command that shows it, without the case's
 };
 
-/// Does control help, which D, how slow a computer, how much play, what motion: for the case as it
-/// is, switching at samples. A question that the case does not let be answered says why. Throws
-/// Interrupted.
-/// @param set  on whose packs motions are computed
-std::vector<Answer> answers_of(const Case& the_case, InstructionSet set);
-
-/// The section of the page, each answer with the whole command line that shows it.
-std::string html_of(const std::vector<Answer>& answers,
-                    const std::vector<std::string>& case_arguments);
+/// What is doubtful of the case, where something is; does control help, which D, how slow a
+/// computer, how much play, what motion: for the case as it is, switching at samples. A question
+/// that the case does not let be answered says why. Throws Interrupted.
+std::vector<Answer> answers_of(const JobContext& context);
 
 }  // namespace holdfast::program

@@ -1,5 +1,7 @@
 #include "report/page/command_line.hpp"
 
+#include "io/text/filled.hpp"
+
 namespace holdfast::program {
 namespace {
 
@@ -10,10 +12,7 @@ bool is_plain(const std::string& argument) {
 }
 
 std::string quoted(const std::string& argument) {
-  std::string text = "'";
-  for (const char character : argument)
-    text += character == '\'' ? std::string("'\\''") : std::string(1, character);
-  return text + "'";
+  return "'" + replaced(argument, "'", "'\\''") + "'";
 }
 
 }  // namespace
@@ -26,9 +25,10 @@ std::vector<std::string> command_of(const std::vector<std::string>& arguments,
   return command;
 }
 
-std::string shell_text(const std::vector<std::string>& arguments) {
+std::string shell_text(const std::vector<std::string>& arguments,
+                       const std::vector<std::string>& case_arguments) {
   std::string text = "holdfast";
-  for (const std::string& argument : arguments)
+  for (const std::string& argument : command_of(arguments, case_arguments))
     text += " " + (is_plain(argument) ? argument : quoted(argument));
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include "report/comparison/comparison.hpp"
 #include "report/figures/figure.hpp"
+#include "report/page/answers.hpp"
 #include "report/page/motions.hpp"
 
 namespace holdfast::program {
@@ -23,7 +24,7 @@ struct Page {
   std::string introduction;
   std::vector<std::string> case_arguments;  ///< the options that made the case
   std::string case_text;                    ///< the full case as TOML
-  std::string answers;                      ///< HTML: what a designer asks, answered
+  std::vector<Answer> answers;              ///< what a designer asks
   std::vector<Comparison> comparisons;      ///< may be empty
   std::vector<MotionRow> motions;
   std::string switching;  ///< HTML: how much the sampled switching matters
@@ -33,20 +34,20 @@ struct Page {
 /// The page as one self-contained HTML text: pictures inside, nothing loaded from elsewhere.
 std::string html_of(const Page& page);
 
-/// A figure with its caption, its tables and the commands that make them.
-std::string figure_html(const DrawnFigure& drawn);
+/// The text of texts/page.toml, which is compiled in, with its values.
+std::string page_text(const std::string& name, const Values& values = {});
+
+/// Figures, each with its caption, its tables and the commands that make them.
+std::string figures_html(const std::vector<DrawnFigure>& figures);
+
+/// A row of a table. @param cells  HTML
+std::string html_row(const std::vector<std::string>& cells);
 
 /// A table that scrolls by itself where it is wider than the page.
-/// @param rows  HTML, a <tr> each
+/// @param rows  HTML, of html_row()
 std::string html_table(const std::vector<std::string>& headings, const std::string& rows);
-
-/// Text of a number with so many significant digits.
-std::string rounded(double value, int digits);
 
 /// Text with &, <, > and quotes escaped.
 std::string escaped(const std::string& text);
-
-/// Base64 of RFC 4648.
-std::string base64(const std::string& bytes);
 
 }  // namespace holdfast::program

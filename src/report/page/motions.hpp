@@ -18,10 +18,10 @@ struct MotionRow {
   std::string capture = "–";    ///< radius of the neighbourhoods from which motions tend to it (mm)
   std::string precision = "–";  ///< how the same orbit comes out in extended precision
   std::string rests_on = {};    ///< what the verdict rests on
-  std::string neighbour =
-      {};  ///< how it ends beside the motion from rest; empty where not compared
-  std::vector<std::string> arguments =
-      {};  ///< of the command that shows all of it, without the case's
+  std::string neighbour = {};   ///< how it ends beside the motion from rest; "": not compared
+  std::vector<std::string> arguments = {};  ///< of the command that shows it, without the case's
+  bool diverges = false;                    ///< it leaves every bound
+  bool stays_in_play = false;               ///< its certified orbit never leaves the play
 };
 
 /// "τ = 1 ms, r₀ = 0.5 mm".

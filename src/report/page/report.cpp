@@ -14,13 +14,14 @@
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
-#include "report/figures/figures.hpp"
+#include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "report/page/answers.hpp"
 #include "report/page/command_line.hpp"
 #include "report/page/html.hpp"
 #include "report/switching/switching_page.hpp"
 #include "report/switching/switching_study.hpp"
+#include "sweep/tiles/work_folder.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -98,8 +99,7 @@ class ReportWriter {
   void write_table(const TableRequest& table) const {
     const std::string file = (folder_ / "data" / (table.name + ".csv")).string();
     // A sweep that was interrupted has left its tiles; this report may be one of another case.
-    std::error_code ignored;
-    fs::remove_all(file + ".tiles", ignored);
+    remove_work_folder(file + ".tiles");
     Arguments arguments = command_of(table.arguments, case_arguments_);
     arguments.insert(arguments.end(), {"--quiet", "--output", file});
     run_(arguments);
@@ -114,18 +114,11 @@ class ReportWriter {
 
 /// "my-line: 21.3 Hz, τ = 5 ms, r₀ = 0.5 mm".
 std::string title_of(const JobContext& context, bool builtin) {
-  if (builtin) return "A controlled cable: the paper's figures and ours";
+  if (builtin) return page_text("title of paper");
   const Case& the_case = context.case_data;
   const std::string stem = fs::path(context.case_source.name).stem().string();
   return (stem.empty() ? "A controlled cable" : stem) + ": " +
          rounded(effective_excitation(the_case).frequency, 4) + " Hz, " + loop_text(the_case);
-}
-
-std::string introduction_of(bool builtin) {
-  if (!builtin) return "Figures for the case at the end of this page.";
-  return "Figures 2 to 13 and Tables 1 and 2 of L. E. Kollár, <cite>Dynamics of digitally "
-         "controlled forced vibration of suspended cables</cite>, Nonlinear Dynamics (2022), "
-         "computed anew, and each number of the paper beside the number found here.";
 }
 
 std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {
@@ -149,18 +142,18 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   const ReportWriter writer(context, case_arguments, run);  // refuses loops that are too stiff
   make_folders(folder);
   OutputFile file(folder / "report.html");
-  const std::vector<Figure> figures = builtin ? paper_figures() : case_figures(context.case_data);
+  const std::vector<Figure> figures = figures_of(context.case_data, builtin);
 
   Page page;
   page.title = title_of(context, builtin);
-  page.introduction = introduction_of(builtin);
+  page.introduction = page_text(builtin ? "introduction of paper" : "introduction of case");
   page.case_arguments = case_arguments;
   page.case_text = case_to_toml(context.case_data);
   if (builtin) page.comparisons = compare_with_paper();
   page.motions = builtin ? paper_motions(context.case_data)
                          : std::vector<MotionRow>{motion_of_the_case(context.case_data)};
   Progress progress(figures.size() + 2, "report", progress_wanted(context));
-  page.answers = html_of(answers_of(context.case_data, context.instructions), case_arguments);
+  page.answers = answers_of(context);
   progress.advance();
   page.switching = switching_part(context, builtin, writer);
   progress.advance();

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "process/job_context.hpp"
+#include "report/page/command_line.hpp"
 
 namespace holdfast::program {
-
-/// Does one command line of the program, without the program's name; throws what its job throws.
-using CommandRunner = std::function<void(const std::vector<std::string>&)>;
 
 /// Writes the report of a case into the folder `context.output`: data/*.csv with metadata,
 /// pictures/*.svg with their gnuplot scripts, and report.html with everything in it.

@@ -9,8 +9,8 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "io/text/text.hpp"
 #include "process/errors.hpp"
-#include "report/switching/switching_figures.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -82,46 +82,6 @@ Loops loops_over(const Case& the_case, const std::string& key, const std::vector
 
 std::string milli(double value) { return rounded(1e3 * value, 4); }
 
-/// @param shown  false: without the values along the abscissa, which take motions to find
-std::vector<SwitchingChart> charts_of(const Case& the_case, bool shown) {
-  const std::string meaning =
-      " Above: largest |z₁| at all times in the second half of " +
-      rounded(studied_duration(the_case), 4) +
-      " s or more; curves leave the picture at the top where the motion grows or diverges. Below: "
-      "certified period over the shortest one, after which sampling and forcing coincide again; "
-      "\"none\": no certified orbit was found. Dotted upright: the case itself.";
-  const double period = the_case.control.sampling_period, width = the_case.backlash.width;
-  const auto none = std::vector<double>();
-  return {
-      {{"switching-delay",
-        "Amplitude and period over the sampling period",
-        "The backlash is r₀ = " + milli(width) +
-            " mm. At samples the drive enters and leaves its backlash only when the computer "
-            "looks; "
-            "exactly, when it happens. As τ becomes short the two come together." +
-            meaning,
-        {},
-        ""},
-       "control.sampling_period",
-       "$2",
-       "sampling period τ (ms)",
-       shown ? shown_sampling_periods(the_case) : none,
-       period},
-      {{"switching-backlash",
-        "Amplitude and period over the backlash",
-        "The sampling period is τ = " + milli(period) +
-            " ms. At r₀ = 0 there is no switching, and what is left between the curves is the hold "
-            "of the force; at the right end the backlash swallows the motion without control." +
-            meaning,
-        {},
-        ""},
-       "backlash.width",
-       "$3",
-       "backlash {/:Italic r}_0 (mm)",
-       shown ? shown_widths(the_case) : none,
-       width}};
-}
-
 /// The window of Fig. 8, 9.05 s to 9.11 s, in periods of the excitation; earlier where the force
 /// ends before.
 std::pair<double, double> shown_window(const Case& the_case) {
@@ -136,40 +96,37 @@ ContactStrip strip_of(const std::string& name, const StudiedLoop& studied, int i
   return {name, "", window_of(studied, begin, end, instants)};
 }
 
-std::string phases_caption(const Case& the_case, const Reading& sampled, bool builtin) {
-  const bool held = sampled.hold == ForceHold::sampled;
-  return loop_text(the_case) +
-         ". Top: the contact where the drive switches at samples (the force " +
-         (held ? "held over each sample as in the paper" : "exact") +
-         "), with the instants in s at which it goes into its gap and out of it" +
-         (builtin ? ", which are those of the paper's Fig. 8" : "") +
-         "; and where it switches exactly (the force exact): after a reversal its sides stay "
-         "together (stick), then it crosses its gap, then it transmits again. Middle: the force "
-         "transmitted; while the drive sticks it lies between zero and the command u. Bottom: "
-         "z₂ − z₁, which stands still meanwhile. Tints: the phases of the exact motion.";
+DrawnFigure without_picture(Figure figure, const std::string& reason) {
+  figure.tables.clear();
+  return {std::move(figure), {}, "", reason};
+}
+
+Figure listed_figure(const std::string& name, const Values& values) {
+  return listed_figures(name, values).front();
 }
 
 DrawnFigure write_phases(const JobContext& context, bool builtin) {
   const Case& the_case = context.case_data;
   constexpr int instants = 601;
+  const std::string name = "switching-phases";
   const bool held = force_hold_of(the_case) == ForceHold::sampled;
   const Reading& reading = readings[held ? sampled_and_held : sampled_switching];
-  DrawnFigure drawn;
-  drawn.figure.name = "switching-phases";
-  drawn.figure.title = builtin ? "Fig. 8 with its stick phase, τ = 1 ms, r₀ = 0.5 mm"
-                               : "What the drive does between the samples";
-  drawn.figure.caption = phases_caption(the_case, reading, builtin);
+  Values values = {{"title", builtin ? "Fig. 8 with its stick phase, τ = 1 ms, r₀ = 0.5 mm"
+                                     : "What the drive does between the samples"},
+                   {"loop", loop_text(the_case)},
+                   {"held", held ? "held over each sample as in the paper" : "exact"},
+                   {"builtin", builtin ? ", which are those of the paper's Fig. 8" : ""}};
   try {
     const ContactStrip sampled = strip_of("at samples", {the_case, reading, 0.0}, instants);
     const ContactStrip exact =
         strip_of("exact", {the_case, readings[exact_switching], 0.0}, instants);
-    write_strips(context, drawn.figure.name, {sampled, exact});
-    write_window(context, drawn.figure.name + "-motion", exact.window, sampled.window);
-    draw_window(drawn.figure, sampled, exact);
+    write_strips(context, name, {sampled, exact});
+    write_window(context, name + "-motion", exact.window, sampled.window);
+    values = joined(values, values_of_window(sampled, exact));
+    return {listed_figure(name, values), {}, "", ""};
   } catch (const NoAnswer& reason) {
-    drawn.reason = reason.what();
+    return without_picture(listed_figure(name, values), reason.what());
   }
-  return drawn;
 }
 
 /// The values of backlash.law, and their words: gnuplot sets what follows an underscore lower.
@@ -233,38 +190,38 @@ DrawnFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>&
   const bool empty = std::all_of(strips.begin(), strips.end(), [](const ContactStrip& strip) {
     return strip.window.phases.empty();
   });
-  Figure figure{
-      "switching-laws",
-      "The same for every law of the backlash",
-      "What the drive does under each law, switching at samples and exactly, the force exact in "
-      "all; at the right the largest |z₁| of the steady motion. Exactly taken, kollar, immediate "
-      "and play are one law. The gap of the dead zone lies about z₂ − z₁ = 0 and does not move.",
-      {},
-      ""};
+  Figure figure = listed_figure("switching-laws", values_of_strips(strips));
+  figure.height += 30.0 * static_cast<double>(strips.size());
   write_strips(context, figure.name, strips);
-  draw_strips(figure, strips);
   return {figure, {}, "", empty ? nowhere : ""};
 }
 
-/// What the charts show: half as much again as without control, and the case's own motions.
-ShownAmplitudes shown_amplitudes(const Case& the_case, const Motions& of_case) {
+/// The amplitudes that the charts show: up to half as much again as without control, and the case's
+/// own motions.
+Values values_of_amplitudes(const Case& the_case, const Motions& of_case) {
   const double free = amplitude_without_control(the_case, studied_duration(the_case));
   double largest = 1.5 * free;
   for (const StudiedMotion& motion : of_case)
     largest = std::fmax(largest, 1.2 * motion.steady.largest_displacement);
-  return {free, largest};
+  return {{"largest", largest > 0.0 ? format_number(largest) + "*@length@" : "*"},
+          {"free", format_number(free)}};
 }
 
-DrawnFigure write_chart(const JobContext& context, SwitchingChart chart,
-                        const ShownAmplitudes& amplitudes) {
-  const Motions motions =
-      study(loops_over(context.case_data, chart.key, chart.values), context.threads);
-  write_motions(context, chart.figure.name, motions);
+/// Of every reading over a key of the case, whose own value is marked; the table has one reading
+/// after the other.
+DrawnFigure write_chart(const JobContext& context, Figure figure, const std::string& key,
+                        const std::vector<double>& abscissae) {
+  const Motions motions = study(loops_over(context.case_data, key, abscissae), context.threads);
+  write_motions(context, figure.name, motions);
   const bool empty = std::none_of(motions.begin(), motions.end(), [](const StudiedMotion& motion) {
     return std::isfinite(motion.steady.largest_displacement);
   });
-  draw_chart(chart, amplitudes);
-  return {chart.figure, {}, "", empty ? nowhere : ""};
+  const double first = abscissae.front(), last = abscissae.back(), margin = 0.02 * (last - first);
+  figure.plot =
+      filled(figure.plot, {{"first", format_number(1e3 * (first - margin))},
+                           {"last", format_number(1e3 * (last + margin))},
+                           {"own", format_number(1e3 * case_value(context.case_data, key))}});
+  return {std::move(figure), {}, "", empty ? nowhere : ""};
 }
 
 /// The charts; without their pictures where the force has many harmonics: they take two hundred
@@ -274,16 +231,21 @@ void add_charts(std::vector<DrawnFigure>& figures, const JobContext& context,
   const Case& the_case = context.case_data;
   constexpr std::size_t most_harmonics = 20;
   const std::size_t harmonics = harmonics_of(the_case);
+  const Values values = {{"duration", rounded(studied_duration(the_case), 4)},
+                         {"period", milli(the_case.control.sampling_period)},
+                         {"width", milli(the_case.backlash.width)}};
   if (harmonics > most_harmonics) {
-    const std::string reason = "the force has " + std::to_string(harmonics) +
-                               " harmonics, too many to follow hundreds of motions";
-    for (const SwitchingChart& chart : charts_of(the_case, false))
-      figures.push_back({chart.figure, {}, "", reason});
+    for (Figure& chart : listed_figures("switching-charts", values))
+      figures.push_back(without_picture(std::move(chart),
+                                        "the force has " + std::to_string(harmonics) +
+                                            " harmonics, too many to follow hundreds of motions"));
     return;
   }
-  const ShownAmplitudes amplitudes = shown_amplitudes(the_case, of_case);
-  for (const SwitchingChart& chart : charts_of(the_case, true))
-    figures.push_back(write_chart(context, chart, amplitudes));
+  const auto charts =
+      listed_figures("switching-charts", joined(values, values_of_amplitudes(the_case, of_case)));
+  figures.push_back(
+      write_chart(context, charts[0], "control.sampling_period", shown_sampling_periods(the_case)));
+  figures.push_back(write_chart(context, charts[1], "backlash.width", shown_widths(the_case)));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "holdfast/orbit/event/event_orbit_measures.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/motion/motion_run.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
@@ -25,10 +25,8 @@ ImplementedLoop loop_of(const StudiedLoop& studied) {
   return loop;
 }
 
-template <class Visit>
-auto with_motion_of_loop(const StudiedLoop& studied, Visit&& visit) {
-  return with_motion(loop_of(studied), initial_state_of(studied.the_case),
-                     std::forward<Visit>(visit));
+EventMotion<> motion_of(const StudiedLoop& studied) {
+  return event_motion(loop_of(studied), initial_state_of(studied.the_case));
 }
 
 /// No cable moves a thousand kilometres: what does grows for ever, and it is only a matter of time
@@ -38,10 +36,9 @@ bool has_diverged(const Vector<double, 4>& state) { return !(state.cwiseAbs().ma
 std::size_t index_of(ContactMode mode) { return static_cast<std::size_t>(mode); }
 
 /// Counts how often each mode begins.
-template <class Contact>
 class ModeCounter {
  public:
-  explicit ModeCounter(const EventMotion<Contact>& motion) : motion_(&motion) {}
+  explicit ModeCounter(const EventMotion<>& motion) : motion_(&motion) {}
 
   /// From here on they count. Call before the sample is taken.
   void start() {
@@ -58,7 +55,7 @@ class ModeCounter {
   std::array<double, 3> counts() const {
     std::array<double, 3> counts{};
     for (std::size_t k = 0; k < counts.size(); ++k) {
-      const bool sampled = motion_->contact().switches_at_samples();
+      const bool sampled = !motion_->contact().changes_between_samples();
       counts[k] =
           static_cast<double>(sampled ? at_samples_[k] : motion_->counts().entered[k] - before_[k]);
     }
@@ -66,48 +63,11 @@ class ModeCounter {
   }
 
  private:
-  const EventMotion<Contact>* motion_;
+  const EventMotion<>* motion_;
   bool started_ = false;
   ContactMode mode_ = ContactMode::engaged;
   std::array<std::int64_t, 3> at_samples_{}, before_{};
 };
-
-template <class Contact>
-SteadyMotion steady_part(EventMotion<Contact>& motion, const StudiedLoop& studied) {
-  SteadyMotion steady;
-  EventOrbitMeasures<Contact> measures(motion);
-  ModeCounter<Contact> counter(motion);
-  const double half = 0.5 * studied.duration;
-  const std::int64_t samples =
-      samples_within(studied.duration, studied.the_case.control.sampling_period);
-  bool is_steady = false;
-  double largest = 0.0;
-  for (std::int64_t j = 0; j < samples; ++j) {
-    look_for_interrupt(j);
-    if (!is_steady && not_before(motion.time(), half)) {
-      is_steady = true;
-      counter.start();
-    }
-    const EventSample sample = motion.sense();
-    steady.diverges = has_diverged(sample.state);
-    steady.accumulates = motion.counts().accumulates;
-    if (steady.diverges || steady.accumulates) return steady;
-    counter.take(sample);
-    if (is_steady) largest = std::max(largest, std::abs(sample.state[0]));
-    if (j + 1 == samples) break;
-    measures.begin();
-    is_steady ? motion.advance(measures) : motion.advance();
-  }
-  steady.largest_of_samples = largest;
-  steady.largest_displacement = std::max(largest, measures.largest_displacement());
-  const double half_cycles = motion.loop().force.harmonics.front().frequency * studied.duration;
-  for (std::size_t k = 0; k < 3; ++k)
-    steady.phases_per_half_cycle[k] = counter.counts()[k] / half_cycles;
-  return steady;
-}
-
-/// Of the orbits that are looked for (samples); eight times as many are looked at.
-constexpr std::int64_t largest_period = 8'000;
 
 /// @tparam Orbit  PeriodicOrbit or EventOrbit
 template <class Orbit>
@@ -117,21 +77,9 @@ FoundPeriod found_period(const Orbit& orbit) {
           orbit.largest_multiplier()};
 }
 
-FoundPeriod searched_period(const StudiedLoop& studied) {
-  JobContext context;
-  context.quiet = true;
-  context.case_data = studied.the_case;
-  context.case_data.excitation.hold = studied.reading.hold_word();
-  if (is_of_the_paper(studied.the_case, studied.reading.switching))
-    return found_period(certified_orbit(context, largest_period));
-  return found_period(certified_orbit(context, loop_of(studied), largest_period));
-}
-
 /// F (N), in the sample that the motion has just left behind.
-template <class Contact>
-double transmitted_force(const EventMotion<Contact>& motion, ContactMode mode,
-                         const ContactInstant& now) {
-  if (mode == ContactMode::gap && !motion.contact().switches_at_samples()) return 0.0;
+double transmitted_force(const EventMotion<>& motion, ContactMode mode, const ContactInstant& now) {
+  if (mode == ContactMode::gap && motion.contact().changes_between_samples()) return 0.0;
   if (mode != ContactMode::stick) return now.command;
   // What keeps Δż at zero: the acceleration that the plant would have without a force, over that
   // per newton of it.
@@ -149,9 +97,9 @@ class WindowRecorder {
       : window_{begin, end, {}, {}}, count_(instants) {}
 
   /// What the motion has done since a sample.
-  template <class Contact>
-  void take(const EventMotion<Contact>& motion, const DenseOutput<Contact>& trace,
-            const EventSample& sample, double previous_command) {
+  template <class Trace>
+  void take(const EventMotion<>& motion, const Trace& trace, const EventSample& sample,
+            double previous_command) {
     for (const auto& part : trace.parts()) {
       const double begin = std::max(sample.time + part.begin, window_.begin);
       const double end = std::min(sample.time + part.begin + part.length, window_.end);
@@ -185,24 +133,58 @@ class WindowRecorder {
   int count_, next_ = 0;
 };
 
-StudiedLoop without_control(const Case& the_case, double duration) {
-  StudiedLoop studied{the_case, readings[exact_switching], duration};
-  studied.the_case.control.proportional_gain = 0.0;
-  studied.the_case.control.proportional_gain_tuned = false;
-  studied.the_case.control.differential_gain = 0.0;
-  studied.the_case.backlash.law = "none";
-  return studied;
+StudiedLoop without_control(Case the_case, double duration) {
+  the_case.control.proportional_gain = the_case.control.differential_gain = 0.0;
+  the_case.control.proportional_gain_tuned = false;
+  the_case.backlash.law = "none";
+  return {the_case, readings[exact_switching], duration};
 }
 
 }  // namespace
 
 SteadyMotion steady_motion(const StudiedLoop& studied) {
-  return with_motion_of_loop(studied, [&](auto motion) { return steady_part(motion, studied); });
+  EventMotion<> motion = motion_of(studied);
+  SteadyMotion steady;
+  EventOrbitMeasures measures(motion);
+  ModeCounter counter(motion);
+  const double half = 0.5 * studied.duration;
+  const std::int64_t samples =
+      samples_within(studied.duration, studied.the_case.control.sampling_period);
+  bool is_steady = false;
+  double largest = 0.0;
+  for (std::int64_t j = 0; j < samples; ++j) {
+    look_for_interrupt(j);
+    if (!is_steady && not_before(motion.time(), half)) {
+      is_steady = true;
+      counter.start();
+    }
+    const EventSample sample = motion.sense();
+    steady.diverges = has_diverged(sample.state);
+    steady.accumulates = motion.counts().accumulates;
+    if (steady.diverges || steady.accumulates) return steady;
+    counter.take(sample);
+    if (is_steady) largest = std::max(largest, std::abs(sample.state[0]));
+    if (j + 1 == samples) break;
+    measures.begin();
+    is_steady ? motion.advance(measures) : motion.advance();
+  }
+  steady.largest_of_samples = largest;
+  steady.largest_displacement = std::max(largest, measures.largest_displacement());
+  const double half_cycles = motion.loop().force.harmonics.front().frequency * studied.duration;
+  for (std::size_t k = 0; k < 3; ++k)
+    steady.phases_per_half_cycle[k] = counter.counts()[k] / half_cycles;
+  return steady;
 }
 
 FoundPeriod period_of(const StudiedLoop& studied) {
+  JobContext context;
+  context.quiet = true;
+  context.case_data = studied.the_case;
+  context.case_data.excitation.hold = studied.reading.hold_word();
   try {
-    return searched_period(studied);
+    return with_loop_of(context.case_data, studied.reading.switching, [&](const auto& loop) {
+      return found_period(certified_orbit(context, loop, longest_studied_period));
+    });
   } catch (const NoAnswer& reason) {
     FoundPeriod failed;
     failed.verdict = reason.what();
@@ -226,39 +208,37 @@ std::vector<StudiedMotion> study(const std::vector<StudiedLoop>& loops, int thre
 }
 
 MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int instants) {
-  return with_motion_of_loop(studied, [&](auto motion) {
-    DenseOutput trace(motion);
-    WindowRecorder recorder(begin, end, instants);
-    while (motion.time() <= end) {
-      const double previous_command = motion.previous_command();
-      const EventSample sample = motion.sense();
-      if (has_diverged(sample.state)) throw NoAnswer("the motion diverges");
-      if (motion.counts().accumulates) throw NoAnswer("the changes of contact accumulate");
-      const bool seen = sample.time + motion.period() > begin;
-      if (!seen) {
-        motion.advance();
-        continue;
-      }
-      trace.begin();
-      motion.advance(trace);
-      recorder.take(motion, trace, sample, previous_command);
+  EventMotion<> motion = motion_of(studied);
+  DenseOutput trace(motion);
+  WindowRecorder recorder(begin, end, instants);
+  while (motion.time() <= end) {
+    const double previous_command = motion.previous_command();
+    const EventSample sample = motion.sense();
+    if (has_diverged(sample.state)) throw NoAnswer("the motion diverges");
+    if (motion.counts().accumulates) throw NoAnswer("the changes of contact accumulate");
+    const bool seen = sample.time + motion.period() > begin;
+    if (!seen) {
+      motion.advance();
+      continue;
     }
-    return std::move(recorder).window();
-  });
+    trace.begin();
+    motion.advance(trace);
+    recorder.take(motion, trace, sample, previous_command);
+  }
+  return std::move(recorder).window();
 }
 
 double swing_without_control(const Case& the_case, double duration) {
   const StudiedLoop studied = without_control(the_case, duration);
-  return with_motion_of_loop(studied, [&](auto motion) {
-    double largest = 0.0;
-    while (motion.time() < duration) {
-      const EventSample sample = motion.sense();
-      if (not_before(sample.time, 0.5 * duration))
-        largest = std::max(largest, std::abs(relative_displacement(sample.state)));
-      motion.advance();
-    }
-    return 2.0 * largest;
-  });
+  EventMotion<> motion = motion_of(studied);
+  double largest = 0.0;
+  while (motion.time() < duration) {
+    const EventSample sample = motion.sense();
+    if (not_before(sample.time, 0.5 * duration))
+      largest = std::max(largest, std::abs(relative_displacement(sample.state)));
+    motion.advance();
+  }
+  return 2.0 * largest;
 }
 
 double amplitude_without_control(const Case& the_case, double duration) {

@@ -13,6 +13,9 @@
 
 namespace holdfast::program {
 
+/// Of the orbits that are looked for (samples); eight times as many are looked at.
+inline constexpr std::int64_t longest_studied_period = 8'000;
+
 /// How a loop is taken: when its drive switches, and how its force is held over a sample.
 struct Reading {
   Switching switching;

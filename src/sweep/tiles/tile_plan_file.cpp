@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
-#include <stdexcept>
 #include <vector>
 
 #include "io/text/checksum.hpp"
@@ -12,28 +10,12 @@
 namespace holdfast::program {
 namespace {
 
-using Entries = std::map<std::string, std::string>;
+using Entries = decltype(TilePlan::entries);
 
 constexpr std::string_view first_line = "holdfast tiles, format 1\n";
 constexpr std::string_view tiles_ending = " tiles\n";
 constexpr std::string_view equals = " = ";
 constexpr std::string_view checksum_word = "checksum ";
-
-Entries by_name(const TilePlan& plan) {
-  Entries entries(plan.entries.begin(), plan.entries.end());
-  if (entries.size() != plan.entries.size()) {
-    throw std::logic_error("two entries of a plan of tiles have one name");
-  }
-  return entries;
-}
-
-std::string hexadecimal(std::uint64_t number, std::size_t digits) {
-  std::string text(digits, '0');
-  for (std::size_t i = 0; i < digits; ++i) {
-    text[digits - 1 - i] = "0123456789abcdef"[(number >> (4 * i)) & 0xF];
-  }
-  return text;
-}
 
 /// The text on one line, with one more character that does not stand for itself.
 std::string escaped(std::string_view text, char special) {
@@ -66,7 +48,7 @@ std::string unescaped(std::string_view line) {
 std::string text_before_checksum(const TilePlan& plan) {
   std::string text = std::string(first_line) + std::to_string(plan.tiles);
   text += tiles_ending;
-  for (const auto& [name, value] : by_name(plan)) {
+  for (const auto& [name, value] : plan.entries) {
     text += escaped_name(name);
     text += equals;
     text += escaped_text(value) + "\n";
@@ -86,26 +68,17 @@ std::optional<TilePlan> read_lines(std::string_view text) {
   for (std::size_t i = 1; i + 2 < lines.size(); ++i) {
     const std::size_t end = lines[i].find(equals);
     if (end == std::string_view::npos) return std::nullopt;
-    plan.entries.emplace_back(unescaped(lines[i].substr(0, end)),
-                              unescaped(lines[i].substr(end + equals.size())));
+    plan.entries.emplace(unescaped(lines[i].substr(0, end)),
+                         unescaped(lines[i].substr(end + equals.size())));
   }
   return plan;
 }
 
-bool names_differ(const TilePlan& plan) {
-  return Entries(plan.entries.begin(), plan.entries.end()).size() == plan.entries.size();
-}
-
-/// The text of that name, or nothing.
-std::optional<std::string> text_of(const Entries& entries, const std::string& name) {
+/// The text of that name in the words of a message.
+std::string shown(const Entries& entries, const std::string& name) {
   const auto entry = entries.find(name);
-  if (entry == entries.end()) return std::nullopt;
-  return entry->second;
-}
-
-std::string shown(const std::optional<std::string>& text) {
-  if (!text) return "not given";
-  return text->empty() ? "empty" : escaped_text(*text);
+  if (entry == entries.end()) return "not given";
+  return entry->second.empty() ? "empty" : escaped_text(entry->second);
 }
 
 }  // namespace
@@ -126,23 +99,23 @@ bool begins_as_tile_plan(std::string_view text) {
 std::optional<TilePlan> parse_tile_plan(std::string_view text) {
   std::optional<TilePlan> plan = read_lines(text);
   // Every plan has one text, so that whatever is wrong with this one shows here.
-  if (!plan || !names_differ(*plan) || tile_plan_text(*plan) != text) return std::nullopt;
+  if (!plan || tile_plan_text(*plan) != text) return std::nullopt;
   return plan;
 }
 
 std::string tile_plan_differences(const TilePlan& before, const TilePlan& now) {
-  const Entries old_entries = by_name(before);
-  const Entries new_entries = by_name(now);
-  Entries all = old_entries;
-  all.insert(new_entries.begin(), new_entries.end());
+  Entries all = before.entries;
+  all.insert(now.entries.begin(), now.entries.end());
   std::string differences;
   const auto add = [&](const std::string& name, const std::string& was, const std::string& is) {
     differences += (differences.empty() ? "" : "; ") + name + " was " + was + ", is " + is;
   };
   for (const auto& entry : all) {
-    const std::optional<std::string> was = text_of(old_entries, entry.first);
-    const std::optional<std::string> is = text_of(new_entries, entry.first);
-    if (was != is) add(escaped_text(entry.first), shown(was), shown(is));
+    const std::string& name = entry.first;
+    const auto was = before.entries.find(name), is = now.entries.find(name);
+    const bool in_both = was != before.entries.end() && is != now.entries.end();
+    if (in_both && was->second == is->second) continue;
+    add(escaped_text(name), shown(before.entries, name), shown(now.entries, name));
   }
   if (before.tiles != now.tiles) {
     add("the number of tiles", std::to_string(before.tiles), std::to_string(now.tiles));

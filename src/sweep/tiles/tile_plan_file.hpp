@@ -1,20 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace holdfast::program {
 
 /// What the tiles of a work folder are parts of.
 struct TilePlan {
   /// Everything that the bytes of a tile depend on, name and text: {"version", "0.6.0"},
-  /// {"--axis 1", "backlash.width=0:0.003:61"}. The names differ from each other; the order of the
-  /// entries means nothing.
-  std::vector<std::pair<std::string, std::string>> entries;
+  /// {"--axis 1", "backlash.width=0:0.003:61"}.
+  std::map<std::string, std::string> entries;
   std::int64_t tiles = 0;  ///< numbered 0 … tiles − 1
 };
 
@@ -29,18 +27,15 @@ struct TilePlan {
 /// The entries are ordered by name. A backslash and control characters, and in names `=`, are
 /// written as `\x` and two hexadecimal digits; a line of an entry is NAME, ` = `, TEXT. The last
 /// line has the CRC-64 of the lines before it.
-///
-/// Throws std::logic_error where two entries have one name.
 std::string tile_plan_text(const TilePlan& plan);
 
-/// The plan that the text was made of, its entries ordered by name; nothing for any other text.
+/// The plan that the text was made of; nothing for any other text.
 std::optional<TilePlan> parse_tile_plan(std::string_view text);
 
 /// Whether the text begins as that of a plan does, be it whole or not.
 bool begins_as_tile_plan(std::string_view text);
 
-/// A number that plans have in common only when they are the same, whatever the order of their
-/// entries: the checksum of the text.
+/// A number that plans have in common only when they are the same: the checksum of the text.
 std::uint64_t tile_plan_identity(const TilePlan& plan);
 
 /// What differs, each entry with both texts: "--duration was 20, is 60; --kick was 1:0.1, is not

@@ -84,7 +84,7 @@ void write_plan(const fs::path& folder, const TilePlan& plan) {
   const fs::path file = folder / plan_file_name;
   const int error = write_whole_file(file, tile_plan_text(plan));
   if (error == 0) return;
-  remove_work_folder(folder);
+  remove_held_work_folder(folder);
   refuse_to_write(file, error);
 }
 
@@ -177,7 +177,7 @@ std::string TileStore::get(std::int64_t tile) const {
 }
 
 void TileStore::remove() {
-  remove_work_folder(folder_);
+  remove_held_work_folder(folder_);
   lock_.reset();
   const std::lock_guard<std::mutex> guard(*mutex_);
   whole_.assign(whole_.size(), false);

@@ -8,6 +8,7 @@
 
 #include "io/file/folder_lock.hpp"
 #include "io/file/whole_file.hpp"
+#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -23,14 +24,15 @@ bool is_leftover(const std::string& name) {
 }
 
 /// Gives how many were removed: a folder that changes while it is read may hide some at first.
-std::int64_t remove_tiles_and_leftovers(const fs::path& folder) {
+std::int64_t remove_tiles_and_leftovers(const fs::path& folder, std::int64_t tiles) {
   std::int64_t removed = 0;
   std::error_code ignored;
   fs::directory_iterator entries(folder, ignored);
   while (entries != fs::directory_iterator()) {
     const fs::path file = entries->path();
     const std::string name = file.filename().string();
-    const bool ours = tile_of_file_name(name) || is_leftover(name);
+    const std::optional<std::int64_t> tile = tile_of_file_name(name);
+    const bool ours = tile ? *tile < tiles : is_leftover(name);
     if (ours && unlink(file.c_str()) == 0) ++removed;
     entries.increment(ignored);
   }
@@ -74,11 +76,31 @@ WorkFolderContents contents_of_work_folder(const fs::path& folder) {
   return contents;
 }
 
-void remove_work_folder(const fs::path& folder) {
-  while (remove_tiles_and_leftovers(folder) > 0) continue;
-  unlink((folder / plan_file_name).c_str());
-  unlink((folder / FolderLock::file_name).c_str());
+std::optional<TilePlan> plan_of_work_folder(const fs::path& folder) {
+  int ignored = 0;
+  const std::optional<std::string> text = read_whole_file(folder / plan_file_name, ignored);
+  return text ? parse_tile_plan(*text) : std::nullopt;
+}
+
+void remove_held_work_folder(const fs::path& folder) {
+  const std::optional<TilePlan> plan = plan_of_work_folder(folder);
+  while (plan && remove_tiles_and_leftovers(folder, plan->tiles) > 0) continue;
+  if (plan) unlink((folder / plan_file_name).c_str());
+  const fs::path lock = folder / FolderLock::file_name;
+  std::error_code ignored;
+  if (fs::is_regular_file(fs::symlink_status(lock, ignored)) && fs::is_empty(lock, ignored))
+    unlink(lock.c_str());
   rmdir(folder.c_str());
+}
+
+void remove_work_folder(const fs::path& folder) {
+  if (!plan_of_work_folder(folder)) return;
+  try {
+    const FolderLock held(folder);
+    remove_held_work_folder(folder);
+  } catch (const Refusal&) {
+    // Another program holds it, or it cannot be written: it stays.
+  }
 }
 
 }  // namespace holdfast::program

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sweep/tiles/tile_plan_file.hpp"
+
 namespace holdfast::program {
 
 /// The name of the file of a tile, 0 … 10¹² − 1: `tile-000000001234`.
@@ -31,8 +33,16 @@ std::string finished_tiles(std::int64_t tiles);
 /// Throws std::filesystem::filesystem_error where the folder cannot be read.
 WorkFolderContents contents_of_work_folder(const std::filesystem::path& folder);
 
-/// Removes the tiles, the leftovers, the plan and the lock, and then the folder where nothing else
-/// lies in it. What cannot be removed stays.
+/// The plan in a folder; nothing where there is no whole one.
+std::optional<TilePlan> plan_of_work_folder(const std::filesystem::path& folder);
+
+/// Removes from a work folder that no other program holds what is its own: the tiles that its plan
+/// counts, their leftovers, the plan and the lock; and then the folder where nothing else lies in
+/// it. Without a plan that bears its checksum nothing is known to be its own, and all stays. What
+/// cannot be removed stays.
 void remove_work_folder(const std::filesystem::path& folder);
+
+/// The same by the program that holds the folder.
+void remove_held_work_folder(const std::filesystem::path& folder);
 
 }  // namespace holdfast::program

@@ -1,17 +1,12 @@
-#include <gtest/gtest.h>
 #include <locale.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "cli/every_job.hpp"
 #include "cli/running_program.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -20,21 +15,11 @@ namespace fs = std::filesystem;
 
 // ---- names of files ---------------------------------------------------------------------------
 
-const std::vector<std::string> odd_names = {"with blank.csv",
-                                            "with\nline.csv",
-                                            "quo\"te's.csv",
-                                            "-dash.csv",
-                                            "--output.csv",
-                                            "per%cent%s%n.csv",
-                                            "not\xff utf8.csv",
-                                            "\xc3\xbc\xe2\x98\x83.csv",
-                                            "a,b;c.csv",
-                                            "$HOME`ls`.csv",
-                                            "tab\t.csv",
-                                            "back\\slash.csv",
-                                            "#.csv",
-                                            "*",
-                                            std::string(240, 'n')};
+const std::vector<std::string> odd_names = between_bars(
+    "with blank.csv|with\nline.csv|quo\"te's.csv|-dash.csv|--output.csv|per%cent%s%n.csv|"
+    "not\xff utf8.csv|\xc3\xbc\xe2\x98\x83.csv|a,b;c.csv|$HOME`ls`.csv|tab\t.csv|"
+    "back\\slash.csv|#.csv|*|" +
+    std::string(240, 'n'));
 
 /// Whether a job's table appears under the name, with metadata that are JSON.
 void expect_table_named(const fs::path& folder, const std::string& name) {
@@ -104,15 +89,9 @@ TEST(FileNames, ANameThatIsTooLongIsRefused) {
 // ---- numbers ----------------------------------------------------------------------------------
 
 TEST(NegativeZero, IsZero) {
-  const std::vector<std::string> keys = {"control.proportional_gain",
-                                         "control.differential_gain",
-                                         "control.processing_delay",
-                                         "backlash.width",
-                                         "initial.z1",
-                                         "initial.v1",
-                                         "initial.z2",
-                                         "initial.v2",
-                                         "excitation.amplitude"};
+  const std::vector<std::string> keys = words_of(
+      "control.proportional_gain control.differential_gain control.processing_delay "
+      "backlash.width initial.z1 initial.v1 initial.z2 initial.v2 excitation.amplitude");
   for (const std::string& key : keys) {
     for (const std::string job : {"simulate --duration 0.1", "margins"}) {
       SCOPED_TRACE(job + " " + key);

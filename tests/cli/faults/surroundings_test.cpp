@@ -1,17 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <filesystem>
-#include <string>
-#include <system_error>
-#include <thread>
-#include <vector>
-
 #include "cli/every_job.hpp"
 #include "cli/program.hpp"
 #include "cli/running_program.hpp"
+#include "support/testing.hpp"
 
 // What the surroundings of the program do to it: no memory, no space, no reader, a signal. Every
 // job is to end with the right code and one line, and to leave nothing behind.
@@ -205,16 +195,9 @@ TEST(Surroundings, ASlowReaderGetsEveryByte) {
 
 // ---- signals ----------------------------------------------------------------------------------
 
-/// Until the program would hear the signal, and a little longer.
-void wait_until_heard(const RunningProgram& program, int signal_number) {
-  while (program.runs() && !program.handles(signal_number))
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-}
-
 /// Three seconds end a computation that does not look; the rest is for a machine with other work.
 void expect_interrupted(RunningProgram& program, int signal_number) {
-  wait_until_heard(program, signal_number);
+  program.wait_until_it_computes(std::chrono::milliseconds(50));
   const auto start = std::chrono::steady_clock::now();
   program.send(signal_number);
   expect_ends(program.wait_at_most(patience), 130, "interrupted");
@@ -265,8 +248,7 @@ void expect_bounded(const std::string& job) {
   RunningProgram program(words_of(job),
                          (reserves_all_addresses ? "" : address_space(1 << 20) + "; ") + "cd '" +
                              folder.path().string() + "'; export TMPDIR=.");
-  wait_until_heard(program, SIGINT);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  program.wait_until_it_computes(std::chrono::milliseconds(250));
   const std::size_t peak = program.peak_memory_so_far_kib();
   program.send(SIGINT);
   const Ending ending = program.wait_at_most(patience);
@@ -281,18 +263,19 @@ void expect_bounded(const std::string& job) {
 TEST(Surroundings, ABillionRowsTakeLittleMemoryOrAreRefused) {
   const std::string billion = ":1000000000";
   for (const std::string& job :
-       {"statics --force -1:1" + billion, "stability --p -1000:200" + billion + " --d -40:20:3",
-        "stability --d -40:20" + billion + " --p -1:1:2",
-        "stability --axis control.sampling_period=0.001:0.01" + billion +
+       {"statics --force -1:1" + billion,
+        "stability --yes --p -1000:200" + billion + " --d -40:20:3",
+        "stability --yes --d -40:20" + billion + " --p -1:1:2",
+        "stability --yes --axis control.sampling_period=0.001:0.01" + billion +
             " --axis plant.absorber_mass=0.1:0.2" + billion,
-        "response --p -1000:200" + billion + " --d -40:20" + billion,
+        "response --yes --p -1000:200" + billion + " --d -40:20" + billion,
         "design --frequency 5:60" + billion, "max-delay --frequency 5:60" + billion,
-        std::string("simulate --duration 1e9"), std::string("spectrum --duration 1e9"),
-        std::string("deviation --duration 1e9"), std::string("coverage --durations 1e9"),
+        std::string("simulate --yes --duration 9e6"), std::string("spectrum --duration 1e9"),
+        std::string("deviation --yes --duration 9e6"), std::string("coverage --durations 9e6"),
         "basins --axis initial.z1=0:0.001" + billion + " --axis initial.v2=0:0.1" + billion,
         "diagram --axis backlash.width=0:0.003" + billion,
-        std::string("section --duration 1e9 --from 0"),
-        std::string("lyapunov --duration 1e9 --history"),
+        std::string("section --duration 9e6 --from 0"),
+        std::string("lyapunov --duration 9e6 --history"),
         "sweep --axis backlash.width=0:0.003" + billion})
     expect_bounded(job);
   if (!both_packages) return;

@@ -1,19 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <chrono>
-#include <cstdint>
-#include <filesystem>
-#include <iterator>
-#include <map>
-#include <string>
-#include <system_error>
-#include <thread>
-#include <vector>
-
 #include "cli/running_program.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 

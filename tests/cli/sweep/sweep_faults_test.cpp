@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -72,13 +68,7 @@ TEST(SweepJob, AValueThatItsKeyDoesNotAdmitMakesAnInvalidCellToo) {
 }
 
 void expect_sweep_refused(const std::string& arguments, const std::string& mentioned) {
-  const Outcome outcome = run_holdfast("sweep " + arguments);
-  EXPECT_EQ(outcome.exit_code, 2) << arguments;
-  EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;
-  EXPECT_EQ(outcome.errors.rfind("holdfast: ", 0), 0U) << outcome.errors;
-  EXPECT_NE(outcome.errors.find(mentioned), std::string::npos) << arguments << '\n'
-                                                               << outcome.errors;
-  EXPECT_EQ(outcome.output, "") << arguments;
+  expect_refused("sweep " + arguments, {mentioned});
 }
 
 TEST(SweepJob, RefusesAxesThatAreNone) {

@@ -1,15 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <csignal>
-#include <filesystem>
-#include <random>
-#include <string>
-#include <thread>
-#include <vector>
-
 #include "cli/running_program.hpp"
 #include "cli/sweep/stopped_sweep.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {

@@ -1,13 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "cli/program.hpp"
 #include "cli/running_program.hpp"
 #include "io/text/csv.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -76,7 +70,7 @@ TEST(SweepJob, AnAxisIsTheListOfItsValues) {
 
 TEST(SweepJob, ALogarithmicAxisHasItsEndsAndEqualRatios) {
   const CsvTable table =
-      table_of("sweep --duration 0.1 --axis control.sampling_period=log:0.001:0.016:5");
+      table_of("sweep --quiet --duration 0.1 --axis control.sampling_period=log:0.001:0.016:5");
   const auto periods = table.numbers("control.sampling_period");
   ASSERT_EQ(periods.size(), 5U);
   EXPECT_EQ(periods.front(), 0.001);
@@ -128,6 +122,24 @@ TEST(SweepJob, MemoryDoesNotGrowWithTheNumberOfCells) {
   const auto some = static_cast<double>(peak_memory_of("300000"));
   const auto many = static_cast<double>(peak_memory_of("1000000"));
   EXPECT_LE(many, 1.2 * some);
+}
+
+TEST(SweepJob, SaysOfEachCellThatDivergesThatItDoes) {
+  const Outcome outcome = run_holdfast(
+      "sweep --axis control.differential_gain=-200:-50:4 --axis backlash.width=0.0005:0.003:3 "
+      "--metric "
+      "verdict --metric steady_peak --metric outcome --duration 20");
+  const CsvTable table = program::parse_csv(outcome.output, "sweep");
+  int diverging = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const bool diverges = table.text(row, "verdict") == "diverges";
+    diverging += diverges ? 1 : 0;
+    EXPECT_EQ(table.text(row, "outcome") == "diverges", diverges) << row;
+    EXPECT_EQ(std::isinf(table.number(row, "steady_peak")), diverges) << row;
+  }
+  EXPECT_GT(diverging, 2);
+  EXPECT_NE(outcome.errors.find(std::to_string(diverging) + " diverge"), std::string::npos)
+      << outcome.errors;
 }
 
 }  // namespace

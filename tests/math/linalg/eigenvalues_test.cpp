@@ -1,12 +1,6 @@
 #include "holdfast/math/linalg/eigenvalues.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <random>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

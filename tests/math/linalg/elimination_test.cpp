@@ -1,10 +1,7 @@
 #include "holdfast/math/linalg/elimination.hpp"
 
-#include <gtest/gtest.h>
-
-#include <complex>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,13 +1,9 @@
 #include "holdfast/math/linalg/exponential.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <unsupported/Eigen/AutoDiff>
 
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,13 +1,8 @@
 #include "holdfast/math/linalg/resolvent.hpp"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-
 #include "holdfast/math/linalg/balancing.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

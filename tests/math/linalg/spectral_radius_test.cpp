@@ -1,10 +1,7 @@
 #include "holdfast/math/linalg/spectral_radius.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,13 +1,10 @@
 #include "holdfast/math/linalg/structural_rank.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-
 #include "holdfast/contact/contact_mode.hpp"
 #include "holdfast/core/types.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,11 +1,7 @@
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
+#include "holdfast/math/poly/polynomial.hpp"
 
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

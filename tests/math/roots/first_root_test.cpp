@@ -1,17 +1,8 @@
 #include "holdfast/math/roots/first_root.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <iostream>
-#include <limits>
-#include <vector>
-
 #include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/math/roots/series.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,10 +1,7 @@
 #include "holdfast/math/signal/decay_measures.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "holdfast/core/types.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,14 +1,7 @@
 #include "holdfast/math/signal/spectrum.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

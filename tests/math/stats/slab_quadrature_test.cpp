@@ -1,12 +1,8 @@
 #include "holdfast/math/stats/slab_quadrature.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
-#include "holdfast/math/poly/positive_roots.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "support/polynomial/made_polynomial.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,10 +1,7 @@
 #include "holdfast/math/stats/student_quantile.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

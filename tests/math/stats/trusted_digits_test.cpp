@@ -1,9 +1,6 @@
 #include "holdfast/math/stats/trusted_digits.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,22 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <iostream>
-#include <utility>
-#include <vector>
-
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/motion/event_motion.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
-#include "holdfast/plant/energy.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,15 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/motion/event_motion.hpp"
-#include "holdfast/plant/energy.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -30,10 +22,23 @@ struct BeltBlock {
 ///     m ẍ + k x = −F_k   slipping forward, ẋ > v_b
 class BeltContact {
  public:
+  using Plant = TwoMass<double>;
   static constexpr int modes = 3;
   static constexpr int back = 0, stick = 1, forward = 2;
 
-  explicit BeltContact(const BeltBlock& block) : block_(block) {}
+  /// Its energy is that of the block and the belt: conserved while it slips; while it sticks every
+  /// guard is linear in time.
+  explicit BeltContact(const BeltBlock& block)
+      : plant_{block.mass, block.stiffness, 0.0, 1.0, 1.0, 0.0}, block_(block) {}
+
+  PortReadings<Plant> readings() const { return {}; }
+  const Plant& plant(int) const { return plant_; }
+  double commanded(double command) const { return command; }
+  bool changes_between_samples() const { return true; }
+  void sample(const Vector<double, 4>&) {}
+  void jumped(const ContactInstant&) {}
+  void keep(const Vector<double, 4>&, Vector<double, 4>&) const {}
+  void learn_sign(int, double) {}
 
   AffineDynamics dynamics(int mode) const {
     AffineDynamics moving{Matrix<double, 4>::Zero(), Vector<double, 4>::Zero(),
@@ -47,9 +52,6 @@ class BeltContact {
     moving.drift[1] = (mode == back ? 1.0 : -1.0) * block_.kinetic_force / block_.mass;
     return moving;
   }
-  /// Its energy is that of the block and the belt: conserved while it slips; while it sticks every
-  /// guard is linear in time.
-  TwoMass<double> plant(int) const { return {block_.mass, block_.stiffness, 0.0, 1.0, 1.0, 0.0}; }
 
   int mode() const { return mode_; }
   ContactMode word() const {
@@ -57,7 +59,6 @@ class BeltContact {
            : mode_ == back ? ContactMode::engaged
                            : ContactMode::gap;
   }
-  double commanded(double command) const { return command; }
   double transmitted(const ContactInstant&) const { return 0.0; }
 
   Guards guards() const {
@@ -74,12 +75,7 @@ class BeltContact {
     return result;
   }
 
-  void sample(const Vector<double, 4>&) {}
-  void jumped(const ContactInstant&) {}
-  void displaced() {}
-  void keep(const Vector<double, 4>&, Vector<double, 4>&) const {}
   void flowed() { zeros_ = 0; }
-  void learn_sign(double) {}
 
   void reached(int guard, ContactInstant& now) {
     zeros_ = 1;
@@ -93,6 +89,7 @@ class BeltContact {
   }
 
  private:
+  Plant plant_;
   BeltBlock block_;
   int mode_ = stick;
   int zeros_ = 0;

@@ -1,19 +1,8 @@
 #include "holdfast/motion/event_motion.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/motion/ideal_loop.hpp"
 
 #include "motion/event/kollar_event.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_guard.hpp"
-#include "holdfast/contact/exact_backlash.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/contacts.hpp"
 #include "support/kollar_case.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 
-using BacklashMotion = EventMotion<ExactBacklash>;
+using BacklashMotion = EventMotion<>;
 
 /// The loop of Kollár 2022, §4.2, with its force taken exactly.
 inline DigitalLoop kollar_digital(double period, double delay = 0.0,
@@ -22,7 +21,7 @@ inline DigitalLoop kollar_digital(double period, double delay = 0.0,
 
 inline BacklashMotion kollar_motion(const DigitalLoop& loop, double width,
                                     const Vector<double, 4>& state = Vector<double, 4>::Zero()) {
-  return {loop, ExactBacklash(kollar2022_plant(), width), state};
+  return {loop, test::exact_backlash(kollar2022_plant(), width), state};
 }
 
 template <class Motion>

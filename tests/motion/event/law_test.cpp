@@ -1,18 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <iostream>
-
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/motion/event_motion.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
+#include "support/contacts.hpp"
 #include "support/random.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -189,7 +181,7 @@ TEST(EventMotion, KeepsTheLawAtEveryInstantOfRandomMotions) {
   std::array<int, 3> counts{};
   for (int draw = 0; draw < 200; ++draw) {
     const RandomDrive drive = random_drive(random);
-    BacklashMotion motion(drive.loop, ExactBacklash(drive.plant, drive.width), drive.state);
+    BacklashMotion motion(drive.loop, test::exact_backlash(drive.plant, drive.width), drive.state);
     LawWatch watch(motion, drive.plant, drive.width);
     for (int j = 0; j < 120 && motion.state().norm() < 1e6; ++j) {
       watch.move_one_sample();

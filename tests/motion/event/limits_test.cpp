@@ -1,21 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <iostream>
-#include <vector>
-
-#include "holdfast/contact/exact_backlash.hpp"
-#include "holdfast/contact/exact_dead_zone.hpp"
-#include "holdfast/motion/event_motion.hpp"
-#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "motion/event/kollar_event.hpp"
 #include "motion/event/slow_flow.hpp"
+#include "support/contacts.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -61,9 +50,9 @@ TEST(EventMotion, AGapWiderThanTheMotionIsNotLeft) {
 
 /// A drive that moved at Δż > 0, sticks at this state while u = `command`, and was then left to the
 /// end of its stick by a command that just lets it go on.
-ExactBacklash released_drive(const TwoMass<double>& plant, const Vector<double, 4>& state) {
-  ExactBacklash drive(plant, 0.001);
-  drive.learn_sign(1.0);
+DriveContact<> released_drive(const TwoMass<double>& plant, const Vector<double, 4>& state) {
+  DriveContact<> drive = test::exact_backlash(plant, 0.001);
+  drive.learn_sign(0, 1.0);
   ContactInstant now{state, 0.0, 0.0};
   const double free = acceleration_between(plant, state, 0.0, 0.0).value;
   const double holding = free / (1.0 / plant.conductor_mass + 1.0 / plant.absorber_mass);
@@ -83,7 +72,7 @@ TEST(EventMotion, AStickThatEndsAtASampleHeedsTheNewCommand) {
   ASSERT_GT(free, 0.0) << "the spring pushes on";
   for (const double gain : {-2000.0, 2000.0}) {
     for (const double slope : {-300.0, 0.0, 300.0}) {
-      const ExactBacklash drive = released_drive(plant, state);
+      const DriveContact<> drive = released_drive(plant, state);
       ASSERT_EQ(drive.word(), ContactMode::engaged);
       DigitalLoop loop = kollar_digital(0.0002);
       loop.force = {};
@@ -172,10 +161,10 @@ TEST(EventMotion, AConstantForceIsTheSameHeldAndExact) {
   loop.force.record = std::make_shared<const RecordedForce>(std::vector<double>{-1.0, 10.0},
                                                             std::vector<double>{100.0, 100.0},
                                                             RecordInterpolation::held);
-  const ExactDeadZone stops(plant, 2.0 * half_width, 1e4, 0.0, state);
-  EventMotion<ExactDeadZone> held(loop, stops, state);
+  const DriveContact<> stops = test::exact_dead_zone(plant, 2.0 * half_width, 1e4, 0.0, state);
+  EventMotion<> held(loop, stops, state);
   loop.hold = ForceHold::exact;
-  EventMotion<ExactDeadZone> exact(loop, stops, state);
+  EventMotion<> exact(loop, stops, state);
   for (int j = 0; j < 20; ++j) {
     move_samples(held, 1);
     move_samples(exact, 1);
@@ -255,8 +244,9 @@ TEST(EventMotion, ATouchIsNamedOrAPairOfChanges) {
   int named = 0;
   for (const double above :
        {-1e-3, -1e-5, -1e-7, -1e-9, -1e-11, -1e-14, -1e-16, 0.0, 1e-16, 1e-14, 1e-11, 1e-6}) {
-    const ExactDeadZone stops(kollar2022_plant(), 2.0 * top * (1.0 + above), 0.0, 0.0, state);
-    EventMotion<ExactDeadZone> motion(loop, stops, state);
+    const DriveContact<> stops =
+        test::exact_dead_zone(kollar2022_plant(), 2.0 * top * (1.0 + above), 0.0, 0.0, state);
+    EventMotion<> motion(loop, stops, state);
     SwitchNotes notes(motion);
     notes.move(1);
     const std::size_t changes = notes.switches.size();
@@ -304,8 +294,8 @@ TEST(EventMotion, AReversalWithoutAccelerationIsDecidedByItsRate) {
   const TwoMass<double> plant{1.0, 1.0, 0.0, 1.0, 1.0, 0.0};
   const Vector<double, 4> state(1.0, -1.0, 1.0, -1.0);
   const DigitalLoop loop{{0.1, 0.1}, {0.0, 0.0}, {}, ForceHold::exact};
-  ExactBacklash contact(plant, 1e-3);
-  contact.learn_sign(1.0);
+  DriveContact<> contact = test::exact_backlash(plant, 1e-3);
+  contact.learn_sign(0, 1.0);
   BacklashMotion motion(loop, contact, state);
   motion.restore(0, state, 0.5, contact);
   motion.sense();

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <cmath>
-#include <cstddef>
-#include <map>
-#include <utility>
-#include <vector>
-
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/zero_order_hold.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -1,19 +1,13 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include "holdfast/contact/exact_backlash.hpp"
+#include "holdfast/contact/contact.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/contacts.hpp"
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 
@@ -23,14 +17,13 @@ struct EventSetting {
   DigitalLoop loop;
   double width;
 
-  EventMotion<ExactBacklash> motion() const {
-    return {loop, ExactBacklash(plant, width), Vector<double, 4>::Zero()};
+  EventMotion<> motion() const {
+    return {loop, test::exact_backlash(plant, width), Vector<double, 4>::Zero()};
   }
 };
 
 /// Whether a motion stays within 20 mm for some seconds.
-template <class Contact>
-bool stays_small(EventMotion<Contact> motion, double duration) {
+inline bool stays_small(EventMotion<> motion, double duration) {
   while (motion.time() < duration) {
     motion.sense();
     if (!(motion.state().cwiseAbs().maxCoeff() < 2.0) || !(std::abs(motion.state()[0]) < 0.02))
@@ -81,8 +74,7 @@ struct SeenSwitch {
 /// Writes down the changes of contact of a motion between its samples, and at them.
 class SwitchRecorder {
  public:
-  template <class Contact>
-  void advance(EventMotion<Contact>& motion) {
+  void advance(EventMotion<>& motion) {
     index_ = motion.index();
     const int before = motion.contact().mode();
     motion.sense();
@@ -104,42 +96,27 @@ class SwitchRecorder {
 };
 
 /// X = [z; u_{j−1}; g; z₁ as read] of a motion that has come to a sample.
-inline double anchor_of(const ExactBacklash& contact) {
-  return ContactTangent<ExactBacklash>::anchored(contact.mode()) ? contact.lower() : 0.0;
-}
-template <class Contact>
-double anchor_of(const Contact&) {
-  return 0.0;
-}
-
-template <class Contact>
-Vector<double, 7> extended_state(const EventMotion<Contact>& motion) {
+inline Vector<double, 7> extended_state(const EventMotion<>& motion) {
   const bool reads = motion.controller().limits().velocity == VelocitySensing::difference;
   Vector<double, 7> extended;
-  extended << motion.state(), motion.previous_command(), anchor_of(motion.contact()),
+  extended << motion.state(), motion.previous_command(),
+      motion.contact().is_anchored(motion.contact().mode()) ? motion.contact().lower() : 0.0,
       reads ? motion.controller().memory().previous_displacement : 0.0;
   return extended;
 }
 
-inline void shift_anchor(ExactBacklash& contact, double by) { contact.shift_gap(by); }
-template <class Contact>
-void shift_anchor(Contact&, double) {}
-
 /// A motion moved by a deviation of its z, u_{j−1} and g.
-template <class Contact>
-EventMotion<Contact> displaced_motion(const EventMotion<Contact>& motion,
-                                      const Vector<double, 7>& by) {
-  EventMotion<Contact> other = motion;
-  Contact contact = motion.contact();
-  shift_anchor(contact, by[5]);
+inline EventMotion<> displaced_motion(const EventMotion<>& motion, const Vector<double, 7>& by) {
+  EventMotion<> other = motion;
+  DriveContact<> contact = motion.contact();
+  contact.shift_gap(by[5]);
   other.restore(motion.index(), motion.state() + by.head<4>(), motion.previous_command() + by[4],
                 contact);
   return other;
 }
 
 /// Sizes of the entries of X that belong to a displacement of 1 mm.
-template <class Contact>
-Vector<double, 7> sizes_of(const EventMotion<Contact>& motion) {
+inline Vector<double, 7> sizes_of(const EventMotion<>& motion) {
   constexpr double displacement = 1e-3, rate = 20.0;
   const PdGains<double>& gains = motion.loop().gains;
   const double command =
@@ -152,13 +129,13 @@ Vector<double, 7> sizes_of(const EventMotion<Contact>& motion) {
 
 /// The two neighbours of a motion along a direction after some samples, nothing if either goes
 /// another way than `seen`.
-template <class Contact>
-std::optional<Vector<double, 7>> difference_along(const EventMotion<Contact>& motion,
-                                                  const Vector<double, 7>& direction, int samples,
-                                                  const std::vector<SeenSwitch>& seen) {
+inline std::optional<Vector<double, 7>> difference_along(const EventMotion<>& motion,
+                                                         const Vector<double, 7>& direction,
+                                                         int samples,
+                                                         const std::vector<SeenSwitch>& seen) {
   Vector<double, 7> ends[2];
   for (const int side : {0, 1}) {
-    EventMotion<Contact> other =
+    EventMotion<> other =
         displaced_motion(motion, side == 0 ? direction : Vector<double, 7>(-direction));
     SwitchRecorder recorder;
     for (int sample = 0; sample < samples; ++sample) recorder.advance(other);
@@ -175,12 +152,12 @@ struct Difference {
   double error;  ///< of the larger step against the smaller one, in `sizes`
 };
 
-template <class Contact>
-std::optional<Difference> derivative_along(const EventMotion<Contact>& motion,
-                                           const Vector<double, 7>& direction, double step,
-                                           int samples, const std::vector<SeenSwitch>& seen) {
-  const auto coarse = difference_along<Contact>(motion, direction * step, samples, seen);
-  const auto fine = difference_along<Contact>(motion, direction * (0.5 * step), samples, seen);
+inline std::optional<Difference> derivative_along(const EventMotion<>& motion,
+                                                  const Vector<double, 7>& direction, double step,
+                                                  int samples,
+                                                  const std::vector<SeenSwitch>& seen) {
+  const auto coarse = difference_along(motion, direction * step, samples, seen);
+  const auto fine = difference_along(motion, direction * (0.5 * step), samples, seen);
   if (!coarse || !fine) return std::nullopt;
   const Vector<double, 7> first = *coarse / step, second = *fine / (0.5 * step);
   const Vector<double, 7> sizes = sizes_of(motion);

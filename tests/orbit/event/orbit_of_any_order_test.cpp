@@ -1,18 +1,9 @@
 // Periodic orbits of a plant of another order than that of the two masses.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <cstdint>
-#include <iostream>
-#include <vector>
 
 #include "holdfast/math/linalg/eigenvalues.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "support/lagging_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,9 @@
 #include "case/axes/axis.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,17 +1,13 @@
 #include "case/case_file.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "case/builtin_case.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -191,8 +187,8 @@ TEST(CaseFile, NamesOfFilesAreWrittenSoThatTheyReadBack) {
 TEST(CaseFile, NumbersBeyondAnIntegerAreWrittenAsFloats) {
   Case the_case = load_case(std::nullopt, {});
   for (const double value : {12345678901234567000.0, 1e300, 1e-300, -3.0, 0.1}) {
-    the_case.initial.z1 = value;
-    EXPECT_EQ(from_text(case_to_toml(the_case)).initial.z1, value);
+    the_case.initial.v1 = value;
+    EXPECT_EQ(from_text(case_to_toml(the_case)).initial.v1, value);
   }
 }
 
@@ -406,6 +402,13 @@ TEST(CaseFile, FaultsBetweenKeysPointAtTheValueGivenLast) {
   EXPECT_TRUE(holds(refusal("[control]\nprocessing_delay = 0.005\n"), "case.toml:2: "));
 }
 
+TEST(CaseFile, FaultsBetweenKeysOfAFileAreLaidToTheKeyThatExplainsThem) {
+  const std::string text =
+      "[conductor]\nyoungs_modulus = 1e3\nspan = 6.4\nsag = 0.29\ngravity = 9.81\n"
+      "[absorber]\nposition = 0.64\n";
+  EXPECT_TRUE(holds(refusal(text), "case.toml:2: conductor.youngs_modulus")) << refusal(text);
+}
+
 TEST(CaseFile, AnotherConductorHasItsOwnFrequencies) {
   const Case builtin = from_text("");
   const Case longer = from_text("[conductor]\nspan = 7\n");
@@ -449,6 +452,14 @@ TEST(CaseFile, WindOutsideAeolianVibrationIsToldWhy) {
   EXPECT_EQ(wind_warning(the_case), "");
   the_case.wind->speed = 0.01;
   EXPECT_TRUE(holds(wind_warning(the_case), "0.625 Hz, outside the 3 to 150 Hz"));
+  EXPECT_TRUE(holds(wind_warning(the_case), "sways the whole span"));
+  // A stay of 100 m, 60 kg/m, under 4 MN has its second mode at 2.58 Hz.
+  Case stay = the_case;
+  stay.conductor.span = 100.0;
+  stay.conductor.sag = 0.184;
+  stay.wind->speed = 0.04;  // 2.5 Hz
+  EXPECT_TRUE(holds(wind_warning(stay), "about mode 2 of the span"));
+  EXPECT_FALSE(holds(wind_warning(stay), "breeze"));
   the_case.wind->speed = 10.0;
   EXPECT_TRUE(holds(wind_warning(the_case), "625 Hz, outside the 3 to 150 Hz"));
 }
@@ -500,7 +511,7 @@ TEST(CaseFile, TheGainIsANumberOrTuned) {
 TEST(Override, ValuesAreTomlOrABareWord) {
   EXPECT_EQ(load_case(std::nullopt, {"initial.z1=-0.5"}).initial.z1, -0.5);
   EXPECT_EQ(load_case(std::nullopt, {"initial.z1=1e-3"}).initial.z1, 1e-3);
-  EXPECT_EQ(load_case(std::nullopt, {"initial.z1=1_000"}).initial.z1, 1000.0);
+  EXPECT_EQ(load_case(std::nullopt, {"initial.v1=1_000"}).initial.v1, 1000.0);
   EXPECT_EQ(load_case(std::nullopt, {"excitation.hold=exact"}).excitation.hold, "exact");
   EXPECT_EQ(load_case(std::nullopt, {"excitation.hold='exact'"}).excitation.hold, "exact");
 }

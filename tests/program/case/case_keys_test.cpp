@@ -1,14 +1,9 @@
 #include "case/case_keys.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <set>
-
 #include "case/case_file.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,13 +1,9 @@
-#include "case/force_record_file.hpp"
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
+#include "io/text/record_file.hpp"
 
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -65,9 +61,9 @@ TEST(ForceRecordFile, RefusesWhatIsNoRecord) {
   EXPECT_EQ(force_refusal("time_s,force_N\n0,1\n"),
             "force.csv: a force record needs 2 rows at least, here are 1");
   EXPECT_EQ(force_refusal("time_s,displacement_m\n0,1\n1,2\n"),
-            "force.csv: has no column \"force_N\" but time_s,displacement_m");
+            "force.csv: has no column \"force_N\" among its 2");
   EXPECT_EQ(force_refusal("t,force_N\n0,1\n1,2\n"),
-            "force.csv: has no column \"time_s\" but t,force_N");
+            "force.csv: has no column \"time_s\" among its 2");
 }
 
 TEST(ForceRecordFile, IsReadFromItsPlaceAndNamedWhereItCannotBe) {

@@ -1,10 +1,10 @@
 #include "case/model/resolved_plant.hpp"
 
-#include <gtest/gtest.h>
-
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/plausibility/doubts.hpp"
 #include "io/text/text.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -53,17 +53,30 @@ TEST(ResolvedPlant, WarnsOfAForceFarFromTheFrequenciesOfTheReduction) {
   EXPECT_FALSE(holds(said("1.01"), "far from"));
 }
 
-TEST(ResolvedPlant, WarnsWhereTheConductorWouldGiveAnotherPlantThanTheOneGiven) {
-  const std::string conductor = "[conductor]\nsag = 0.29\n";
-  EXPECT_EQ(said_of(conductor + plant_with(50.3)), "") << "Table 1 of the paper belongs together";
-  const std::string said = said_of(conductor + plant_with(80.0));
-  EXPECT_TRUE(holds(said, "every key of [plant] is given")) << said;
-  EXPECT_TRUE(holds(said, "the conductor would give m1 = ")) << said;
+/// What is said of a conductor beside a plant.
+std::string contradiction_in(const std::string& text) {
+  return contradicted_conductor_text(load_case_text(text, "case.toml", {}));
 }
 
-TEST(ResolvedPlant, AConductorThatHasNoPlantIsNoFaultWhereThePlantIsGiven) {
-  const std::string heavy = "[absorber]\nmass = 50\n";
-  EXPECT_EQ(said_of(heavy + plant_with(80.0)), "");
+TEST(ContradictedConductor, IsNamedWhereItWouldGiveAnotherPlantThanTheOneGiven) {
+  const std::string conductor = "[conductor]\nsag = 0.29\n";
+  EXPECT_EQ(contradiction_in(conductor + plant_with(50.3)), "") << "Table 1 belongs together";
+  const std::string said = contradiction_in(conductor + plant_with(80.0));
+  EXPECT_TRUE(holds(said, "every key of [plant] is given")) << said;
+  EXPECT_TRUE(holds(said, "k1 80 instead of ")) << said;
+  EXPECT_TRUE(holds(contradiction_in("[conductor]\nsag = 0.5\n" + plant_with(50.3)),
+                    "the lower frequency 1.999 instead of "));
+}
+
+TEST(ContradictedConductor, IsNamedAlsoWhereItHasNoPlantAtAll) {
+  EXPECT_TRUE(holds(contradiction_in("[absorber]\nmass = 50\n" + plant_with(50.3)),
+                    "m2 0.16 instead of 50 kg"));
+}
+
+TEST(ContradictedConductor, IsNotThereWhereOneOfThemAloneIsGiven) {
+  EXPECT_EQ(contradiction_in(""), "");
+  EXPECT_EQ(contradiction_in(plant_with(80.0)), "");
+  EXPECT_EQ(contradiction_in("[conductor]\nsag = 0.5\n"), "");
 }
 
 TEST(BorrowedCable, IsNamedWhereTheCaseGivesAPlantAlone) {

@@ -1,9 +1,7 @@
 #include "io/file/build_record.hpp"
 
-#include <gtest/gtest.h>
+#include "support/testing.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 namespace holdfast::program {

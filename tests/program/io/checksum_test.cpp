@@ -1,9 +1,6 @@
 #include "io/text/checksum.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <string>
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,11 +1,8 @@
-#include "io/text/decay_file.hpp"
-
-#include <gtest/gtest.h>
-
-#include <string>
+#include "io/text/record_file.hpp"
 
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

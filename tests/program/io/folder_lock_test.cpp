@@ -1,13 +1,10 @@
 #include "io/file/folder_lock.hpp"
 
-#include <gtest/gtest.h>
-
-#include <optional>
-
 #include "process/errors.hpp"
-#include "support/child_process.hpp"
+#include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -74,6 +71,14 @@ TEST(FolderLock, IsOfTheFileThatHasTheNameNow) {
   std::filesystem::remove(folder / FolderLock::file_name);
   const FolderLock second(folder.path());
   EXPECT_EQ(try_to_lock_in_child(folder.path()), 1);
+}
+
+TEST(FolderLock, DoesNotFollowALink) {
+  const TemporaryFolder folder, elsewhere;
+  std::filesystem::create_symlink(elsewhere / "file", folder / "lock");
+  const std::string words = message_of<WrongInput>([&] { FolderLock lock(folder.path()); });
+  EXPECT_NE(words.find("symbolic link"), std::string::npos) << words;
+  EXPECT_EQ(elsewhere.files(), 0);
 }
 
 TEST(FolderLock, SaysWhyThereCanBeNone) {

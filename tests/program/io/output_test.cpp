@@ -1,16 +1,14 @@
 #include "io/file/output.hpp"
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
-
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -67,6 +65,63 @@ TEST(OutputFile, LeavesNothingWithoutCommit) {
   }
   EXPECT_EQ(read_text(folder / "out.csv"), "older");
   EXPECT_EQ(folder.files(), 1);
+}
+
+/// Begins an output in a child that is killed then.
+void leave_unfinished(const fs::path& file) {
+  const auto killed = [&] {
+    OutputFile output(file);
+    output.write("half");
+    raise(SIGKILL);
+    return 0;
+  };
+  EXPECT_EQ(status_of_child(-1, killed), -1);
+}
+
+TEST(OutputFile, RemovesWhatAKilledProcessLeftOfTheSameFileAndNoOther) {
+  const TemporaryFolder folder;
+  leave_unfinished(folder / "out.csv");
+  leave_unfinished(folder / "other.csv");
+  EXPECT_EQ(folder.files(), 2);
+  OutputFile at_work(folder / "out.csv");
+  EXPECT_EQ(folder.files(), 2);
+  OutputFile second(folder / "out.csv");
+  EXPECT_EQ(folder.files(), 3);
+  second.commit();
+  at_work.commit();
+  std::vector<std::string> names = folder.names();
+  EXPECT_EQ(names.size(), 2U);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "out.csv"), 1);
+}
+
+TEST(OutputFile, IsNobodyElsesBetweenItsLastByteAndItsName) {
+  const TemporaryFolder folder;
+  OutputFile first(folder / "out.csv");
+  first.write("first");
+  first.finish();
+  OutputFile second(folder / "out.csv");
+  second.write("second");
+  second.commit();
+  first.commit();
+  EXPECT_EQ(read_text(folder / "out.csv"), "first");
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST(OutputFile, DoesNotWriteThroughALinkInThePlaceOfItsTemporaryFile) {
+  const TemporaryFolder folder, elsewhere;
+  write_text(elsewhere / "file", "precious");
+  fs::path temporary;
+  {
+    OutputFile output(folder / "out.csv");
+    temporary = output.temporary();
+  }
+  fs::create_symlink(elsewhere / "file", temporary);
+  OutputFile output(folder / "out.csv");
+  output.write("new");
+  output.commit();
+  EXPECT_EQ(read_text(folder / "out.csv"), "new");
+  EXPECT_EQ(read_text(elsewhere / "file"), "precious");
+  EXPECT_TRUE(fs::is_symlink(temporary));
 }
 
 TEST(OutputFile, ReplacesAnOlderFileAndFollowsLinks) {

@@ -1,12 +1,12 @@
 #include "io/text/table.hpp"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
 #include "io/file/metadata.hpp"
 #include "process/errors.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,13 +1,6 @@
 #include "io/text/text.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <random>
-#include <string>
-#include <vector>
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

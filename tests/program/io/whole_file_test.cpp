@@ -1,13 +1,9 @@
 #include "io/file/whole_file.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <cerrno>
-#include <thread>
-#include <vector>
-
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,16 +1,12 @@
 #include "jobs/motion/trusted_digits.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "case/case_file.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "io/file/metadata.hpp"
 #include "io/text/text.hpp"
 #include "jobs/motion/motion_digits.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

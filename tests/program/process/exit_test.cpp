@@ -1,14 +1,10 @@
 #include "process/exit.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <csignal>
 #include <holdfast/core/errors.hpp>
-#include <new>
 
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

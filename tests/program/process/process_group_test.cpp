@@ -1,20 +1,13 @@
 #include "process/group/process_group.hpp"
 
-#include <gtest/gtest.h>
 #include <sched.h>
-
-#include <algorithm>
-#include <csignal>
-#include <cstdlib>
-#include <map>
-#include <numeric>
-#include <thread>
 
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/group/mpi_launch.hpp"
 #include "process/interrupt.hpp"
 #include "process/worker_threads.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

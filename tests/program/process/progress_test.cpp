@@ -1,11 +1,8 @@
 #include "process/progress.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include "support/testing.hpp"
 
-#include <algorithm>
-#include <thread>
-#include <vector>
+#include <unistd.h>
 
 namespace holdfast::program {
 namespace {
@@ -58,6 +55,29 @@ TEST(Progress, CountsFromManyThreadsAndUpdatesSeldom) {
   });
   EXPECT_NE(shown.find("chart: 40000/40000"), std::string::npos) << shown;
   EXPECT_LT(std::count(shown.begin(), shown.end(), '\n'), 1000);
+}
+
+/// A job that counts nothing, and one whose next step is long in coming, show that they are at
+/// work.
+TEST(Progress, TicksWhereAJobSaysNothing) {
+  using namespace std::chrono_literals;
+  const auto wait_for = [](const Ticking&) { std::this_thread::sleep_for(200ms); };
+  const std::string silent = standard_error_of([&] { wait_for(Ticking("answers", true, 1ms)); });
+  EXPECT_EQ(silent.rfind("answers: 0.", 0), 0U) << silent;
+  EXPECT_LT(std::count(silent.begin(), silent.end(), '\n'), 20) << "seldom, and ever less so";
+  const std::string counting = standard_error_of([&] {
+    const Ticking ticking("chart", true, 1ms);
+    Progress progress(7, "chart", true);
+    wait_for(ticking);
+  });
+  EXPECT_EQ(counting.rfind("chart: 0/7", 0), 0U) << counting;
+  EXPECT_EQ(standard_error_of([&] { wait_for(Ticking("answers", false, 1ms)); }), "");
+  EXPECT_EQ(standard_error_of([&] {
+              const Ticking outer("report", true, 1h);
+              wait_for(Ticking("stability", true, 1ms));
+            }),
+            "")
+      << "a job within a job is part of it";
 }
 
 TEST(Progress, IsWantedWhenAskedForAndNeverWhenQuiet) {

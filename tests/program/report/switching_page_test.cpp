@@ -1,20 +1,12 @@
 #include "report/switching/switching_page.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "case/case_file.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "process/errors.hpp"
-#include "support/state_between_samples.hpp"
+#include "support/reference/state_between_samples.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -42,39 +34,10 @@ double largest_of_samples(const StudiedLoop& studied) {
   } else {
     ImplementedLoop loop = program::implemented_loop_of(the_case, Switching::exact);
     loop.digital.hold = studied.reading.hold;
-    with_motion(loop, program::initial_state_of(the_case),
-                [&](auto motion) { run_trajectory(motion, samples, {}, extent); });
+    auto motion = event_motion(loop, program::initial_state_of(the_case));
+    run_trajectory(motion, samples, {}, extent);
   }
   return extent.displacement();
-}
-
-// Largest |z₁| in mm, of a prototype that is not this program.
-struct PublishedRow {
-  double sampling_period, backlash_width;
-  std::array<double, 3> largest, last_digit;
-};
-constexpr std::array<PublishedRow, 4> published = {
-    {{0.001, 0.0005, {0.699, 0.719, 0.6963}, {1e-3, 1e-3, 1e-4}},
-     {0.001, 0.002, {1.011, 0.969, 1.0029}, {1e-3, 1e-3, 1e-4}},
-     {0.005, 0.001, {0.652, 0.746, 0.7332}, {1e-3, 1e-3, 1e-4}},
-     {0.011, 0.002, {1.172, 1.299, 1.0089}, {1e-3, 1e-3, 1e-4}}}};
-
-TEST(SwitchingPage, HasTheTableOfAnotherProgramToTheDigitsShown) {
-  const auto loops = program::loops_of_paper(program::load_case({}, {}));
-  for (const PublishedRow& row : published) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto found = std::find_if(loops.begin(), loops.end(), [&](const StudiedLoop& loop) {
-        return loop.the_case.control.sampling_period == row.sampling_period &&
-               loop.the_case.backlash.width == row.backlash_width &&
-               loop.reading.switching == program::readings[k].switching &&
-               loop.reading.hold == program::readings[k].hold;
-      });
-      ASSERT_NE(found, loops.end());
-      const double largest = 1e3 * program::steady_motion(*found).largest_of_samples;
-      EXPECT_NEAR(largest, row.largest[k], 0.51 * row.last_digit[k])
-          << "tau " << row.sampling_period << ", r0 " << row.backlash_width << ", reading " << k;
-    }
-  }
 }
 
 TEST(SwitchingPage, LooksForTheLargestSampleAsTheMotionsShowIt) {

@@ -1,12 +1,8 @@
 #include "sweep/sweep_metric.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,14 +1,10 @@
 #include "sweep/sweep_plan.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-
 #include "case/case_file.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,9 +1,6 @@
 #include "sweep/tiles/tile_file.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -1,11 +1,7 @@
 #include "sweep/tiles/tile_file.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "process/errors.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {

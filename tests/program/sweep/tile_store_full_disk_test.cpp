@@ -1,11 +1,11 @@
-#include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>
 
 #include "process/errors.hpp"
-#include "support/child_process.hpp"
+#include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 #include "sweep/tiles/tile_store.hpp"
 
 namespace holdfast::program {

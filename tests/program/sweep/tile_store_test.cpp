@@ -1,17 +1,12 @@
 #include "sweep/tiles/tile_store.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <stdexcept>
-#include <thread>
-#include <vector>
-
 #include "process/errors.hpp"
-#include "support/child_process.hpp"
+#include "program/child_process.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 #include "sweep/tiles/tile_file.hpp"
 #include "sweep/tiles/tile_plan_file.hpp"
 

@@ -1,8 +1,8 @@
 #include "sweep/tiles/work_folder.hpp"
 
-#include <gtest/gtest.h>
-
+#include "io/file/folder_lock.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -46,15 +46,53 @@ TEST(WorkFolder, SortsWhatLiesInIt) {
   EXPECT_TRUE(more.others);
 }
 
+/// A work folder of 3000 tiles as a sweep leaves it that was killed.
+void leave_work_folder(const std::filesystem::path& folder) {
+  std::filesystem::create_directory(folder);
+  write_text(folder / "plan", tile_plan_text({{{"version", "1"}}, 3000}));
+  for (const char* name : {"lock", ".tile-000000000002-1-0.tmp"}) write_text(folder / name, "");
+  for (int tile = 0; tile < 3000; ++tile) write_text(folder / tile_file_name(tile), "");
+}
+
 TEST(WorkFolder, IsRemovedWithAllThatIsItsOwn) {
   const TemporaryFolder outer;
-  std::filesystem::create_directory(outer / "work");
-  for (const char* name : {"plan", "lock", ".tile-000000000002-1-0.tmp"}) {
-    write_text(outer / "work" / name, "");
-  }
-  for (int tile = 0; tile < 3000; ++tile) write_text(outer / "work" / tile_file_name(tile), "");
+  leave_work_folder(outer / "work");
   remove_work_folder(outer / "work");
   EXPECT_EQ(outer.files(), 0);
+}
+
+TEST(WorkFolder, StaysWithWhatIsNotItsOwn) {
+  const TemporaryFolder outer;
+  leave_work_folder(outer / "work");
+  std::vector<std::string> foreign = {"letter", "tile-000000003000", ".table.csv-1-0.tmp"};
+  for (const std::string& name : foreign) write_text(outer / "work" / name, "precious");
+  remove_work_folder(outer / "work");
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(outer / "work"))
+    left.push_back(entry.path().filename().string());
+  std::sort(left.begin(), left.end());
+  std::sort(foreign.begin(), foreign.end());
+  EXPECT_EQ(left, foreign);
+}
+
+TEST(WorkFolder, WithoutAWholePlanLosesNothing) {
+  for (const std::string& plan : {std::string(), std::string("plan of a house"),
+                                  tile_plan_text({{{"version", "1"}}, 3}).substr(1)}) {
+    const TemporaryFolder folder;
+    for (const char* name : {"letter", "lock", "tile-000000000000", ".plan-1-0.tmp"})
+      write_text(folder / name, "precious");
+    write_text(folder / "plan", plan);
+    remove_work_folder(folder.path());
+    EXPECT_EQ(folder.files(), 5);
+  }
+}
+
+TEST(WorkFolder, ThatAnotherProgramHoldsStays) {
+  const TemporaryFolder outer;
+  leave_work_folder(outer / "work");
+  const FolderLock held(outer / "work");
+  remove_work_folder(outer / "work");
+  EXPECT_EQ(contents_of_work_folder(outer / "work").tiles, 3000);
 }
 
 }  // namespace

@@ -1,16 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <iostream>
-#include <optional>
-
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

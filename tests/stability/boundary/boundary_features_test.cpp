@@ -1,21 +1,11 @@
 #include "holdfast/stability/boundary/boundary_features.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <iostream>
-#include <limits>
-#include <vector>
 
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/polynomial/made_polynomial.hpp"
-#include "support/polynomial/pair_gains.hpp"
+#include "support/polynomial/rounding.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -23,28 +13,6 @@ namespace {
 using Kind = BoundaryFeatureKind;
 
 const GainWindow whole_plane{{-1e9, 1e9}, {-1e7, 1e7}};
-
-/// |p(x)| over the sum of the moduli of its terms, x = λ − 1 or s, in extended precision.
-template <int Degree>
-double relative_residual(const AffinePolynomial<double, Degree>& polynomial,
-                         const BoundaryRoot<double>& root, const PdGains<double>& gains) {
-  using Complex = std::complex<long double>;
-  const long double angle = root.angle;
-  const Complex x = Degree == 5 ? test::unit_circle_minus_one(angle) : Complex(0, angle);
-  Complex power(1), value(0);
-  long double size = 0;
-  for (int k = 0; k <= Degree; ++k, power *= x) {
-    const long double terms[] = {
-        polynomial.base[k],
-        static_cast<long double>(gains.proportional) * polynomial.proportional[k],
-        static_cast<long double>(gains.differential) * polynomial.differential[k]};
-    for (const long double term : terms) {
-      value += term * power;
-      size += std::abs(term * power);
-    }
-  }
-  return static_cast<double>(std::abs(value) / size);
-}
 
 template <int Degree>
 AffinePolynomial<double, Degree> random_coefficients(test::Random& random) {
@@ -60,19 +28,47 @@ int count(const std::vector<BoundaryFeature<double>>& features, Kind kind) {
                                         [kind](const auto& f) { return f.kind == kind; }));
 }
 
+/// |p(x)| at a root of a feature over what rounding may make of it: what is unknown of p(x) itself,
+/// and what the gains, solved for at the feature's first root, are off by.
+template <int Degree>
+double relative_residual(const test::RoundingOfGains<Degree>& rounding,
+                         const BoundaryFeature<double>& feature, const BoundaryRoot<double>& root,
+                         double times_off = 0.0) {
+  const auto x = rounding.place(root.angle);
+  const bool lines_alone = feature.kind == Kind::end || feature.first.angle == 0.0;
+  const PdGains<long double> off =
+      lines_alone ? PdGains<long double>{} : rounding.of_pair(feature.first.angle, feature.gains);
+  const PdGains<double> gains{
+      feature.gains.proportional + times_off * static_cast<double>(off.proportional),
+      feature.gains.differential + times_off * static_cast<double>(off.differential)};
+  const auto bound = rounding.unknown(x, root.angle, feature.gains) +
+                     rounding.moved(x, off.proportional, off.differential);
+  return static_cast<double>(rounding.residual(x, gains) / bound);
+}
+
+// Rounding in the plane of w is up to 2^{5/2} = 5.7 of that in λ − 1, in each of some twenty
+// operations.
+constexpr double roundings_of_a_root = 128.0;
+
 TEST(BoundaryFeatures, AreRootsOfThePolynomial) {
   test::Random random(821);
-  int seen[5] = {}, lines_meet = 0;
+  int seen[5] = {}, lines_meet = 0, noticed = 0, moved = 0;
   double worst = 0.0, worst_stated = 0.0;
   const auto look_at = [&](const auto& polynomial, const GainWindow& window) {
+    const test::RoundingOfGains rounding(polynomial);
     for (const auto& feature : boundary_features(polynomial, window)) {
       ++seen[static_cast<int>(feature.kind)];
       const bool two_lines = feature.first.curve == BoundaryCurve::plus_one;
       lines_meet += feature.kind == Kind::crossing && two_lines ? 1 : 0;
-      for (const auto& root : {feature.first, feature.second}) {
-        worst = std::max(worst, relative_residual(polynomial, root, feature.gains));
-      }
+      for (const auto& root : {feature.first, feature.second})
+        worst = std::max(worst, relative_residual(rounding, feature, root));
       worst_stated = std::max(worst_stated, feature.residual);
+      if (feature.kind == Kind::end || two_lines) continue;
+      ++moved;
+      noticed += relative_residual(rounding, feature, feature.first, 4 * roundings_of_a_root) >
+                         roundings_of_a_root
+                     ? 1
+                     : 0;
     }
   };
   for (int draw = 0; draw < 500; ++draw) {
@@ -88,17 +84,19 @@ TEST(BoundaryFeatures, AreRootsOfThePolynomial) {
     look_at(continuous, whole_plane);
   }
   std::cout << "  tangents " << seen[0] << " + " << seen[1] << ", crossings " << seen[3]
-            << ", ends " << seen[4] << ", worst residual " << worst << " and " << worst_stated
-            << '\n';
-  EXPECT_LE(worst, 1e-9);
+            << ", ends " << seen[4] << ", worst residual " << worst << " roundings, stated "
+            << worst_stated << "; gains moved by " << 4 * roundings_of_a_root << " are noticed "
+            << noticed << " of " << moved << " times\n";
+  EXPECT_LE(worst, roundings_of_a_root);
   EXPECT_LE(worst_stated, 1e-9);
+  EXPECT_GE(noticed, moved / 2) << "gains that are further off";
   EXPECT_EQ(seen[static_cast<int>(Kind::cusp)], 0) << "a cusp takes a coincidence";
   EXPECT_GT(std::min({seen[0], seen[1], seen[3], seen[4], lines_meet}), 100);
 }
 
 /// Values of the gain in the role of D at which roots cross at the fixed one in the role of P.
 std::vector<double> crossings_of_row(const AffinePolynomial<double, 5>& polynomial, double p) {
-  const auto q = polynomial.transformed(in_half_plane<double, 6>);
+  const auto q = in_half_plane(polynomial);
   return boundary_crossings<double, 6>(q.base + p * q.proportional, q.differential);
 }
 
@@ -268,10 +266,11 @@ TEST(BoundaryFeatures, KollarsContinuousLoopHasOneTangent) {
 /// How often P turns (and D) along the curve of root pairs in fine steps from Y = 10⁻⁵ to 10⁵. A
 /// pole is no turn: the step across it is left out.
 struct TurnScan {
+  static constexpr int steps = 5000;
+  static constexpr double step = 10.0 / steps;  // of log₁₀ Y
   int of_proportional = 0, of_differential = 0;
 
   explicit TurnScan(const RootPairCurve<long double>& curve) {
-    const int steps = 5000;
     int p_before = 0, d_before = 0;
     bool positive = false;
     PdGains<long double> here{};
@@ -288,31 +287,41 @@ struct TurnScan {
     }
   }
 
-  static void count(long double step, int& before, int& turns) {
-    const int now = step > 0 ? 1 : -1;
+  static void count(long double by, int& before, int& turns) {
+    const int now = by > 0 ? 1 : -1;
     turns += before != 0 && now != before ? 1 : 0;
     before = now;
   }
 };
 
-/// Two turns within one step are seen by the features alone.
+void expect_all_but_close_pairs(std::vector<double> found, int scanned) {
+  std::sort(found.begin(), found.end());
+  int close = 0;
+  for (std::size_t k = 0; k + 1 < found.size(); ++k)
+    if (found[k + 1] - found[k] <= 2 * TurnScan::step) ++close, ++k;
+  const int missed = static_cast<int>(found.size()) - scanned;
+  EXPECT_TRUE(missed % 2 == 0 && missed >= 0 && missed <= 2 * close)
+      << found.size() << " found, " << scanned << " in the scan, pairs in two steps " << close;
+}
+
+/// Two turns within two steps may be seen by the features alone.
 template <int Degree>
 int expect_all_turns_are_found(const AffinePolynomial<long double, Degree>& precise,
                                const AffinePolynomial<double, Degree>& polynomial) {
   const BoundaryCurves<long double, Degree> curves(precise);
   const TurnScan scan(curves.pairs());
-  int vertical = 0, horizontal = 0;
+  std::vector<double> vertical, horizontal;  // log₁₀ Y
   for (const auto& feature :
        detail::FeatureFinder<double, Degree>(BoundaryCurves<double, Degree>(polynomial)).find()) {
     const double angle = feature.first.angle, y = Degree == 5 ? std::tan(angle / 2) : angle;
     const double square = std::pow(y / static_cast<double>(curves.pairs().unit()), 2);
     if (square < 1e-5 || square > 1e5) continue;
-    vertical += feature.kind == Kind::vertical_tangent ? 1 : 0;
-    horizontal += feature.kind == Kind::horizontal_tangent ? 1 : 0;
+    if (feature.kind == Kind::vertical_tangent) vertical.push_back(std::log10(square));
+    if (feature.kind == Kind::horizontal_tangent) horizontal.push_back(std::log10(square));
   }
-  EXPECT_EQ(vertical, scan.of_proportional);
-  EXPECT_EQ(horizontal, scan.of_differential);
-  return vertical + horizontal;
+  expect_all_but_close_pairs(vertical, scan.of_proportional);
+  expect_all_but_close_pairs(horizontal, scan.of_differential);
+  return static_cast<int>(vertical.size() + horizontal.size());
 }
 
 template <int Degree>
@@ -340,39 +349,109 @@ TEST(BoundaryFeatures, TangentsAreAllTurnsAlongTheCurve) {
   EXPECT_GT(seen, 200);
 }
 
+using Extended = long double;
+
+/// f = n′ Δ − n Δ′, zero where a gain n/Δ is stationary, and its slope.
+struct Turning {
+  Extended value, slope;
+};
+
+Turning turning(const RootPairCurve<Extended>& curve, Extended square, bool of_p) {
+  const auto& n = of_p ? curve.proportional_numerator() : curve.differential_numerator();
+  const auto& delta = curve.denominator();
+  const auto first = [&](const auto& p) { return evaluate(derivative<Extended, 5>(p), square); };
+  const auto second = [&](const auto& p) {
+    return evaluate(derivative<Extended, 4>(derivative<Extended, 5>(p)), square);
+  };
+  const Extended of_n = evaluate(n, square), of_delta = evaluate(delta, square);
+  return {first(n) * of_delta - of_n * first(delta), second(n) * of_delta - of_n * second(delta)};
+}
+
+/// How far rounding may move y = unit √Y where a gain is stationary, of y: what is unknown of
+/// f = n′ Δ − n Δ′, of degree ≤ 4 each, over 2 Y |f′|. Unknown are a rounding of each coefficient
+/// of the polynomial and those that the curve takes for round-off.
+template <int Degree>
+Extended stationary_rounding(const HalfPlanePolynomial<Extended, Degree>& polynomial,
+                             const RootPairCurve<Extended>& curve, Extended square, bool of_p,
+                             Extended rounding) {
+  using Part = Polynomial<Extended, Degree>;
+  using Sizes = Vector<Extended, 2>;  // Σ of the even and of the odd |terms|, w in the unit
+  const auto sizes = [&](const Part& part) {
+    const ParityParts<Extended> parts(part, curve.unit());
+    return Sizes(evaluate(Vector<Extended, 3>(parts.even.cwiseAbs()), square),
+                 evaluate(Vector<Extended, 3>(parts.odd.cwiseAbs()), square));
+  };
+  const auto unknown = [&](const Part& part) {
+    const Part kept = detail::without_round_off<Extended, Degree + 1>(part, curve.unit());
+    Part sums = part.cwiseAbs();  // of which a coefficient is what cancellation leaves
+    for (int k = 1; k <= Degree; ++k) sums[k] += sums[k - 1];
+    return Sizes(rounding * sizes(sums) + sizes(part - kept));
+  };
+  const auto cross = [](const Sizes& a, const Sizes& b) { return a[0] * b[1] + a[1] * b[0]; };
+  const Part &fixed = polynomial.base, &one = polynomial.proportional,
+             &other = polynomial.differential, &turned = of_p ? other : one;
+  const Extended n = cross(sizes(turned), sizes(fixed)), delta = cross(sizes(one), sizes(other));
+  const Extended of_n = cross(unknown(turned), sizes(fixed)) + cross(sizes(turned), unknown(fixed));
+  const Extended of_delta = cross(unknown(one), sizes(other)) + cross(sizes(one), unknown(other));
+  const Extended slope = turning(curve, square, of_p).slope;
+  return 8 / square * (of_n * delta + n * of_delta) / (2 * square * std::abs(slope));
+}
+
+/// √Y with what the root finder has left of f taken out by a step of Newton's method, which is to
+/// be small.
+Extended polished_root(const RootPairCurve<Extended>& curve, Extended square, bool of_p) {
+  const Turning f = turning(curve, square, of_p);
+  const Extended step = f.value / f.slope;
+  EXPECT_LE(std::abs(step), 1e-3L * square);
+  return curve.root(square - step);
+}
+
 TEST(BoundaryFeatures, OfTheLoopWithoutDelayAreThoseWithoutItsRootAtZero) {
-  using Extended = long double;
   test::Random random(831);
   int seen = 0, crossings = 0;
+  double worst = 0.0;
   for (int draw = 0; draw < 200; ++draw) {
     auto plant = test::random_plant(random);
     // Without damping the curve crosses itself at no control.
-    if (draw % 4 == 0) plant.conductor_damping = plant.absorber_damping = 0.0;
+    const bool undamped = draw % 4 == 0;
+    if (undamped) plant.conductor_damping = plant.absorber_damping = 0.0;
+    // The curve leaves out a factor of numerator and denominator that is known to 1e−12.
+    const Extended rounding = undamped ? 1e-12L : std::numeric_limits<Extended>::epsilon();
     const Sampling<Extended> sampling{test::random_sampling(plant, random).period, 0};
     const BoundaryCurves<Extended, 5> curves(
         characteristic_polynomial(sampled_loop(converted<Extended>(plant), sampling)));
     // λ = 0 is w = −1.
     const auto& q = curves.polynomial();
+    // From the constant upwards, since the low ones are small where sampling is fast.
     const auto without = [](const Polynomial<Extended, 5>& part) {
-      return Polynomial<Extended, 4>(without_root<Extended, 6>(part, -1).head<5>());
+      Polynomial<Extended, 4> quotient;
+      for (int k = 0; k < 5; ++k) quotient[k] = part[k] - (k > 0 ? quotient[k - 1] : 0);
+      return quotient;
     };
-    const RootPairCurve<Extended> reduced(AffinePolynomial<Extended, 4>{
-        without(q.base), without(q.proportional), without(q.differential)});
+    const AffinePolynomial<Extended, 4> divided{without(q.base), without(q.proportional),
+                                                without(q.differential)};
+    const RootPairCurve<Extended> reduced(divided);
     const auto expect_same = [&](const std::vector<Extended>& all,
-                                 const std::vector<Extended>& expected) {
+                                 const std::vector<Extended>& expected, bool of_p) {
       ASSERT_EQ(all.size(), expected.size()) << draw;
       for (std::size_t k = 0; k < all.size(); ++k, ++seen) {
-        const Extended ratio = curves.pairs().root(all[k]) / reduced.root(expected[k]);
-        EXPECT_NEAR(static_cast<double>(ratio), 1.0, 1e-5) << draw;
+        const Extended ratio =
+            polished_root(curves.pairs(), all[k], of_p) / polished_root(reduced, expected[k], of_p);
+        const Extended bound = stationary_rounding(q, curves.pairs(), all[k], of_p, rounding) +
+                               stationary_rounding(divided, reduced, expected[k], of_p, rounding);
+        worst = std::max(worst, static_cast<double>(std::abs(ratio - 1) / bound));
       }
     };
-    expect_same(curves.pairs().proportional_extremes(), reduced.proportional_extremes());
-    expect_same(curves.pairs().differential_extremes(), reduced.differential_extremes());
+    expect_same(curves.pairs().proportional_extremes(), reduced.proportional_extremes(), true);
+    expect_same(curves.pairs().differential_extremes(), reduced.differential_extremes(), false);
     EXPECT_EQ(double_neimark_sacker_points(curves.pairs()).size(),
               double_neimark_sacker_points(reduced).size())
         << draw;
     crossings += static_cast<int>(double_neimark_sacker_points(reduced).size());
   }
+  std::cout << "  furthest apart " << worst << " roundings\n";
+  EXPECT_LE(worst, 4.0) << "of the two ways";
+  EXPECT_GT(worst, 0.01) << "the bound is of the size of the errors";
   EXPECT_GT(seen, 300);
   EXPECT_GT(crossings, 20);
 }

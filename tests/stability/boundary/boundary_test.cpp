@@ -1,18 +1,9 @@
 #include "holdfast/stability/boundary/boundary.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <vector>
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/polynomial/pair_gains.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -20,7 +11,7 @@ namespace {
 using Precise = long double;
 using PreciseComplex = std::complex<Precise>;
 
-const ProportionalRange range{-1500.0, 300.0};
+const Interval<double> range{-1500.0, 300.0};
 
 TwoMass<Precise> plant() { return {0.0767L, 50.3L, 0.079L, 0.16L, 74.4L, 4.0L}; }
 
@@ -184,12 +175,12 @@ TEST(Boundary, ABadRangeIsRefused) {
   const auto polynomial = characteristic_polynomial(kollar2022_plant());
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-  for (const ProportionalRange& bad : {ProportionalRange{1, 1},
-                                       {2, 1},
-                                       {-infinity, 0},
-                                       {0, infinity},
-                                       {not_a_number, 1},
-                                       {0, not_a_number}}) {
+  for (const Interval<double>& bad : {Interval<double>{1, 1},
+                                      {2, 1},
+                                      {-infinity, 0},
+                                      {0, infinity},
+                                      {not_a_number, 1},
+                                      {0, not_a_number}}) {
     EXPECT_THROW(stability_boundary(polynomial, bad), InvalidParameter);
   }
 }

@@ -1,19 +1,11 @@
-#include "holdfast/stability/boundary/double_neimark_sacker.hpp"
 #include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <iostream>
-#include <vector>
+#include "holdfast/stability/boundary/boundary_features.hpp"
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/polynomial/made_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -26,7 +18,7 @@ void expect_made_pairs_are_found(std::uint64_t seed) {
     const PdGains<double> gains{random.uniform(-3, 3), random.uniform(-3, 3)};
     const auto made = test::product<Degree>(test::quadratic(first, 0), test::quadratic(second, 0),
                                             random.uniform(-2, 2));
-    const RootPairCurve<double> curve(test::through<Degree>(made, gains, random));
+    const RootPairCurve<double> curve(test::through_in_half_plane<Degree>(made, gains, random));
     const double unit = curve.unit() * curve.unit();
     const auto pairs = double_neimark_sacker_points(curve);
     EXPECT_LE(pairs.size(), Degree == 4 ? 1U : 3U);
@@ -176,7 +168,7 @@ TEST(DoubleNeimarkSackerPoints, AreAllThatTryingEveryPairOfChordsFinds) {
     // Far enough apart for the chords to show the loop between them.
     const double first = random.log_uniform(0.1, 5.0), second = first * random.uniform(1.5, 10.0);
     const auto made = test::product<5>(test::quadratic(first, 0), test::quadratic(second, 0), 0.5);
-    const auto any = test::through<5>(made, {0, 0}, random);
+    const auto any = test::through_in_half_plane<5>(made, {0, 0}, random);
     const ChordCount of_any{RootPairCurve<double>(any)};
     EXPECT_EQ(of_any.found, of_any.expected) << draw;
     others += of_any.expected;
@@ -198,7 +190,7 @@ TEST(DoubleNeimarkSackerPoints, NeedTwoDifferentPairs) {
   for (int draw = 0; draw < 100; ++draw) {
     const double square = random.log_uniform(0.1, 10.0);
     const auto cusp = test::product<5>(test::quadratic(square, 0), test::quadratic(square, 0), 0.7);
-    const RootPairCurve<double> curve(test::through<5>(cusp, {0.3, -0.4}, random));
+    const RootPairCurve<double> curve(test::through_in_half_plane<5>(cusp, {0.3, -0.4}, random));
     for (const auto& pair : double_neimark_sacker_points(curve)) {
       EXPECT_GT(pair.upper_square - pair.lower_square, 1e-3 * pair.upper_square) << draw;
     }

@@ -1,17 +1,11 @@
 #include "holdfast/stability/boundary/root_pair_curve.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
-#include "holdfast/stability/boundary/row_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/chart/chart.hpp"
 #include "support/polynomial/pair_gains.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -19,7 +13,7 @@ namespace {
 TEST(RootPairCurve, PutsThePairOnTheUnitCircle) {
   const auto polynomial =
       characteristic_polynomial(sampled_loop(kollar2022_plant(), Sampling<double>{0.01, 0.004}));
-  const RootPairCurve<double> curve(polynomial.transformed(in_half_plane<double, 6>));
+  const RootPairCurve<double> curve(in_half_plane(polynomial));
   for (const double angle : {0.1, 0.5, 1.0, 2.0, 3.0}) {
     const double y = std::tan(angle / 2.0) / curve.unit();
     const auto gains = curve.gains(y * y);
@@ -37,7 +31,7 @@ TEST(RootPairCurve, IsMonotoneInPOnEachArc) {
     const auto plant = test::random_plant(random);
     const auto polynomial =
         characteristic_polynomial(sampled_loop(plant, test::random_sampling(plant, random)));
-    const RootPairCurve<double> curve(polynomial.transformed(in_half_plane<double, 6>));
+    const RootPairCurve<double> curve(in_half_plane(polynomial));
     for (const auto& arc : curve.arcs()) {
       if (std::isinf(arc.end.square) || arc.start.square == 0.0) continue;
       const double ratio = arc.end.square / arc.start.square;
@@ -64,8 +58,7 @@ TEST(RowCrossings, AreThoseOfTheEliminatedPolynomial) {
   for (int draw = 0; draw < 300; ++draw) {
     const auto plant = test::random_plant(random);
     const auto sampling = test::random_sampling(plant, random);
-    const auto q = characteristic_polynomial(sampled_loop(plant, sampling))
-                       .transformed(in_half_plane<double, 6>);
+    const auto q = in_half_plane(characteristic_polynomial(sampled_loop(plant, sampling)));
     RowCrossings<double, 5> rows(q);
     for (int step = 0; step < 20; ++step) {
       const double p = test::random_gains(plant, sampling.period, random).proportional;
@@ -112,8 +105,7 @@ TEST(RowCrossings, StandWhereTheDominantRootCrossesInExtendedPrecision) {
   for (int draw = 0; draw < 200; ++draw) {
     const auto plant = test::random_plant(random);
     const auto sampling = test::random_sampling(plant, random);
-    const auto q = characteristic_polynomial(sampled_loop(plant, sampling))
-                       .transformed(in_half_plane<double, 6>);
+    const auto q = in_half_plane(characteristic_polynomial(sampled_loop(plant, sampling)));
     const double p = test::random_gains(plant, sampling.period, random).proportional;
     const auto precise = characteristic_polynomial(
         sampled_loop(converted<long double>(plant),

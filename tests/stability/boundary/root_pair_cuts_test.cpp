@@ -1,18 +1,13 @@
 // The curve of root pairs is cut into arcs on which P is monotone: at poles, and at extremes
 // however far apart their scales are.
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include "holdfast/math/poly/positive_roots.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/boundary/arc_crossing.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
+#include "holdfast/stability/boundary/root_pair_curve.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -37,10 +32,12 @@ TEST(RootPairCuts, PIsMonotoneBetweenThem) {
     const BoundaryCurves<double, 5> curves(
         characteristic_polynomial(sampled_loop(plant, sampling)));
     for (const auto& arc : curves.pairs().arcs()) {
-      const bool rising = ArcCrossing<double>(curves.pairs(), arc).rising();
+      const std::vector<double> squares = along(arc, 60);
+      const auto p_at = [&](double square) { return curves.pairs().gains(square).proportional; };
+      const bool rising = !squares.empty() && p_at(squares.front()) < p_at(squares.back());
       double before = std::numeric_limits<double>::quiet_NaN(), fall = 0.0;
-      for (const double square : along(arc, 60)) {
-        const double p = curves.pairs().gains(square).proportional;
+      for (const double square : squares) {
+        const double p = p_at(square);
         if (before == before)
           fall = std::max(fall, (rising ? before - p : p - before) / std::abs(p));
         before = p;
@@ -102,7 +99,7 @@ TEST(RootPairCuts, WithoutDampingThePoleOfDAloneIsNoPoleOfP) {
   }
 }
 
-TEST(ArcCrossing, IsTheInverseOfP) {
+TEST(RootPairCurve, AnArcIsTheInverseOfP) {
   test::Random random(842);
   int seen = 0;
   for (int draw = 0; draw < 300; ++draw) {
@@ -111,10 +108,9 @@ TEST(ArcCrossing, IsTheInverseOfP) {
     const BoundaryCurves<double, 5> curves(
         characteristic_polynomial(sampled_loop(plant, sampling)));
     for (const auto& arc : curves.pairs().arcs()) {
-      const ArcCrossing<double> crossing(curves.pairs(), arc);
       for (const double square : along(arc, 8)) {
         const auto gains = curves.pairs().gains(square);
-        const double found = crossing.square(gains.proportional);
+        const double found = curves.pairs().square(arc, gains.proportional);
         // Close to an extreme P determines Y to half its digits only, and Y P close to a pole.
         const double p = curves.pairs().gains(found).proportional;
         EXPECT_NEAR(p / gains.proportional, 1.0, 1e-9) << draw;
@@ -125,15 +121,16 @@ TEST(ArcCrossing, IsTheInverseOfP) {
   EXPECT_GT(seen, 5000);
 }
 
-TEST(ArcCrossing, StopsAtTheEndOfAnArcThatDoesNotReachP) {
+TEST(RootPairCurve, StopsAtTheEndOfAnArcThatDoesNotReachP) {
   const RootPairCurve curve(characteristic_polynomial(kollar2022_plant()));
   const auto arcs = curve.arcs();
   ASSERT_EQ(arcs.size(), 2U);
   const auto extreme = curve.gains(arcs[0].end.square);
   for (const auto& arc : arcs) {
-    const ArcCrossing<double> crossing(curve, arc);
-    EXPECT_NEAR(crossing.square(extreme.proportional + 10) / arcs[0].end.square, 1.0, 1e-9);
-    EXPECT_NEAR(crossing.differential(extreme.proportional), extreme.differential, 1e-6);
+    EXPECT_NEAR(curve.square(arc, extreme.proportional + 10) / arcs[0].end.square, 1.0, 1e-9);
+    const double square = curve.square(arc, extreme.proportional);
+    EXPECT_NEAR(curve.crossing(extreme.proportional, square).differential, extreme.differential,
+                1e-6);
   }
 }
 

@@ -1,15 +1,8 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,19 +1,10 @@
 #include "holdfast/stability/boundary/stable_regions.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <numeric>
-#include <vector>
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/polynomial/made_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -47,6 +38,15 @@ AffinePolynomial<double, 5> kollar_polynomial(double period, double delay) {
 }
 
 const GainWindow picture{{-1000.0, 200.0}, {-40.0, 20.0}};
+
+/// Those without unstable roots, which come first.
+template <int Degree>
+std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, Degree>& polynomial,
+                                               const GainWindow& window) {
+  auto regions = gain_regions(polynomial, window);
+  while (!regions.empty() && regions.back().unstable_roots > 0) regions.pop_back();
+  return regions;
+}
 
 template <class Scalar>
 Scalar total_area(const std::vector<GainRegion<Scalar>>& regions) {
@@ -161,11 +161,11 @@ PdGains<double> middle_of_the_cell(const GainSlab<double>& slab, const GainWindo
                                    const PdGains<double>& gains) {
   const double p = slab.lower + (slab.upper - slab.lower) / 2;
   double lower = window.differential.lower, upper = window.differential.upper;
-  for (const auto* branch : slab.branches) {
-    if (branch->differential(gains.proportional) < gains.differential) {
-      lower = branch->differential(p);
+  for (const auto& branch : slab.branches) {
+    if (branch.differential(gains.proportional) < gains.differential) {
+      lower = branch.differential(p);
     } else {
-      upper = std::min(upper, branch->differential(p));
+      upper = std::min(upper, branch.differential(p));
     }
   }
   return {p, (lower + upper) / 2};
@@ -232,7 +232,7 @@ TEST(StableRegions, OfStabilityHaveTheAreaThatRowsOfStableIntervalsSweep) {
 class WeightedArea {
  public:
   WeightedArea(const AffinePolynomial<double, 5>& polynomial, const GainWindow& window)
-      : q_(polynomial.transformed(in_half_plane<double, 6>)),
+      : q_(in_half_plane(polynomial)),
         curve_(q_),
         window_(window),
         bottom_(window.differential.lower),
@@ -331,7 +331,7 @@ class WeightedArea {
     return sum;
   }
 
-  AffinePolynomial<double, 5> q_;
+  HalfPlanePolynomial<double, 5> q_;
   RootPairCurve<double> curve_;
   GainWindow window_;
   double bottom_, top_;

@@ -1,26 +1,19 @@
 #include "holdfast/stability/chart/chart.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/boundary/boundary_curves.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
 
 const GainGrid chart_grid{{-900.0, 100.0, 26}, {-40.0, 10.0, 51}};
 
-AffinePolynomial<double, 5> half_plane_polynomial(const TwoMass<double>& plant,
-                                                  const Sampling<double>& sampling) {
-  return characteristic_polynomial(sampled_loop(plant, sampling))
-      .transformed(in_half_plane<double, 6>);
+HalfPlanePolynomial<double, 5> half_plane_polynomial(const TwoMass<double>& plant,
+                                                     const Sampling<double>& sampling) {
+  return in_half_plane(characteristic_polynomial(sampled_loop(plant, sampling)));
 }
 
 int count_stable(const std::vector<std::uint8_t>& chart) {
@@ -40,6 +33,45 @@ TEST(Chart, IsTheSpectralRadiusCellByCell) {
   }
   EXPECT_GT(count_stable(chart), 100);
   EXPECT_LT(count_stable(chart), 26 * 51 - 100);
+}
+
+template <class Loop, class = void>
+struct IsCharted : std::false_type {};
+template <class Loop>
+struct IsCharted<Loop,
+                 std::void_t<decltype(stability_chart(std::declval<const Loop&>(), chart_grid))>>
+    : std::true_type {};
+
+// About a centre that the type does not tell there is no chart, nor are there rows of what lies in
+// another plane; a change of variable says which it leads to.
+using AboutCentre = decltype(LoopPolynomial<double>::polynomial);
+using InHalfPlane = HalfPlanePolynomial<double, 5>;
+using AboutOne = AffinePolynomial<double, 5>;
+static_assert(IsCharted<AboutOne>::value && IsCharted<InHalfPlane>::value &&
+              IsCharted<AffinePolynomial<double, 4>>::value && !IsCharted<AboutCentre>::value);
+static_assert(std::is_constructible_v<StabilityRows<5>, InHalfPlane, Axis> &&
+              !std::is_constructible_v<StabilityRows<5>, AboutOne, Axis> &&
+              !std::is_constructible_v<StabilityRows<5>, AboutCentre, Axis>);
+static_assert(std::is_constructible_v<RootPairCurve<double>, InHalfPlane> &&
+              !std::is_constructible_v<RootPairCurve<double>, AboutOne>);
+static_assert(std::is_constructible_v<BoundaryCurves<double, 5>, AboutOne> &&
+              !std::is_constructible_v<BoundaryCurves<double, 5>, InHalfPlane> &&
+              !std::is_constructible_v<BoundaryCurves<double, 5>, AboutCentre>);
+
+/// The polynomial as it comes from the loop, and the one that was taken to the half-plane.
+TEST(Chart, OfEitherPolynomialOfTheLoopIsTheSpectralRadius) {
+  for (const double delay : {0.0, 0.004, 0.01}) {
+    const auto loop = sampled_loop(kollar2022_plant(), Sampling<double>{0.01, delay});
+    const auto polynomial = characteristic_polynomial(loop);
+    const auto chart = stability_chart(polynomial, chart_grid);
+    EXPECT_EQ(chart, stability_chart(in_half_plane(polynomial), chart_grid));
+    EXPECT_EQ(chart, stability_chart(in_half_plane(in_half_plane(polynomial)), chart_grid));
+    for (std::int64_t k = 0; k < chart_grid.cells(); ++k) {
+      const double radius =
+          spectral_radius<double, 5>(loop.engaged_map(chart_grid.at(k / 51, k % 51)));
+      EXPECT_EQ(chart[static_cast<std::size_t>(k)] == 1, radius < 1.0) << k << ' ' << delay;
+    }
+  }
 }
 
 TEST(Chart, IsTheSpectralAbscissaOfTheContinuousLoopCellByCell) {
@@ -89,7 +121,7 @@ TEST(Chart, AgreesWithExtendedPrecisionOnAMillionRandomCells) {
     const auto precise = characteristic_polynomial(
         sampled_loop(converted<long double>(plant),
                      Sampling<long double>{sampling.period, sampling.processing_delay}));
-    const auto q = precise.transformed(in_half_plane<long double, 6>);
+    const auto q = in_half_plane(precise);
     for (std::int64_t k = 0; k < grid.cells(); ++k) {
       const auto gains = grid.at(k / 50, k % 50);
       const bool stable =

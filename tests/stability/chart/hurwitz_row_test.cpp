@@ -1,11 +1,7 @@
 #include "holdfast/stability/chart/hurwitz_row.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <vector>
-
 #include "support/random.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,12 +1,8 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -34,7 +30,7 @@ void expect_cell_by_cell(const LoopChart& chart) {
   for (std::int64_t row = 0; row < chart.slow.values.count; ++row) {
     std::vector<std::uint8_t> stable(columns);
     std::vector<double> radii(columns);
-    stability.fill(row, stable.data());
+    stability.fill(row, 1, stable.data());
     radius.fill(row, 1, radii.data());
     for (std::size_t column = 0; column < columns; ++column) {
       const double rho = radius_at(chart.cell(row, static_cast<std::int64_t>(column)));
@@ -64,6 +60,16 @@ TEST(LoopChart, OverTwoParametersNeitherOfWhichIsAGain) {
 TEST(LoopChart, ThePeriodTakesTheDelayWithIt) {
   const LoopChart chart{chart_point, axis_period, axis_d};
   EXPECT_DOUBLE_EQ(chart.cell(11, 0).sampling.processing_delay, 0.4 * 0.03);
+}
+
+TEST(LoopChart, ADelayOfAWholePeriodStaysOne) {
+  OperatingPoint late = chart_point;
+  late.sampling = {0.01, 0.01};
+  const LoopChart chart{late, {Parameter::sampling_period, {0.0005, 0.02, 997}}, axis_d};
+  for (std::int64_t row = 0; row < chart.slow.values.count; ++row) {
+    const Sampling<double> sampling = chart.cell(row, 0).sampling;
+    EXPECT_EQ(sampling.processing_delay, sampling.period) << row;
+  }
 }
 
 TEST(LoopChart, AGivenDelayDoesNotScaleWithAGivenPeriod) {

@@ -1,14 +1,6 @@
 #include "holdfast/stability/design/max_delay.hpp"
-#include "holdfast/control/loop_input.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-
-#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -48,6 +40,21 @@ TEST(MaxDelay, AttenuatingAsksForMoreThanStability) {
       EXPECT_LE(attenuates.sampling_period, stable.sampling_period * (1 + 1e-11))
           << frequency << ' ' << fraction;
     }
+  }
+}
+
+/// At 8 Hz no D stabilises in a window of the period that is some 1e-4 of it wide, and of which the
+/// next longer periods show nothing.
+TEST(MaxDelay, AttenuatingStopsAtANarrowWindowWithoutAStableGain) {
+  const TwoMass<double> stay{429.25305730707925, 1374821.608302698, 48.58585714447236, 30.0,
+                             7942.682476955215,  1312.1058436351054};
+  for (double frequency = 7.8; frequency < 8.3; frequency += 0.02) {
+    MaxDelayOptions options{
+        frequency, tuned_proportional_gain(stay.absorber_stiffness, stay.absorber_mass, frequency)};
+    const MaxDelay attenuates = max_sampling_period(stay, options);
+    options.criterion = DelayCriterion::stable;
+    const MaxDelay stable = max_sampling_period(stay, options);
+    EXPECT_LE(attenuates.sampling_period, stable.sampling_period * (1 + 1e-11)) << frequency;
   }
 }
 
@@ -112,6 +119,36 @@ TEST(MaxDelay, IsUnlimitedWhereNoControlIsNeededForStability) {
   EXPECT_EQ(answer.sampling_period, std::numeric_limits<double>::infinity());
 }
 
+/// A plant a hundred times slower than the paper's: its first period without a gain lies beyond 1
+/// s.
+TEST(MaxDelay, IsLookedForInThePlantsOwnTime) {
+  auto slow = kollar2022_plant();
+  slow.conductor_stiffness *= 1e-4;
+  slow.absorber_stiffness *= 1e-4;
+  slow.conductor_damping *= 1e-2;
+  slow.absorber_damping *= 1e-2;
+  auto options = tuned_to(10.0, DelayCriterion::stable);
+  const MaxDelay usual = max_sampling_period(kollar2022_plant(), options);
+  options.frequency *= 1e-2;
+  options.proportional_gain *= 1e-4;
+  options.shortest_period *= 1e2;
+  const MaxDelay answer = max_sampling_period(slow, options);
+  ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
+  EXPECT_GT(answer.sampling_period, 1.0);
+  EXPECT_NEAR(answer.sampling_period, 100.0 * usual.sampling_period, 1e-6 * answer.sampling_period);
+}
+
+TEST(MaxDelay, WithoutDampingNothingIsSaidBeyondTheSearch) {
+  auto plant = kollar2022_plant();
+  plant.conductor_damping = plant.absorber_damping = 1e-6;
+  auto options = tuned_to(10.0, DelayCriterion::stable);
+  options.proportional_gain = 0.0;
+  options.longest_period = 0.2;
+  const MaxDelay answer = max_sampling_period(plant, options);
+  EXPECT_EQ(answer.outcome, MaxDelayOutcome::beyond_search);
+  EXPECT_EQ(answer.sampling_period, 0.2);
+}
+
 TEST(MaxDelay, IsNeverWhereNoDifferentialGainStabilises) {
   // P alone sets the s² coefficient of the continuous loop; this one makes it negative.
   auto options = tuned_to(10.0, DelayCriterion::stable);
@@ -156,6 +193,26 @@ TEST(MaxDelay, WhatIsOutOfRangeIsRefused) {
   plant.absorber_mass = -1.0;
   EXPECT_THROW(max_sampling_period(plant, tuned_to(10.0, DelayCriterion::stable)),
                InvalidParameter);
+}
+
+/// A search of bounded work ends with how far it came, all of which serves.
+TEST(MaxDelay, SaysHowFarItCameWhereItGivesUp) {
+  TwoMass<double> stiff = kollar2022_plant();
+  stiff.absorber_mass = 1e-6;
+  const double p = tuned_proportional_gain(74.4, 1e-6, 10.0);
+  const MaxDelayOptions bounded{10.0, p};
+  MaxDelayOptions brief = bounded;
+  brief.most_steps = 200;
+  const MaxDelay far = max_sampling_period(stiff, bounded);
+  const MaxDelay near = max_sampling_period(stiff, brief);
+  EXPECT_EQ(near.outcome, MaxDelayOutcome::beyond_search);
+  EXPECT_LE(near.sampling_period, far.sampling_period);
+  for (const MaxDelay& answer : {near, far}) {
+    EXPECT_TRUE(feasible_differential_gain(stiff, bounded, answer.sampling_period));
+    EXPECT_EQ(answer.limit, MaxDelayLimit::none);
+  }
+  brief.most_steps = 0;
+  EXPECT_THROW(max_sampling_period(stiff, brief), InvalidParameter);
 }
 
 }  // namespace

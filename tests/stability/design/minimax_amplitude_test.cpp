@@ -1,13 +1,6 @@
 #include "holdfast/stability/design/minimax_amplitude.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

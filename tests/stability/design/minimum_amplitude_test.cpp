@@ -1,15 +1,6 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
-#include "holdfast/control/loop_input.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "holdfast/control/gains.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -48,6 +39,30 @@ TEST(MinimumAmplitude, IsNoWorseThanADenseScan) {
         EXPECT_LE(radius, largest_radius + 1e-9);
         EXPECT_EQ(answer.outcome == MinimumAmplitudeOutcome::edge, radius > largest_radius - 1e-9);
       }
+    }
+  }
+}
+
+/// Half the way to the boundary, along D and in the rate of decay, at any P that can be stabilised.
+TEST(MinimumAmplitude, WithAMarginKeepsAwayFromTheBoundary) {
+  const auto plant = kollar2022_plant();
+  for (const Sampling<double>& sampling : {Sampling<double>{0.001}, {0.01}, {0.01, 0.005}}) {
+    for (const double frequency : {5.0, 10.0, 15.0, 20.0}) {
+      const auto loop = sampled_loop(plant, sampling);
+      const double p = tuned_proportional_gain(74.4, 0.16, frequency);
+      const auto answer =
+          minimum_amplitude(plant, {sampling, ForceHold::sampled, 1.0, 0.5}, frequency, p);
+      const auto radius = [&](double d) {
+        return spectral_radius<double, 5>(loop.engaged_map({p, d}));
+      };
+      const MinimumRadius fastest = minimum_radius(loop, p);
+      if (!(fastest.radius < 1.0)) {
+        EXPECT_EQ(answer.outcome, MinimumAmplitudeOutcome::none);
+        continue;
+      }
+      const double d = answer.differential_gain, away = d - fastest.differential_gain;
+      EXPECT_LE(std::log(radius(d)), 0.5 * std::log(fastest.radius) * (1.0 - 1e-6));
+      for (int k = 1; k < 40; ++k) EXPECT_LT(radius(d + away * k / 40.001), 1.0) << d << ' ' << k;
     }
   }
 }

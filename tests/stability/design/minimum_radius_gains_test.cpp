@@ -1,14 +1,6 @@
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

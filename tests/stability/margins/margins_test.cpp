@@ -1,16 +1,10 @@
 #include "holdfast/stability/margins/margins.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
+#include <cstdlib>
 #include <random>
-#include <vector>
 
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "support/dense_routes.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -161,6 +155,91 @@ TEST(Margins, OfRandomLoopsHoldOnAFineGrid) {
     scan(margins.sampling_period.below, 1e-2 * sampling.period);
     scan(margins.sampling_period.above, 30.0 * sampling.period);
   }
+}
+
+/// Two lightly damped loops of outside judges, whose root pairs nearly meet where one of them
+/// leaves the circle for four thousandths of the period.
+TEST(Margins, AWindowBetweenTwoPairsThatNearlyMeetIsSeenFromEveryPeriod) {
+  const TwoMass<double> plant{0.1157336128758562,  1.567728964593707, 0.003258642440361626,
+                              0.14832293510810604, 17.21286097380955, 0.0036387040574816644};
+  const PdGains<double> gains{0.29194358230569967, 0.00047046590574949785};
+  const auto radius = [&](double period) {
+    return spectral_radius<double, 5>(
+        sampled_loop(plant, Sampling<double>{period}).engaged_map(gains));
+  };
+  ASSERT_GT(radius(0.3315), 1.0);
+  for (const double period : {0.3, 0.31, 0.32, 0.33}) {
+    const MarginEnd end = stability_margins(plant, {period}, gains).sampling_period.above;
+    ASSERT_EQ(end.outcome, MarginEndOutcome::boundary) << period;
+    EXPECT_NEAR(end.position, 0.33076, 1e-5) << period;
+    EXPECT_GT(radius(end.position * (1.0 + 1e-7)), 1.0) << period;
+  }
+  const MarginEnd below = stability_margins(plant, {0.34}, gains).sampling_period.below;
+  EXPECT_NEAR(below.position, 0.33208, 1e-5);
+}
+
+/// HOLDFAST_RANDOM_LOOPS of them, 300 where it is not set.
+int random_loops() {
+  const char* const wanted = std::getenv("HOLDFAST_RANDOM_LOOPS");
+  return wanted == nullptr ? 300 : std::atoi(wanted);
+}
+
+/// Lightly damped plants, both ways along τ and δ, against eigenvalues on a grid from the value to
+/// the end: finer than the roots' own angles turn, and finer still towards the end.
+TEST(Margins, NoScanOfALightlyDampedLoopFindsAnEarlierExit) {
+  std::mt19937 generator(24);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto between = [&](double a, double b) { return a * std::pow(b / a, share(generator)); };
+  int boundaries = 0;
+  for (int tried = 0, loops = random_loops(); tried < loops;) {
+    const TwoMass<double> plant{between(0.05, 0.5), between(1.0, 100.0), between(3e-4, 0.03),
+                                between(0.05, 0.5), between(1.0, 100.0), between(3e-4, 0.03)};
+    const double fraction = share(generator) < 0.5 ? 0.0 : share(generator);
+    const double period = between(1e-2, 0.5);
+    const PdGains<double> gains{(share(generator) - 0.5) * between(0.01, 10.0),
+                                (share(generator) - 0.7) * between(1e-3, 1.0)};
+    const auto radius = [&](double t, double delay) {
+      return spectral_radius<double, 5>(
+          sampled_loop(plant, Sampling<double>{t, delay}).engaged_map(gains));
+    };
+    if (!(radius(period, fraction * period) < 1.0 - 1e-9)) continue;
+    ++tried;
+    MarginSearch search;
+    search.longest_period_ratio = 1.5;
+    search.most_steps = 3000;
+    const auto margins = stability_margins(plant, {period, fraction * period}, gains, search);
+    if (margins.outcome != MarginOutcome::stable) continue;
+    const auto scan = [&](const MarginEnd& end, double value, const auto& radius_at) {
+      boundaries += end.outcome == MarginEndOutcome::boundary ? 1 : 0;
+      const double goal = std::min(end.position, value + 2.0);
+      for (int k = 1; k < 600; ++k) {
+        const double at =
+            value + (goal - value) * (1.0 - 1e-6) * std::sin(0.5 * pi<double> * k / 600);
+        if (at <= 1e-3 * value) continue;
+        ASSERT_LT(radius_at(at), 1.0 + 1e-13)
+            << "loop " << tried << " at " << at << ", end " << goal;
+      }
+    };
+    const auto by_period = [&](double t) { return radius(t, fraction * t); };
+    const auto by_delay = [&](double delay) { return radius(period, delay); };
+    scan(margins.sampling_period.above, period, by_period);
+    scan(margins.sampling_period.below, period, by_period);
+    scan(margins.processing_delay.above, fraction * period, by_delay);
+    scan(margins.processing_delay.below, fraction * period, by_delay);
+  }
+  EXPECT_GT(boundaries, random_loops() / 2);
+}
+
+/// A stiffness at which the steps are as short as the fastest mode: the work is bounded, and what
+/// is shown is said.
+TEST(Margins, OfAnAbsurdStiffnessEndWithTheWork) {
+  auto plant = kollar2022_plant();
+  plant.absorber_stiffness = 1e15;
+  MarginSearch search;
+  search.most_steps = 50;
+  const auto margins = stability_margins(plant, {1e-3}, {0.0, -1e-3}, search);
+  if (margins.outcome != MarginOutcome::stable) GTEST_SKIP() << "not stable";
+  EXPECT_EQ(margins.sampling_period.above.outcome, MarginEndOutcome::beyond_search);
 }
 
 TEST(Margins, OfThePapersGainsEndWhereItsChartsDo) {

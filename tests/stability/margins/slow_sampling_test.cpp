@@ -1,15 +1,8 @@
 #include "holdfast/stability/margins/slow_sampling.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <cmath>
-#include <complex>
-#include <limits>
 
 #include "holdfast/control/sampled_loop.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "support/dense_routes.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -23,7 +16,7 @@ double return_ratio(const SampledLoop<double>& loop, const PdGains<double>& gain
   const Vector<std::complex<double>, 4> source =
       loop.present_force.cast<std::complex<double>>() +
       loop.previous_force.cast<std::complex<double>>() / lambda;
-  const Vector<std::complex<double>, 4> state = resolvent.partialPivLu().solve(source);
+  const Eigen::VectorXcd state = test::solution_of(resolvent, source);
   return std::abs(gains.proportional * state[0] + gains.differential * state[1]);
 }
 

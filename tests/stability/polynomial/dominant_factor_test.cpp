@@ -1,15 +1,7 @@
 #include "holdfast/stability/polynomial/dominant_factor.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <vector>
-
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {

@@ -1,19 +1,11 @@
 #include "holdfast/stability/response/response.hpp"
 #include "holdfast/control/loop_input.hpp"
-#include "holdfast/plant/two_mass.hpp"
-
-#include <gtest/gtest.h>
-
-#include <Eigen/LU>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <vector>
 
 #include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/dense_routes.hpp"
 #include "support/random_loop.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -70,8 +62,7 @@ TEST(SteadyResponse, WithoutControlAndWithExactForceIsThatOfTheContinuousPlant) 
   const auto plant = kollar2022_plant();
   const Matrix<Complex, 4> system =
       Complex(0, omega) * Matrix<Complex, 4>::Identity() - plant.state_matrix().cast<Complex>();
-  const Vector<Complex, 4> z =
-      system.partialPivLu().solve(plant.excitation_input().cast<Complex>());
+  const Eigen::VectorXcd z = test::solution_of(system, plant.excitation_input().cast<Complex>());
   for (const double period : {0.001, 0.01, 0.03}) {
     const auto loop = sampled_loop(plant, Sampling<double>{period});
     const SteadyResponse<double> response(loop, exact_harmonic(plant, period, omega), omega);
@@ -146,6 +137,24 @@ TEST(BestDifferentialGain, OfNoIntervalIsNone) {
                         .best_differential_gain(-557.0, {});
   EXPECT_TRUE(std::isnan(best.differential_gain));
   EXPECT_EQ(best.ratio_to_uncontrolled, std::numeric_limits<double>::infinity());
+}
+
+/// Against (iωI − A) x = c of the plant itself.
+TEST(SteadyResponse, WithoutAComputerIsThatOfThePlant) {
+  const auto plant = kollar2022_plant();
+  for (const double hertz : {1e-6, 1.0, 2.0, 7.0, 10.0, 1e4, 1e6}) {
+    const double radians = 2.0 * pi<double> * hertz;
+    Eigen::Matrix4cd system = -plant.state_matrix().cast<std::complex<double>>();
+    system.diagonal().array() += std::complex<double>(0.0, radians);
+    const Eigen::Vector4cd x =
+        system.fullPivLu().solve(plant.excitation_input().cast<std::complex<double>>());
+    EXPECT_NEAR(true_amplitude_per_force(plant, radians) / std::abs(x[0]), 1.0, 1e-9) << hertz;
+    // A fast computer holds the force as it is; a slow one's ratios can be told by the true one.
+    const auto slow = steady_response(plant, {0.03}, ForceHold::sampled, radians);
+    const PdGains<double> gains{-10.0, 0.5};
+    EXPECT_NEAR(slow.relative_to(std::abs(x[0])).ratio_to_uncontrolled(gains) * std::abs(x[0]),
+                slow.amplitude_per_force(gains), 1e-9 * slow.amplitude_per_force(gains));
+  }
 }
 
 }  // namespace

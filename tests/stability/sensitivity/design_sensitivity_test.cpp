@@ -1,17 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/design/max_delay.hpp"
-#include "holdfast/stability/design/minimum_amplitude.hpp"
-#include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/sensitivity/amplitude_sensitivity.hpp"
 #include "holdfast/stability/sensitivity/max_delay_sensitivity.hpp"
-#include "holdfast/stability/sensitivity/minimum_radius_sensitivity.hpp"
 #include "stability/loop_setting.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -58,9 +48,10 @@ TEST(MinimumRadiusSensitivity, OfOtherGainsIsThatOfTheRadiusAlone) {
       const PdGains<double> gains{p, d};
       const auto s = minimum_radius_sensitivity(kollar2022_plant(), {0.010, 0.0}, gains);
       EXPECT_EQ(s.kind, MinimumRadiusKind::fixed) << p << ' ' << d;
-      EXPECT_TRUE(std::isnan(s.differential_gain.conductor_mass));
+      EXPECT_TRUE(std::isnan(s.differential_gain[LoopParameter::conductor_mass]));
       const auto radius = radius_sensitivity(kollar2022_plant(), {0.010, 0.0}, gains);
-      EXPECT_NEAR(s.radius.conductor_mass, radius.conductor_mass, 1e-10);
+      EXPECT_NEAR(s.radius[LoopParameter::conductor_mass], radius[LoopParameter::conductor_mass],
+                  1e-10);
     }
   }
 }
@@ -114,12 +105,12 @@ TEST(AmplitudeSensitivity, ThereIsNoneWhereNoGainIsAdmitted) {
   const AmplitudeOptions fast{{0.001, 0.0}, ForceHold::sampled, 1.0};
   const auto unstable = amplitude_sensitivity(plant, fast, 10.0, 1e5);
   EXPECT_EQ(unstable.outcome, MinimumAmplitudeOutcome::none);
-  EXPECT_TRUE(std::isnan(unstable.ratio.conductor_mass));
-  EXPECT_TRUE(std::isnan(unstable.differential_gain.sampling_period));
+  EXPECT_TRUE(std::isnan(unstable.ratio[LoopParameter::conductor_mass]));
+  EXPECT_TRUE(std::isnan(unstable.differential_gain[LoopParameter::sampling_period]));
   const auto aliased =
       amplitude_sensitivity(plant, {{0.06, 0.0}, ForceHold::sampled, 1.0}, 10.0, -557.0);
   EXPECT_EQ(aliased.outcome, MinimumAmplitudeOutcome::aliased);
-  EXPECT_TRUE(std::isnan(aliased.ratio.absorber_stiffness));
+  EXPECT_TRUE(std::isnan(aliased.ratio[LoopParameter::absorber_stiffness]));
 }
 
 TEST(MaxDelaySensitivity, IsTheSlopeOfTheLargestPeriod) {
@@ -161,7 +152,7 @@ TEST(MaxDelaySensitivity, IsZeroWhereTheSamplesSetTheLimit) {
   options.proportional_gain = -557.0;
   const MaxDelay answer{MaxDelayOutcome::found, 0.05, -13.0, MaxDelayLimit::nyquist};
   const auto s = max_delay_sensitivity(kollar2022_plant(), options, answer);
-  EXPECT_EQ(entries_of(s.sampling_period).norm(), 0.0);
+  EXPECT_EQ(s.sampling_period.entries.norm(), 0.0);
   EXPECT_EQ(s.by_delay_fraction, 0.0);
 }
 

@@ -1,21 +1,9 @@
 #include "holdfast/stability/sensitivity/sensitivity.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
-#include "holdfast/math/linalg/spectral_radius.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "holdfast/stability/polynomial/loop_polynomial.hpp"
 #include "stability/loop_setting.hpp"
 #include "support/dense_routes.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast {
 namespace {
@@ -111,14 +99,14 @@ TEST(Sensitivity, OfTheBoundaryIsThatOfTheStableIntervals) {
     const double edge = lower_edge(setting);
     auto sensitivity =
         boundary_gain_sensitivity(setting.plant, setting.sampling,
-                                  {setting.gains.proportional, edge}, BoundaryGain::differential);
-    EXPECT_EQ(sensitivity.differential_gain, 0.0);
+                                  {setting.gains.proportional, edge}, FreeGain::differential);
+    EXPECT_EQ(sensitivity[LoopParameter::differential_gain], 0.0);
     expect_sensitivity(sensitivity, lower_edge, setting, std::abs(edge));
     const double p_edge = lower_edge_of_p(setting);
     sensitivity =
         boundary_gain_sensitivity(setting.plant, setting.sampling,
-                                  {p_edge, setting.gains.differential}, BoundaryGain::proportional);
-    EXPECT_EQ(sensitivity.proportional_gain, 0.0);
+                                  {p_edge, setting.gains.differential}, FreeGain::proportional);
+    EXPECT_EQ(sensitivity[LoopParameter::proportional_gain], 0.0);
     expect_sensitivity(sensitivity, lower_edge_of_p, setting, std::abs(p_edge));
   }
 }
@@ -127,20 +115,21 @@ TEST(Sensitivity, OfTheBoundaryIsThatOfTheStableIntervals) {
 TEST(Sensitivity, OfEitherGainIsTheBoundarysSlope) {
   for (const LoopSetting& setting : sensitivity_settings()) {
     const PdGains<double> edge{setting.gains.proportional, lower_edge(setting)};
-    const auto of_d = boundary_gain_sensitivity(setting.plant, setting.sampling, edge,
-                                                BoundaryGain::differential);
-    const auto of_p = boundary_gain_sensitivity(setting.plant, setting.sampling, edge,
-                                                BoundaryGain::proportional);
-    EXPECT_NEAR(of_d.proportional_gain * of_p.differential_gain, 1.0, 1e-9);
+    const auto of_d =
+        boundary_gain_sensitivity(setting.plant, setting.sampling, edge, FreeGain::differential);
+    const auto of_p =
+        boundary_gain_sensitivity(setting.plant, setting.sampling, edge, FreeGain::proportional);
+    EXPECT_NEAR(of_d[LoopParameter::proportional_gain] * of_p[LoopParameter::differential_gain],
+                1.0, 1e-9);
   }
 }
 
 /// One unit of mass: all masses, stiffnesses, dampings and gains scaled alike leave λ where it is.
 TEST(Sensitivity, OfTheRadiusVanishesAlongAChangeOfUnits) {
   for (const LoopSetting& setting : sensitivity_settings()) {
-    const auto s = entries_of(
-        logarithmic(radius_sensitivity(setting.plant, setting.sampling, setting.gains),
-                    setting.plant, setting.sampling, setting.gains, radius_of_setting(setting)));
+    const auto s = logarithmic(radius_sensitivity(setting.plant, setting.sampling, setting.gains),
+                               setting, radius_of_setting(setting))
+                       .entries;
     const double by_mass = s.head<6>().sum() + s[8] + s[9];
     // And one unit of time: k, P ~ 1/T², c, D ~ 1/T, τ, δ ~ T.
     const double by_time = -2.0 * (s[1] + s[4] + s[8]) - (s[2] + s[5] + s[9]) + s[6] + s[7];
@@ -162,7 +151,7 @@ TEST(Sensitivity, ATunedGainMovesWithTheAbsorber) {
       tuned_proportional_gain(setting.plant.absorber_stiffness, setting.plant.absorber_mass, f);
   const auto held = boundary_gain_sensitivity(setting.plant, setting.sampling,
                                               {setting.gains.proportional, edge(setting)},
-                                              BoundaryGain::differential);
+                                              FreeGain::differential);
   expect_sensitivity(with_tuned_gain(held, f), edge, setting, 15.0);
 }
 
@@ -171,7 +160,7 @@ TEST(Sensitivity, RefusesWhatIsOutOfRange) {
   EXPECT_THROW(radius_sensitivity(plant, {0.0}, {-557.0, -13.0}), InvalidParameter);
   EXPECT_THROW(radius_sensitivity(plant, {0.01}, {NAN, -13.0}), InvalidParameter);
   EXPECT_THROW(
-      boundary_gain_sensitivity(plant, {0.01}, {-557.0, -13.0}, BoundaryGain::differential, 0.0),
+      boundary_gain_sensitivity(plant, {0.01}, {-557.0, -13.0}, FreeGain::differential, 0.0),
       InvalidParameter);
 }
 

@@ -2,7 +2,7 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/random.hpp"
 
 namespace holdfast::test {
@@ -34,6 +34,14 @@ AffinePolynomial<double, Degree> through(const Polynomial<double, Degree>& at_ga
   result.base = at_gains - gains.proportional * result.proportional -
                 gains.differential * result.differential;
   return result;
+}
+
+/// The same in a variable of the half-plane.
+template <int Degree>
+HalfPlanePolynomial<double, Degree> through_in_half_plane(
+    const Polynomial<double, Degree>& at_gains, const PdGains<double>& gains, Random& random) {
+  const auto made = through<Degree>(at_gains, gains, random);
+  return {made.base, made.proportional, made.differential};
 }
 
 }  // namespace holdfast::test

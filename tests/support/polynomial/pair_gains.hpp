@@ -1,12 +1,9 @@
 #pragma once
 
-#include <cmath>
-#include <complex>
-#include <optional>
-
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "support/testing.hpp"
 
 namespace holdfast::test {
 

@@ -22,10 +22,9 @@ int nearest_power_of_four(Scalar ratio, int most) {
 
 /// Powers of two t_i for which row i and column i of diag(t)⁻¹ M diag(t) have about the same size.
 ///
-/// Displacements and velocities differ by the size of a frequency. Scaling and squaring as well as
-/// the QR algorithm err by a fraction of the matrix norm, which balancing brings close to the
-/// spectral radius. Powers of two round nothing. The numbers need the four operations and a
-/// comparison; the powers of dual numbers are constants.
+/// Scaling and squaring and the QR algorithm err by a fraction of the matrix norm, which balancing
+/// brings close to the spectral radius. Powers of two round nothing. The numbers need the four
+/// operations and a comparison; the powers of dual numbers are constants.
 /// Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {

@@ -40,9 +40,9 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_fo
 
 /// Eigenvalues of a real square matrix of fixed, bounded or dynamic size, by the QR algorithm.
 ///
-/// They are those of Eigen's EigenSolver to the last bit, which takes twice as long to compile for
-/// the sake of eigenvectors. The error is some 10⁻¹⁶ of the largest entry in `double`: where rows
-/// bear different units, balance the matrix first, as `spectral_radius` does. Work: about 10 n³.
+/// Those of Eigen's EigenSolver to the last bit, in half its compile time. The error is some 10⁻¹⁶
+/// of the largest entry in `double`: where rows bear different units, balance the matrix first, as
+/// `spectral_radius` does. Work: about 10 n³.
 /// @param matrix  finite, square, not empty
 /// @return each as often as its multiplicity, complex pairs side by side, otherwise in no order;
 ///         NaN where the QR algorithm does not converge within 40 n steps

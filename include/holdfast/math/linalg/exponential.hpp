@@ -88,10 +88,9 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 /// numbers of an automatic differentiation among them.
 ///
 /// Scaling and squaring of the balanced matrix, e^M = (e^{M/2^s})^{2^s}, by the diagonal Padé
-/// approximant of the least degree among 3, 5, 7 and 13 that is exact to round-off; only where that
-/// of degree 13 is not is s > 0. Balanced, since displacements and velocities differ by the size of
-/// a frequency, so that the norm of M exceeds its eigenvalues by that factor: the squarings that
-/// the norm asks for would cost as many digits. Work: up to 6 + s products and one elimination.
+/// approximant of the least degree among 3, 5, 7 and 13 that is exact to round-off; s > 0 only with
+/// degree 13. Balanced, since the squarings that a norm far above the eigenvalues asks for would
+/// cost as many digits. Work: up to 6 + s products and one elimination.
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
 /// @param matrix  square, of fixed or dynamic size; not finite, or of a sum |M_ij| that is not: NaN
@@ -103,17 +102,12 @@ Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {
   const BalancedMatrix<Scalar, Size> similar(matrix);
   Square scaled = similar.balanced;
   Scalar norm = scaled.cwiseAbs().rowwise().sum().maxCoeff();
-  for (const detail::PadeApproximant& approximant : detail::pade_approximants) {
-    if (approximant.suffices(norm)) {
-      return similar.restored(detail::approximated(approximant, scaled));
-    }
-  }
-  const detail::PadeApproximant& last = detail::pade_approximants.back();
+  const detail::PadeApproximant* approximant = detail::pade_approximants.data();
+  while (approximant != &detail::pade_approximants.back() && !approximant->suffices(norm))
+    ++approximant;
   int squarings = 0;
-  Scalar factor(1);
-  for (; !last.suffices(norm); norm /= Scalar(2), factor /= Scalar(2)) ++squarings;
-  scaled *= factor;
-  Square power = detail::approximated(last, scaled);
+  for (; !approximant->suffices(norm); norm /= Scalar(2), ++squarings) scaled /= Scalar(2);
+  Square power = detail::approximated(*approximant, scaled);
   for (; squarings > 0; --squarings) power = detail::square_product(power, power);
   return similar.restored(power);
 }

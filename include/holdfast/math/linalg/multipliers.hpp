@@ -130,8 +130,7 @@ void append_multipliers(const Matrix<Scalar, Size>& turn,
 ///
 /// Orthogonal iteration around the period, Q₀ → Q_K with M_k Q_{k−1} = Q_k R_k, brings M to
 /// Q₀ᵀ M Q₀ = (Q₀ᵀQ_K) R_K … R₁, where Q₀ᵀQ_K falls into diagonal blocks for the groups of
-/// eigenvalues whose moduli are apart. Each block is scaled by its own exponent, so that a modulus
-/// of 10⁻³⁰⁰⁰ is found as well as one of 0.9.
+/// eigenvalues whose moduli are apart. Each block is scaled by its own exponent.
 /// @param maps  at least one, N × N, N ≥ 2; each well enough conditioned to be factorised alone
 /// @return N of them; those of null directions have log_modulus −∞
 template <class Scalar = double, int Size = 5>

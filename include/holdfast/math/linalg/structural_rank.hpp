@@ -16,16 +16,14 @@ enum class Carried : unsigned {
 
 /// How many directions a product of tangent maps leaves, by what acts on what alone.
 ///
-/// The maps of a loop have zeros in known places. Their product has at most the rank that it has
-/// for almost every choice of the other entries, and that is the number of disjoint paths from its
-/// inputs to its outputs, or the fewest variables that cut all paths. Every cut consists of the
-/// independent directions of z at some instant, four, or three while the drive sticks, and of those
-/// carried quantities that act later: what a command did to the motion before is in z, and one that
-/// never acts again leads nowhere. Of each cut that begins before the future of its quantities is
-/// known only the cheapest is kept, for every set of them.
+/// The maps of a loop have zeros in known places. For almost every choice of the other entries the
+/// rank of their product is the number of disjoint paths from its inputs to its outputs, or the
+/// fewest variables that cut all paths. Every cut consists of the independent directions of z at
+/// some instant, four, or three while the drive sticks, and of those carried quantities that act
+/// later. Of the cuts with the same set of quantities whose future is not known yet only the
+/// cheapest is kept.
 ///
-/// No tolerance takes part: the numerical rank of a long product is that of its rounding. A
-/// coincidence of the entries themselves is not seen.
+/// No tolerance takes part; a coincidence of the entries themselves is not seen.
 /// Sources: B. Lindström, Bull. London Math. Soc. 5 (1973); K. Murota, Matrices and Matroids for
 /// Systems Analysis, 2000, secs. 2.2–2.3.
 /// Work: 16 comparisons for each call.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -42,6 +43,22 @@ Vector<Scalar, Size - 1> derivative(const Vector<Scalar, Size>& polynomial) {
   Vector<Scalar, Size - 1> result;
   for (int k = 1; k < Size; ++k) result[k - 1] = Scalar(k) * polynomial[k];
   return result;
+}
+
+/// p(x₀ + x) in powers of x (Taylor shift): from powers of μ = λ − 1 to powers of λ with x₀ = −1.
+template <class Coefficients>
+Coefficients shifted(Coefficients p, const typename Coefficients::Scalar& by) {
+  for (Eigen::Index start = 0; start + 1 < p.size(); ++start)
+    for (Eigen::Index k = p.size() - 2; k >= start; --k) p[k] += by * p[k + 1];
+  return p;
+}
+
+/// p(unit · x).
+template <class Coefficients>
+Coefficients rescaled(Coefficients p, const typename Coefficients::Scalar& unit) {
+  typename Coefficients::Scalar power(1);
+  for (Eigen::Index k = 0; k < p.size(); ++k, power *= unit) p[k] *= power;
+  return p;
 }
 
 namespace detail {
@@ -120,9 +137,8 @@ std::vector<std::complex<Scalar>> spread_circle(std::size_t count) {
 /// Coefficients at either end that are at most `negligible` times the largest are dropped: leading
 /// ones are roots at infinity, which do not return; trailing ones are roots at zero, which do. The
 /// rest is scaled to roots of geometric mean one and iterated until each value is down to its
-/// rounding error. Any number type with the elementary functions will do. A polynomial without a
-/// root (constant, or all zero) returns none. Source: O. Aberth, Iteration methods for finding all
-/// zeros of a polynomial simultaneously, 1973.
+/// rounding error. A constant has none. Source: O. Aberth, Iteration methods for finding all zeros
+/// of a polynomial simultaneously, 1973.
 template <class Coefficients>
 std::vector<std::complex<typename Coefficients::Scalar>> roots(
     const Eigen::MatrixBase<Coefficients>& polynomial,
@@ -146,6 +162,113 @@ std::vector<std::complex<typename Coefficients::Scalar>> roots(
   for (int sweep = 0; sweep < 200 && !detail::aberth_sweep(scaled, found); ++sweep) {
   }
   for (const std::complex<Scalar>& root : found) result.push_back(unit * root);
+  return result;
+}
+
+/// The positive roots of a real polynomial of low degree, ascending.
+///
+/// A pair that is a double root split by round-off, by √ε off the real axis, counts as two of them.
+template <class Coefficients>
+std::vector<typename Coefficients::Scalar> positive_roots(
+    const Eigen::MatrixBase<Coefficients>& polynomial) {
+  using Scalar = typename Coefficients::Scalar;
+  std::vector<Scalar> result;
+  for (const auto& root : roots(polynomial)) {
+    const bool real = std::abs(root.imag()) <= Scalar(1e-5) * std::abs(root.real());
+    if (root.real() > Scalar(0) && real) result.push_back(root.real());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Number of roots in the open right half-plane Re w > 0, by finding all roots.
+/// @param polynomial  degree 4 or 5, in s, or in w after `in_half_plane`, where Re w > 0 is |λ| > 1
+template <class Coefficients>
+int unstable_roots(const Eigen::MatrixBase<Coefficients>& polynomial) {
+  using Scalar = typename Coefficients::Scalar;
+  int count = 0;
+  for (const auto& root : roots(polynomial)) count += root.real() > Scalar(0) ? 1 : 0;
+  return count;
+}
+
+/// The polynomial divided by x − root, its last coefficient 0; the remainder is dropped.
+template <class Scalar, int Size>
+Vector<Scalar, Size> without_root(const Vector<Scalar, Size>& polynomial, const Scalar& root) {
+  Vector<Scalar, Size> quotient = Vector<Scalar, Size>::Zero();
+  for (int k = Size - 2; k >= 0; --k) quotient[k] = polynomial[k + 1] + root * quotient[k + 1];
+  return quotient;
+}
+
+namespace detail {
+
+/// Coefficients of the even (parity 0) or odd (parity 1) part of a(iy) as a polynomial in Y = y².
+template <class Scalar, int Size>
+Vector<Scalar, 3> parity_part(const Vector<Scalar, Size>& a, int parity) {
+  static_assert(Size == 5 || Size == 6, "the loop has 4 (continuous) or 5 (sampled) roots");
+  Vector<Scalar, 3> part = Vector<Scalar, 3>::Zero();
+  Scalar sign(1);
+  for (int k = parity; k < Size; k += 2, sign = -sign) part[k / 2] = sign * a[k];
+  return part;
+}
+
+/// Mean modulus of the roots, (|a₀| / |a_n|)^{1/n}: the unit in which w is of order one. 1 where it
+/// has none.
+template <class Scalar, int Size>
+Scalar mean_root_modulus(const Vector<Scalar, Size>& a) {
+  const Scalar modulus = std::pow(std::abs(a[0] / a[Size - 1]), Scalar(1) / Scalar(Size - 1));
+  return std::isfinite(modulus) && modulus > Scalar(0) ? modulus : Scalar(1);
+}
+
+/// The same polynomial with zeros for coefficients that are only round-off, w being measured in
+/// `unit`: first and last below 1e−12 of the largest, which are small differences of large numbers
+/// when sampling is fast, others below 1e−14.
+template <class Scalar, int Size>
+Vector<Scalar, Size> without_round_off(Vector<Scalar, Size> a, const Scalar& unit) {
+  const Vector<Scalar, Size> size = rescaled(a, unit).cwiseAbs();
+  const Scalar largest = size.maxCoeff();
+  for (int k = 0; k < Size; ++k) {
+    const bool at_end = k == 0 || k == Size - 1;
+    if (size[k] <= Scalar(at_end ? 1e-12 : 1e-14) * largest) a[k] = Scalar(0);
+  }
+  return a;
+}
+
+}  // namespace detail
+
+/// A polynomial on the imaginary axis, a(iy) = even(Y) + iy odd(Y) with Y = y²; each part of degree
+/// ≤ 2.
+template <class Scalar>
+struct ParityParts {
+  Vector<Scalar, 3> even;  ///< a_e: coefficients of Y⁰, Y¹, Y²
+  Vector<Scalar, 3> odd;   ///< a_o: likewise, of degree ≤ 1 in Y where a has degree 4
+
+  /// @param a     degree 4 or 5, constant coefficient first
+  /// @param unit  the modulus of w in which y is measured
+  template <int Size>
+  ParityParts(const Vector<Scalar, Size>& a, const Scalar& unit)
+      : even(detail::parity_part<Scalar, Size>(rescaled(a, unit), 0)),
+        odd(detail::parity_part<Scalar, Size>(rescaled(a, unit), 1)) {}
+};
+
+/// Möbius–Zhukovsky transformation of a polynomial given in powers of μ = λ − 1.
+///
+///     λ = (1 + w) / (1 − w),   μ = 2w / (1 − w),   q(w) = (1 − w)ⁿ p(2w / (1 − w))
+///
+/// maps |λ| < 1 onto Re w < 0, so that Hurwitz's conditions on q decide the sampled loop:
+/// q₀ = 0 is a root λ = +1, q_n = 0 a root λ = −1 (w = ∞), and H_{n−1} = 0 a pair on the unit
+/// circle. Source: Kollár 2022, §4.1; times (1 + w), its b_j for δ = 0 having no root λ = 0.
+/// @return q, constant coefficient first, same degree as p
+template <class Scalar, int Size>
+Vector<Scalar, Size> in_half_plane(const Vector<Scalar, Size>& in_powers_of_mu) {
+  Vector<Scalar, Size> result = Vector<Scalar, Size>::Zero();
+  // Horner's rule in the homogeneous pair (2w, 1 − w): result ← result · 2w + p_k (1 − w)^{n−k}.
+  Vector<Scalar, Size> power = Vector<Scalar, Size>::Unit(0);
+  for (int k = Size - 1; k >= 0; --k) {
+    for (int j = Size - 1; j > 0; --j) result[j] = Scalar(2) * result[j - 1];
+    result[0] = Scalar(0);
+    result += in_powers_of_mu[k] * power;
+    for (int j = Size - 1; j > 0; --j) power[j] -= power[j - 1];
+  }
   return result;
 }
 

@@ -26,16 +26,6 @@ struct FirstRoot {
 
 namespace detail {
 
-/// q(x + length s) as a polynomial in s.
-inline Series stretch_of(Series q, double x, double length) {
-  const Eigen::Index last = q.size() - 1;
-  for (Eigen::Index from = 0; from < last; ++from)
-    for (Eigen::Index k = last - 1; k >= from; --k) q[k] += x * q[k + 1];
-  double power = 1.0;
-  for (Eigen::Index k = 0; k <= last; ++k, power *= length) q[k] *= power;
-  return q;
-}
-
 /// From x to where value + slope s − bend s² / 2 comes to zero; value > 0.
 inline double safe_step(const ValueAndSlope& at, double height, double bend) {
   const double root = std::sqrt(at.slope * at.slope + 2.0 * bend * height);
@@ -76,7 +66,7 @@ inline FirstRoot first_root_of_positive(const Series& q) {
   for (int evaluations = 0; evaluations < most_evaluations;) {
     const bool whole = begin == 0.0 && length == 1.0;
     const FirstRoot found =
-        root_in_stretch(whole ? q : stretch_of(q, begin, length), rounding, patience);
+        root_in_stretch(whole ? q : rescaled(shifted(q, begin), length), rounding, patience);
     evaluations += found.evaluations;
     if (found.outcome != RootOutcome::none)
       return {found.outcome, std::min(begin + length * found.at, 1.0), evaluations};
@@ -94,11 +84,9 @@ inline FirstRoot first_root_of_positive(const Series& q) {
 /// it; none can be passed over.
 ///
 /// With M = Σ k (k − 1) |c_k| ≥ |p″| on [0, 1], p(x + s) ≥ p(x) + p′(x) s − M s²/2. The search goes
-/// from x to the root of that parabola, before which p has none, and so comes to the first root
-/// from the left: in quadratic convergence where p crosses, by a constant factor where it touches.
-/// Leading coefficients that are exactly zero are divided out, so that a polynomial which begins
-/// with p(0) = p′(0) = … = 0 is followed away from there; one that begins by falling below zero has
-/// its root at 0, and so has one that is below zero at 0.
+/// from x to the root of that parabola, before which p has none: in quadratic convergence where p
+/// crosses, by a constant factor where it touches. Leading coefficients that are exactly zero are
+/// divided out; a polynomial that is or falls below zero at 0 has its root there.
 ///
 /// Work: one Horner evaluation of p and p′ a step; some five for a crossing, at most 2048.
 /// @param p  one coefficient or more; where one is not finite there is no root

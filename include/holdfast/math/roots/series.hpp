@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "holdfast/math/poly/polynomial.hpp"
+
 namespace holdfast {
 
 /// Most coefficients of a series.
@@ -30,13 +32,8 @@ ValueAndSlope value_and_slope(const Eigen::MatrixBase<Coefficients>& polynomial,
 }
 
 /// What is left of p(x), 0 ≤ x ≤ 1, from some x on: the coefficients of p(from + y (1 − from)).
-inline Series rest_of(Series p, double from) {
-  const Eigen::Index terms = p.size();
-  for (Eigen::Index k = 0; k + 1 < terms; ++k)
-    for (Eigen::Index i = terms - 2; i >= k; --i) p[i] += from * p[i + 1];
-  double power = 1.0;
-  for (Eigen::Index k = 1; k < terms; ++k) p[k] *= power *= 1.0 - from;
-  return p;
+inline Series rest_of(const Series& p, double from) {
+  return rescaled(shifted(p, from), 1.0 - from);
 }
 
 }  // namespace holdfast

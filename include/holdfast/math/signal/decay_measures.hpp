@@ -34,15 +34,24 @@ struct DecayPeak {
 /// the extremes between successive crossings, at the vertex of the parabola through the three
 /// samples about each.
 ///
-/// A ripple makes no peak: a swing counts once it reaches a twentieth of the swing before it. Where
-/// noise crosses the equilibrium to and fro before that, the crossing is midway between the first
-/// and the last. Noise still lifts each peak by about two of its standard deviations.
+/// A swing counts once it reaches a twentieth of the swing before it. Where noise crosses the
+/// equilibrium to and fro before that, the crossing is midway between the first and the last. Noise
+/// lifts each peak by about two of its standard deviations.
 struct DecayEvents {
   std::vector<double> crossings;  ///< s, ascending
   std::vector<DecayPeak> peaks;   ///< peaks[k] lies between crossings[k] and crossings[k + 1]
 };
 
 namespace detail {
+
+/// @throws InvalidParameter unless the times are finite and each is later than the one before
+inline void require_ascending(const std::vector<double>& times) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    require_finite("time", times[k], "s");
+    if (k > 0 && !(times[k] > times[k - 1]))
+      throw InvalidParameter("time", times[k], "s", "later than the one before");
+  }
+}
 
 /// Vertex of the parabola through the samples k − 1, k, k + 1.
 inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
@@ -59,13 +68,16 @@ inline DecayPeak vertex(const DecayRecord& record, std::size_t k) {
 
 }  // namespace detail
 
-/// @throws InvalidParameter for columns of unequal length
+/// @throws InvalidParameter for columns of unequal length, for times that are not finite and
+/// ascending, and for displacements that are not finite
 inline DecayEvents decay_events(const DecayRecord& record) {
   const auto& t = record.times;
   const auto& z = record.displacements;
   if (t.size() != z.size())
     throw InvalidParameter("number of displacements", static_cast<double>(z.size()), "",
                            "the number of times");
+  detail::require_ascending(t);
+  for (const double displacement : z) require_finite("displacement", displacement, "m");
   constexpr double smallest_swing = 0.05;
   DecayEvents events;
   std::size_t extreme = 0;  // of the swing that is under way
@@ -102,6 +114,7 @@ Scalar logarithmic_decrement(const std::array<Scalar, 4>& peaks) {
 }
 
 /// The measures of a decay that starts displaced at the record's first instant.
+/// @throws InvalidParameter as decay_events()
 inline DecayMeasures decay_measures(const DecayRecord& record) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const DecayEvents events = decay_events(record);

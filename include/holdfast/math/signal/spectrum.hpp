@@ -64,8 +64,11 @@ std::vector<SpectralLine> amplitude_spectrum(std::vector<Scalar> signal, double 
 
 /// Number of samples after which sampling and forcing coincide: q, where f τ = p/q in lowest terms.
 /// @return 0 when f τ is no fraction with q ≤ `largest`: the two never coincide in reach
+/// @throws InvalidParameter unless f is finite and ≥ 0, τ finite and > 0
 inline std::int64_t samples_per_common_period(double frequency, double sampling_period,
                                               std::int64_t largest = 1'000'000) {
+  require_non_negative("frequency", frequency, "Hz");
+  require_positive("sampling period tau", sampling_period, "s");
   if (!(frequency * sampling_period < 1e15)) return 0;
   const auto ratio = reconstruct_rational(frequency * sampling_period, largest);
   return ratio ? ratio->denominator : 0;
@@ -75,6 +78,7 @@ inline std::int64_t samples_per_common_period(double frequency, double sampling_
 /// and of sampling periods, so that a rectangular window leaks nothing at the forcing and its
 /// harmonics.
 /// @return `available` itself when the two frequencies do not coincide within it
+/// @throws InvalidParameter as samples_per_common_period()
 inline std::int64_t whole_period_samples(std::int64_t available, double frequency,
                                          double sampling_period) {
   const std::int64_t common = samples_per_common_period(frequency, sampling_period);

@@ -46,14 +46,11 @@ struct SubharmonicOptions {
 /// Share of the power without the mean on the multiples of f/m, m = 1, 2, …
 ///
 /// A line is on a multiple when it is at most half a line away. The record shall hold whole periods
-/// of f/m and a rectangular window, so that nothing leaks; a record that does not puts a part of a
-/// multiple's power elsewhere and is found wanting, not a motion of f/m. Multiples fewer than three
-/// lines apart would hold any spectrum: such m, and all larger ones, are not asked, their share is
-/// 0.
+/// of f/m, and the window be rectangular, so that nothing leaks. Multiples fewer than three lines
+/// apart would hold any spectrum: the share of such m is 0.
 ///
 /// Frequencies above the Nyquist frequency fold: where f τ = p/q, the multiples of f appear on
-/// those of f/p = 1/(q τ), which then is the base to ask for. For a map τ = 1 and f = 1 ask for a
-/// motion of m iterations. Work: one comparison for each line and m.
+/// those of f/p = 1/(q τ), the base to ask for. Work: one comparison for each line and m.
 /// @throws InvalidParameter for a question out of its ranges, or lines that do not belong to N
 inline SubharmonicShares subharmonic_shares(const std::vector<SpectralLine>& lines,
                                             std::size_t samples,
@@ -104,10 +101,9 @@ inline std::size_t lines_holding(const std::vector<SpectralLine>& lines, std::si
 ///     (1 / ln 2) Σ over bands of [median power of a line in the band · lines of the band] / total
 ///
 /// with bands of 32 lines. The mean and the first line, over which a Hann window spreads it, are
-/// left out. The powers of the lines of noise are spread exponentially, and their median is ln 2 of
-/// their mean; separate lines do not move a median. Ask it of a Hann window, whose lines are narrow
-/// at their feet also where no period fits the record; a rectangular one leaks a floor of its own.
-/// Lines closer than eight apart are not told from a floor.
+/// left out. The powers of noise are spread exponentially, and their median is ln 2 of their mean;
+/// separate lines do not move a median. Ask it of a Hann window; a rectangular one leaks a floor of
+/// its own. Lines closer than eight apart are not told from a floor.
 /// @return 0 … 1; 0 for a signal without power
 /// @throws InvalidParameter where the numbers of samples and of lines do not belong together
 inline double continuous_share(const std::vector<SpectralLine>& lines, std::size_t samples) {

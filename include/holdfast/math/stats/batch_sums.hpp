@@ -14,10 +14,9 @@ namespace holdfast {
 /// Means of several long correlated series with their standard errors, in constant memory, from
 /// sums over steps.
 ///
-/// The steps are cut into batches of equal numbers of steps; when all `Batches` are full,
-/// neighbours are merged and the batch length doubles. A sum may cover several steps, but none
-/// reaches over the end of a batch: a caller who adds sums asks `steps_left()` first. The errors
-/// are those of the mean of the batch means and honest once a batch is longer than the correlation.
+/// The steps are cut into batches of equal length; when all `Batches` are full, neighbours are
+/// merged. A sum may cover several steps, but none over the end of a batch (`steps_left()`). The
+/// errors are honest once a batch is longer than the correlation.
 /// Source: P. W. Glynn, D. L. Iglehart, Simulation output analysis using standardized time series,
 /// 1990.
 /// @tparam Number  of a sum; a pack holds that many families of series of equal lengths
@@ -95,13 +94,8 @@ class BatchSums {
   friend class BatchSums;
 
   static Vector<double, Series> lane_of(const Sums& sums, std::size_t lane) {
-    Vector<double, Series> result(sums.size());
-    typename Lanes<Number>::Value values[Lanes<Number>::count];
-    for (Eigen::Index i = 0; i < sums.size(); ++i) {
-      Lanes<Number>::store(sums[i], values);
-      result[i] = static_cast<double>(values[lane]);
-    }
-    return result;
+    return sums.unaryExpr(
+        [lane](const Number& pack) { return static_cast<double>(detail::lane_of(pack, lane)); });
   }
 
   void close() {

@@ -39,8 +39,7 @@ inline double digits_of(long double difference, long double scale) {
 /// @param value      computed in double
 /// @param reference  of the same inputs, computed in the wider type
 /// @param scale      finite, ≥ 0, what counts as large: of a quantity that passes through zero its
-/// largest
-///                   size, not the one it happens to have
+///                   largest size
 inline double trusted_digits(double value, long double reference, long double scale) {
   const long double wide = value;
   if (wide == reference || (std::isnan(wide) && std::isnan(reference))) return most_trusted_digits;

@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "holdfast/contact/contact_guard.hpp"
 #include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/series.hpp"
+#include "holdfast/motion/dense_output.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/motion/taylor_step.hpp"
 #include "holdfast/orbit/loop_orbit.hpp"
+#include "holdfast/plant/port_readings.hpp"
 
 namespace holdfast {
 
@@ -67,8 +78,6 @@ struct EventOrbitOf : LoopOrbit<States> {
     const auto engaged = std::count(modes.begin(), modes.end(), ContactMode::engaged);
     return static_cast<double>(engaged) / static_cast<double>(modes.size());
   }
-  /// Share of the time in which the drive is engaged.
-  double engaged_time_fraction() const { return time_share[0]; }
 
   /// How near it is to switching otherwise, as a share of its own size: the smallest of the margins
   /// in the orbit's largest displacement x, its largest velocity v and v²/x. Infinite where it
@@ -91,5 +100,186 @@ struct EventOrbitOf : LoopOrbit<States> {
 
 /// That of the two masses.
 using EventOrbit = EventOrbitOf<4>;
+
+namespace detail {
+
+/// p′(x).
+inline Series series_derivative(const Series& p) {
+  if (p.size() < 2) return Series::Zero(1);
+  const Eigen::Index terms = p.size() - 1;
+  const auto powers = Series::LinSpaced(terms, 1.0, static_cast<double>(terms));
+  return p.tail(terms).cwiseProduct(powers);
+}
+
+/// Shows every x in (0, 1] at which a series changes its sign, from the left to the right, and
+/// whether it rises there. At most as many as it has terms.
+template <class Visit>
+void for_each_sign_change(Series p, Visit&& visit) {
+  double from = 0.0;
+  for (Eigen::Index count = 0; count < p.size() && from < 1.0; ++count) {
+    Eigen::Index leading = 0;
+    while (leading < p.size() && p[leading] == 0.0) ++leading;
+    if (leading == p.size()) return;
+    const bool rises = p[leading] < 0.0;
+    const FirstRoot root = first_root(rises ? Series(-p) : p);
+    if (root.outcome == RootOutcome::none) return;
+    from += (1.0 - from) * root.at;
+    visit(from, rises);
+    p = rest_of(p, root.at);
+    p[0] = 0.0;
+  }
+}
+
+/// Whether a guard is a multiple of a functional of the state alone, Δz or Δż.
+template <int States>
+bool is_of(const Vector<double, States>& row, const GuardOf<States>& guard) {
+  const double factor = guard.state.dot(row) / row.squaredNorm();
+  return guard.force == 0.0 && guard.state.isApprox(factor * row, 1e-14);
+}
+
+}  // namespace detail
+
+/// Measures what happens between the samples of a motion: the margins of its switches, the time
+/// that it spends in each mode, and its largest displacement.
+///
+///     EventOrbitMeasures<Contact> measures(motion);
+///     motion.sense();
+///     measures.begin();
+///     motion.advance(measures);
+///
+/// The motion must outlive the measures and not be moved; its samples must follow one another.
+/// Turning points are roots of the derivatives of the same series by which the motion finds its
+/// switches, so that none is passed over.
+/// @tparam Contact  of the motion
+template <class Contact>
+class EventOrbitMeasures {
+  using Motion = EventMotion<Contact>;
+  using ModeGuard = GuardOf<Motion::states>;
+  using ModeGuards = GuardsOf<Motion::states>;
+  using Expansion = typename Motion::Expansion;
+  using Instant = typename Motion::Instant;
+
+ public:
+  /// Measures from the motion's present sample on.
+  explicit EventOrbitMeasures(const EventMotion<Contact>& motion)
+      : motion_(&motion),
+        readings_(motion.readings()),
+        displacement_row_(readings_.displacement_row()),
+        velocity_row_(readings_.velocity_row()),
+        trace_(motion) {}
+
+  /// To be called after `sense()` and before `advance(measures)`.
+  void begin() {
+    trace_.begin();
+    seen_ = 0;
+  }
+
+  /// The least of each kind so far.
+  const SwitchingMargins& margins() const { return margins_; }
+  /// Time spent in each ContactMode, as a share of all.
+  std::array<double, 3> time_share() const {
+    const double all = time_[0] + time_[1] + time_[2];
+    return {time_[0] / all, time_[1] / all, time_[2] / all};
+  }
+  /// max |z(t)| (m) of the conductor.
+  double largest_displacement() const { return largest_displacement_; }
+
+  // The observer of EventMotion::advance.
+
+  /// Measures a stretch of one mode; `begin` (s) counts from the sample.
+  void flowed(int mode, double begin, double length) {
+    guards_ = motion_->contact().guards();
+    time_[static_cast<std::size_t>(motion_->contact().word())] += length;
+    trace_.flowed(mode, begin, length);
+    ModeGuards guards = guards_;
+    for (; seen_ < trace_.parts().size(); ++seen_) {
+      const Expansion& part = trace_.parts()[seen_].state;
+      look_at_displacement(part);
+      for (int g = 0; g < guards.count; ++g) look_at_guard(guards, at(g), part);
+      for (ModeGuard& guard : guards.guard) guard.zeros = 0;
+    }
+  }
+  /// From here on u_j is in force.
+  void commanded() { trace_.commanded(); }
+  /// Takes the speed or the accelerations at a guard that was reached; a switch by a jump of force
+  /// or command, guard −1, has no margin.
+  void switched(int from, int, int guard, const Instant& instant) {
+    last_slope_ = {};
+    if (guard < 0) return;
+    const ModeGuard& reached = guards_.guard[at(guard)];
+    if (detail::is_of(displacement_row_, reached)) {
+      keep_least(margins_.exit_velocity, std::abs(velocity_row_.dot(instant.state)));
+      exit_ = displacement_row_.dot(instant.state);
+    } else if (detail::is_of(velocity_row_, reached)) {
+      look_at_reversal(motion_->dynamics(from), instant);
+    }
+  }
+
+ private:
+  static constexpr std::size_t at(int index) { return static_cast<std::size_t>(index); }
+  static void keep_least(double& margin, double value) {
+    margin = std::min(margin, std::max(value, 0.0));
+  }
+
+  void look_at_displacement(const Expansion& part) {
+    const auto keep = [&](double x, bool) {
+      largest_displacement_ =
+          std::max(largest_displacement_, std::abs(readings_.displacement(part.state(x))));
+    };
+    keep(0.0, false);
+    keep(1.0, false);
+    detail::for_each_sign_change(Series(readings_.velocities(part.coefficients()).transpose()),
+                                 keep);
+  }
+
+  double* margin_of(const ModeGuard& guard) {
+    if (detail::is_of(displacement_row_, guard)) return &margins_.border_distance;
+    if (detail::is_of(velocity_row_, guard)) return &margins_.reversal_velocity;
+    return nullptr;
+  }
+
+  /// Least values of a guard at which it does not end the mode: where its slope rises through zero,
+  /// be it by a jump.
+  void look_at_guard(const ModeGuards& guards, std::size_t g, const Expansion& part) {
+    const ModeGuard& guard = guards.guard[g];
+    double* const margin = margin_of(guard);
+    if (margin == nullptr) return;
+    Series value = (guard.state.transpose() * part.coefficients()).transpose();
+    value[0] += guard.constant;
+    const auto value_at = [&](double x) { return value_and_slope(value, x).value; };
+    if (guard.unsigned_yet) return keep_least(*margin, std::abs(value_at(1.0)));
+    Series slope = detail::series_derivative(value);
+    // Both ends of a gap have the slope of Δz, which is zero where the gap was entered.
+    const int zeros = std::max(guards.guard[0].zeros, guards.guard[1].zeros) - 1;
+    slope.head(std::clamp<Eigen::Index>(zeros, 0, slope.size())).setZero();
+    if (last_slope_[g] < 0.0 && slope[0] > 0.0) keep_least(*margin, value_at(0.0));
+    detail::for_each_sign_change(slope, [&](double x, bool rises) {
+      if (rises) keep_least(*margin, value_at(x));
+    });
+    last_slope_[g] = slope.sum();
+  }
+
+  void look_at_reversal(const typename Motion::Dynamics& dynamics, const Instant& instant) {
+    if (exit_)
+      keep_least(margins_.shortest_travel, std::abs(displacement_row_.dot(instant.state) - *exit_));
+    const double free = velocity_row_.dot(dynamics.state * instant.state + dynamics.drift +
+                                          dynamics.force * instant.force);
+    const double driven = free + velocity_row_.dot(dynamics.command) * instant.command;
+    keep_least(margins_.reversal_acceleration, std::abs(driven));
+    keep_least(margins_.stick_acceleration, std::abs(free));
+  }
+
+  const Motion* motion_;
+  PortReadings<typename Motion::Plant> readings_;
+  typename Motion::State displacement_row_, velocity_row_;  // of Δz and Δż, N × 1
+  DenseOutput<Contact> trace_;
+  std::size_t seen_ = 0;                // parts of the trace
+  ModeGuards guards_;                   // of the last stretch
+  std::array<double, 2> last_slope_{};  // of the guards where the last part ended; 0: not known
+  std::optional<double> exit_;          // Δz where the last gap was left
+  SwitchingMargins margins_;
+  std::array<double, 3> time_{};
+  double largest_displacement_ = 0.0;
+};
 
 }  // namespace holdfast

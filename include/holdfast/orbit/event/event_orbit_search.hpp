@@ -1,20 +1,24 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "holdfast/contact/contact.hpp"
 #include "holdfast/contact/contact_mode.hpp"
-#include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
-#include "holdfast/orbit/event/event_orbit_solver.hpp"
-#include "holdfast/orbit/event/repeating_motion.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
+#include "holdfast/orbit/loop_orbit.hpp"
 #include "holdfast/orbit/return_search.hpp"
 
 namespace holdfast {
@@ -27,6 +31,185 @@ struct EventOrbitResult : OrbitResultOf<EventOrbitOf<EventMotion<Contact>::state
 
 namespace detail {
 
+/// Notes the samples and switches of a motion in an orbit, and lets its measures look on.
+template <class Contact>
+class PeriodRecorder {
+ public:
+  using Motion = EventMotion<Contact>;
+  using Orbit = EventOrbitOf<Motion::states>;
+
+  PeriodRecorder(const Motion& motion, EventOrbitMeasures<Contact>& measures, Orbit& orbit)
+      : motion_(motion), measures_(measures), orbit_(orbit) {}
+
+  void flowed(int mode, double begin, double length) {
+    reached_ = begin + length;
+    measures_.flowed(mode, begin, length);
+  }
+  void commanded() { measures_.commanded(); }
+  void switched(int from, int to, int guard, const typename Motion::Instant& instant) {
+    measures_.switched(from, to, guard, instant);
+    note_switch(motion_.contact().word());
+  }
+
+  /// Takes a sample whose contact was in a mode before it.
+  void take(ContactMode before, const typename Motion::Sample& sample) {
+    orbit_.states.push_back(sample.state);
+    orbit_.modes.push_back(sample.mode);
+    orbit_.forces.push_back(sample.control_force);
+    reached_ = 0.0;
+    if (sample.mode != before) note_switch(sample.mode);
+    measures_.begin();
+  }
+
+ private:
+  void note_switch(ContactMode mode) {
+    const double sample_time =
+        static_cast<double>(orbit_.states.size() - 1) * motion_.loop().sampling.period;
+    orbit_.switches.push_back({sample_time + reached_, mode});
+  }
+
+  const Motion& motion_;
+  EventOrbitMeasures<Contact>& measures_;
+  Orbit& orbit_;
+  double reached_ = 0.0;  // s after the sample
+};
+
+/// Of the samples at which the contact is in a mode, that which is farthest from any switch in
+/// time; −1 where there is none that lies at no switch.
+template <int States>
+std::int64_t sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMode mode) {
+  std::int64_t best = -1;
+  double farthest = 0.0;
+  auto next = orbit.switches.begin();
+  for (std::int64_t j = 0; j < orbit.period_samples(); ++j) {
+    const double time = static_cast<double>(j) * orbit.sampling_period;
+    while (next != orbit.switches.end() && next->time < time) ++next;
+    if (orbit.modes[static_cast<std::size_t>(j)] != mode) continue;
+    double distance = std::numeric_limits<double>::infinity();
+    if (!orbit.switches.empty()) {
+      const double after =
+          next != orbit.switches.end() ? next->time : orbit.switches.front().time + orbit.period();
+      const double before = next != orbit.switches.begin()
+                                ? std::prev(next)->time
+                                : orbit.switches.back().time - orbit.period();
+      distance = std::min(after - time, time - before);
+    }
+    if (distance <= farthest) continue;
+    farthest = distance;
+    best = j;
+  }
+  return best;
+}
+
+/// Whether two turns have the same modes and the same switches at the same times (s).
+template <int States>
+bool switch_alike(const EventOrbitOf<States>& one, const EventOrbitOf<States>& other,
+                  double tolerance) {
+  return one.modes == other.modes &&
+         std::equal(one.switches.begin(), one.switches.end(), other.switches.begin(),
+                    other.switches.end(), [&](const auto& a, const auto& b) {
+                      return a.mode == b.mode && std::abs(a.time - b.time) <= tolerance;
+                    });
+}
+
+/// Solves for the orbit of N samples near a point and measures it.
+template <class Contact>
+class EventOrbitSolver {
+ public:
+  using Motion = EventMotion<Contact>;
+  using State = typename Motion::State;
+  using Extent = StateScaleOf<typename Motion::Plant>;
+  using Orbit = EventOrbitOf<Motion::states>;
+  using Result = EventOrbitResult<Contact>;
+  using Point = StroboscopicState<Contact>;
+
+  EventOrbitSolver(const RepeatingMotion<Contact>& motion, const Rational& ratio)
+      : motion_(motion), readings_(motion.motion().readings()), ratio_(ratio) {}
+
+  /// @param near  at a stroboscopic instant
+  Result solve(const Point& near, std::int64_t samples) {
+    motion_.go_to(near);
+    EventOrbitMeasures<Contact> unused(motion_.motion());
+    const Orbit way = next_period(samples, unused);
+    const std::int64_t section = section_of(way);
+    if (section < 0) return {};
+    const Extent extent(readings_, way.states);
+    const bool gap_opens = !way.switches.empty();
+    const auto units = return_units(motion_.motion(), extent, way.forces);
+    ReturnMap<Contact> map(motion_, samples, units, gap_opens);
+    const auto solution = map.fixed_point(moved(near, section));
+    if (!solution) return {};
+    Result found = measured(moved(*solution, samples - section), samples, extent);
+    const std::int64_t shortest = found.orbit->period_samples();
+    if (shortest < samples) map = {motion_, shortest, units, gap_opens};
+    found.orbit->multipliers = map.multipliers(*solution);
+    return found;
+  }
+
+ private:
+  /// Where a fixed point is sought: with the drive engaged if it ever is, since it has forgotten
+  /// its gap then.
+  static std::int64_t section_of(const Orbit& way) {
+    const std::int64_t engaged = sample_far_from_switches(way, ContactMode::engaged);
+    return engaged >= 0 ? engaged : sample_far_from_switches(way, ContactMode::gap);
+  }
+
+  Point moved(const Point& from, std::int64_t samples) {
+    motion_.go_to(from);
+    for (std::int64_t j = 0; j < samples; ++j) {
+      motion_.sense();
+      motion_.advance();
+    }
+    return motion_.point();
+  }
+
+  /// The next N samples of the motion.
+  Orbit next_period(std::int64_t samples, EventOrbitMeasures<Contact>& measures) {
+    Orbit way{};
+    way.ratio = ratio_;
+    way.sampling_period = motion_.motion().loop().sampling.period;
+    PeriodRecorder<Contact> recorder(motion_.motion(), measures, way);
+    for (std::int64_t j = 0; j < samples; ++j) {
+      const ContactMode before = motion_.motion().contact().word();
+      recorder.take(before, motion_.sense());
+      motion_.advance(recorder);
+    }
+    return way;
+  }
+
+  /// Three periods from a point: they must switch alike.
+  /// @param extent  of the states among which the orbit was sought; its own may be rounding
+  Result measured(const Point& first, std::int64_t samples, const Extent& extent) {
+    motion_.go_to(first);
+    EventOrbitMeasures<Contact> measures(motion_.motion());
+    Orbit orbit = next_period(samples, measures);
+    const auto shortest = static_cast<std::int64_t>(shortest_period(
+        orbit.states, orbit.modes, static_cast<std::size_t>(ratio_.denominator), extent));
+    if (shortest < samples) return measured(first, shortest, extent);
+    bool alike = !motion_.motion().counts().accumulates;
+    const State closure = motion_.motion().state() - orbit.states.front();
+    for (int more = 0; more < 2; ++more)
+      alike = switch_alike(next_period(samples, measures), orbit, 1e-6 * orbit.sampling_period) &&
+              alike;
+    orbit.closure_error = closure.norm();
+    orbit.extent = Extent(readings_, orbit.states).sides();
+    for (const State& state : orbit.states)
+      orbit.largest_sample =
+          std::max(orbit.largest_sample, std::abs(readings_.displacement(state)));
+    const SwitchingMargins& margins = orbit.margins = measures.margins();
+    orbit.time_share = measures.time_share();
+    orbit.largest_displacement = measures.largest_displacement();
+    const bool touches = touches_surface(
+        orbit.extent, orbit.extent.share_of(readings_.both_sides(closure)), margins.border_distance,
+        std::min(margins.exit_velocity, margins.reversal_velocity));
+    return {{outcome_of(touches, alike), std::move(orbit)}, first};
+  }
+
+  RepeatingMotion<Contact> motion_;
+  PortReadings<typename Motion::Plant> readings_;
+  Rational ratio_;
+};
+
 /// An EventMotion as ReturnSearch asks for it: a return is solved for its fixed point, and the
 /// motion has come to an orbit once it was within a millionth of it, and has ended two periods in
 /// succession no farther from it than it began them, in the same modes.
@@ -38,7 +221,6 @@ class EventSearchModel {
   using State = typename Motion::State;
   using Memory = StroboscopicState<Contact>;
   using Symbol = ContactMode;
-  using Candidate = typename EventOrbitSolver<Contact>::Candidate;
   using Result = EventOrbitResult<Contact>;
   using Seen = SeenMotion<Symbol, Plant>;
 
@@ -67,43 +249,39 @@ class EventSearchModel {
   /// Not while the motion settles on an orbit.
   bool may_repeat(const Seen&, std::int64_t) const { return periods_on_orbit_ == 0; }
 
-  Candidate solve(const Seen&, std::int64_t period, const Memory&) {
+  Result solve(const Seen&, std::int64_t period, const Memory&) {
     return solver_.solve(motion_.point(), period);
   }
 
-  bool is_same(const Candidate& known, const Candidate& other, const Seen& seen) const {
+  bool is_same(const Result& known, const Result& other, const Seen& seen) const {
     if (known.orbit->modes != other.orbit->modes) return false;
     StateScaleOf<Plant> extent(readings(), known.orbit->states);
     extent.widen(1e-3, seen.extent);
     return extent.share_of(first_state(other) - first_state(known)) <= 1e-9;
   }
 
-  void approach(const Candidate& candidate, const Seen& seen) {
+  void approach(const Result& found, const Seen& seen) {
     approached_ = seen.taken();
-    distance_ = seen.extent.share_of(state() - first_state(candidate));
+    distance_ = seen.extent.share_of(state() - first_state(found));
     periods_on_orbit_ = 0;
   }
 
   /// Looks at those instants at which the motion began the orbit's period.
-  bool has_come(const Candidate& candidate, const Seen& seen) {
-    const std::vector<ContactMode>& modes = candidate.orbit->modes;
+  bool has_come(const Result& found, const Seen& seen) {
+    const std::vector<ContactMode>& modes = found.orbit->modes;
     const auto period = static_cast<std::int64_t>(modes.size());
     const std::int64_t passed = seen.taken() - approached_;
     if (passed == 0 || passed % period != 0) return false;
     const double before = distance_;
-    distance_ = seen.extent.share_of(state() - first_state(candidate));
-    const bool nearer = seen.came_nearer(first_state(candidate), before, distance_);
+    distance_ = seen.extent.share_of(state() - first_state(found));
+    const bool nearer = seen.came_nearer(first_state(found), before, distance_);
     const bool same_modes = std::equal(modes.begin(), modes.end(), seen.itinerary.end() - period);
     periods_on_orbit_ = nearer && same_modes ? periods_on_orbit_ + 1 : 0;
     return periods_on_orbit_ >= 2;
   }
 
-  Result result_of(const Candidate& found) const { return {{{}, found.orbit, 0, 0}, found.point}; }
-
  private:
-  static const State& first_state(const Candidate& candidate) {
-    return candidate.orbit->states.front();
-  }
+  static const State& first_state(const Result& found) { return found.orbit->states.front(); }
 
   RepeatingMotion<Contact> motion_;
   EventOrbitSolver<Contact> solver_;
@@ -116,51 +294,38 @@ class EventSearchModel {
 
 /// The periodic orbit that a motion comes to, with its numerical certificate (EventOrbit).
 ///
-///     EventMotion<ExactBacklash> motion(loop, ExactBacklash(plant, width), state);
-///     const auto found = find_event_orbit(motion, *forcing_ratio(loop), {});
+///     const auto motion = event_motion(loop, state);
+///     const auto found = find_event_orbit(motion);
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
 /// `certified` means beside what EventOrbit says that the motion was seen to come to the orbit:
 /// within a millionth of its size, nearer still over two further periods. `none_found` is also the
-/// answer where changes of contact accumulate.
+/// answer where changes of contact accumulate, `incommensurate` where sampling and forcing never
+/// coincide: other frequencies, a recorded force, samples that jitter.
 ///
 /// Bounded work: at most `most_samples` samples of the motion, and about as much again for what is
 /// solved for. Memory: a byte a sample of the motion, some 150 a sample of the orbit.
 /// @param start   the motion, before a sample; it is left as it is
-/// @param ratio   of forcing_ratio()
 /// @param limits  how long and how far to look
-/// @throws InvalidParameter where the limits are not admissible, or where sampling and forcing do
-///         not coincide every q samples: other frequencies, a recorded force, samples that jitter
-template <class Contact>
-EventOrbitResult<Contact> find_event_orbit(const EventMotion<Contact>& start, const Rational& ratio,
-                                           const OrbitLimits& limits) {
-  validate(limits);
-  const std::optional<Rational> fits = forcing_ratio(start.loop());
-  if (!fits || ratio.denominator < 1 || ratio.denominator % fits->denominator != 0)
-    throw InvalidParameter("samples from one coincidence with the forcing to the next",
-                           static_cast<double>(ratio.denominator), "",
-                           "a multiple of those after which sampling and forcing repeat");
-  if (ratio.denominator > limits.largest_period)
-    return {{OrbitOutcome::none_found, std::nullopt, 0, 0}, std::nullopt};
-  EventMotion<Contact> motion = start;
-  for (; motion.index() % ratio.denominator != 0; motion.advance()) motion.sense();
-  return detail::ReturnSearch(detail::EventSearchModel<Contact>(motion, ratio), ratio, limits)
-      .run();
-}
-
-/// The same where the ratio is not known yet: incommensurate where there is none.
+/// @throws InvalidParameter where the limits are not admissible
 template <class Contact>
 EventOrbitResult<Contact> find_event_orbit(const EventMotion<Contact>& start,
                                            const OrbitLimits& limits = {}) {
   validate(limits);
   const std::optional<Rational> ratio = forcing_ratio(start.loop());
-  if (!ratio) return {{OrbitOutcome::incommensurate, std::nullopt, 0, 0}, std::nullopt};
-  return find_event_orbit(start, *ratio, limits);
+  if (!ratio) return {{OrbitOutcome::incommensurate, {}}, {}};
+  if (ratio->denominator > limits.largest_period) return {};
+  EventMotion<Contact> motion = start;
+  for (; motion.index() % ratio->denominator != 0; motion.advance()) motion.sense();
+  return detail::ReturnSearch(detail::EventSearchModel<Contact>(motion, *ratio), *ratio, limits)
+      .run();
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template EventOrbitResult<DriveContact<>> find_event_orbit(
-    const EventMotion<DriveContact<>>&, const Rational&, const OrbitLimits&);
+    const EventMotion<DriveContact<>>&, const OrbitLimits&);
+extern template EventOrbitResult<DriveContact<ControlledPlant>> find_event_orbit(
+    const EventMotion<DriveContact<ControlledPlant>>&, const OrbitLimits&);
 #endif
 
 }  // namespace holdfast

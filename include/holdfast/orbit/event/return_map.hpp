@@ -9,17 +9,118 @@
 #include <type_traits>
 #include <vector>
 
+#include "holdfast/control/controller.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/variational_flow.hpp"
 #include "holdfast/orbit/cyclic_system.hpp"
-#include "holdfast/orbit/event/repeating_motion.hpp"
 #include "holdfast/orbit/state_scale.hpp"
-#include "holdfast/orbit/state_scaling.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
+
+/// All that the coming samples of an EventMotion depend on, where sampling and forcing coincide
+/// every q samples.
+template <class Contact>
+struct StroboscopicState {
+  std::int64_t phase;  ///< samples since the last stroboscopic instant, 0 … q − 1
+  typename EventMotion<Contact>::State state;  ///< x_j, N × 1; of two masses z_j (m, m/s, m, m/s)
+  double previous_command;                     ///< u_{j−1} (N)
+  double previous_reading;                     ///< the displacement at t_{j−1} as read (m)
+  Contact contact;                             ///< before sample j
+};
+
+namespace detail {
+
+/// A deviation of X = [x (N); u_{j−1}; the gap; the displacement as last read] of VariationalFlow.
+template <class Contact>
+using PointDeviation = Vector<double, larger_size(EventMotion<Contact>::states, 3)>;
+
+/// to − from.
+template <class Contact>
+PointDeviation<Contact> difference(const StroboscopicState<Contact>& from,
+                                   const StroboscopicState<Contact>& to) {
+  PointDeviation<Contact> apart(from.state.size() + 3);
+  apart << to.state - from.state, to.previous_command - from.previous_command, 0.0,
+      to.previous_reading - from.previous_reading;
+  if (from.contact.remembers_gap() && to.contact.remembers_gap())
+    apart[from.state.size() + 1] = to.contact.lower() - from.contact.lower();
+  return apart;
+}
+
+template <class Contact>
+StroboscopicState<Contact> shifted(StroboscopicState<Contact> point,
+                                   const PointDeviation<Contact>& by) {
+  const Eigen::Index order = point.state.size();
+  point.state += by.head(order);
+  point.previous_command += by[order];
+  point.previous_reading += by[order + 2];
+  if (point.contact.remembers_gap()) point.contact.shift_gap(by[order + 1]);
+  return point;
+}
+
+}  // namespace detail
+
+/// An EventMotion whose forcing repeats exactly every q samples: its index goes back to zero at
+/// each stroboscopic instant, so that no rounding of late instants lets sampling and forcing drift
+/// apart.
+template <class Contact>
+class RepeatingMotion {
+ public:
+  /// @param motion  at a stroboscopic instant (sampling and forcing in phase) where its index is a
+  ///                multiple of q
+  /// @param period  q ≥ 1 of forcing_ratio()
+  RepeatingMotion(const EventMotion<Contact>& motion, std::int64_t period)
+      : motion_(motion), period_(period) {
+    turn_to(motion.index() % period);
+  }
+
+  /// Takes the present sample; once before each `advance()`.
+  typename EventMotion<Contact>::Sample sense() { return motion_.sense(); }
+  /// Moves to the next sample.
+  void advance() { advance(IgnoreFlow()); }
+  /// The same past an observer as that of EventMotion::advance.
+  template <class Observer>
+  void advance(Observer&& observer) {
+    motion_.advance(observer);
+    if (motion_.index() == period_) turn_to(0);
+  }
+
+  /// Where the motion stands; ask before `sense()`.
+  StroboscopicState<Contact> point() const {
+    double reading = 0.0;
+    if constexpr (!own_controller) reading = motion_.controller().memory().previous_displacement;
+    return {motion_.index(), motion_.state(), motion_.previous_command(), reading,
+            motion_.contact()};
+  }
+
+  /// Goes on from a point, its counts begun again.
+  void go_to(const StroboscopicState<Contact>& point) {
+    if constexpr (!own_controller) {
+      if (motion_.loop().limits.velocity == VelocitySensing::difference)
+        motion_.remember_reading(point.previous_reading);
+    }
+    motion_.restore(point.phase, point.state, point.previous_command, point.contact);
+    motion_.restart_counts();
+  }
+
+  /// The motion itself; its index is the phase, 0 … q − 1.
+  const EventMotion<Contact>& motion() const { return motion_; }
+  /// q.
+  std::int64_t period() const { return period_; }
+
+ private:
+  static constexpr bool own_controller =
+      detail::HasController<typename EventMotion<Contact>::Plant>::value;
+
+  void turn_to(std::int64_t phase) {
+    motion_.restore(phase, motion_.state(), motion_.previous_command(), motion_.contact());
+  }
+
+  EventMotion<Contact> motion_;
+  std::int64_t period_;
+};
 
 namespace detail {
 
@@ -81,8 +182,8 @@ class ReturnMap {
   ///         does not become rounding
   std::optional<Point> fixed_point(Point near) {
     constexpr int most_iterations = 30, most_failures = 3;
-    constexpr std::int64_t samples_of_block = 64;  // what they contract has no part in a step
-    Extent extent(motion_.motion().readings());    // of all that was tried
+    constexpr std::size_t samples_of_block = 64;  // what they contract has no part in a step
+    Extent extent(motion_.motion().readings());   // of all that was tried
     double least = std::numeric_limits<double>::infinity();
     std::optional<Point> best;
     for (int count = 0, failures = 0; count < most_iterations && failures < most_failures;
@@ -124,7 +225,7 @@ class ReturnMap {
  private:
   using Extent = StateScaleOf<typename Motion::Plant>;
   using Map = typename VariationalFlow<Contact>::Map;
-  using Blocks = std::vector<AffineMap<double, Eigen::Dynamic>>;
+  using Blocks = std::vector<Eigen::MatrixXd>;
 
   /// A motion over N samples, and what becomes of its deviations.
   struct Linearised {
@@ -136,14 +237,12 @@ class ReturnMap {
   Eigen::Index order() const { return units_.size() - 3; }
   Eigen::Index gap_row() const { return order() + 1; }
 
-  /// @param most    samples of a block; fewer where deviations grow a thousandfold
+  /// @param most    samples of a block
   /// @param extent  takes the states
-  Linearised linearised(const Point& point, std::int64_t most, Extent& extent) {
-    constexpr double largest_growth = 1e3;
+  Linearised linearised(const Point& point, std::size_t most, Extent& extent) {
     motion_.go_to(point);
     VariationalFlow<Contact> tangent(motion_.motion());
-    Linearised flow{point, {}, 0};
-    std::int64_t length = most;
+    BlockProducts<Eigen::MatrixXd> products(most);
     for (std::int64_t j = 0; j < samples_; ++j) {
       motion_.sense();
       tangent.begin_sample(motion_.motion());
@@ -154,17 +253,9 @@ class ReturnMap {
         map.row(gap_row()).setZero();
         map.col(gap_row()).setZero();
       }
-      if (length == most || !(flow.blocks.back().map.cwiseAbs().maxCoeff() < largest_growth)) {
-        flow.blocks.push_back({map, Eigen::VectorXd::Zero(units_.size())});
-        length = 1;
-      } else {
-        flow.blocks.back().map = map * flow.blocks.back().map;
-        ++length;
-      }
+      products.append(map);
     }
-    flow.end = motion_.point();
-    flow.rank = tangent.rank_of_product();
-    return flow;
+    return {motion_.point(), products.blocks(), tangent.rank_of_product()};
   }
 
   /// How many numbers the samples from a point on depend on.
@@ -173,7 +264,7 @@ class ReturnMap {
     auto size = static_cast<std::size_t>(order());
     if (loop.sampling.processing_delay > 0.0) ++size;
     if (loop.limits.velocity == VelocitySensing::difference) ++size;
-    if (gap_opens_ && is_anchored(point.contact, point.contact.mode())) ++size;
+    if (gap_opens_ && point.contact.is_anchored(point.contact.mode())) ++size;
     return size;
   }
 
@@ -182,7 +273,7 @@ class ReturnMap {
     std::vector<int> counting;
     for (int i = 0; i < static_cast<int>(units_.size()); ++i)
       if (std::any_of(blocks.begin(), blocks.end(),
-                      [i](const auto& block) { return !block.map.col(i).isZero(0.0); }))
+                      [i](const auto& block) { return !block.col(i).isZero(0.0); }))
         counting.push_back(i);
     return counting;
   }
@@ -195,17 +286,18 @@ class ReturnMap {
     const Eigen::Index size = std::max<Eigen::Index>(count, 5);
     std::vector<Matrix<double, Size>> maps(blocks.size(), Matrix<double, Size>::Zero(size, size));
     for (std::size_t k = 0; k < blocks.size(); ++k)
-      maps[k].topLeftCorner(count, count) = blocks[k].map(counting, counting);
+      maps[k].topLeftCorner(count, count) = blocks[k](counting, counting);
     return maps;
   }
 
   /// So many that no direction is contracted to rounding against another: those of x by the plant
   /// and its control alone; what is remembered beside x may be forgotten within a few samples.
-  std::int64_t samples_that_keep_digits() const {
+  std::size_t samples_that_keep_digits() const {
     const EventMotion<Contact>& motion = motion_.motion();
     const DigitalLoop& loop = motion.loop();
-    const bool remembers =
-        loop.sampling.processing_delay > 0.0 || loop.limits.velocity == VelocitySensing::difference;
+    const bool remembers = loop.sampling.processing_delay > 0.0 ||
+                           loop.limits.velocity == VelocitySensing::difference ||
+                           detail::HasController<typename Motion::Plant>::value;
     if (remembers) return 1;
     const auto& engaged = motion.dynamics(0);
     const double free = engaged.state.trace();
@@ -214,7 +306,7 @@ class ReturnMap {
         loop.gains.proportional * motion.readings().measured_displacement(engaged.command);
     const double decay = std::max(std::abs(free), std::abs(controlled));
     const double samples = 4.0 / (decay * loop.sampling.period);  // infinite without damping
-    return static_cast<std::int64_t>(std::clamp(samples, 1.0, 16.0));
+    return static_cast<std::size_t>(std::clamp(samples, 1.0, 16.0));
   }
 
   RepeatingMotion<Contact> motion_;

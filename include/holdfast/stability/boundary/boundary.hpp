@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -7,12 +10,142 @@
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/boundary/curve_tracer.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/boundary/root_pair_curve.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
 
 namespace detail {
+
+/// A place on a curve of root pairs.
+template <class Scalar>
+struct CurvePlace {
+  Scalar parameter;
+  PdGains<Scalar> gains;  // not finite at a pole
+};
+
+/// Points along a curve of root pairs within a range of P, as far apart as a picture allows.
+///
+/// A piece of the curve is halved until its quarter points lie on the chord to 1/1000 (of the range
+/// in P, of the gain itself in D, since a picture's range of D is not known here) and the chord
+/// spans no more than 1/50 of the range; a piece that leaves the range is halved where it does.
+/// @tparam Curve  `BoundaryCurves` or `CircleBoundary`: `gains`, `between` and `angle` of a
+///                parameter, and `pair_kind`
+template <class Scalar, class Curve>
+class CurveTracer {
+ public:
+  using Place = CurvePlace<Scalar>;
+  using Points = std::vector<BoundaryPoint<Scalar>>;
+
+  /// @param curve    must outlive this object
+  /// @param deepest  how often a piece is halved at most
+  CurveTracer(const Curve& curve, const Interval<double>& range, int deepest)
+      : curve_(curve), range_(range), deepest_(deepest) {}
+
+  Place at(const Scalar& parameter) const { return {parameter, curve_.gains(parameter)}; }
+
+  /// Appends the points of the pieces between neighbouring places, which ascend.
+  void trace(const std::vector<Place>& places, Points& points) const {
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+      append(places[k], points);
+      refine(places[k], places[k + 1], deepest_, points);
+      append(places[k + 1], points);
+    }
+  }
+
+ private:
+  /// Round-off must not put the end of the range out of it.
+  bool in_range(const Place& place) const {
+    const Scalar slack = Scalar(1e-12) * width();
+    return place.gains.proportional >= Scalar(range_.lower) - slack &&
+           place.gains.proportional <= Scalar(range_.upper) + slack;
+  }
+
+  void refine(const Place& start, const Place& end, int depth, Points& points) const {
+    const Place middle = at(curve_.between(start.parameter, end.parameter));
+    const int inside = int(in_range(start)) + int(in_range(middle)) + int(in_range(end));
+    if (depth == 0 || inside == 0 || !worth_splitting(start, middle, end)) return;
+    refine(start, middle, depth - 1, points);
+    append(middle, points);
+    refine(middle, end, depth - 1, points);
+  }
+
+  bool worth_splitting(const Place& start, const Place& middle, const Place& end) const {
+    // Beside a pole at which P is finite D grows without end.
+    if (!(end.parameter - start.parameter > Scalar(1e-6) * end.parameter)) return false;
+    const Scalar step = std::abs(end.gains.proportional - start.gains.proportional);
+    if (!(step <= Scalar(0.02) * width())) return true;
+    const Place first = at(curve_.between(start.parameter, middle.parameter));
+    const Place third = at(curve_.between(middle.parameter, end.parameter));
+    for (const Place* place : {&first, &middle, &third}) {
+      if (!(distance(place->gains, start.gains, end.gains) <= Scalar(0.001))) return true;
+    }
+    return false;
+  }
+
+  Scalar width() const { return Scalar(range_.upper) - Scalar(range_.lower); }
+
+  /// Distance of the point from the chord, P in units of the range and D of its own size.
+  Scalar distance(const PdGains<Scalar>& point, const PdGains<Scalar>& start,
+                  const PdGains<Scalar>& end) const {
+    const Scalar size = std::abs(start.differential) + std::abs(end.differential);
+    const auto p = [&](const PdGains<Scalar>& gains) {
+      return (gains.proportional - start.proportional) / width();
+    };
+    const auto d = [&](const PdGains<Scalar>& gains) {
+      return size > Scalar(0) ? (gains.differential - start.differential) / size : Scalar(0);
+    };
+    const Scalar length = std::hypot(p(end), d(end));
+    if (!(length > Scalar(0))) return std::hypot(p(point), d(point));
+    return std::abs(p(end) * d(point) - d(end) * p(point)) / length;
+  }
+
+  /// One point at an angle, as about a pole that a zero all but cancels.
+  void append(const Place& place, Points& points) const {
+    if (!std::isfinite(place.gains.differential) || !in_range(place)) return;
+    const Scalar angle = curve_.angle(place.parameter);
+    const bool first = points.empty() || points.back().curve != curve_.pair_kind();
+    if (!first && !(points.back().angle < angle)) return;
+    const Scalar p =
+        std::clamp(place.gains.proportional, Scalar(range_.lower), Scalar(range_.upper));
+    points.push_back({curve_.pair_kind(), angle, {p, place.gains.differential}});
+  }
+
+  const Curve& curve_;
+  Interval<double> range_;
+  int deepest_;
+};
+
+/// Where the curve is cut: where it enters or leaves the range, at its poles and where P or D is
+/// stationary, so that both gains are monotone between cuts and no branch is missed. At a pole the
+/// curve leaves the range at one end and comes back at the other.
+/// @param squares  the cuts lie within
+template <class Scalar, int Degree>
+std::vector<CurvePlace<Scalar>> curve_cuts(const BoundaryCurves<Scalar, Degree>& curves,
+                                           const Interval<double>& range,
+                                           const Interval<Scalar>& squares) {
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+  const RootPairCurve<Scalar>& curve = curves.pairs();
+  std::vector<CurvePlace<Scalar>> cuts;
+  for (const Scalar& pole : curve.poles()) cuts.push_back({pole, {infinity, infinity}});
+  for (const auto& turns : {std::vector<Scalar>{squares.lower, squares.upper},
+                            curve.proportional_extremes(), curve.differential_extremes()})
+    for (const Scalar& square : turns) cuts.push_back({square, curve.gains(square)});
+  for (const MonotoneArc<Scalar>& arc : curve.arcs()) {
+    for (const Scalar end : {Scalar(range.lower), Scalar(range.upper)}) {
+      if (!arc.passes(end)) continue;
+      const Scalar square = curve.square(arc, end);
+      cuts.push_back({square, {end, curve.crossing(end, square).differential}});
+    }
+  }
+  const auto outside = [&squares](const auto& cut) {
+    return !(cut.parameter >= squares.lower && cut.parameter <= squares.upper);
+  };
+  cuts.erase(std::remove_if(cuts.begin(), cuts.end(), outside), cuts.end());
+  std::sort(cuts.begin(), cuts.end(),
+            [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
+  return cuts;
+}
 
 /// Y of the traced pairs: from 10⁻⁶ of the plant's mean root up to 10⁶ of it, or for the sampled
 /// loop to θ = π − 2·10⁻⁶.
@@ -31,27 +164,27 @@ Interval<Scalar> traced_squares(const BoundaryCurves<Scalar, Degree>& curves) {
 /// Sampled loop (degree 5): λ = +1, λ = −1 and λ = e^{±iθ}. Continuous loop (degree 4): s = 0 and
 /// s = ±iω. A line that the plant does not have (no gain moves the root there) is absent; λ = +1
 /// and s = 0 are absent for the two-mass plant, whose force moves no static equilibrium.
-/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1, or
-/// `characteristic_polynomial(plant)`, in s
+/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param range       P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar, int Degree>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(
-    const AffinePolynomial<Scalar, Degree>& polynomial, const ProportionalRange& range) {
-  validate(range);
+    const AffinePolynomial<Scalar, Degree>& polynomial, const Interval<double>& range) {
+  validate(polynomial);
+  validate_proportional(range);
   const BoundaryCurves<Scalar, Degree> curves(polynomial);
   std::vector<BoundaryPoint<Scalar>> points;
   for (const auto& line : curves.lines()) detail::append_line(points, line, range);
-  const detail::CurveTracer<Scalar, Degree> tracer(curves, range);
-  tracer.trace(detail::traced_squares(curves), points);
+  detail::CurveTracer<Scalar, BoundaryCurves<Scalar, Degree>>(curves, range, 24)
+      .trace(detail::curve_cuts(curves, range, detail::traced_squares(curves)), points);
   return points;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template std::vector<BoundaryPoint<double>> stability_boundary(
-    const AffinePolynomial<double, 4>&, const ProportionalRange&);
+    const AffinePolynomial<double, 4>&, const Interval<double>&);
 extern template std::vector<BoundaryPoint<double>> stability_boundary(
-    const AffinePolynomial<double, 5>&, const ProportionalRange&);
+    const AffinePolynomial<double, 5>&, const Interval<double>&);
 #endif
 
 }  // namespace holdfast

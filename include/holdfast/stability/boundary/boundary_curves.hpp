@@ -7,11 +7,10 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/poly/parity.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/root_pair_curve.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
 
@@ -45,7 +44,7 @@ namespace detail {
 /// The two ends of a line within a P range; D = ∓∞ where it is vertical.
 template <class Scalar>
 void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<Scalar>& line,
-                 const ProportionalRange& range) {
+                 const Interval<double>& range) {
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
   const Scalar lower(range.lower), upper(range.upper);
   if (!line.is_vertical()) {
@@ -65,19 +64,18 @@ void append_line(std::vector<BoundaryPoint<Scalar>>& points, const BoundaryLine<
 /// All curves of the gain plane on which a characteristic root is on the boundary of stability: the
 /// curve of root pairs, parametrised by Y (`RootPairCurve`), and at most two lines.
 ///
-/// The sampled loop (degree 5) is treated in w, λ = (1 + w)/(1 − w): λ = +1 is q₀ = 0, λ = −1 is
-/// q₅ = 0 and Y = tan²(θ/2). The continuous loop (degree 4) is treated in s: s = 0 is p₀ = 0 and
-/// Y = ω², both but for the unit of Y. A line that no gain moves is none.
+/// The sampled loop (degree 5) is treated in w, λ = (1 + w)/(1 − w), with Y = tan²(θ/2), the
+/// continuous loop (degree 4) in s with Y = ω², both but for the unit of Y. A line that no gain
+/// moves is none.
 template <class Scalar, int Degree>
 class BoundaryCurves {
  public:
   /// True for the sampled loop (degree 5), false for the continuous one (degree 4).
   static constexpr bool sampled = Degree == 5;
 
-  /// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
-  /// `characteristic_polynomial(plant)`, in s (degree 4)
+  /// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
   explicit BoundaryCurves(const AffinePolynomial<Scalar, Degree>& polynomial)
-      : polynomial_(detail::in_stable_half_plane(polynomial)), pairs_(polynomial_) {
+      : polynomial_(in_half_plane(polynomial)), pairs_(polynomial_) {
     add_line(polynomial, sampled ? BoundaryCurve::plus_one : BoundaryCurve::zero, Scalar(0),
              Scalar(0));
     // λ − 1 = −2
@@ -85,7 +83,7 @@ class BoundaryCurves {
   }
 
   /// The polynomial in the variable whose stable half-plane is Re < 0.
-  const AffinePolynomial<Scalar, Degree>& polynomial() const { return polynomial_; }
+  const HalfPlanePolynomial<Scalar, Degree>& polynomial() const { return polynomial_; }
 
   /// The curve of root pairs, parametrised by Y.
   const RootPairCurve<Scalar>& pairs() const { return pairs_; }
@@ -96,6 +94,14 @@ class BoundaryCurves {
   /// loop.
   BoundaryCurve pair_kind() const {
     return sampled ? BoundaryCurve::complex_pair : BoundaryCurve::imaginary_pair;
+  }
+
+  /// The gains of the pair that belongs to Y; infinite at a pole.
+  PdGains<Scalar> gains(const Scalar& square) const { return pairs_.gains(square); }
+
+  /// The middle of two Y, in ln Y.
+  static Scalar between(const Scalar& lower, const Scalar& upper) {
+    return std::sqrt(lower) * std::sqrt(upper);
   }
 
   /// θ (rad) of the pair λ = e^{±iθ} that belongs to Y, or ω (rad/s) of s = ±iω.
@@ -117,15 +123,14 @@ class BoundaryCurves {
 
   /// The line on which the polynomial vanishes at x. A gain whose part there is only round-off of
   /// its coefficients does not move the root: below 1e−13 of the largest at s = 0, s in units of
-  /// the fastest root, to whose powers the recurrence of the coefficients rounds; below 1e−9 at
-  /// λ = ±1, since the matrix exponential is less exact.
+  /// the fastest root; below 1e−9 at λ = ±1, since the matrix exponential is less exact.
   void add_line(const AffinePolynomial<Scalar, Degree>& polynomial, BoundaryCurve curve,
                 const Scalar& angle, const Scalar& x) {
     const Scalar unit = sampled ? Scalar(1) : root_bound(polynomial.base);
     const Scalar round_off(sampled ? 1e-9 : 1e-13);
     const auto slope = [&](const Polynomial<Scalar, Degree>& part) {
       const Scalar value = evaluate(part, x);
-      const Scalar size = detail::rescaled(part, unit).cwiseAbs().maxCoeff();
+      const Scalar size = rescaled(part, unit).cwiseAbs().maxCoeff();
       return std::abs(value) > round_off * size ? value : Scalar(0);
     };
     const BoundaryLine<Scalar> line{curve, angle, evaluate(polynomial.base, x),
@@ -133,7 +138,7 @@ class BoundaryCurves {
     if (line.proportional != Scalar(0) || line.differential != Scalar(0)) lines_.push_back(line);
   }
 
-  AffinePolynomial<Scalar, Degree> polynomial_;
+  HalfPlanePolynomial<Scalar, Degree> polynomial_;
   RootPairCurve<Scalar> pairs_;
   std::vector<BoundaryLine<Scalar>> lines_;
 };

@@ -2,6 +2,7 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
 
 namespace holdfast {
 
@@ -14,6 +15,12 @@ enum class BoundaryCurve {
   imaginary_pair,  ///< continuous loop: pair s = ±iω
 };
 
+/// Which of the two gains varies while the other is held.
+enum class FreeGain {
+  proportional,  ///< P
+  differential,  ///< D
+};
+
 /// One point of the boundary in the gain plane.
 template <class Scalar>
 struct BoundaryPoint {
@@ -22,28 +29,16 @@ struct BoundaryPoint {
   PdGains<Scalar> gains;  ///< P (N/m), finite; D (N s/m), ∓∞ at the ends of a vertical line
 };
 
-/// A range of proportional gains, N/m.
-struct ProportionalRange {
-  double lower;  ///< P (N/m), finite
-  double upper;  ///< P (N/m), finite, > lower
-};
-
-/// @throws InvalidParameter unless range.lower < range.upper, both finite
-inline void validate(const ProportionalRange& range) {
+/// @throws InvalidParameter unless range.lower < range.upper, both finite, of P (N/m)
+inline void validate_proportional(const Interval<double>& range) {
   require_finite("lower end of the proportional gains", range.lower, "N/m");
   require_positive("width of the range of proportional gains", range.upper - range.lower, "N/m");
 }
 
-/// A range of differential gains, N s/m.
-struct DifferentialRange {
-  double lower;  ///< D (N s/m), finite
-  double upper;  ///< D (N s/m), finite, > lower
-};
-
 /// A rectangle of the gain plane, its edges included.
 struct GainWindow {
-  ProportionalRange proportional;  ///< P (N/m)
-  DifferentialRange differential;  ///< D (N s/m)
+  Interval<double> proportional;  ///< P (N/m), finite, lower < upper
+  Interval<double> differential;  ///< D (N s/m), likewise
 
   /// Extent in P (N/m).
   double width() const { return proportional.upper - proportional.lower; }
@@ -66,7 +61,7 @@ struct GainWindow {
 
 /// @throws InvalidParameter unless lower < upper in both ranges, all finite
 inline void validate(const GainWindow& window) {
-  validate(window.proportional);
+  validate_proportional(window.proportional);
   require_finite("lower end of the differential gains", window.differential.lower, "N s/m");
   require_positive("width of the range of differential gains", window.height(), "N s/m");
 }

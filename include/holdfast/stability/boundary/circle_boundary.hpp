@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <optional>
 #include <vector>
 
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
@@ -21,22 +21,24 @@ namespace detail {
 template <class Scalar>
 class CircleBoundary {
  public:
-  CircleBoundary(const LoopMap<Scalar>& map, const ProportionalRange& range)
+  CircleBoundary(const LoopMap<Scalar>& map, const Interval<double>& range)
       : response_(map), range_(range) {
     for (const std::complex<Scalar>& root : balanced_eigenvalues(map.open_map))
       if (root.imag() > Scalar(0)) pole_angles_.push_back(std::arg(root));
   }
 
   /// The gains with a root pair e^{±iθ}: P = Im G_v / Im(Ḡ_z G_v), D = −Im G_z / Im(Ḡ_z G_v).
-  std::optional<PdGains<Scalar>> gains_at(const Scalar& angle) const {
+  PdGains<Scalar> gains(const Scalar& angle) const {
     const CommandResponse<Scalar> g = response_.at_angle(angle);
     const Scalar determinant = std::imag(std::conj(g.displacement) * g.velocity);
-    const PdGains<Scalar> gains{g.velocity.imag() / determinant,
-                                -g.displacement.imag() / determinant};
-    if (!std::isfinite(gains.proportional) || !std::isfinite(gains.differential))
-      return std::nullopt;
-    return gains;
+    return {g.velocity.imag() / determinant, -g.displacement.imag() / determinant};
   }
+
+  static Scalar between(const Scalar& lower, const Scalar& upper) {
+    return lower + (upper - lower) / Scalar(2);
+  }
+  static Scalar angle(const Scalar& angle) { return angle; }
+  static BoundaryCurve pair_kind() { return BoundaryCurve::complex_pair; }
 
   /// The line of gains with the root 1 or −1, by its two ends within the range.
   void append_line(BoundaryCurve curve, std::vector<BoundaryPoint<Scalar>>& points) const {
@@ -51,15 +53,10 @@ class CircleBoundary {
 
   /// The curve of root pairs within the range, by ascending angle.
   void append_curve(std::vector<BoundaryPoint<Scalar>>& points) const {
-    const std::vector<Scalar> angles = starting_angles();
-    if (angles.empty()) return;
-    Place left = place_at(angles.front());
-    for (std::size_t k = 0; k + 1 < angles.size(); ++k) {
-      const Place right = place_at(angles[k + 1]);
-      append(left, points);
-      refine(left, right, 0, points);
-      left = right;
-    }
+    const CurveTracer<Scalar, CircleBoundary> tracer(*this, range_, 14);
+    std::vector<CurvePlace<Scalar>> places;
+    for (const Scalar& angle : starting_angles()) places.push_back(tracer.at(angle));
+    tracer.trace(places, points);
   }
 
  private:
@@ -69,17 +66,6 @@ class CircleBoundary {
     for (const Scalar& angle : pole_angles_)
       largest = std::max(largest, std::abs(response_.at_angle(angle).velocity));
     return largest;
-  }
-
-  struct Place {
-    Scalar angle;
-    std::optional<PdGains<Scalar>> gains;
-  };
-  Place place_at(const Scalar& angle) const { return {angle, gains_at(angle)}; }
-
-  bool within(const Place& place) const {
-    return place.gains->proportional >= Scalar(range_.lower) &&
-           place.gains->proportional <= Scalar(range_.upper);
   }
 
   /// Close together about each pole, towards 0 and towards π, where the curve moves fast.
@@ -98,36 +84,8 @@ class CircleBoundary {
     return angles;
   }
 
-  void append(const Place& place, std::vector<BoundaryPoint<Scalar>>& points) const {
-    if (place.gains && within(place))
-      points.push_back({BoundaryCurve::complex_pair, place.angle, *place.gains});
-  }
-
-  /// Halves an interval of angles while its middle is off the chord by more than a 500th of the
-  /// range of P, and where one end alone lies in the range.
-  void refine(const Place& left, const Place& right, int depth,
-              std::vector<BoundaryPoint<Scalar>>& points) const {
-    constexpr int deepest = 14;
-    if (depth == deepest) return;
-    const Place middle = place_at(left.angle + (right.angle - left.angle) / Scalar(2));
-    const auto &a = left.gains, &b = right.gains, &m = middle.gains;
-    if (!a || !b || !m) return;
-    const int inside = int(within(left)) + int(within(right)) + int(within(middle));
-    if (inside == 0) return;
-    const Scalar off = std::abs(m->proportional - (a->proportional + b->proportional) / Scalar(2));
-    const Scalar off_d =
-        std::abs(m->differential - (a->differential + b->differential) / Scalar(2));
-    const Scalar width = Scalar(range_.upper - range_.lower);
-    const Scalar size_d =
-        std::max({std::abs(a->differential), std::abs(b->differential), std::abs(m->differential)});
-    if (inside == 3 && off <= Scalar(0.002) * width && off_d <= Scalar(0.002) * size_d) return;
-    refine(left, middle, depth + 1, points);
-    append(middle, points);
-    refine(middle, right, depth + 1, points);
-  }
-
   LoopResponse<Scalar> response_;
-  ProportionalRange range_;
+  Interval<double> range_;
   std::vector<Scalar> pole_angles_;
 };
 
@@ -136,16 +94,16 @@ class CircleBoundary {
 /// The boundary of stability of a loop of any order over a range of P: the lines of the roots 1 and
 /// −1 (their two ends), then the curve of root pairs e^{±iθ} by ascending angle.
 ///
-/// 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} are two real linear equations in P and D, of which
-/// every angle gives one point (`LoopResponse`). The points lie as close together as the curve's
-/// bends need; its crossings with a line of constant P or D are in `circle_crossings`.
+/// 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} are two real linear equations in P and D
+/// (`LoopResponse`). The points lie as close together as the curve's bends need; its crossings with
+/// a line of constant P or D are in `circle_crossings`.
 /// @param map    the loop
 /// @param range  P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>
 std::vector<BoundaryPoint<Scalar>> stability_boundary(const LoopMap<Scalar>& map,
-                                                      const ProportionalRange& range) {
-  validate(range);
+                                                      const Interval<double>& range) {
+  validate_proportional(range);
   const detail::CircleBoundary<Scalar> boundary(map, range);
   std::vector<BoundaryPoint<Scalar>> points;
   boundary.append_line(BoundaryCurve::plus_one, points);
@@ -156,7 +114,7 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(const LoopMap<Scalar>& map
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
-                                                                      const ProportionalRange&);
+                                                                      const Interval<double>&);
 #endif
 
 }  // namespace holdfast

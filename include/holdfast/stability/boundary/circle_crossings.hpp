@@ -13,6 +13,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
@@ -22,12 +23,6 @@ namespace holdfast {
 struct GainCrossing {
   double gain;   ///< P (N/m) or D (N s/m), finite
   double angle;  ///< θ (rad) of the root e^{±iθ}, 0 … π
-};
-
-/// Which of the two gains varies while the other is held.
-enum class FreeGain {
-  proportional,  ///< P
-  differential,  ///< D
 };
 
 namespace detail {
@@ -72,9 +67,9 @@ class FreeGainOnCircle {
 /// The angles θ > 0 of the eigenvalues e^{iθ} of a pencil, det(M − λ L) = 0, or of what lies within
 /// 10⁻⁴ of the circle as λ = (w + a)/(1 + a w) sees it.
 ///
-/// The change of variable turns the circle into itself and the pencil into the matrix
-/// (L − a M)⁻¹(M − a L) with the eigenvalues w: those at 0 and ∞, which come in blocks, go to −a
-/// and −1/a, where they do no harm, and an a near 1 spreads what crowds about λ = 1.
+/// The change of variable keeps the circle and turns the pencil into the matrix
+/// (L − a M)⁻¹(M − a L) with the eigenvalues w: those at 0 and ∞ go to −a and −1/a, where they do
+/// no harm, and an a near 1 spreads what crowds about λ = 1.
 /// @param spread  (1 − a)/(1 + a), 0 … 1
 template <class Scalar>
 std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
@@ -123,10 +118,9 @@ std::pair<Matrix<Scalar, Eigen::Dynamic>, Matrix<Scalar, Eigen::Dynamic>> crossi
 ///
 ///     λ y₁ = S y₁ + s w,   y₂ = λ (S y₂ + s w),   h (y₁ − y₂) = 0
 ///
-/// All of them are found at once, so that none can be stepped over; those next to the circle count,
-/// since double ones leave it by the root of round-off, and are then polished on it; one that is
-/// none only splits an interval. λ = ±1 are always among the solutions and are added by
-/// themselves. Cost: the eigenvalues of one matrix of size 2n + 1, about 10 (2n + 1)³
+/// None can be stepped over. Those next to the circle count, since double ones leave it by the root
+/// of round-off, and are polished on it; one that is none only splits an interval. λ = ±1 are
+/// always among the solutions. Cost: the eigenvalues of one matrix, about 10 (2n + 1)³
 /// multiply-adds.
 template <class Scalar>
 std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain free,
@@ -158,19 +152,21 @@ std::vector<GainCrossing> circle_crossings(const LoopMap<Scalar>& map, FreeGain 
 
 /// The open intervals of one gain, the other being held, in which a loop of any order is stable.
 ///
-/// Between neighbouring crossings the number of roots outside the circle cannot change: the
-/// eigenvalues of the map in the middle of each gap decide it. Gaps that touch and are both stable
-/// are joined where the loop is stable between them too.
+/// The eigenvalues of the map in the middle of each gap between neighbouring crossings decide it.
+/// Gaps that touch and are both stable are joined where the loop is stable between them too.
 /// @param map    the loop
 /// @param free   the gain that varies
 /// @param gains  the other one; the value of the free one does not matter
+/// @throws InvalidParameter for a fixed gain that is not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const LoopMap<Scalar>& map, FreeGain free,
                                            const PdGains<Scalar>& gains) {
+  const bool by_d = free == FreeGain::differential;
+  require_finite("fixed gain", static_cast<double>(by_d ? gains.proportional : gains.differential),
+                 by_d ? "N/m" : "N s/m");
   const auto stable_at = [&](Scalar x) {
-    const PdGains<Scalar> pair = free == FreeGain::differential
-                                     ? PdGains<Scalar>{gains.proportional, x}
-                                     : PdGains<Scalar>{x, gains.differential};
+    const PdGains<Scalar> pair =
+        by_d ? PdGains<Scalar>{gains.proportional, x} : PdGains<Scalar>{x, gains.differential};
     return spectral_radius(map.closed_map(pair)) < Scalar(1);
   };
   std::vector<Scalar> ends;

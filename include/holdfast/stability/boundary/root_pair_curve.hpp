@@ -7,10 +7,8 @@
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/math/poly/parity.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/math/poly/positive_roots.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
 
@@ -48,6 +46,13 @@ struct MonotoneArc {
   }
 };
 
+/// A differential gain at which a row of fixed P meets the boundary.
+template <class Scalar>
+struct RowCrossing {
+  Scalar differential;  ///< D (N s/m)
+  Scalar uncertainty;   ///< D (N s/m) within which round-off leaves the place of the boundary open
+};
+
 /// The gains at which the loop has a pair of roots w = ±iy on the imaginary axis, as rational
 /// functions of Y = y².
 ///
@@ -55,18 +60,16 @@ struct MonotoneArc {
 ///
 ///     P(Y) = (b_o d_e − b_e d_o) / Δ,   D(Y) = (b_e p_o − b_o p_e) / Δ,   Δ(Y) = p_e d_o − p_o d_e
 ///
-/// numerators and Δ are of degree ≤ 4 in Y. Y is measured in squares of `unit()`, the mean root
-/// modulus without control, in which the coefficients are of like size. Coefficients of
-/// the gains below round-off of the largest are zeros (no gain moves the root there).
-///
-/// For the sampled loop w = i tan(θ/2) is the pair λ = e^{±iθ}; for the continuous loop w = iω.
+/// numerators and Δ are of degree ≤ 4 in Y, which is measured in squares of `unit()`. Coefficients
+/// of the gains below round-off of the largest are zeros (no gain moves the root there). For the
+/// sampled loop w = i tan(θ/2) is the pair λ = e^{±iθ}; for the continuous loop w = iω.
 template <class Scalar>
 class RootPairCurve {
  public:
-  /// @param polynomial  in a variable whose stable half-plane is Re < 0:
-  /// `characteristic_polynomial(plant)`, or that of the sampled loop after `in_half_plane`
+  /// @param polynomial  `characteristic_polynomial(plant)`, or that of the sampled loop after
+  ///                    `in_half_plane`
   template <int Degree>
-  explicit RootPairCurve(const AffinePolynomial<Scalar, Degree>& polynomial)
+  explicit RootPairCurve(const HalfPlanePolynomial<Scalar, Degree>& polynomial)
       : unit_(detail::mean_root_modulus(polynomial.base)),
         base_(polynomial.base, unit_),
         proportional_(detail::without_round_off(polynomial.proportional, unit_), unit_),
@@ -75,7 +78,7 @@ class RootPairCurve {
         proportional_numerator_(cross(differential_, base_)),
         differential_numerator_(cross(base_, proportional_)) {}
 
-  /// The modulus of w in which Y is measured: y = unit · √Y.
+  /// The mean root modulus without control, in which w is measured: y = unit · √Y.
   const Scalar& unit() const { return unit_; }
 
   /// y = Im w of the root pair.
@@ -95,24 +98,69 @@ class RootPairCurve {
   /// Δ, the denominator of both, degree 4 in Y.
   const Polynomial<Scalar, 4>& denominator() const { return denominator_; }
 
-  /// n − P Δ with n the numerator of P: zero where the curve takes P; its slope by Y, and Δ.
-  struct Residual {
-    Scalar value,     ///< n − P Δ
-        slope,        ///< its derivative by Y at a fixed P
-        denominator;  ///< Δ
+  /// Where the curve takes a proportional gain.
+  struct Place {
+    Scalar square;           ///< Y
+    Scalar square_per_gain;  ///< dY/dP
   };
 
-  /// At Y and the proportional gain P (N/m).
-  Residual residual(const Scalar& square, const Scalar& proportional_gain) const {
-    const Polynomial<Scalar, 4>&n = proportional_numerator_, &d = denominator_;
-    Scalar value = n[4] - proportional_gain * d[4], slope(0), denominator = d[4];
-    for (int k = 3; k >= 0; --k) {
-      slope = slope * square + value;
-      value = value * square + (n[k] - proportional_gain * d[k]);
-      denominator = denominator * square + d[k];
+  /// Where an arc takes the gain P (N/m), which it must (`passes`), to round-off: Newton's method
+  /// on n − P Δ, n being the numerator of P; where its steps do not shrink or leave the arc,
+  /// halving what is left of the arc.
+  /// @param arc                of this curve
+  /// @param proportional_gain  P (N/m)
+  /// @param guess              a Y to begin with; any number, NaN too
+  Place place(const MonotoneArc<Scalar>& arc, const Scalar& proportional_gain,
+              const Scalar& guess) const {
+    MonotoneArc<Scalar> bracket = arc;
+    const bool negative_at_start = arc.start.residual(proportional_gain) < Scalar(0);
+    Residual at{};
+    Scalar square = guess, last_step = std::numeric_limits<Scalar>::infinity();
+    for (int iteration = 0; iteration < 400; ++iteration) {
+      if (!(square > bracket.start.square && square < bracket.end.square))
+        square = bracket.inside();
+      at = residual(square, proportional_gain);
+      ((at.value < Scalar(0)) == negative_at_start ? bracket.start : bracket.end).square = square;
+      const Scalar step = at.value / at.slope;
+      if (std::abs(step) <= Scalar(2) * std::numeric_limits<Scalar>::epsilon() * square) break;
+      const Scalar inside = bracket.inside();
+      if (!(bracket.start.square < inside && inside < bracket.end.square)) break;
+      const bool shrinks = std::abs(step) < std::abs(last_step) / Scalar(2);
+      last_step = shrinks ? step : bracket.end.square - bracket.start.square;
+      square = shrinks ? square - step : inside;
     }
-    return {value, slope, denominator};
+    return {square, at.denominator / at.slope};
   }
+
+  /// The same without a guess; the nearer end of an arc that does not take the gain. Y = 0 and ∞
+  /// are put off to where all powers of Y are still numbers.
+  Scalar square(MonotoneArc<Scalar> arc, const Scalar& proportional_gain) const {
+    const Scalar largest = std::pow(std::numeric_limits<Scalar>::max(), Scalar(0.125));
+    arc.start.square = std::max(arc.start.square, Scalar(1) / largest);
+    arc.end.square = std::min(arc.end.square, largest);
+    if (arc.passes(proportional_gain)) return place(arc, proportional_gain, arc.inside()).square;
+    const auto distance = [&](const ArcEnd<Scalar>& end) {
+      return std::abs(end.residual(proportional_gain) / end.denominator);
+    };
+    return distance(arc.start) < distance(arc.end) ? arc.start.square : arc.end.square;
+  }
+
+  /// D at P (N/m) and Y: −(b + P p)/d of the even or the odd part, whichever holds D better.
+  RowCrossing<Scalar> crossing(const Scalar& proportional_gain, const Scalar& square) const {
+    const Scalar even_slope = evaluate(differential_.even, square);
+    const Scalar odd_slope = evaluate(differential_.odd, square);
+    const bool even = even_slope * even_slope > odd_slope * odd_slope * square;
+    const auto part = even ? &ParityParts<Scalar>::even : &ParityParts<Scalar>::odd;
+    const Scalar slope = even ? even_slope : odd_slope;
+    const Vector<Scalar, 3>&base = base_.*part, &by_gain = proportional_.*part;
+    const Vector<Scalar, 3> sum = base + proportional_gain * by_gain;
+    const Vector<Scalar, 3> sizes =
+        base.cwiseAbs() + std::abs(proportional_gain) * by_gain.cwiseAbs();
+    return {-evaluate(sum, square) / slope, rounding * evaluate(sizes, square) / std::abs(slope)};
+  }
+
+  /// What round-off may move a sum by, as a share of the sum of the moduli of its terms.
+  static constexpr Scalar rounding = Scalar(32) * std::numeric_limits<Scalar>::epsilon();
 
   /// Even and odd part of the polynomial without control, w in `unit()`.
   const ParityParts<Scalar>& base() const { return base_; }
@@ -120,6 +168,22 @@ class RootPairCurve {
   const ParityParts<Scalar>& proportional() const { return proportional_; }
   /// Those of its change per N s/m of D.
   const ParityParts<Scalar>& differential() const { return differential_; }
+
+  /// One part of the polynomial at some gains, and the sum of the moduli of its terms, by which
+  /// round-off is told.
+  struct Terms {
+    Vector<Scalar, 3> sum,  ///< b + P p + D d
+        size;               ///< |b| + |P p| + |D d|
+  };
+
+  /// @param part   `&ParityParts<Scalar>::even` or `odd`
+  /// @param gains  P (N/m) and D (N s/m)
+  Terms terms(Vector<Scalar, 3> ParityParts<Scalar>::*part, const PdGains<Scalar>& gains) const {
+    const Vector<Scalar, 3>& b = base_.*part;
+    const Vector<Scalar, 3> p = gains.proportional * (proportional_.*part);
+    const Vector<Scalar, 3> d = gains.differential * (differential_.*part);
+    return {b + p + d, b.cwiseAbs() + p.cwiseAbs() + d.cwiseAbs()};
+  }
 
   /// Y > 0 at which the curve leaves to infinity, ascending.
   std::vector<Scalar> poles() const { return positive_roots(denominator_); }
@@ -155,6 +219,22 @@ class RootPairCurve {
   }
 
  private:
+  /// n − P Δ with n the numerator of P: zero where the curve takes P; its slope by Y, and Δ.
+  struct Residual {
+    Scalar value, slope, denominator;
+  };
+
+  Residual residual(const Scalar& square, const Scalar& proportional_gain) const {
+    const Polynomial<Scalar, 4>&n = proportional_numerator_, &d = denominator_;
+    Scalar value = n[4] - proportional_gain * d[4], slope(0), denominator = d[4];
+    for (int k = 3; k >= 0; --k) {
+      slope = slope * square + value;
+      value = value * square + (n[k] - proportional_gain * d[k]);
+      denominator = denominator * square + d[k];
+    }
+    return {value, slope, denominator};
+  }
+
   /// The difference, with zeros for coefficients that are only the round-off of their terms.
   template <int Size>
   static Vector<Scalar, Size> difference(const Vector<Scalar, Size>& a,
@@ -182,9 +262,8 @@ class RootPairCurve {
     Polynomial<Scalar, 4> numerator, denominator;
   };
 
-  /// numerator / Δ without the poles at which `factor` vanishes, which is a factor of both: d(iy)
-  /// of P, p(iy) of D. Without damping the velocity has zeros on the axis: there D is infinite, P
-  /// not.
+  /// numerator / Δ without the poles at which `factor` vanishes, a factor of both: d(iy) of P,
+  /// p(iy) of D. Without damping the velocity has zeros on the axis: there D is infinite, P not.
   Fraction reduced(const Polynomial<Scalar, 4>& numerator,
                    const ParityParts<Scalar>& factor) const {
     Fraction result{numerator, denominator_};
@@ -248,6 +327,6 @@ class RootPairCurve {
 
 /// The curve's type does not tell the degree of the polynomial that it was made from.
 template <class Scalar, int Degree>
-RootPairCurve(const AffinePolynomial<Scalar, Degree>&) -> RootPairCurve<Scalar>;
+RootPairCurve(const HalfPlanePolynomial<Scalar, Degree>&) -> RootPairCurve<Scalar>;
 
 }  // namespace holdfast

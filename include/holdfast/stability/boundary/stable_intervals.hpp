@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "holdfast/core/interval.hpp"
-#include "holdfast/math/poly/parity.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/poly/routh_hurwitz.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
 
@@ -21,15 +20,14 @@ namespace holdfast {
 ///
 ///     a_e(Y) d_o(Y) − a_o(Y) d_e(Y) = 0,   x = −a_e / d_e = −a_o / d_o
 ///
-/// so every crossing is a root in closed form and none can be stepped over. w is measured in mean
-/// root moduli; a slope below 1e−12 of the largest is round-off of a zero, and its crossing lies at
-/// infinity.
+/// so none can be stepped over. w is measured in mean root moduli; a slope below 1e−12 of the
+/// largest is round-off of a zero, and its crossing lies at infinity.
 template <class Scalar, int Size>
 std::vector<Scalar> boundary_crossings(const Vector<Scalar, Size>& constant_part,
                                        const Vector<Scalar, Size>& slope_part) {
   const Scalar unit = detail::mean_root_modulus(constant_part);
-  const Vector<Scalar, Size> a = detail::rescaled(constant_part, unit);
-  const Vector<Scalar, Size> d = detail::rescaled(slope_part, unit);
+  const Vector<Scalar, Size> a = rescaled(constant_part, unit);
+  const Vector<Scalar, Size> d = rescaled(slope_part, unit);
   const Scalar negligible = Scalar(1e-12) * d.cwiseAbs().maxCoeff();
   std::vector<Scalar> crossings;
   const auto solve = [&](const Scalar& constant, const Scalar& slope) {
@@ -85,42 +83,53 @@ std::vector<Interval<Scalar>> stable_gaps(const std::vector<Scalar>& ends, const
 
 /// The open intervals of x in which a(w) + x d(w) has all its roots in Re w < 0.
 ///
-/// Between neighbouring crossings the number of unstable roots cannot change, so one Hurwitz test
-/// in each gap decides it; gaps that touch and are both stable are joined unless a root sits on the
-/// axis between. The leading coefficient may change sign along x; the test normalises it.
+/// One Hurwitz test decides each gap between neighbouring crossings; gaps that touch and are both
+/// stable are joined unless a root sits on the axis between. The leading coefficient may change
+/// sign along x.
 template <class Scalar, int Size>
 std::vector<Interval<Scalar>> stable_intervals(const Vector<Scalar, Size>& a,
                                                const Vector<Scalar, Size>& d) {
   return detail::stable_gaps(
       boundary_crossings(a, d), [](const Interval<Scalar>& gap) { return gap.representative(); },
-      [&](const Scalar& x) {
-        const Vector<Scalar, Size> polynomial = a + x * d;
-        const Scalar sign = polynomial[Size - 1] < Scalar(0) ? Scalar(-1) : Scalar(1);
-        return hurwitz_conditions<Scalar, Size>(sign * polynomial).satisfied();
-      });
+      [&](const Scalar& x) { return is_hurwitz<Scalar, Size>(a + x * d); });
 }
 
+namespace detail {
+
+/// stable_differential_gains() of numbers that are not looked at.
+template <class Scalar, int Degree>
+std::vector<Interval<Scalar>> differential_intervals(
+    const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {
+  const auto q = in_half_plane(polynomial);
+  return stable_intervals<Scalar, Degree + 1>(q.base + proportional_gain * q.proportional,
+                                              q.differential);
+}
+
+}  // namespace detail
+
 /// Stable intervals of D (N s/m) at a fixed proportional gain P (N/m).
-/// @param polynomial  `characteristic_polynomial(plant)` of the continuous loop, in s, or
-///                    `characteristic_polynomial(loop)` of the sampled one, in powers of λ − 1
+/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param proportional_gain  P (N/m), finite
+/// @throws InvalidParameter where one of them is not finite
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> stable_differential_gains(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& proportional_gain) {
-  const auto q = detail::in_stable_half_plane(polynomial);
-  return stable_intervals<Scalar, Degree + 1>(q.base + proportional_gain * q.proportional,
-                                              q.differential);
+  validate(polynomial);
+  require_finite("proportional gain P", static_cast<double>(proportional_gain), "N/m");
+  return detail::differential_intervals(polynomial, proportional_gain);
 }
 
 /// Stable intervals of P (N/m) at a fixed differential gain D (N s/m).
 /// @param polynomial         as for `stable_differential_gains`
 /// @param differential_gain  D (N s/m), finite
+/// @throws InvalidParameter where one of them is not finite
 template <class Scalar, int Degree>
 std::vector<Interval<Scalar>> stable_proportional_gains(
     const AffinePolynomial<Scalar, Degree>& polynomial, const Scalar& differential_gain) {
-  const auto q = detail::in_stable_half_plane(polynomial);
-  return stable_intervals<Scalar, Degree + 1>(q.base + differential_gain * q.differential,
-                                              q.proportional);
+  validate(polynomial);
+  require_finite("differential gain D", static_cast<double>(differential_gain), "N s/m");
+  return detail::differential_intervals<Scalar, Degree>(
+      {polynomial.base, polynomial.differential, polynomial.proportional}, differential_gain);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
@@ -128,14 +137,6 @@ extern template std::vector<Interval<double>> stable_intervals(const Vector<doub
                                                                const Vector<double, 5>&);
 extern template std::vector<Interval<double>> stable_intervals(const Vector<double, 6>&,
                                                                const Vector<double, 6>&);
-extern template std::vector<Interval<double>> stable_differential_gains(
-    const AffinePolynomial<double, 4>&, const double&);
-extern template std::vector<Interval<double>> stable_differential_gains(
-    const AffinePolynomial<double, 5>&, const double&);
-extern template std::vector<Interval<double>> stable_proportional_gains(
-    const AffinePolynomial<double, 4>&, const double&);
-extern template std::vector<Interval<double>> stable_proportional_gains(
-    const AffinePolynomial<double, 5>&, const double&);
 #endif
 
 }  // namespace holdfast

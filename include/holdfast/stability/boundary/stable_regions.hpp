@@ -3,20 +3,152 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/math/poly/positive_roots.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/stats/slab_quadrature.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
+#include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/boundary/gain_decomposition.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/boundary/root_pair_curve.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
+
+/// A stretch of the boundary on which D is a function of P: an arc or a line that is not vertical.
+template <class Scalar>
+struct BoundaryBranch {
+  const RootPairCurve<Scalar>* curve;  ///< of an arc, must outlive the branch; null for a line
+  MonotoneArc<Scalar> arc;             ///< counts with a curve
+  BoundaryLine<Scalar> line;           ///< counts without one
+
+  /// True where the branch has a D at P (N/m): within the arc; a line has one everywhere.
+  bool passes(const Scalar& proportional_gain) const {
+    return curve == nullptr || arc.passes(proportional_gain);
+  }
+
+  /// D (N s/m) at P (N/m); at the nearer end of an arc that does not reach P.
+  Scalar differential(const Scalar& proportional_gain) const {
+    if (curve == nullptr) return line.differential_at(proportional_gain);
+    return curve->crossing(proportional_gain, curve->square(arc, proportional_gain)).differential;
+  }
+};
+
+/// A range of P within a window over which the boundary keeps its shape: the same branches cross
+/// the window, in the same order, each of them monotone.
+template <class Scalar>
+struct GainSlab {
+  Scalar lower;                                  ///< P (N/m)
+  Scalar upper;                                  ///< P (N/m)
+  bool wall_below;                               ///< a vertical line of the boundary is at `lower`
+  std::vector<BoundaryBranch<Scalar>> branches;  ///< ascending in D
+};
+
+/// A window of the gain plane cut into slabs at every P where the boundary changes shape: its
+/// special points (`boundary_features`), vertical lines, and where it passes the window's edges.
+///
+/// A curve of root pairs that is itself the line P = const would not be seen. No loop of a plant
+/// has one; the undamped continuous loop has with its two gains exchanged.
+template <class Scalar, int Degree>
+class GainDecomposition {
+ public:
+  /// @param curves  must outlive this object
+  /// @param window  P (N/m) and D (N s/m), within its ranges (`validate`), not checked here
+  GainDecomposition(const BoundaryCurves<Scalar, Degree>& curves, const GainWindow& window)
+      : curves_(curves), window_(window) {
+    for (const auto& arc : curves_.pairs().arcs()) branches_.push_back({&curves_.pairs(), arc, {}});
+    for (const auto& line : curves_.lines())
+      if (!line.is_vertical()) branches_.push_back({nullptr, {}, line});
+    cut();
+  }
+
+  /// Ascending in P, without gaps.
+  const std::vector<GainSlab<Scalar>>& slabs() const { return slabs_; }
+
+ private:
+  struct Event {
+    Scalar proportional;
+    bool is_wall;
+  };
+
+  void add_event(const PdGains<Scalar>& gains) {
+    if (window_.contains(gains)) events_.push_back({gains.proportional, false});
+  }
+
+  /// Where the boundary passes D = `differential` (N s/m).
+  void add_edge(const Scalar& differential) {
+    const RootPairCurve<Scalar>& pairs = curves_.pairs();
+    for (const Scalar& square :
+         positive_roots(pairs.differential_numerator() - differential * pairs.denominator())) {
+      add_event({pairs.gains(square).proportional, differential});
+    }
+    for (const auto& line : curves_.lines()) {
+      add_event({line.proportional_at(differential), differential});
+    }
+  }
+
+  void find_events() {
+    events_ = {{Scalar(window_.proportional.lower), false},
+               {Scalar(window_.proportional.upper), false}};
+    for (const auto& feature : detail::FeatureFinder<Scalar, Degree>(curves_).find()) {
+      add_event(feature.gains);
+    }
+    add_edge(Scalar(window_.differential.lower));
+    add_edge(Scalar(window_.differential.upper));
+    for (const auto& line : curves_.lines()) {
+      const Scalar p = line.proportional_at(Scalar(0));
+      if (line.is_vertical() &&
+          window_.contains(PdGains<Scalar>{p, Scalar(window_.differential.lower)})) {
+        events_.push_back({p, true});
+      }
+    }
+    std::sort(events_.begin(), events_.end(),
+              [](const Event& a, const Event& b) { return a.proportional < b.proportional; });
+  }
+
+  /// Events closer than 1e−12 of the window are one.
+  void cut() {
+    find_events();
+    const Scalar closest = Scalar(1e-12 * window_.width());
+    Event start = events_.front();
+    start.proportional = Scalar(window_.proportional.lower);
+    for (const Event& event : events_) {
+      const Scalar end = std::min(event.proportional, Scalar(window_.proportional.upper));
+      if (end - start.proportional > closest) {
+        slabs_.push_back(slab(start, end));
+        start = {end, false};
+      }
+      start.is_wall = start.is_wall || event.is_wall;
+    }
+    slabs_.back().upper = Scalar(window_.proportional.upper);
+  }
+
+  GainSlab<Scalar> slab(const Event& start, const Scalar& end) const {
+    const Scalar middle = start.proportional + (end - start.proportional) / Scalar(2);
+    std::vector<std::pair<Scalar, std::size_t>> inside;
+    for (std::size_t k = 0; k < branches_.size(); ++k) {
+      if (!branches_[k].passes(middle)) continue;
+      const Scalar d = branches_[k].differential(middle);
+      if (d > Scalar(window_.differential.lower) && d < Scalar(window_.differential.upper))
+        inside.emplace_back(d, k);
+    }
+    std::sort(inside.begin(), inside.end());
+    GainSlab<Scalar> result{start.proportional, end, start.is_wall, {}};
+    for (const auto& [d, k] : inside) result.branches.push_back(branches_[k]);
+    return result;
+  }
+
+  const BoundaryCurves<Scalar, Degree>& curves_;
+  GainWindow window_;
+  std::vector<BoundaryBranch<Scalar>> branches_;
+  std::vector<Event> events_;
+  std::vector<GainSlab<Scalar>> slabs_;
+};
 
 /// A connected part of a window of gains in which the loop has the same number of unstable roots
 /// and which no boundary crosses.
@@ -81,8 +213,8 @@ class RegionBuilder {
   Levels levels(const GainSlab<Scalar>& slab, const Scalar& proportional_gain) const {
     const Scalar top(window_.differential.upper);
     Levels result = {Scalar(window_.differential.lower)};
-    for (const auto* branch : slab.branches) {
-      const Scalar d = branch->differential(proportional_gain);
+    for (const auto& branch : slab.branches) {
+      const Scalar d = branch.differential(proportional_gain);
       result.push_back(std::clamp(d, result.back(), top));
     }
     result.push_back(top);
@@ -170,32 +302,21 @@ class RegionBuilder {
 
 /// The regions into which the boundary divides a window of gains, with their exact areas.
 ///
-/// The window is cut into slabs of P in which the crossings D₁(P) < D₂(P) < … of the boundary keep
-/// their number and order (`GainDecomposition`). The gap between two crossings is a cell with one
-/// number of unstable roots, counted at its middle; its area is ∫ (D_{k+1} − D_k) dP. Cells of
-/// neighbouring slabs that touch with no boundary between them are one region. Areas are good to
-/// 1e−10 of the window's; a neck narrower than 1e−9 of its height does not connect.
-/// @param polynomial  `characteristic_polynomial(loop)`, in powers of λ − 1 (degree 5), or
-/// `characteristic_polynomial(plant)`, in s (degree 4)
+/// In each slab (`GainDecomposition`) the gap between two crossings D₁(P) < D₂(P) < … is a cell
+/// with one number of unstable roots, counted at its middle; its area is ∫ (D_{k+1} − D_k) dP.
+/// Cells of neighbouring slabs that touch with no boundary between them are one region. Areas are
+/// good to 1e−10 of the window's; a neck narrower than 1e−9 of its height does not connect.
+/// @param polynomial  `characteristic_polynomial` of the sampled loop or of the continuous one
 /// @param window      P (N/m) and D (N s/m), its edges included
 /// @return stable regions first, the larger first
 /// @throws InvalidParameter unless the window's ranges are finite and not empty
 template <class Scalar, int Degree>
 std::vector<GainRegion<Scalar>> gain_regions(const AffinePolynomial<Scalar, Degree>& polynomial,
                                              const GainWindow& window) {
+  validate(polynomial);
   validate(window);
   const BoundaryCurves<Scalar, Degree> curves(polynomial);
   return detail::RegionBuilder<Scalar, Degree>(curves, window).regions();
-}
-
-/// Those of the `gain_regions` in which the loop is asymptotically stable.
-template <class Scalar, int Degree>
-std::vector<GainRegion<Scalar>> stable_regions(const AffinePolynomial<Scalar, Degree>& polynomial,
-                                               const GainWindow& window) {
-  auto regions = gain_regions(polynomial, window);
-  const auto unstable = [](const auto& region) { return region.unstable_roots > 0; };
-  regions.erase(std::find_if(regions.begin(), regions.end(), unstable), regions.end());
-  return regions;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
@@ -203,10 +324,6 @@ extern template std::vector<GainRegion<double>> gain_regions(const AffinePolynom
                                                              const GainWindow&);
 extern template std::vector<GainRegion<double>> gain_regions(const AffinePolynomial<double, 5>&,
                                                              const GainWindow&);
-extern template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 4>&,
-                                                               const GainWindow&);
-extern template std::vector<GainRegion<double>> stable_regions(const AffinePolynomial<double, 5>&,
-                                                               const GainWindow&);
 #endif
 
 }  // namespace holdfast

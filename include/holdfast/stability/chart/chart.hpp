@@ -1,16 +1,85 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/core/axis.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/math/poly/routh_hurwitz.hpp"
-#include "holdfast/stability/boundary/row_crossings.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
+#include "holdfast/stability/boundary/root_pair_curve.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
+
+/// Where rows of fixed proportional gain cross the boundary of the gain plane.
+///
+/// On each arc of `RootPairCurve` that takes P a Newton iteration starts from the row before and so
+/// needs one or two steps where rows are close. The lines w = 0 and w = ∞ are linear in D. Exchange
+/// the roles of P and D in the polynomial for rows of fixed D.
+template <class Scalar, int Degree>
+class RowCrossings {
+ public:
+  /// @param polynomial  in the half-plane
+  explicit RowCrossings(const HalfPlanePolynomial<Scalar, Degree>& polynomial)
+      : curve_(polynomial) {
+    constexpr Scalar unknown = std::numeric_limits<Scalar>::quiet_NaN();
+    for (const MonotoneArc<Scalar>& arc : curve_.arcs())
+      branches_.push_back({arc, {unknown, Scalar(0)}, Scalar(0)});
+  }
+
+  /// The crossings at the proportional gain P (N/m), finite; ascending in D, at most one for each
+  /// arc and each of the two lines.
+  const std::vector<RowCrossing<Scalar>>& at(const Scalar& proportional_gain) {
+    crossings_.clear();
+    add_line(proportional_gain, &ParityParts<Scalar>::even, 0);
+    constexpr auto leading =
+        Degree % 2 == 0 ? &ParityParts<Scalar>::even : &ParityParts<Scalar>::odd;
+    add_line(proportional_gain, leading, 2);
+    for (Branch& branch : branches_) {
+      if (!branch.arc.passes(proportional_gain)) continue;
+      const Scalar change = proportional_gain - branch.proportional_gain;
+      branch.place = curve_.place(branch.arc, proportional_gain,
+                                  branch.place.square + branch.place.square_per_gain * change);
+      branch.proportional_gain = proportional_gain;
+      add(curve_.crossing(proportional_gain, branch.place.square));
+    }
+    std::sort(crossings_.begin(), crossings_.end(),
+              [](const auto& a, const auto& b) { return a.differential < b.differential; });
+    return crossings_;
+  }
+
+ private:
+  using Part = Vector<Scalar, 3> ParityParts<Scalar>::*;
+
+  struct Branch {
+    MonotoneArc<Scalar> arc;
+    typename RootPairCurve<Scalar>::Place place;  // in the row before
+    Scalar proportional_gain;                     // P of that row
+  };
+
+  /// A crossing at infinity is none.
+  void add(const RowCrossing<Scalar>& crossing) {
+    if (std::isfinite(crossing.differential)) crossings_.push_back(crossing);
+  }
+
+  /// The line on which one coefficient vanishes; none where D does not move it.
+  void add_line(const Scalar& proportional_gain, Part part, int k) {
+    const Scalar slope = (curve_.differential().*part)[k];
+    if (slope == Scalar(0)) return;
+    const Scalar base = (curve_.base().*part)[k];
+    const Scalar term = proportional_gain * (curve_.proportional().*part)[k];
+    add({-(base + term) / slope,
+         curve_.rounding * (std::abs(base) + std::abs(term)) / std::abs(slope)});
+  }
+
+  RootPairCurve<Scalar> curve_;
+  std::vector<Branch> branches_;
+  std::vector<RowCrossing<Scalar>> crossings_;
+};
 
 /// A rectangle of gains: P slowest, D fastest.
 struct GainGrid {
@@ -26,22 +95,26 @@ struct GainGrid {
   std::int64_t cells() const { return proportional.count * differential.count; }
 };
 
+/// @throws InvalidParameter unless the gains are finite, ascend, and there is one at least of each
+inline void validate(const GainGrid& grid) {
+  validate(grid.proportional, "proportional gain P", "N/m");
+  validate(grid.differential, "differential gain D", "N s/m");
+}
+
 /// Rows of the chart of stable gains, each of a fixed P.
 ///
-/// Along a row stability changes only where it crosses the boundary (`RowCrossings`), so a row
-/// costs its few crossings, one Hurwitz test in each gap between them and the filling of memory. A
-/// cell that round-off cannot tell from the boundary is not stable.
+/// Along a row stability changes only where it crosses the boundary (`RowCrossings`); one Hurwitz
+/// test decides each gap. A cell that round-off cannot tell from the boundary is not stable.
 ///
 /// Work per row: about 40 multiply-adds for each arc of the boundary and 60 for each gap, whatever
 /// the number of cells.
 template <int Degree>
 class StabilityRows {
  public:
-  /// @param polynomial    in a variable whose stable half-plane is Re < 0:
-  /// `characteristic_polynomial(plant)` for the continuous loop, that of the sampled loop after
-  /// `in_half_plane`
+  /// @param polynomial    `characteristic_polynomial(plant)` for the continuous loop, that of the
+  ///                      sampled loop after `in_half_plane`
   /// @param differential  the cells of a row
-  StabilityRows(const AffinePolynomial<double, Degree>& polynomial, const Axis& differential)
+  StabilityRows(const HalfPlanePolynomial<double, Degree>& polynomial, const Axis& differential)
       : polynomial_(polynomial), differential_(differential), crossings_(polynomial) {}
 
   /// Writes 1 (stable) or 0 for every cell of the row.
@@ -78,17 +151,25 @@ class StabilityRows {
     std::fill(stable + first, stable + last, static_cast<std::uint8_t>(inside));
   }
 
-  AffinePolynomial<double, Degree> polynomial_;
+  HalfPlanePolynomial<double, Degree> polynomial_;
   Axis differential_;
   RowCrossings<double, Degree> crossings_;
 };
 
 /// Stable (1) or not (0) for every cell of the grid, P slowest.
-template <int Degree>
-std::vector<std::uint8_t> stability_chart(const AffinePolynomial<double, Degree>& polynomial,
-                                          const GainGrid& grid) {
+/// @param polynomial  `characteristic_polynomial` of the continuous loop or of the sampled one, or
+///                    this after `in_half_plane`; about another centre it does not compile
+/// @param grid        of gains
+/// @throws InvalidParameter where one of them is not finite, or the grid not admissible
+template <int Degree, PolynomialVariable Variable,
+          class = decltype(in_half_plane(
+              std::declval<const AffinePolynomial<double, Degree, Variable>&>()))>
+std::vector<std::uint8_t> stability_chart(
+    const AffinePolynomial<double, Degree, Variable>& polynomial, const GainGrid& grid) {
+  validate(polynomial);
+  validate(grid);
   std::vector<std::uint8_t> stable(static_cast<std::size_t>(grid.cells()));
-  StabilityRows<Degree> rows(polynomial, grid.differential);
+  StabilityRows<Degree> rows(in_half_plane(polynomial), grid.differential);
   for (std::int64_t i = 0; i < grid.proportional.count; ++i) {
     rows.fill(grid.proportional.at(i), stable.data() + i * grid.differential.count);
   }

@@ -109,19 +109,4 @@ void hurwitz_row(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::
       stable);
 }
 
-/// Both hurwitz_row() of a number type as one object, which a chart can be given.
-/// @tparam Scalar  a SIMD pack, or double
-template <class Scalar, int Size>
-struct HurwitzRows {
-  /// The row of polynomials constant + x slope, one for each value x.
-  void fill(const Vector<double, Size>& constant, const Vector<double, Size>& slope,
-            const std::vector<double>& values, std::uint8_t* stable) const {
-    hurwitz_row<Scalar, Size>(constant, slope, values, stable);
-  }
-  /// The row of polynomials of a table.
-  void fill(const Eigen::Matrix<double, Eigen::Dynamic, Size>& table, std::uint8_t* stable) const {
-    hurwitz_row<Scalar, Size>(table, stable);
-  }
-};
-
 }  // namespace holdfast

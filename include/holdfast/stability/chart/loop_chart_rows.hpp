@@ -1,29 +1,51 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "holdfast/math/poly/mobius_zhukovsky.hpp"
+#include "holdfast/core/axis.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/chart/chart.hpp"
-#include "holdfast/stability/chart/chart_polynomials.hpp"
 #include "holdfast/stability/chart/hurwitz_row.hpp"
-#include "holdfast/stability/chart/radius_rows.hpp"
+#include "holdfast/stability/chart/loop_chart.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/dominant_factor.hpp"
 
 namespace holdfast {
+
+namespace detail {
+
+/// The characteristic polynomial of a point's loop in powers of λ − 1, for any gains.
+///
+/// All that it calls is compiled into it, under a name that bears the pack: the matrix exponential
+/// of a row then runs on the instruction set of the pack as well.
+template <class Scalar>
+[[gnu::flatten, gnu::noinline]] AffinePolynomial<double, 5> polynomial_of(
+    const OperatingPoint& point) {
+  return characteristic_polynomial(sampled_loop(point.plant, point.sampling));
+}
+
+}  // namespace detail
 
 /// Stable or not over any two parameters of the sampled loop, row by row.
 ///
 /// Over both gains each row is filled from its crossings (`StabilityRows`); otherwise every cell is
 /// tested (`hurwitz_row`), as many at a time as `Scalar` has lanes.
-/// @tparam Rows  tests the cells, as HurwitzRows does
-template <class Scalar = double, class Rows = HurwitzRows<Scalar, 6>>
+template <class Scalar = double>
 class StabilityChartRows {
  public:
+  /// The polynomial of a loop in a variable whose stable half-plane is Re < 0.
+  static HalfPlanePolynomial<double, 5> polynomial_of(const OperatingPoint& point) {
+    return in_half_plane(detail::polynomial_of<Scalar>(point));
+  }
+
   /// @throws InvalidParameter where the chart is not admissible
-  explicit StabilityChartRows(const LoopChart& chart, const Rows& rows = Rows())
-      : polynomials_(chart, in_half_plane<double, 6>), rows_(rows) {
+  explicit StabilityChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {
     for (std::int64_t column = 0; column < polynomials_.columns(); ++column) {
       values_.push_back(chart.fast.values.at(column));
     }
@@ -32,52 +54,67 @@ class StabilityChartRows {
     }
   }
 
-  /// Writes 1 or 0 for each cell of a row.
-  void fill(std::int64_t row, std::uint8_t* stable) {
-    if (crossing_rows_) {
-      crossing_rows_->fill(polynomials_.chart().slow.values.at(row), stable);
-    } else if (polynomials_.affine_along_rows()) {
-      const AffineLine<5> line = polynomials_.line(row);
-      rows_.fill(line.constant, line.slope, values_, stable);
-    } else {
-      rows_.fill(polynomials_.table(row), stable);
+  /// Writes 1 or 0 for each cell of `count` ≥ 0 rows, one row after the other.
+  [[gnu::flatten]] void fill(std::int64_t first, std::int64_t count, std::uint8_t* stable) {
+    for (std::int64_t row = first; row < first + count; ++row, stable += polynomials_.columns()) {
+      if (crossing_rows_) {
+        crossing_rows_->fill(polynomials_.chart().slow.values.at(row), stable);
+      } else if (polynomials_.affine_along_rows()) {
+        const AffineLine<5> line = polynomials_.line(row);
+        hurwitz_row<Scalar, 6>(line.constant, line.slope, values_, stable);
+      } else {
+        hurwitz_row<Scalar, 6>(polynomials_.table(row), stable);
+      }
     }
   }
 
  private:
   /// The polynomial with the gain that is constant along a row in the place of P.
-  AffinePolynomial<double, 5> with_slow_gain_first() const {
-    AffinePolynomial<double, 5> p = polynomials_.common();
+  HalfPlanePolynomial<double, 5> with_slow_gain_first() const {
+    HalfPlanePolynomial<double, 5> p = polynomials_.common();
     if (polynomials_.chart().slow.parameter == LoopParameter::differential_gain) {
       std::swap(p.proportional, p.differential);
     }
     return p;
   }
 
-  ChartPolynomials<5> polynomials_;
-  Rows rows_;
+  ChartPolynomials<5, PolynomialVariable::half_plane> polynomials_;
   std::vector<double> values_;
   std::optional<StabilityRows<5>> crossing_rows_;
 };
 
-/// Spectral radius over any two parameters of the sampled loop, several rows at a time.
+/// Spectral radius over any two parameters of the sampled loop, several rows at a time, one a lane,
+/// each followed from its first cell (`DominantFactor`).
+///
+/// Two packs of rows go side by side, so that one computes while the other waits for its division.
+/// The first cells are followed from one batch of rows to the next.
 /// @tparam Degree  5 where every loop of the chart has δ = 0, 6 otherwise (see `DominantFactor`)
-/// @tparam Batch   computes the rows, as RadiusBatch does
-template <class Scalar, int Degree, class Batch = RadiusBatch<Scalar, Degree>>
+template <class Scalar, int Degree>
 class RadiusChartRows {
+  using Pack = Polynomial<Scalar, Degree>;
+  using Follower = DominantFactor<Scalar, Degree>;
+  static constexpr std::size_t lanes_ = Lanes<Scalar>::count;
+  static constexpr std::size_t packs_ = 2;
+
  public:
   /// Rows that the kernel takes at once, one a lane of two packs.
-  static constexpr std::int64_t most_rows = RadiusBatch<Scalar, Degree>::most_rows();
+  static constexpr auto most_rows = static_cast<std::int64_t>(packs_ * lanes_);
+
+  /// The polynomial of a loop in powers of λ − 1, with a root λ = 0.
+  static AffinePolynomial<double, Degree> polynomial_of(const OperatingPoint& point) {
+    const AffinePolynomial<double, 5> p = detail::polynomial_of<Scalar>(point);
+    return {root_added(p.base), root_added(p.proportional), root_added(p.differential)};
+  }
 
   /// @throws InvalidParameter where the chart is not admissible
-  explicit RadiusChartRows(const LoopChart& chart, const Batch& batch = Batch())
-      : polynomials_(chart, root_added), batch_(batch) {}
+  explicit RadiusChartRows(const LoopChart& chart) : polynomials_(chart, polynomial_of) {
+    first_cells_.fill(Follower(1.0));
+  }
 
   /// Writes ρ of `count` ≥ 0 rows, one after the other.
   void fill(std::int64_t first, std::int64_t count, double* radius) {
-    const std::int64_t most = batch_.most_rows();
-    for (std::int64_t row = 0; row < count; row += most) {
-      const std::int64_t some = std::min(most, count - row);
+    for (std::int64_t row = 0; row < count; row += most_rows) {
+      const std::int64_t some = std::min(most_rows, count - row);
       double* of_rows = radius + row * polynomials_.columns();
       if (polynomials_.affine_along_rows()) {
         fill_from_lines(first + row, some, of_rows);
@@ -99,18 +136,78 @@ class RadiusChartRows {
   void fill_from_lines(std::int64_t first, std::int64_t count, double* radius) {
     std::vector<AffineLine<Degree>> lines;
     for (std::int64_t row = 0; row < count; ++row) lines.push_back(polynomials_.line(first + row));
-    batch_.fill(lines.data(), count, polynomials_.chart().fast.values, radius);
+    std::array<Pack, packs_> constant, slope;
+    for (std::size_t pack = 0; pack < packs_; ++pack) {
+      constant[pack] = gathered(
+          pack, count, [&](std::size_t row) -> const auto& { return lines[row].constant; });
+      slope[pack] = gathered(
+          pack, count, [&](std::size_t row) -> const auto& { return lines[row].slope; });
+    }
+    const Axis& values = polynomials_.chart().fast.values;
+    follow(
+        count, values.count,
+        [&](std::size_t pack, std::int64_t column) {
+          const Scalar x(values.at(column));
+          Pack polynomial;
+          for (int k = 0; k <= Degree; ++k) {
+            polynomial[k] = constant[pack][k] + x * slope[pack][k];
+          }
+          return polynomial;
+        },
+        radius);
   }
 
   void fill_from_tables(std::int64_t first, std::int64_t count, double* radius) {
-    std::vector<typename ChartPolynomials<Degree>::Table> tables;
+    std::vector<typename decltype(polynomials_)::Table> tables;
     for (std::int64_t row = 0; row < count; ++row)
       tables.push_back(polynomials_.table(first + row));
-    batch_.fill(tables.data(), count, radius);
+    follow(
+        count, polynomials_.columns(),
+        [&](std::size_t pack, std::int64_t column) {
+          return gathered(pack, count, [&](std::size_t row) { return tables[row].row(column); });
+        },
+        radius);
   }
 
-  ChartPolynomials<Degree> polynomials_;
-  Batch batch_;
+  /// @param polynomial_at  (pack, column) → Pack; lanes beyond the rows are computed and dropped
+  template <class PolynomialAt>
+  void follow(std::int64_t rows, std::int64_t columns, const PolynomialAt& polynomial_at,
+              double* radius) {
+    std::array<Follower, packs_> followers = first_cells_;
+    for (std::int64_t column = 0; column < columns; ++column) {
+      std::array<double, packs_ * lanes_> cells;
+      for (std::size_t pack = 0; pack < packs_; ++pack) {
+        const Scalar rho = followers[pack].radius(polynomial_at(pack, column));
+        Lanes<Scalar>::store(rho, cells.data() + pack * lanes_);
+      }
+      for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+        radius[static_cast<std::int64_t>(row) * columns + column] = cells[row];
+      }
+      if (column == 0) first_cells_ = followers;
+    }
+  }
+
+  /// A row of the batch for each lane; lanes beyond the batch repeat its last row.
+  static std::size_t row_of(std::size_t pack, std::size_t lane, std::int64_t count) {
+    return std::min(pack * lanes_ + lane, static_cast<std::size_t>(count - 1));
+  }
+
+  /// Packs of polynomials from one polynomial a row.
+  template <class PolynomialOfRow>
+  static Pack gathered(std::size_t pack, std::int64_t count, const PolynomialOfRow& of_row) {
+    Pack result;
+    for (int k = 0; k <= Degree; ++k) {
+      std::array<double, lanes_> values;
+      for (std::size_t lane = 0; lane < lanes_; ++lane) {
+        values[lane] = of_row(row_of(pack, lane, count))[k];
+      }
+      result[k] = Lanes<Scalar>::load(values.data());
+    }
+    return result;
+  }
+
+  ChartPolynomials<Degree, PolynomialVariable::about_one> polynomials_;
+  std::array<Follower, packs_> first_cells_;
 };
 
 /// True where the chart holds a loop with a processing delay, so that its polynomials lack the root

@@ -13,14 +13,15 @@ namespace holdfast {
 
 /// Stable (1) or not (0) for every cell of a grid of gains, of a loop of any order; P slowest.
 ///
-/// A row of constant P changes its stability only at the crossings that `circle_crossings` finds
-/// all at once; the eigenvalues of the map decide each gap between them, and cells are only filled.
-/// Of the two masses `stability_chart` of the characteristic polynomial is a thousand times as
-/// fast and says the same.
+/// A row of constant P changes its stability only at its `circle_crossings`; the eigenvalues of the
+/// map decide each gap between them. Of the two masses `stability_chart` of the characteristic
+/// polynomial says the same a thousand times as fast.
 /// @param map   the loop
 /// @param grid  of gains
+/// @throws InvalidParameter where the grid is not admissible
 template <class Scalar>
 std::vector<std::uint8_t> stability_chart(const LoopMap<Scalar>& map, const GainGrid& grid) {
+  validate(grid);
   const std::int64_t width = grid.differential.count;
   std::vector<std::uint8_t> stable(static_cast<std::size_t>(grid.cells()));
   for (std::int64_t i = 0; i < grid.proportional.count; ++i) {

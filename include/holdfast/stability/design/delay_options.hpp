@@ -12,7 +12,6 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
-#include "holdfast/stability/response/any_order_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
@@ -33,8 +32,13 @@ struct MaxDelayOptions {
   ForceHold hold = ForceHold::sampled;  ///< how the excitation enters; of `attenuates` only
   double delay_fraction = 0.0;          ///< δ/τ, 0 … 1, kept while τ varies
   double shortest_period = 1e-5;        ///< s; the search starts there, or at 1/(1000 f) if less
-  double longest_period = 1.0;          ///< s; where it gives up
-  double search_ratio = 1.001;  ///< > 1: infeasible windows narrower than this may be missed
+  /// s; where it gives up, > `shortest_period`; 0: where every longer period is shown to be stable
+  /// if that is within 200 periods of the plant's slowest mode, else at 20 of them.
+  double longest_period = 0.0;
+  double search_ratio = 1.00001;  ///< > 1: infeasible windows narrower than this may be missed
+                                  ///< where no D is shown to serve all over a step of this ratio
+  int most_steps = 20000;  ///< ≥ 1; of the search, each some 40 µs or more for two masses,
+                           ///< after which it gives up
 
   /// ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
@@ -49,8 +53,11 @@ inline void validate(const MaxDelayOptions& options) {
   require_finite("proportional gain", options.proportional_gain, "N/m");
   require_within("delay fraction", options.delay_fraction, "", 0.0, 1.0);
   require_positive("shortest sampling period", options.shortest_period, "s");
-  require_positive("search span", options.longest_period - options.shortest_period, "s");
+  require_finite("longest sampling period", options.longest_period, "s");
+  if (options.longest_period != 0.0)
+    require_positive("search span", options.longest_period - options.shortest_period, "s");
   require_positive("search ratio minus one", options.search_ratio - 1.0, "");
+  require_positive("most steps", options.most_steps, "");
 }
 
 namespace detail {
@@ -119,17 +126,5 @@ std::optional<double> feasible_differential_gain(const Plant& plant, const MaxDe
   if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
   return best.differential_gain;
 }
-
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<Interval<double>> feasible_differential_gains(const TwoMass<double>&,
-                                                                          const MaxDelayOptions&,
-                                                                          double);
-extern template std::optional<double> feasible_differential_gain(const TwoMass<double>&,
-                                                                 const MaxDelayOptions&, double);
-extern template std::vector<Interval<double>> feasible_differential_gains(
-    const LinearPlant<double>&, const MaxDelayOptions&, double);
-extern template std::optional<double> feasible_differential_gain(const LinearPlant<double>&,
-                                                                 const MaxDelayOptions&, double);
-#endif
 
 }  // namespace holdfast

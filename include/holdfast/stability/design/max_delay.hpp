@@ -14,24 +14,29 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/design/attenuating_stretch.hpp"
 #include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
-#include "holdfast/stability/response/any_order_response.hpp"
-#include "holdfast/stability/response/response_derivatives.hpp"
+#include "holdfast/stability/margins/slow_sampling.hpp"
+#include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
 
 /// How the search for the largest sampling period ended.
 enum class MaxDelayOutcome {
   found,      ///< every period up to `sampling_period` is feasible, a slightly longer one is not
-  unlimited,  ///< every period up to the search limit is feasible; `sampling_period` is infinite
-  never,      ///< not even the shortest period of the search is feasible; `sampling_period` is 0
+  unlimited,  ///< every period is feasible: from the end of the search on the loop is shown to be
+              ///< stable however slow the sampling (`SlowSamplingBound`); `sampling_period` is
+              ///< infinite
+  beyond_search,  ///< every period up to the end of the search, which is `sampling_period`, is
+                  ///< feasible; of longer ones nothing is known
+  never,  ///< not even the shortest period of the search is feasible; `sampling_period` is 0
 };
 
 /// What a longer period lacks.
 enum class MaxDelayLimit {
-  none,         ///< nothing: the outcome is `unlimited`
+  none,         ///< nothing that is known: the outcome is `unlimited` or `beyond_search`
   stability,    ///< the gains that serve below no longer stabilise
   attenuation,  ///< those that stabilise no longer bring the amplitude below that of no control
   nyquist,      ///< τ = 1/(2f): the samples no longer show the vibration
@@ -64,23 +69,30 @@ class DelaySearch {
     feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
     gains_ = gains_at(feasible_);
     if (gains_.empty()) return {MaxDelayOutcome::never, 0.0, no_gain, what_is_lacking(feasible_)};
-    const double end = longest();
+    const double certain = certain_from(), end = longest(certain);
     double goal = end, boundary = end;
     while (const std::optional<double> infeasible = advance(goal)) {
       boundary = boundary_between(feasible_, *infeasible);
       goal = std::max(feasible_, boundary / options_.search_ratio);
       if (goal == feasible_) break;
     }
-    if (boundary == end && end >= options_.longest_period) {
+    if (is_exhausted())
+      return {MaxDelayOutcome::beyond_search, feasible_, gain_at(feasible_), MaxDelayLimit::none};
+    if (boundary == end && options_.criterion == DelayCriterion::stable) {
+      if (end < certain)
+        return {MaxDelayOutcome::beyond_search, end, gain_at(end), MaxDelayLimit::none};
       const double infinity = std::numeric_limits<double>::infinity();
       return {MaxDelayOutcome::unlimited, infinity, gain_at(end), MaxDelayLimit::none};
     }
+    if (boundary == end && shows_vibration(options_, end * (1.0 + 1e-9)))
+      return {MaxDelayOutcome::beyond_search, end, gain_at(end), MaxDelayLimit::none};
     return {MaxDelayOutcome::found, boundary, gain_at(boundary), limit_beyond(boundary)};
   }
 
  private:
   static constexpr double no_gain = std::numeric_limits<double>::quiet_NaN();
   static constexpr double longest_link_ = 8.0;  // as a ratio of its ends
+  static constexpr int most_stretches_ = 2000;  // of a link; a shorter link is tried then
 
   Intervals gains_at(double period) const {
     return feasible_differential_gains(plant_, options_, period);
@@ -89,18 +101,33 @@ class DelaySearch {
     return feasible_differential_gain(plant_, options_, period).value_or(no_gain);
   }
 
-  /// The search limit, or the longest period whose samples show the vibration.
-  double longest() const {
-    if (options_.criterion == DelayCriterion::stable) return options_.longest_period;
-    double nyquist = 0.5 / options_.frequency;
-    while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
-    return std::min(options_.longest_period, nyquist);
+  /// From where on D = 0 stabilises however slow the sampling; infinite where that is not shown.
+  double certain_from() const {
+    return SlowSamplingBound(plant_, {options_.proportional_gain, 0.0}, options_.delay_fraction)
+        .certain_from();
   }
 
-  /// Moves `feasible_` to the goal by links; @return an infeasible period met on the way.
+  /// The search limit, or the longest period whose samples show the vibration.
+  double longest(double certain) const {
+    double limit = options_.longest_period;
+    if (options_.criterion == DelayCriterion::attenuates) {
+      double nyquist = 0.5 / options_.frequency;
+      while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+      return limit > 0.0 ? std::min(limit, nyquist) : nyquist;
+    }
+    const double slowest = slowest_mode_period(plant_);
+    if (limit == 0.0) limit = certain <= 200.0 * slowest ? certain : 20.0 * slowest;
+    return std::max(limit, feasible_);
+  }
+
+  bool is_exhausted() const { return steps_ >= options_.most_steps; }
+
+  /// Moves `feasible_` to the goal by links while there are steps left; @return an infeasible
+  /// period met on the way.
   std::optional<double> advance(double goal) {
     double ratio = longest_link_;
-    while (feasible_ < goal) {
+    while (feasible_ < goal && !is_exhausted()) {
+      ++steps_;
       const double next = std::min(goal, feasible_ * ratio);
       Intervals gains = gains_at(next);
       if (gains.empty()) return next;
@@ -117,7 +144,7 @@ class DelaySearch {
   }
 
   /// True where one D that serves at both ends serves in between.
-  bool links(double next, const Intervals& gains) const {
+  bool links(double next, const Intervals& gains) {
     Intervals common = intersection(gains_, gains);
     std::sort(common.begin(), common.end(),
               [](const auto& a, const auto& b) { return b.upper - b.lower < a.upper - a.lower; });
@@ -126,27 +153,28 @@ class DelaySearch {
     });
   }
 
-  bool serves(double differential_gain, double next) const {
+  bool serves(double differential_gain, double next) {
     const PdGains<double> gains{options_.proportional_gain, differential_gain};
-    const auto watch = [&](double period) { return watched(gains, period); };
-    const double first = 0.5 * (next - feasible_);
-    const double smallest = 0.1 * (options_.search_ratio - 1.0);
-    return first_crossing(watch, feasible_, next, first, smallest).outcome == WalkOutcome::clear;
-  }
-
-  /// The loop's roots and, to attenuate, the complex amplitude over that of no control.
-  TrackedPointSets watched(const PdGains<double>& gains, double period) const {
-    const auto loop = family_.loop_at(period);
-    TrackedPointSets points = family_.tracked_at(loop, gains);
-    if (options_.criterion == DelayCriterion::stable) return points;
-    const double omega = options_.angular_frequency();
-    const auto input = harmonic_input(plant_, loop, options_.hold, omega);
-    const auto input_rate = input_derivative_by_period(plant_, loop, options_.hold, input, omega);
-    const MovingResponse<Plant> response(loop, input, omega);
-    const auto ratio = amplitude_ratio(response.phasors(),
-                                       response.along(family_.rate(loop), input_rate, 1.0), gains);
-    points.push_back({TrackedPoint{ratio.value, ratio.rate}});
-    return points;
+    const auto shown = [&](double period, double radius) {
+      return options_.criterion == DelayCriterion::stable
+                 ? family_.stability(gains, period, radius)
+                 : attenuation(plant_, family_, gains, options_.hold, options_.angular_frequency(),
+                               period, radius);
+    };
+    const auto edge = [](double, double failing) { return failing; };
+    const double first = 0.25 * (next - feasible_);
+    const WalkLimits limits{0.1 * (options_.search_ratio - 1.0), most_stretches_};
+    // One that fails on the way is enough: the walk is not to look for where it begins.
+    bool fails = false;
+    const auto until_failure = [&](double period, double radius) {
+      if (fails || is_exhausted()) return Stretch::open;
+      ++steps_;
+      const Stretch stretch = shown(period, radius);
+      fails = stretch == Stretch::fails;
+      return fails ? Stretch::open : stretch;
+    };
+    return first_crossing(until_failure, edge, feasible_, next, first, limits).outcome ==
+           WalkOutcome::clear;
   }
 
   /// Positive where some D stabilises: 1 − min ρ over D, to a ten-thousandth of itself.
@@ -230,6 +258,7 @@ class DelaySearch {
   SamplingFamily<Plant> family_;
   double feasible_ = 0.0;  // every period up to it is feasible
   Intervals gains_;        // that serve there
+  int steps_ = 0;          // of the search so far
   double start_ = 0.0;     // D of minimum radius at a neighbouring period
 };
 
@@ -237,13 +266,13 @@ class DelaySearch {
 
 /// The largest sampling period, link by link.
 ///
-/// A longer period is joined to those known to be feasible by one D that serves at both and, its
-/// roots and its amplitude followed from one to the other in safe steps (`first_crossing`), in
-/// between. Where no longer period joins, the boundary is found by a bracketing root finder on a
-/// function that changes its sign there: 1 − min ρ over D (`minimum_radius`), or 1 less the minimum
-/// amplitude ratio over the stabilising D; of a plant of another order than the two masses', by
-/// halving on whether there is a D at all. The last stretch, from τ*/search_ratio on, is feasible
-/// at its ends and taken to be so in between. Source: Kollár 2022, Fig. 5.
+/// A longer period is joined to those known to be feasible by one D that is shown to serve at both
+/// and everywhere in between, stretch by stretch (`MovingSpectrum`, `detail::attenuation`). Where
+/// no longer period joins, the boundary is found by a bracketing root finder on a function that
+/// changes its sign there: 1 − min ρ over D (`minimum_radius`), or 1 less the minimum amplitude
+/// ratio over the stabilising D; of a plant of another order than the two masses', by halving on
+/// whether there is a D at all. A step by less than search_ratio, as the last one to τ*, is
+/// feasible at its ends and taken to be so in between. Source: Kollár 2022, Fig. 5.
 /// @tparam Plant  two masses, in closed form, or a plant of any order with ports; `validate` checks
 ///                it
 /// @throws InvalidParameter for a plant or question outside the admissible ranges

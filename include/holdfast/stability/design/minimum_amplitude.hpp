@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,9 +12,9 @@
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
-#include "holdfast/stability/response/any_order_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
@@ -36,6 +37,14 @@ struct AmplitudeOptions {
   /// A D is admissible if the spectral radius stays below this, 0 < … ≤ 1; 1 asks for stability,
   /// less for a transient that decays at least like largest_radiusʲ.
   double largest_radius = 1.0;
+  /// 0 … < 1; what of the way from the boundary of stability to the D of minimum radius a D must
+  /// keep away from it, measured along D and in the rate of decay, −ln ρ. 0 admits the boundary
+  /// itself as a limit; 1/2 is what the program recommends by.
+  double margin = 0.0;
+  /// Whether ratios are relative to the plant without control under the true force
+  /// (`true_amplitude_per_force`); else to the same with the force held as with control, as in
+  /// Kollár 2022, Fig. 5.
+  bool relative_to_true_force = false;
 };
 
 /// The D of least steady amplitude at one frequency and one P.
@@ -51,7 +60,49 @@ inline void validate(const AmplitudeOptions& options) {
   validate(options.sampling);
   require_positive("largest spectral radius", options.largest_radius, "");
   require_within("largest spectral radius", options.largest_radius, "", 0.0, 1.0);
+  require_within("margin", options.margin, "", 0.0, 1.0 - 1e-3);
 }
+
+/// The open intervals of D (N s/m) that the options admit at one P: with a margin m > 0 those with
+///
+///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*),  D_s stable
+///
+/// about the D* of minimum radius, which is always among them where any D stabilises.
+/// @param loop               of `sampled_loop` or `loop_map`
+/// @param proportional_gain  P (N/m), finite
+/// @param options            within their ranges, which are not checked here
+template <class Loop>
+std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
+                                                            double proportional_gain,
+                                                            const AmplitudeOptions& options) {
+  const auto within = [&](double radius) {
+    return differential_gains_within_radius(loop, proportional_gain, radius);
+  };
+  if (!(options.margin > 0.0)) return within(options.largest_radius);
+  const MinimumRadius fastest = minimum_radius(loop, proportional_gain);
+  if (!(fastest.margin > 0.0)) return {};
+  const double from = fastest.differential_gain, share = 1.0 - options.margin;
+  std::vector<Interval<double>> away;
+  for (const Interval<double>& stable : within(1.0))
+    if (stable.contains(from))
+      away.push_back({from + share * (stable.lower - from), from + share * (stable.upper - from)});
+  const double radius = std::exp(options.margin * std::log1p(-fastest.margin));
+  return intersection(away, within(std::min(radius, options.largest_radius)));
+}
+
+namespace detail {
+
+/// The steady response of a plant's loop, relative to what the options say.
+template <class Plant, class Loop>
+SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
+                                        double angular_frequency, bool relative_to_true_force) {
+  const auto response = response_of_loop(plant, loop, hold, angular_frequency);
+  return relative_to_true_force
+             ? response.relative_to(true_amplitude_per_force(plant, angular_frequency))
+             : response;
+}
+
+}  // namespace detail
 
 /// The D of least steady amplitude among the admissible ones.
 ///
@@ -75,13 +126,12 @@ MinimumAmplitude minimum_amplitude(const Plant& plant, const AmplitudeOptions& o
   if (!(2.0 * frequency * options.sampling.period < 1.0))
     return {MinimumAmplitudeOutcome::aliased, none, none, none};
   const auto loop = detail::loop_of(plant, options.sampling);
-  const auto admissible =
-      differential_gains_within_radius(loop, proportional_gain, options.largest_radius);
+  const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
   if (admissible.empty()) return {MinimumAmplitudeOutcome::none, none, none, none};
 
   const double omega = 2.0 * pi<double> * frequency;
-  const SteadyResponse<double> response =
-      detail::response_of_loop(plant, loop, options.hold, omega);
+  const auto response =
+      detail::response_of_loop(plant, loop, options.hold, omega, options.relative_to_true_force);
   const auto best = response.best_differential_gain(proportional_gain, admissible);
   if (!std::isfinite(best.differential_gain))
     return {MinimumAmplitudeOutcome::none, none, none, none};

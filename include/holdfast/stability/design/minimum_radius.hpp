@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -37,22 +36,30 @@ struct MinimumRadius {
 
 namespace detail {
 
-/// Where the secants of both ends between two levels meet, the vertex of a V; nothing where the
-/// interval of the lower level does not lie inside that of the higher.
-inline std::optional<double> secant_vertex(const Interval<double>& higher,
-                                           const Interval<double>& lower) {
-  if (!(higher.lower < lower.lower && lower.upper < higher.upper)) return std::nullopt;
-  const double left = 1.0 / (lower.lower - higher.lower);
-  const double right = 1.0 / (higher.upper - lower.upper);
-  return (left * lower.lower + right * lower.upper) / (left + right);
+/// Calls `consider` with where a function whose level sets these are may be least: the middle of
+/// each interval, and the vertex of the V where the secants of its two ends meet, between its level
+/// and the one above in which it lies.
+/// @param outer     intervals of a higher level
+template <class Consider>
+void consider_promising(const std::vector<Interval<double>>& intervals,
+                        const std::vector<Interval<double>>& outer, const Consider& consider) {
+  for (const Interval<double>& lower : intervals) {
+    consider(lower.representative());
+    for (const Interval<double>& higher : outer) {
+      if (!(higher.lower < lower.lower && lower.upper < higher.upper)) continue;
+      const double left = 1.0 / (lower.lower - higher.lower);
+      const double right = 1.0 / (higher.upper - lower.upper);
+      consider((left * lower.lower + right * lower.upper) / (left + right));
+    }
+  }
 }
 
 /// Narrows the least level r at which {D : ρ(P, D) < r} is not empty.
 ///
-/// The set is a union of intervals known in closed form for every r, and it grows with r, so that
-/// each level tested is a bound from above or from below on the global minimum. Levels to test
-/// come from ρ in the middle of the intervals and where the secants of their two ends meet, which
-/// are exact in the limit for a smooth minimum and for two branches that cross.
+/// The set is a union of intervals known for every r, and it grows with r, so that each level
+/// tested bounds the global minimum from above or from below. Levels to test come from ρ in the
+/// middle of the intervals and where the secants of their two ends meet, which are exact in the
+/// limit for a smooth minimum and for two branches that cross.
 /// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusSearch {
@@ -114,7 +121,9 @@ class MinimumRadiusSearch {
   /// The best ρ in sight if it improves, else a step below the level, doubled while it finds gains.
   double next_level() {
     double best = upper_;
-    for (const Interval<double>& interval : intervals_) best = std::min(best, best_in(interval));
+    consider_promising(intervals_, previous_, [&](double differential) {
+      best = std::min(best, loop_.radius_offset({proportional_gain_, differential}));
+    });
     best += tolerance();
     if (best < upper_ - closing_step() && best > lower_) return best;
     const double middle = lower_ + (upper_ - lower_) / 2.0;
@@ -123,18 +132,9 @@ class MinimumRadiusSearch {
     return std::max(below, middle);
   }
 
-  double best_in(const Interval<double>& interval) const {
-    double best = loop_.radius_offset({proportional_gain_, interval.representative()});
-    for (const Interval<double>& outer : previous_) {
-      if (const auto vertex = secant_vertex(outer, interval))
-        best = std::min(best, loop_.radius_offset({proportional_gain_, *vertex}));
-    }
-    return best;
-  }
-
   /// The gains a trifle above the least level: where two roots meet, the radius answers to the
-  /// square root of a change of D on one side, and the very D of the minimum would be a rounding
-  /// error away from a much larger radius.
+  /// square root of a change of D, and the very D of the minimum is a rounding error away from a
+  /// much larger radius.
   MinimumRadius answer() const {
     const Intervals close = within(upper_ + 1e-12 * std::max(loop_.scale(), std::abs(upper_)));
     const Interval<double> interval = close.empty() ? intervals_.front() : close.front();
@@ -180,12 +180,11 @@ struct RadiusLevels {
 
 /// min over D of ρ(S(P, D)): the global minimum, not by scanning.
 ///
-/// With λ = r λ′ the loop has all |λ| < r exactly if the polynomial in λ′ is stable, so that
-/// {D : ρ(P, D) < r} is a union of intervals in closed form (`stable_intervals`); of a loop of any
-/// order they come from the crossings of the circle of radius r (`circle_crossings`). The minimum
-/// radius is the r at which the set becomes empty; of a `LoopMap` to about 10⁻⁹, what round-off
-/// makes of two roots that meet. The leading coefficient does not contain D, so ρ grows without
-/// bound as |D| does and the minimum exists unless no coefficient contains D.
+/// {D : ρ(P, D) < r} is a union of intervals in closed form, those in which the polynomial in λ/r
+/// is stable (`stable_intervals`); of a loop of any order they come from the crossings of the
+/// circle of radius r (`circle_crossings`). The minimum radius is the r at which the set becomes
+/// empty; of a `LoopMap` to about 10⁻⁹, what round-off makes of two roots that meet. ρ grows
+/// without bound as |D| does: the minimum exists unless no coefficient contains D.
 /// @tparam Loop              any in `double` that has a `loop_polynomial`, or a `LoopMap`
 /// @param loop               of `sampled_loop` or `loop_map`
 /// @param proportional_gain  P (N/m), finite

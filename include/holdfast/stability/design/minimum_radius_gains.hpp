@@ -48,7 +48,8 @@ inline void narrow(double& lower, double& upper, double low, double high) {
 template <class Scalar>
 GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of_mu) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto q = in_powers_of_mu.transformed(in_powers_of_lambda<Scalar, 6>);
+  const auto q = in_powers_of_mu.template transformed<PolynomialVariable::about_centre>(
+      [](const Polynomial<Scalar, 5>& p) { return shifted(p, Scalar(-1)); });
   GainWindow window{{-infinity, infinity}, {-infinity, infinity}};
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < i; ++j) {
@@ -72,11 +73,11 @@ GainWindow window_of_unit_radius(const AffinePolynomial<Scalar, 5>& in_powers_of
 
 /// Narrows the least level r at which {(P, D) : ρ < r} is not empty.
 ///
-/// The shape of that set over P changes only at the special points of its boundary, which are known
-/// in closed form (`boundary_features`); between neighbouring ones a single P decides whether the
-/// set has gains there (`stable_intervals`). So each level tested is a bound from above or from
-/// below on the global minimum. Levels to test come from min ρ over D (`MinimumRadiusSearch`) in
-/// the middle of the P intervals and where the secants of their ends meet.
+/// The shape of that set over P changes only at the special points of its boundary
+/// (`boundary_features`); between neighbouring ones a single P decides whether the set has gains
+/// there (`stable_intervals`). So each level tested bounds the global minimum from above or from
+/// below. Levels to test come from min ρ over D (`MinimumRadiusSearch`) in the middle of the P
+/// intervals and where the secants of their ends meet.
 /// @tparam Loop  the loop's polynomial in `double`, as `LoopPolynomial`
 template <class Loop>
 class MinimumRadiusGainsSearch {
@@ -160,7 +161,7 @@ class MinimumRadiusGainsSearch {
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const Interval<double> gap{cuts[k], cuts[k + 1]};
       if (!(gap.lower < gap.upper)) continue;
-      if (stable_differential_gains(polynomial, gap.representative()).empty()) continue;
+      if (differential_intervals(polynomial, gap.representative()).empty()) continue;
       if (!result.empty() && result.back().upper == gap.lower) {
         result.back().upper = gap.upper;
       } else {
@@ -173,12 +174,8 @@ class MinimumRadiusGainsSearch {
   /// The minimum radius over D at promising P; keeps the gains if they are the best so far.
   double descend() {
     double best = upper_;
-    for (const Interval<double>& interval : intervals_) {
-      consider(interval.representative(), best);
-      for (const Interval<double>& outer : previous_) {
-        if (const auto vertex = secant_vertex(outer, interval)) consider(*vertex, best);
-      }
-    }
+    consider_promising(intervals_, previous_,
+                       [&](double proportional) { consider(proportional, best); });
     return best;
   }
 
@@ -203,13 +200,11 @@ class MinimumRadiusGainsSearch {
 
 /// min over P and D of ρ(S(P, D)): the global minimum over the whole plane, not by scanning.
 ///
-/// {(P, D) : ρ < r} is bounded by the curves on which a root of the polynomial in λ′ = λ/r reaches
-/// the unit circle. Whether it is empty is decided in closed form for every r: its special points
-/// cut the P axis into ranges within which one P speaks for all. The minimum radius is the r at
-/// which it becomes empty. There two pairs often coincide; the roots then answer to the square root
-/// of a change of the gains, so that gains in `double` cannot hold the radius to better than about
-/// 1e−8. Where all roots of the plant have decayed to 1e−6 within a sample the outcome may be
-/// `open`.
+/// Whether {(P, D) : ρ < r} is empty is decided in closed form for every r: the special points of
+/// its boundary cut the P axis into ranges within which one P speaks for all. The minimum radius is
+/// the r at which it becomes empty. There two pairs often coincide; the roots then answer to the
+/// square root of a change of the gains, and gains in `double` hold the radius to about 1e−8. Where
+/// all roots of the plant have decayed to 1e−6 within a sample the outcome may be `open`.
 /// @tparam Loop  any in `double` that has a `loop_polynomial`
 /// @param loop   of `sampled_loop`
 template <class Loop>

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -14,7 +16,6 @@
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
-#include "holdfast/stability/margins/tracked_roots.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
@@ -25,6 +26,7 @@ namespace holdfast {
 /// @param loop   of `sampled_loop`
 /// @param free   the gain that varies
 /// @param gains  the other one; the value of the free one does not matter
+/// @throws InvalidParameter where loop or fixed gain are not finite
 template <class Scalar>
 std::vector<Interval<Scalar>> stable_gains(const SampledLoop<Scalar>& loop, FreeGain free,
                                            const PdGains<detail::Undeduced<Scalar>>& gains) {
@@ -72,7 +74,8 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
   }
 }
 
-/// The roots s of the continuous loop without delay, to which the sampled loop tends as τ → 0.
+/// The roots s of the continuous loop without delay, to which the sampled loop tends as τ → 0; with
+/// no gains the poles of the plant.
 template <class Plant>
 auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   if constexpr (has_closed_forms<Plant>) {
@@ -84,14 +87,14 @@ auto continuous_roots(const Plant& plant, const PdGains<double>& gains) {
   }
 }
 
-/// The poles of the plant without control.
+/// 2π over the least |s| > 0 of the plant without control, s.
 template <class Plant>
-auto open_poles(const Plant& plant) {
-  if constexpr (has_closed_forms<Plant>) {
-    return roots(characteristic_polynomial(plant).base);
-  } else {
-    return balanced_eigenvalues<double, Eigen::Dynamic>(plant.state_matrix());
+double slowest_mode_period(const Plant& plant) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& pole : continuous_roots(plant, {0.0, 0.0})) {
+    if (std::abs(pole) > 0.0) slowest = std::min(slowest, std::abs(pole));
   }
+  return 2.0 * pi<double> / slowest;
 }
 
 }  // namespace detail

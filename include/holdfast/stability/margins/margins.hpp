@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -31,7 +32,8 @@ enum class MarginEndOutcome {
   undefined,      ///< the loop is not stable: the numbers are NaN
   boundary,       ///< a root reaches the unit circle at `position`
   none,           ///< stable all the way; `position` is where the quantity's range ends
-  beyond_search,  ///< stable as far as was looked, which is `position`
+  beyond_search,  ///< shown to be stable as far as `position`, where the search ended: the end of
+                  ///< its range, of its work, or a root so near the circle that round-off decides
 };
 
 /// One end of the stable stretch of a quantity about its value.
@@ -68,13 +70,15 @@ struct MarginSearch {
   /// longer, at twenty periods of the plant's slowest mode, unless stability at all longer ones is
   /// certain before.
   double longest_period_ratio = 1000.0;
-  /// 1e−12 … 0.1; the shortest step of the walks along τ and δ as a share of the position. Narrower
-  /// windows of instability may be missed, and so may one that a single step passes over and of
-  /// which the roots, their speeds and p(−1) at both ends of the step show nothing.
+  /// 1e−12 … 0.1; what may be left unproved before a boundary of τ or δ, as a share of the
+  /// position: an earlier boundary can lie within it, and nowhere else.
   double smallest_step = 1e-6;
   /// 1 … 1000; the walk towards longer delays of a plant with ports gives up at so many samples
   /// beyond δ.
   double longest_delay_ratio = 10.0;
+  /// ≥ 1; steps of a walk along τ or δ, after which it gives up. Steps are about as long as the
+  /// plant's fastest mode turns by a radian, and each takes some 40 µs for two masses.
+  int most_steps = 20000;
 };
 
 namespace detail {
@@ -123,40 +127,34 @@ TwoSidedMargin margin_in(const std::vector<Interval<double>>& intervals, double 
   return {};
 }
 
-/// Margins along a path through the samplings, the gains held.
+/// The first loss of stability along a path through the samplings, the gains held, between a value
+/// and `limit`; `otherwise` where there is none.
+/// @param first  length of the first step, > 0
 template <class Family>
-class FamilyMargin {
- public:
-  FamilyMargin(const Family& family, const PdGains<double>& gains, double value,
-               const MarginSearch& search)
-      : family_(family), gains_(gains), value_(value), search_(search) {}
-
-  /// The first loss of stability between the value and `limit`; `otherwise` where there is none.
-  /// @param first  length of the first step, > 0
-  MarginEnd towards(double limit, double first, const MarginEnd& otherwise) const {
-    const auto watch = [this](double position) {
-      return family_.tracked_at(family_.loop_at(position), gains_);
-    };
-    const FirstCrossing walk = first_crossing(watch, value_, limit, first, search_.smallest_step);
-    if (walk.outcome == WalkOutcome::blocked) return {};
-    if (walk.outcome == WalkOutcome::clear) return otherwise;
-    const auto excess = [this](double position) {
-      return loop_excess(family_.loop_at(position), gains_);
-    };
-    const double lower = std::min(walk.last_inside, walk.first_outside);
-    const double upper = std::max(walk.last_inside, walk.first_outside);
-    const auto crossing = bracketing_root(
-        excess, SignChange<double>{lower, upper, excess(lower), excess(upper)}, 0.0);
-    const double position = limit < value_ ? crossing.upper : crossing.lower;
-    return boundary_end(family_.loop_at(position), gains_, position, value_);
-  }
-
- private:
-  Family family_;
-  PdGains<double> gains_;
-  double value_;
-  MarginSearch search_;
-};
+MarginEnd margin_along(const Family& family, const PdGains<double>& gains, double value,
+                       double limit, double first, const MarginSearch& search,
+                       const MarginEnd& otherwise) {
+  const auto stable = [&](double centre, double radius) {
+    return family.stability(gains, centre, radius);
+  };
+  const auto excess = [&](double position) { return loop_excess(family.loop_at(position), gains); };
+  const auto edge = [&](double inside, double outside) {
+    SignChange<double> ends{inside, outside, excess(inside), excess(outside)};
+    if ((ends.value_at_lower < 0.0) == (ends.value_at_upper < 0.0)) return outside;  // round-off
+    if (outside < inside) {
+      std::swap(ends.lower, ends.upper);
+      std::swap(ends.value_at_lower, ends.value_at_upper);
+    }
+    const auto crossing = bracketing_root(excess, ends, 0.0);
+    return limit < value ? crossing.upper : crossing.lower;
+  };
+  const FirstCrossing walk =
+      first_crossing(stable, edge, value, limit, first, {search.smallest_step, search.most_steps});
+  if (walk.outcome == WalkOutcome::blocked) return {};
+  if (walk.outcome == WalkOutcome::clear) return otherwise;
+  if (walk.outcome == WalkOutcome::open) return beyond_search(walk.last_inside, value);
+  return boundary_end(family.loop_at(walk.first_outside), gains, walk.first_outside, value);
+}
 
 /// max Re s of the continuous loop, to which the sampled loop tends as τ → 0.
 template <class Plant>
@@ -166,16 +164,6 @@ double continuous_abscissa(const Plant& plant, const PdGains<double>& gains) {
     largest = std::max(largest, root.real());
   }
   return largest;
-}
-
-/// 2π over the least |s| > 0 of the plant without control, s.
-template <class Plant>
-double slowest_mode_period(const Plant& plant) {
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& pole : open_poles(plant)) {
-    if (std::abs(pole) > 0.0) slowest = std::min(slowest, std::abs(pole));
-  }
-  return 2.0 * pi<double> / slowest;
 }
 
 /// φ − (k − 1) of a delay φτ: what it exceeds whole samples by, of which the bound on slow sampling
@@ -197,55 +185,44 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
   const MarginEnd no_longer = certain <= longest
                                   ? no_boundary(std::numeric_limits<double>::infinity())
                                   : beyond_search(longest, period);
-  const FamilyMargin margin(SamplingFamily<Plant>::of_period(plant, fraction), gains, period,
-                            search);
-  const double limit = std::max(period, std::min(certain, longest));
-  return {margin.towards(shortest, 0.05 * period, no_shorter),
-          margin.towards(limit, 0.05 * period, no_longer)};
+  const auto family = SamplingFamily<Plant>::of_period(plant, fraction);
+  const auto towards = [&](double limit, const MarginEnd& otherwise) {
+    return margin_along(family, gains, period, limit, 0.05 * period, search, otherwise);
+  };
+  return {towards(shortest, no_shorter),
+          towards(std::max(period, std::min(certain, longest)), no_longer)};
 }
 
-/// Both margins of δ where it may exceed τ: one stretch (k − 1) τ … k τ after the other, in each of
-/// which as many commands are on their way. At the seams one root comes or goes at λ = 0, and no
-/// other moves.
+/// Both margins of δ, one stretch (k − 1) τ … k τ after the other, in each of which as many
+/// commands are on their way. At the seams one root comes or goes at λ = 0, and no other moves. The
+/// two masses in closed form have the first stretch alone.
 template <class Plant>
-TwoSidedMargin delay_margin_by_cells(const Plant& plant, const Sampling<double>& sampling,
-                                     const PdGains<double>& gains, const MarginSearch& search) {
+TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
+                            const PdGains<double>& gains, const MarginSearch& search) {
   const double period = sampling.period, delay = sampling.processing_delay;
-  const int held = held_commands(sampling);
-  const double longest = delay + search.longest_delay_ratio * period;
+  const int held = has_closed_forms<Plant> ? 1 : held_commands(sampling);
+  const double longest =
+      has_closed_forms<Plant> ? period : delay + search.longest_delay_ratio * period;
   const auto walk = [&](int direction) {
     double position = delay;
     for (int k = held; k >= 1; k += direction) {
       const double seam = (direction < 0 ? k - 1 : k) * period;
       const double limit = std::min(seam, longest);
-      const FamilyMargin margin(SamplingFamily<Plant>::of_delay(plant, period, k), gains, position,
-                                search);
-      MarginEnd end = margin.towards(limit, 0.05 * period, no_boundary(limit));
-      end.distance = std::abs(end.position - delay);
+      const auto family = SamplingFamily<Plant>::of_delay(plant, period, k);
+      MarginEnd end =
+          margin_along(family, gains, position, limit, 0.05 * period, search, no_boundary(limit));
       if (end.outcome == MarginEndOutcome::undefined && k != held)  // it crosses at the seam
-        return boundary_end(loop_map(plant, {period, position}), gains, position, delay);
-      if (end.outcome != MarginEndOutcome::none) return end;
-      if (limit == longest) return beyond_search(longest, delay);
+        return boundary_end(family.loop_at(position), gains, position, delay);
+      if (end.outcome != MarginEndOutcome::none) {
+        end.distance = std::abs(end.position - delay);
+        return end;
+      }
+      if (limit == longest) return has_closed_forms<Plant> ? end : beyond_search(longest, delay);
       position = limit;
     }
     return no_boundary(0.0);
   };
   return {walk(-1), walk(1)};
-}
-
-template <class Plant>
-TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
-                            const PdGains<double>& gains, const MarginSearch& search) {
-  if constexpr (!has_closed_forms<Plant>) {
-    return delay_margin_by_cells(plant, sampling, gains, search);
-  } else {
-    const FamilyMargin margin(SamplingFamily<Plant>::of_delay(plant, sampling.period), gains,
-                              sampling.processing_delay, search);
-    const auto to = [&](double limit) {
-      return margin.towards(limit, 0.05 * sampling.period, no_boundary(limit));
-    };
-    return {to(0.0), to(sampling.period)};
-  }
 }
 
 }  // namespace detail
@@ -255,15 +232,17 @@ inline void validate(const MarginSearch& search) {
   require_positive("longest period ratio minus one", search.longest_period_ratio - 1.0, "");
   require_within("smallest step", search.smallest_step, "", 1e-12, 0.1);
   require_within("longest delay ratio", search.longest_delay_ratio, "", 1.0, 1000.0);
+  require_positive("most steps", search.most_steps, "");
 }
 
 /// How far D, P, τ and δ, each on its own, are from the boundary of stability.
 ///
 /// D and P: the stable interval about the value, all crossings of the unit circle being known
-/// (`stable_gains`). τ and δ: the roots are followed from the value outwards in steps that their
-/// measured speed shows to be safe (`first_crossing`), and the crossing of the unit circle is then
-/// found by a bracketing root finder on ρ − 1. Towards τ = 0 the continuous loop decides; towards τ
-/// = ∞ stability may be certain (`SlowSamplingBound`).
+/// (`stable_gains`). τ and δ: from the value outwards, step by step, all roots are shown to lie
+/// inside the unit circle all over the step (`MovingSpectrum`), so that no boundary is passed over,
+/// and the one that stops this is found by a bracketing root finder on ρ − 1. Below a millionth of
+/// τ the continuous loop decides alone; towards τ = ∞ stability may be certain
+/// (`SlowSamplingBound`).
 /// @tparam Plant    two masses, of which all of this is in closed form, or a plant of any order
 /// with
 ///                  ports, from the map of its loop; `validate` checks it

@@ -1,16 +1,71 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/moving_spectrum.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/margins/tracked_roots.hpp"
-#include "holdfast/stability/polynomial/loop_derivatives.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
 namespace holdfast {
+
+namespace detail {
+
+/// λ − 1 of all roots of the two masses' loop.
+template <class Scalar>
+std::vector<std::complex<Scalar>> roots_from_one(const SampledLoop<Scalar>& loop,
+                                                 const PdGains<Undeduced<Scalar>>& gains) {
+  return roots(characteristic_polynomial(loop).at(gains));
+}
+
+/// ρ − 1 of the two masses' loop.
+template <class Scalar>
+Scalar loop_excess(const SampledLoop<Scalar>& loop, const PdGains<Undeduced<Scalar>>& gains) {
+  return loop_polynomial(loop).excess(gains);
+}
+
+/// The roots of a loop of any order, given by μ = λ − 1 so that nothing is lost where sampling is
+/// fast.
+template <class Scalar>
+Vector<std::complex<Scalar>, Eigen::Dynamic> roots_from_one(const LoopMap<Scalar>& map,
+                                                            const PdGains<Scalar>& gains) {
+  return balanced_eigenvalues<Scalar, Eigen::Dynamic>(map.closed_increment(gains));
+}
+
+/// |1 + μ| − 1 without cancellation.
+template <class Scalar>
+Scalar excess_from_one(const std::complex<Scalar>& mu) {
+  return (Scalar(2) * mu.real() + std::norm(mu)) / (Scalar(1) + std::abs(Scalar(1) + mu));
+}
+
+/// ρ − 1 of a loop of any order.
+template <class Scalar>
+Scalar loop_excess(const LoopMap<Scalar>& map, const PdGains<Scalar>& gains) {
+  Scalar largest(-1);
+  for (const std::complex<Scalar>& mu : roots_from_one(map, gains))
+    largest = std::max(largest, excess_from_one(mu));
+  return largest;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template double loop_excess(const LoopMap<double>&, const PdGains<double>&);
+#endif
+
+}  // namespace detail
 
 /// A line through the samplings of one plant, along which a single number varies: the period τ, the
 /// delay keeping its share of it, or the delay δ at a fixed period, as long as the number of
@@ -46,35 +101,113 @@ class SamplingFamily {
     if constexpr (has_closed_forms<Plant>) {
       return sampled_loop(plant_, at(position));
     } else {
-      return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
+      return map_at(position);
     }
   }
 
-  /// How the loop's matrices move along the path, per second of it.
-  LoopDerivative rate(const SampledLoop<double>& loop) const {
-    const LoopDerivative by_delay = derivative_by_delay(plant_, loop);
-    if (fixed_period_ > 0.0) return by_delay;
-    return derivative_by_period(plant_, loop).plus(by_delay, delay_fraction_);
-  }
-  /// The same of a loop's map.
-  LoopMapDerivative<double> rate(const LoopMap<double>& map) const {
-    return varies_period() ? loop_map_derivative(plant_, map, 1.0, delay_fraction_)
-                           : loop_map_derivative(plant_, map, 0.0, 1.0);
+  /// The map of the loop at a position (s).
+  LoopMap<double> map_at(double position) const {
+    return detail::loop_map_keeping<Plant, double>(plant_, at(position), held_);
   }
 
-  /// The loop's roots λ and how they move along the path, and 1 − Π(1 + λ_i), which leaves the
-  /// inside where a real root passes −1. Stable ⇔ all inside the unit circle.
-  /// @param loop  of `loop_at`
-  /// @param gains  P and D
-  template <class Loop>
-  TrackedPointSets tracked_at(const Loop& loop, const PdGains<double>& gains) const {
-    return detail::tracked_roots(loop, rate(loop), gains, varies_period());
+  /// How fast τ grows along the path.
+  double period_rate() const { return fixed_period_ > 0.0 ? 0.0 : 1.0; }
+  /// How fast the time k τ − δ grows that a new command acts within a sample.
+  double action_rate() const { return fixed_period_ > 0.0 ? -1.0 : held_ - delay_fraction_; }
+
+  /// The closed map within `radius` (s) of a centre, x counted in radii.
+  ///
+  /// With h = k τ − δ and the rates τ′ and h′ along the path, the rows of the state are
+  ///
+  ///     ∂ʲ[A_d, Γ₁, Γ₀] = A^{j−1} (τ′ʲ [A A_d, A_d b, 0] + h′ʲ e^{Ah} b [0, −1, 1]),   j ≥ 1
+  ///
+  /// the third column being fed by K where k = 1. What is beyond the last term is at most the next
+  /// one's size times Σ (‖A‖ radius/(m + 2))ⁱ, in the coordinates that balance A.
+  /// @param map     of `map_at`, at the centre
+  /// @param gains   P and D
+  /// @param radius  (s), ≥ 0
+  MovingMatrix moving(const LoopMap<double>& map, const PdGains<double>& gains,
+                      double radius) const {
+    constexpr int order = 12;
+    const Eigen::Index size = map.size(), n = size - map.held_commands;
+    const Eigen::MatrixXd a = plant_.state_matrix();
+    Eigen::MatrixXd by_period = period_rate() * rate_by_period(map);
+    Eigen::MatrixXd by_action = action_rate() * rate_by_action(map, gains);
+    MovingMatrix result{{map.closed_increment(gains)}, Eigen::MatrixXd::Zero(size, size)};
+    double factor = radius;  // radiusʲ/j!
+    for (int j = 1; j <= order; ++j) {
+      result.terms.emplace_back(Eigen::MatrixXd::Zero(size, size));
+      result.terms.back().topRows(n) = factor * (by_period + by_action);
+      by_period = period_rate() * (a * by_period).eval();
+      by_action = action_rate() * (a * by_action).eval();
+      factor *= radius / (j + 1);
+    }
+    const BalancedMatrix<double, Eigen::Dynamic> similar(a);
+    const double ratio =
+        similar.balanced.cwiseAbs().rowwise().sum().maxCoeff() * radius / (order + 2);
+    const double tail =
+        ratio < 1.0 ? factor / (1.0 - ratio) : std::numeric_limits<double>::infinity();
+    const Eigen::RowVectorXd next = (similar.factors.cwiseInverse().asDiagonal() *
+                                     (by_period.cwiseAbs() + by_action.cwiseAbs()))
+                                        .colwise()
+                                        .maxCoeff();
+    result.remainder.topRows(n) = tail * similar.factors * next;
+    return result;
   }
 
-  /// True on a path of τ, false on one of δ.
-  bool varies_period() const { return !(fixed_period_ > 0.0); }
+  /// How the command enters, s, within `radius` (s) of a centre, as `moving` has the map: where
+  /// k = 1, by Γ₀, whose derivatives are A^{j−1} h′ʲ e^{Ah} b.
+  MovingVector moving_command(const LoopMap<double>& map, double radius) const {
+    // The map of unit feedback from one more row, of which s is the column: its bound holds for s.
+    const Eigen::Index size = map.size(), n = size - map.held_commands;
+    LoopMap<double> alone = map;
+    alone.displacement = Eigen::RowVectorXd::Zero(size);
+    alone.velocity = Eigen::RowVectorXd::Unit(size, 0);
+    const MovingMatrix fed = moving(alone, {0.0, 1.0}, radius);
+    MovingVector result{{map.command.cast<std::complex<double>>()},
+                        fed.remainder.rowwise().maxCoeff()};
+    const Eigen::MatrixXd a = plant_.state_matrix();
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(n);
+    if (map.held_commands == 1) moved = plant_.control_input() + a * map.command.head(n);
+    for (std::size_t j = 1; j < fed.terms.size(); ++j) {
+      moved *= action_rate() * radius / static_cast<double>(j);
+      result.terms.emplace_back(Eigen::VectorXcd::Zero(size));
+      result.terms.back().head(n) = moved.cast<std::complex<double>>();
+      moved = a * moved.eval();
+    }
+    return result;
+  }
+
+  /// Whether the loop is shown to be stable within `radius` (s) of a centre.
+  Stretch stability(const PdGains<double>& gains, double centre, double radius) const {
+    const MovingSpectrum roots(moving(map_at(centre), gains, radius));
+    return roots.inside()             ? Stretch::holds
+           : roots.inside_at_centre() ? Stretch::open
+                                      : Stretch::fails;
+  }
 
  private:
+  /// [A A_d, A_d b, 0], N × (N + k).
+  Eigen::MatrixXd rate_by_period(const LoopMap<double>& map) const {
+    const Eigen::Index size = map.size(), n = size - map.held_commands;
+    const Eigen::MatrixXd transition = map.open_map.topLeftCorner(n, n);
+    Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(n, size);
+    rate.leftCols(n) = plant_.state_matrix() * transition;
+    rate.col(n) = transition * plant_.control_input();
+    return rate;
+  }
+
+  /// e^{Ah} b [0, −1, 1], N × (N + k), the last column being K where k = 1.
+  Eigen::MatrixXd rate_by_action(const LoopMap<double>& map, const PdGains<double>& gains) const {
+    const Eigen::Index k = map.held_commands, size = map.size(), n = size - k;
+    const Eigen::VectorXd present =
+        (k == 1 ? map.command : Eigen::VectorXd(map.open_map.col(n + 1))).head(n);
+    Eigen::RowVectorXd fed = Eigen::RowVectorXd::Unit(size, k == 1 ? n : n + 1);
+    if (k == 1) fed = gains.proportional * map.displacement + gains.differential * map.velocity;
+    fed[n] -= 1.0;
+    return (plant_.control_input() + plant_.state_matrix() * present) * fed;
+  }
+
   SamplingFamily(const Plant& plant, double fixed_period, double delay_fraction, int held)
       : plant_(plant), fixed_period_(fixed_period), delay_fraction_(delay_fraction), held_(held) {}
 

@@ -14,9 +14,7 @@
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
-#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
-#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -44,7 +42,14 @@ class SlowSamplingBound {
   /// @param gains           P (N/m) and D (N s/m), finite
   /// @param delay_fraction  φ, 0 … 1, kept while τ varies
   template <class Plant>
-  SlowSamplingBound(const Plant& plant, const PdGains<double>& gains, double delay_fraction);
+  SlowSamplingBound(const Plant& plant, const PdGains<double>& gains, double delay_fraction)
+      : delay_fraction_(delay_fraction) {
+    if constexpr (has_closed_forms<Plant>) {
+      take_poles_of_two_masses(plant, gains);
+    } else {
+      take_poles(plant, gains);
+    }
+  }
 
   /// The bound on |L| over |λ| ≥ 1 at a sampling period (s), > 0; infinite for an undamped mode.
   double at(double period) const {
@@ -70,9 +75,38 @@ class SlowSamplingBound {
   }
 
  private:
-  /// The poles and residues of a plant of any order.
   template <class Plant>
-  void take_modes(const Plant& plant, const PdGains<double>& gains);
+  void take_poles_of_two_masses(const Plant& plant, const PdGains<double>& gains) {
+    const auto plain = resolvent(plant.state_matrix());
+    const auto numerator = plain.between(gains.feedback_row(), plant.control_input());
+    const auto slope = derivative(plain.determinant);
+    for (const std::complex<double>& pole : roots(plain.determinant)) {
+      decay_.push_back(decay_of(pole));
+      weight_.push_back(std::abs(evaluate(numerator, pole) / (pole * evaluate(slope, pole))));
+    }
+    static_gain_ = std::abs(numerator[0] / plain.determinant[0]);
+  }
+
+  template <class Plant>
+  void take_poles(const Plant& plant, const PdGains<double>& gains) {
+    using Square = Matrix<double, Eigen::Dynamic>;
+    const Square a = plant.state_matrix();
+    const Vector<double, Eigen::Dynamic> b = plant.control_input();
+    const RowVector<double, Eigen::Dynamic> feedback =
+        ports_of(plant).feedback_row(gains.proportional, gains.differential);
+    const auto poles = detail::balanced_eigenvalues<double, Eigen::Dynamic>(a);
+    for (Eigen::Index i = 0; i < poles.size(); ++i) {
+      decay_.push_back(decay_of(poles[i]));
+      // The residue of K (sI − A)⁻¹ b is the speed of the pole in A + ε b K.
+      weight_.push_back(
+          std::abs(eigenvalue_derivative<double>(a, Square(b * feedback), poles[i]) / poles[i]));
+      for (Eigen::Index k = 0; k < i; ++k) {
+        // Their residues are not told apart surely enough.
+        if (std::abs(poles[i] - poles[k]) < 1e-3 * std::abs(poles[i])) decay_.back() = 0.0;
+      }
+    }
+    static_gain_ = std::abs(feedback.dot(a.partialPivLu().solve(b)));
+  }
 
   /// The decay of a pole, 0 where it is undamped but for round-off.
   static double decay_of(const std::complex<double>& pole) {
@@ -84,50 +118,5 @@ class SlowSamplingBound {
   std::vector<double> decay_;   // a_i
   std::vector<double> weight_;  // |c_i|
 };
-
-template <class Plant>
-SlowSamplingBound::SlowSamplingBound(const Plant& plant, const PdGains<double>& gains,
-                                     double delay_fraction)
-    : delay_fraction_(delay_fraction) {
-  if constexpr (!has_closed_forms<Plant>) {
-    take_modes(plant, gains);
-  } else {
-    const auto plain = resolvent(plant.state_matrix());
-    const auto numerator = plain.between(gains.feedback_row(), plant.control_input());
-    const auto slope = derivative(plain.determinant);
-    for (const std::complex<double>& pole : roots(plain.determinant)) {
-      decay_.push_back(decay_of(pole));
-      weight_.push_back(std::abs(evaluate(numerator, pole) / (pole * evaluate(slope, pole))));
-    }
-    static_gain_ = std::abs(numerator[0] / plain.determinant[0]);
-  }
-}
-
-template <class Plant>
-void SlowSamplingBound::take_modes(const Plant& plant, const PdGains<double>& gains) {
-  using Square = Matrix<double, Eigen::Dynamic>;
-  const Square a = plant.state_matrix();
-  const Vector<double, Eigen::Dynamic> b = plant.control_input();
-  const RowVector<double, Eigen::Dynamic> feedback =
-      ports_of(plant).feedback_row(gains.proportional, gains.differential);
-  const auto poles = detail::balanced_eigenvalues<double, Eigen::Dynamic>(a);
-  for (Eigen::Index i = 0; i < poles.size(); ++i) {
-    decay_.push_back(decay_of(poles[i]));
-    // The residue of K (sI − A)⁻¹ b is the speed of the pole in A + ε b K.
-    weight_.push_back(
-        std::abs(eigenvalue_derivative<double>(a, Square(b * feedback), poles[i]) / poles[i]));
-    for (Eigen::Index k = 0; k < i; ++k) {
-      if (std::abs(poles[i] - poles[k]) < 1e-6 * std::abs(poles[i])) decay_.back() = 0.0;
-    }
-  }
-  static_gain_ = std::abs(feedback.dot(a.partialPivLu().solve(b)));
-}
-
-#ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template SlowSamplingBound::SlowSamplingBound(const TwoMass<double>&, const PdGains<double>&,
-                                                     double);
-extern template SlowSamplingBound::SlowSamplingBound(const LinearPlant<double>&,
-                                                     const PdGains<double>&, double);
-#endif
 
 }  // namespace holdfast

@@ -1,20 +1,85 @@
 #pragma once
 
+#include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
 
 namespace holdfast {
+
+/// The variable x of a polynomial, which says where its roots are stable: each is a type of its
+/// own.
+enum class PolynomialVariable {
+  half_plane,    ///< s, or w of `in_half_plane`: Re x < 0
+  about_one,     ///< λ − 1: |1 + x| < 1
+  about_centre,  ///< λ − c, c being told beside it (`LoopPolynomial`): |c + x| < 1
+};
+
+/// A polynomial whose coefficients are affine in the two gains:
+///
+///     p(x; P, D) = base(x) + P · proportional(x) + D · differential(x)
+///
+/// The characteristic polynomial of the loop has this form because both gains sit in one row of the
+/// feedback matrix. Each (P, D) costs 2 (Degree + 1) multiply-adds.
+/// @tparam Variable  x; unless given that of the loop's own polynomial, s of degree 4, else λ − 1
+template <class Scalar, int Degree,
+          PolynomialVariable Variable =
+              Degree == 4 ? PolynomialVariable::half_plane : PolynomialVariable::about_one>
+struct AffinePolynomial {
+  Polynomial<Scalar, Degree> base;          ///< without control, constant coefficient first
+  Polynomial<Scalar, Degree> proportional;  ///< ∂p/∂P, per N/m of P
+  Polynomial<Scalar, Degree> differential;  ///< ∂p/∂D, per N s/m of D
+
+  /// The polynomial at one pair of gains, constant coefficient first.
+  Polynomial<Scalar, Degree> at(const PdGains<Scalar>& gains) const {
+    return base + gains.proportional * proportional + gains.differential * differential;
+  }
+
+  /// The same linear change of variable applied to all three parts.
+  /// @tparam To  the variable after it
+  template <PolynomialVariable To, class LinearMap>
+  AffinePolynomial<Scalar, Degree, To> transformed(const LinearMap& map) const {
+    return {map(base), map(proportional), map(differential)};
+  }
+};
+
+/// @throws InvalidParameter unless all coefficients are finite
+template <class Scalar, int Degree, PolynomialVariable Variable>
+void validate(const AffinePolynomial<Scalar, Degree, Variable>& polynomial) {
+  const Scalar sum =
+      polynomial.base.sum() + polynomial.proportional.sum() + polynomial.differential.sum();
+  require_finite("coefficients of the polynomial", static_cast<double>(sum), "");
+}
+
+/// A polynomial in a variable whose stable half-plane is Re < 0.
+template <class Scalar, int Degree>
+using HalfPlanePolynomial = AffinePolynomial<Scalar, Degree, PolynomialVariable::half_plane>;
+
+/// A polynomial in λ − 1 in the variable w of the half-plane (math/poly/polynomial.hpp).
+template <class Scalar, int Degree>
+HalfPlanePolynomial<Scalar, Degree> in_half_plane(
+    const AffinePolynomial<Scalar, Degree, PolynomialVariable::about_one>& polynomial) {
+  return polynomial.template transformed<PolynomialVariable::half_plane>(
+      [](const Polynomial<Scalar, Degree>& p) { return in_half_plane<Scalar, Degree + 1>(p); });
+}
+/// One that is there already.
+template <class Scalar, int Degree>
+const HalfPlanePolynomial<Scalar, Degree>& in_half_plane(
+    const HalfPlanePolynomial<Scalar, Degree>& polynomial) {
+  return polynomial;
+}
 
 /// Characteristic polynomial of the continuous loop without delay, degree 4 in s:
 ///
 ///     det(sI − A − bK) = det(sI − A) − P [1 0 0 0] adj(sI − A) b − D [0 1 0 0] adj(sI − A) b
 ///
 /// All roots in the left half-plane ⇔ asymptotically stable. Source: Kollár 2022, §4.1.
+/// @throws InvalidParameter for two masses that are not admissible
 template <class Scalar, template <class> class Plant>
 AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant) {
+  detail::require_admissible(plant);
   const auto open_loop = resolvent<Scalar, 4>(plant.state_matrix());
   AffinePolynomial<Scalar, 4> result;
   const auto coefficient = [&](int state) {
@@ -29,6 +94,34 @@ AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant
   return result;
 }
 
+namespace detail {
+
+/// det(λI − S) of the sampled loop in powers of μ = λ − centre, with λ Γ₀ + Γ₁ = μ Γ₀ + c Γ₀ + Γ₁.
+/// @param centre  c, 1 or 0
+template <class Scalar>
+AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial_about(
+    int centre, const SampledLoop<Scalar>& loop) {
+  const auto open_loop = resolvent<Scalar, 4>(centre == 1 ? loop.increment : loop.transition);
+  Vector<Scalar, 4> force = loop.previous_force;
+  if (centre == 1) force += loop.present_force;
+  AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> result;
+  const auto coefficient = [&](int state) {
+    const RowVector<Scalar, 4> row = RowVector<Scalar, 4>::Unit(state);
+    Polynomial<Scalar, 5> value = Polynomial<Scalar, 5>::Zero();
+    value.template head<4>() -= open_loop.between(row, force);
+    value.template segment<4>(1) -= open_loop.between(row, loop.present_force);
+    return value;
+  };
+  result.base.setZero();
+  result.base.template tail<5>() = open_loop.determinant;
+  if (centre == 1) result.base.template head<5>() += open_loop.determinant;
+  result.proportional = coefficient(0);
+  result.differential = coefficient(1);
+  return result;
+}
+
+}  // namespace detail
+
 /// Characteristic polynomial det(λI − S) of the sampled loop, degree 5, written in powers of μ = λ
 /// − 1.
 ///
@@ -36,37 +129,13 @@ AffinePolynomial<Scalar, 4> characteristic_polynomial(const Plant<Scalar>& plant
 ///
 ///     det(λI − S) = λ det(λI − A_d) − K adj(λI − A_d) (λ Γ₀ + Γ₁)
 ///
-/// When sampling is fast the plant's four roots crowd around λ = 1 (the fifth stays near 0), where
-/// powers of λ lose them to round-off; powers of λ − 1 do not. `in_powers_of_lambda` and
-/// `in_half_plane` (mobius_zhukovsky.hpp) change the variable. All |λ| < 1 ⇔ asymptotically stable.
-/// For δ = 0, λ = 0 is a structural root.
+/// When sampling is fast the plant's four roots crowd around λ = 1, where powers of λ lose them to
+/// round-off; powers of λ − 1 do not. `shifted` and `in_half_plane` change the variable. All
+/// |λ| < 1 ⇔ asymptotically stable. For δ = 0, λ = 0 is a structural root.
 template <class Scalar>
 AffinePolynomial<Scalar, 5> characteristic_polynomial(const SampledLoop<Scalar>& loop) {
-  const auto open_loop = resolvent<Scalar, 4>(loop.increment);
-  const Vector<Scalar, 4> whole_force = loop.present_force + loop.previous_force;
-  AffinePolynomial<Scalar, 5> result;
-  const auto coefficient = [&](int state) {
-    const RowVector<Scalar, 4> row = RowVector<Scalar, 4>::Unit(state);
-    Polynomial<Scalar, 5> value = Polynomial<Scalar, 5>::Zero();
-    value.template head<4>() -= open_loop.between(row, whole_force);
-    value.template segment<4>(1) -= open_loop.between(row, loop.present_force);
-    return value;
-  };
-  result.base.setZero();
-  result.base.template head<5>() += open_loop.determinant;
-  result.base.template tail<5>() += open_loop.determinant;
-  result.proportional = coefficient(0);
-  result.differential = coefficient(1);
-  return result;
-}
-
-/// p(λ) from p written in powers of μ = λ − 1 (Taylor shift).
-template <class Scalar, int Size>
-Vector<Scalar, Size> in_powers_of_lambda(Vector<Scalar, Size> in_powers_of_mu) {
-  for (int start = 0; start < Size - 1; ++start) {
-    for (int k = Size - 2; k >= start; --k) in_powers_of_mu[k] -= in_powers_of_mu[k + 1];
-  }
-  return in_powers_of_mu;
+  const auto about_one = detail::polynomial_about(1, loop);
+  return {about_one.base, about_one.proportional, about_one.differential};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -62,10 +62,10 @@ QuadraticFactor<Scalar> dominant_factor(const Vector<Scalar, Size>& in_powers_of
 ///     [c₂ c₃; c₁ c₂] [δU; δV] = [b₁; b₀]
 ///
 /// quadratically convergent as long as the factor shares no root with its quotient. That the
-/// quotient has no root beyond the radius is then tested by Liénard and Chipart's conditions; a
-/// lane that fails either is found again from all its roots. So the result does not rest on the
-/// path. The polynomial must have a root λ = 0 as a partner for a real dominant root: the sampled
-/// loop without processing delay has it, any other is multiplied by λ (`with_root_at_zero`).
+/// quotient has no root beyond the radius is tested by Liénard and Chipart's conditions; a lane
+/// that fails either is found again from all its roots. The polynomial must have a root λ = 0 as a
+/// partner for a real dominant root: the sampled loop without processing delay has it, any other is
+/// multiplied by λ (`with_root_at_zero`).
 ///
 /// Work per call and iteration: 5 Degree multiply-adds and a division; 45 more for the test.
 /// Error of the radius: 2e−13 relative where two roots have moduli that close, otherwise round-off

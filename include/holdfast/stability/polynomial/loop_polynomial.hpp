@@ -9,11 +9,8 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
-#include "holdfast/math/linalg/resolvent.hpp"
-#include "holdfast/math/poly/parity.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
-#include "holdfast/stability/polynomial/affine_polynomial.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 
 namespace holdfast {
@@ -21,13 +18,13 @@ namespace holdfast {
 /// det(λI − S) in powers of λ − 1 where the plant moves little between samples, and in powers of λ
 /// where hardly anything is left of its motion from one sample to the next.
 ///
-/// In the first case the roots crowd at λ = 1, in the second at λ = 0; the polynomial must be
-/// written about the place where they crowd so that round-off does not move them by a root of its
-/// size. Radii are carried as their offset from the centre for the same reason.
+/// In the first case the roots crowd at λ = 1, in the second at λ = 0; written about that place
+/// they are not moved by a root of round-off. Radii are carried as their offset from it as well.
 template <class Scalar>
 struct LoopPolynomial {
-  Scalar centre;                           ///< 1 or 0
-  AffinePolynomial<Scalar, 5> polynomial;  ///< monic, in powers of λ − centre
+  Scalar centre;  ///< 1 or 0
+  /// Monic, in powers of λ − centre.
+  AffinePolynomial<Scalar, 5, PolynomialVariable::about_centre> polynomial;
 
   /// The size of the roots' distances from the centre, for tolerances.
   Scalar scale() const {
@@ -57,50 +54,26 @@ struct LoopPolynomial {
   /// @param offset  r − centre, above −centre
   AffinePolynomial<Scalar, 5> at_radius(const Scalar& offset) const {
     const Scalar radius = centre + offset;
-    return polynomial.transformed([&](Polynomial<Scalar, 5> p) {
-      // λ − centre = r μ' + offset with μ' = λ' − 1: a Taylor shift, then a change of unit.
-      for (int start = 0; start < 5; ++start) {
-        for (int k = 4; k >= start; --k) p[k] += offset * p[k + 1];
-      }
-      return detail::rescaled<Scalar, 6>(p, radius);
-    });
+    // λ − centre = r μ' + offset with μ' = λ' − 1.
+    return polynomial.template transformed<PolynomialVariable::about_one>(
+        [&](const Polynomial<Scalar, 5>& p) { return rescaled(shifted(p, offset), radius); });
   }
 
   /// The open intervals of D (N s/m) with ρ(P, D) < centre + offset, exact and ascending.
   std::vector<Interval<Scalar>> differential_gains_within(const Scalar& proportional_gain,
                                                           const Scalar& offset) const {
     if (!(centre + offset > Scalar(0))) return {};
-    return stable_differential_gains(at_radius(offset), proportional_gain);
+    return detail::differential_intervals(at_radius(offset), proportional_gain);
   }
 };
-
-namespace detail {
-
-/// `characteristic_polynomial(loop)` in powers of λ, from A_d itself.
-template <class Scalar>
-AffinePolynomial<Scalar, 5> characteristic_polynomial_in_lambda(const SampledLoop<Scalar>& loop) {
-  const auto open_loop = resolvent<Scalar, 4>(loop.transition);
-  const auto coefficient = [&](int state) {
-    const RowVector<Scalar, 4> row = RowVector<Scalar, 4>::Unit(state);
-    Polynomial<Scalar, 5> value = Polynomial<Scalar, 5>::Zero();
-    value.template head<4>() -= open_loop.between(row, loop.previous_force);
-    value.template segment<4>(1) -= open_loop.between(row, loop.present_force);
-    return value;
-  };
-  Polynomial<Scalar, 5> base = Polynomial<Scalar, 5>::Zero();
-  base.template tail<5>() = open_loop.determinant;
-  return {base, coefficient(0), coefficient(1)};
-}
-
-}  // namespace detail
 
 /// The loop's polynomial about 0 where the balanced A_d has a norm below 1/4, about 1 elsewhere.
 template <class Scalar>
 LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
   const Scalar norm =
       BalancedMatrix<Scalar, 4>(loop.transition).balanced.cwiseAbs().rowwise().sum().maxCoeff();
-  if (norm < Scalar(0.25)) return {Scalar(0), detail::characteristic_polynomial_in_lambda(loop)};
-  return {Scalar(1), characteristic_polynomial(loop)};
+  if (norm < Scalar(0.25)) return {Scalar(0), detail::polynomial_about(0, loop)};
+  return {Scalar(1), detail::polynomial_about(1, loop)};
 }
 
 /// The open intervals of D (N s/m) at which every root of the sampled loop has |λ| < radius; radius
@@ -108,10 +81,13 @@ LoopPolynomial<Scalar> loop_polynomial(const SampledLoop<Scalar>& loop) {
 /// @param loop               of `sampled_loop`
 /// @param proportional_gain  P (N/m), finite
 /// @param radius             > 0
+/// @throws InvalidParameter for others
 template <class Scalar>
 std::vector<Interval<Scalar>> differential_gains_within_radius(const SampledLoop<Scalar>& loop,
                                                                const Scalar& proportional_gain,
                                                                const Scalar& radius) {
+  require_finite("proportional gain P", static_cast<double>(proportional_gain), "N/m");
+  require_positive("radius", static_cast<double>(radius), "");
   const LoopPolynomial<Scalar> polynomial = loop_polynomial(loop);
   return polynomial.differential_gains_within(proportional_gain, radius - polynomial.centre);
 }
@@ -119,8 +95,6 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(const SampledLoop
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template struct LoopPolynomial<double>;
 extern template LoopPolynomial<double> loop_polynomial(const SampledLoop<double>&);
-extern template std::vector<Interval<double>> differential_gains_within_radius(
-    const SampledLoop<double>&, const double&, const double&);
 #endif
 
 }  // namespace holdfast

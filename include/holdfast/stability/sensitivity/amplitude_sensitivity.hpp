@@ -8,8 +8,8 @@
 
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/stability/response/moving_response.hpp"
 #include "holdfast/stability/response/response.hpp"
-#include "holdfast/stability/response/response_derivatives.hpp"
 #include "holdfast/stability/sensitivity/sensitivity.hpp"
 
 namespace holdfast {
@@ -23,101 +23,84 @@ struct AmplitudeSensitivity {
 
 namespace detail {
 
-/// The squared amplitude ratio N(D)/M(D) and how its coefficients move.
+/// The rates of `squared_modulus`.
 template <class Scalar>
-class MovingRatio {
- public:
+Vector<Scalar, 3> squared_modulus_rates(const std::complex<Scalar>& a,
+                                        const std::complex<Scalar>& b,
+                                        const std::complex<Scalar>& a_rate,
+                                        const std::complex<Scalar>& b_rate) {
+  return {2.0 * (std::conj(a) * a_rate).real(),
+          2.0 * (std::conj(a_rate) * b + std::conj(a) * b_rate).real(),
+          2.0 * (std::conj(b) * b_rate).real()};
+}
+
+/// The rates of `SteadyResponse::squared_ratio` of the two masses, from those of the phasors and
+/// of P.
+template <class Scalar>
+RatioOfQuadratics<Scalar> squared_ratio_rates(const LoopPhasors<Scalar>& phasors,
+                                              const LoopPhasors<Scalar>& rates, const Scalar& p,
+                                              const Scalar& p_rate) {
   using Complex = std::complex<Scalar>;
+  const auto& [t1, t2, f1, f2, t, f] = phasors;
+  const auto& [t1_rate, t2_rate, f1_rate, f2_rate, t_rate, f_rate] = rates;
+  const Complex slope_rate = t1_rate * f2 + t1 * f2_rate - t2_rate * f1 - t2 * f1_rate;
+  const Complex below = 1.0 - p * t1, below_rate = -p * t1_rate - p_rate * t1;
+  return {squared_modulus_rates(f1, phasors.differential_slope(), f1_rate, slope_rate),
+          2.0 * (std::conj(f1) * f1_rate).real() * squared_modulus(below, -t2) +
+              std::norm(f1) * squared_modulus_rates(below, -t2, below_rate, -t2_rate)};
+}
 
-  MovingRatio(const ResponsePhasors<Scalar>& phasors, const Scalar& proportional_gain)
-      : phasors_(phasors), proportional_gain_(proportional_gain) {
-    slope_ = phasors.numerator_slope();
-    below_ = 1.0 - proportional_gain * phasors.control_displacement;
-    ratio_ = {
-        squared_modulus(phasors.force_displacement, slope_),
-        std::norm(phasors.force_displacement) * squared_modulus(below_, -phasors.control_velocity)};
-  }
-
-  const RatioOfQuadratics<Scalar>& ratio() const { return ratio_; }
-
-  /// The rates of both quadratics' coefficients, from the phasors' rates and that of P.
-  RatioOfQuadratics<Scalar> rate(const ResponsePhasors<Scalar>& rates,
-                                 const Scalar& proportional_rate) const {
-    const auto& [t1, t2, f1, f2] = phasors_;
-    const auto& [t1_rate, t2_rate, f1_rate, f2_rate] = rates;
-    const Complex slope_rate = t1_rate * f2 + t1 * f2_rate - t2_rate * f1 - t2 * f1_rate;
-    const Complex below_rate = -proportional_gain_ * t1_rate - proportional_rate * t1;
-    return {square_rates(f1, slope_, f1_rate, slope_rate),
-            2.0 * (std::conj(f1) * f1_rate).real() * squared_modulus(below_, -t2) +
-                std::norm(f1) * square_rates(below_, -t2, below_rate, -t2_rate)};
-  }
-
- private:
-  /// The rates of `squared_modulus`.
-  static Vector<Scalar, 3> square_rates(const Complex& a, const Complex& b, const Complex& a_rate,
-                                        const Complex& b_rate) {
-    return {2.0 * (std::conj(a) * a_rate).real(),
-            2.0 * (std::conj(a_rate) * b + std::conj(a) * b_rate).real(),
-            2.0 * (std::conj(b) * b_rate).real()};
-  }
-
-  ResponsePhasors<Scalar> phasors_;
-  Scalar proportional_gain_;
-  Complex slope_, below_;
-  RatioOfQuadratics<Scalar> ratio_;
-};
-
-/// The rates of the phasors by the carried parameters.
-/// @param response  `ResponseDerivatives` of the loop, the input and ω
+/// The rates of the phasors by all parameters but D.
+/// @param response  `MovingResponse` of the loop, the input and ω
 template <class Scalar, class Response>
-std::array<ResponsePhasors<Scalar>, carried_parameters> phasor_derivatives(
+std::array<LoopPhasors<Scalar>, by_d> phasor_derivatives(
     const TwoMass<Scalar>& plant, const SampledLoop<Scalar>& loop, ForceHold hold,
     const HarmonicInput<Scalar>& input, const Response& response, const Scalar& omega) {
-  std::array<ResponsePhasors<Scalar>, carried_parameters> result;
+  std::array<LoopPhasors<Scalar>, by_d> result;
   const auto rates = loop_derivatives(plant, loop);
   const auto by_plant = plant_derivatives(plant);
   for (std::size_t i = 0; i < result.size(); ++i) {
     HarmonicInput<Scalar> input_rate{rates[i].held_excitation, Vector<Scalar, 4>::Zero()};
-    if (i == 6) {
+    if (i == by_period) {
       input_rate = input_derivative_by_period(plant, loop, hold, input, omega);
-    } else if (i < 6 && hold == ForceHold::exact) {
-      input_rate = exact_input_derivative_by_plant(plant, by_plant[i], loop.sampling.period, omega);
+    } else if (i < by_plant.size() && hold == ForceHold::exact) {
+      const auto exact = exact_harmonic(by_plant[i], loop.sampling.period, omega);
+      input_rate = {exact.cosine.template head<4>(), exact.sine.template head<4>()};
     }
-    result[i] = response.along(rates[i], input_rate, i == 6 ? 1.0 : 0.0);
+    result[i] = response.along(rates[i], input_rate, i == by_period ? 1.0 : 0.0);
   }
   return result;
 }
 
 /// ∂ of the ratio at a held D, and of the stationary D, by all parameters.
-template <class Scalar>
 struct RatioEntries {
-  Vector<Scalar, loop_parameters> ratio;       ///< entry 9: by D
-  Vector<Scalar, loop_parameters> stationary;  ///< of the D at which the ratio is stationary
+  Entries ratio = Entries::Zero();       ///< last entry: by D
+  Entries stationary = Entries::Zero();  ///< of the D at which the ratio is stationary
 };
 
+/// @param rates  of the phasors
+/// @param p, d   the gains
 template <class Scalar>
-RatioEntries<Scalar> ratio_entries(
-    const MovingRatio<Scalar>& moving,
-    const std::array<ResponsePhasors<Scalar>, carried_parameters>& rates, const Scalar& d) {
-  const RatioOfQuadratics<Scalar>& square = moving.ratio();
+RatioEntries ratio_entries(const LoopPhasors<Scalar>& phasors,
+                           const std::array<LoopPhasors<Scalar>, by_d>& rates, const Scalar& p,
+                           const Scalar& d) {
+  using Ratio = RatioOfQuadratics<Scalar>;
+  const Ratio square = SteadyResponse<Scalar>(phasors).squared_ratio(p);
   const Scalar n = evaluate(square.numerator, d), m = evaluate(square.denominator, d);
   const Scalar ratio = std::sqrt(n / m);
   const Vector<Scalar, 3> s = square.slope_numerator();
   const Scalar s_slope = s[1] + 2.0 * s[2] * d;
-  RatioEntries<Scalar> entries{Vector<Scalar, loop_parameters>::Zero(),
-                               Vector<Scalar, loop_parameters>::Zero()};
-  for (int i = 0; i < 9; ++i) {
-    const auto change = i < carried_parameters
-                            ? moving.rate(rates[static_cast<std::size_t>(i)], 0.0)
-                            : moving.rate({}, 1.0);
+  RatioEntries entries;
+  for (int i = 0; i < by_d; ++i) {
+    const Ratio change =
+        squared_ratio_rates(phasors, rates[static_cast<std::size_t>(i)], p, i == by_p ? 1.0 : 0.0);
     entries.ratio[i] =
         0.5 * ratio * (evaluate(change.numerator, d) / n - evaluate(change.denominator, d) / m);
-    const Vector<Scalar, 3> s_rate =
-        RatioOfQuadratics<Scalar>{change.numerator, square.denominator}.slope_numerator() +
-        RatioOfQuadratics<Scalar>{square.numerator, change.denominator}.slope_numerator();
+    const Vector<Scalar, 3> s_rate = Ratio{change.numerator, square.denominator}.slope_numerator() +
+                                     Ratio{square.numerator, change.denominator}.slope_numerator();
     entries.stationary[i] = -evaluate(s_rate, d) / s_slope;
   }
-  entries.ratio[9] = 0.5 * ratio * evaluate(s, d) / (n * m);
+  entries.ratio[by_d] = 0.5 * ratio * evaluate(s, d) / (n * m);
   return entries;
 }
 
@@ -141,25 +124,25 @@ AmplitudeSensitivity amplitude_sensitivity(const TwoMass<Scalar>& plant,
                                            double proportional_gain) {
   const auto least = minimum_amplitude(plant, options, frequency, proportional_gain);
   if (!std::isfinite(least.differential_gain)) {
-    const auto none = sensitivity_of(
-        Vector<Scalar, loop_parameters>::Constant(std::numeric_limits<Scalar>::quiet_NaN()));
+    const LoopSensitivity none{detail::Entries::Constant(std::numeric_limits<double>::quiet_NaN())};
     return {least.outcome, none, none};
   }
   const double omega = 2.0 * pi<double> * frequency, d = least.differential_gain;
   const auto loop = sampled_loop(plant, options.sampling);
   const auto input = harmonic_input(plant, loop, options.hold, omega);
-  const ResponseDerivatives response(loop, input, omega);
+  const MovingResponse<SampledLoop<double>> response(loop, input, omega);
   auto [ratio, gain] = detail::ratio_entries(
-      detail::MovingRatio<Scalar>(response.phasors(), proportional_gain),
-      detail::phasor_derivatives(plant, loop, options.hold, input, response, omega), d);
+      response.phasors(),
+      detail::phasor_derivatives(plant, loop, options.hold, input, response, omega),
+      proportional_gain, d);
   if (least.outcome == MinimumAmplitudeOutcome::edge) {
-    gain = entries_of<Scalar>(
-        boundary_gain_sensitivity(plant, options.sampling, {proportional_gain, d},
-                                  BoundaryGain::differential, options.largest_radius));
-    ratio += ratio[9] * gain;
+    gain = boundary_gain_sensitivity(plant, options.sampling, {proportional_gain, d},
+                                     FreeGain::differential, options.largest_radius)
+               .entries;
+    ratio += ratio[detail::by_d] * gain;
   }
-  ratio[9] = 0.0;
-  return {least.outcome, sensitivity_of(ratio), sensitivity_of(gain)};
+  ratio[detail::by_d] = 0.0;
+  return {least.outcome, {ratio}, {gain}};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

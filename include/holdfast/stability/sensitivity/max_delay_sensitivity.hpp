@@ -23,17 +23,17 @@ namespace detail {
 /// The gradient of what is zero at τ*: 1 − min ρ where stability limits it, 1 less the minimum
 /// amplitude ratio where attenuation does; NaN where it has none.
 template <class Scalar>
-Entries<> reserve_gradient(const TwoMass<Scalar>& plant, const MaxDelayOptions& options,
-                           const MaxDelay& answer) {
+Entries reserve_gradient(const TwoMass<Scalar>& plant, const MaxDelayOptions& options,
+                         const MaxDelay& answer) {
   const auto sampling = options.sampling(answer.sampling_period);
   const double p = options.proportional_gain;
   if (answer.limit == MaxDelayLimit::attenuation)
-    return entries_of<Scalar>(
-        amplitude_sensitivity(plant, {sampling, options.hold}, options.frequency, p).ratio);
+    return amplitude_sensitivity(plant, {sampling, options.hold}, options.frequency, p)
+        .ratio.entries;
   const auto least = minimum_radius_sensitivity(plant, sampling, {p, answer.differential_gain});
   if (least.kind == MinimumRadiusKind::fixed)
-    return Vector<Scalar, loop_parameters>::Constant(std::numeric_limits<double>::quiet_NaN());
-  return entries_of<Scalar>(least.radius);
+    return Entries::Constant(std::numeric_limits<double>::quiet_NaN());
+  return least.radius.entries;
 }
 
 }  // namespace detail
@@ -63,10 +63,11 @@ MaxDelaySensitivity max_delay_sensitivity(const TwoMass<Scalar>& plant,
                      std::isfinite(answer.differential_gain);
   if (!moves) return {{}, 0.0};
   const auto g = detail::reserve_gradient(plant, options, answer);
-  const double along = g[6] + options.delay_fraction * g[7];
-  auto result = (-g / along).eval();
-  result[6] = result[7] = result[9] = 0.0;
-  return {sensitivity_of(result), -answer.sampling_period * g[7] / along};
+  const double by_delay = g[detail::by_delay];
+  const double along = g[detail::by_period] + options.delay_fraction * by_delay;
+  detail::Entries result = -g / along;
+  result[detail::by_period] = result[detail::by_delay] = result[detail::by_d] = 0.0;
+  return {{result}, -answer.sampling_period * by_delay / along};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -11,7 +11,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
-#include "holdfast/stability/polynomial/root_sensitivity.hpp"
+#include "holdfast/stability/polynomial/loop_derivatives.hpp"
 #include "holdfast/stability/sensitivity/sensitivity.hpp"
 
 namespace holdfast {
@@ -35,13 +35,12 @@ struct MinimumRadiusSensitivity {
 namespace detail {
 
 /// Which roots are active at the D of minimum radius, and the two equations that they give.
-template <int Carried>
 class ActiveRoots {
  public:
-  ActiveRoots(const DualPolynomial<Carried>& loop, const PdGains<double>& gains)
-      : polynomial_(loop.polynomial), centre_(loop.centre), gains_(gains) {
+  ActiveRoots(const DualPolynomial& loop, const PdGains<double>& gains)
+      : polynomial_(loop), gains_(gains) {
     // One of each pair, and both of a double real root, which round-off parts by its square root.
-    for (const auto& root : roots_of(loop, gains)) {
+    for (const auto& root : root_sensitivities<loop_parameters>(loop.at(gains), loop.centre)) {
       if (root.offset.imag() >= -1e-6 * std::abs(root.offset)) roots_.push_back(root);
     }
     std::sort(roots_.begin(), roots_.end(),
@@ -57,25 +56,22 @@ class ActiveRoots {
   }
 
  private:
-  using Gradient = Entries<Carried>;
-  static constexpr int by_p_ = Carried, by_d_ = Carried + 1;  // entries of a gradient
-
   double modulus() const { return std::abs(roots_.front().value()); }
 
-  MinimumRadiusSensitivity answer(MinimumRadiusKind kind, Gradient logarithm, Gradient gain) const {
-    logarithm[by_d_] = gain[by_d_] = 0.0;
-    return {kind, sensitivity_of(logarithm * modulus()), sensitivity_of(gain)};
+  MinimumRadiusSensitivity answer(MinimumRadiusKind kind, Entries logarithm, Entries gain) const {
+    logarithm[by_d] = gain[by_d] = 0.0;
+    return {kind, {logarithm * modulus()}, {gain}};
   }
 
   /// ln|λ₁| = ln|λ₂| gives ∂D, and with it either gives the radius.
   std::optional<MinimumRadiusSensitivity> of_balanced_roots(double closeness) const {
-    const Gradient first = gradient_of(roots_.front());
+    const Entries first = roots_.front().logarithmic_rates();
     for (std::size_t k = 1; k < roots_.size(); ++k) {
-      const Gradient other = gradient_of(roots_[k]);
+      const Entries other = roots_[k].logarithmic_rates();
       if (roots_.front().radius_offset() - roots_[k].radius_offset() > closeness) break;
-      if (!(first[by_d_] * other[by_d_] < 0.0)) continue;
-      const Gradient gain = implicit_derivative(first - other, by_d_);
-      return answer(MinimumRadiusKind::balanced, first + first[by_d_] * gain, gain);
+      if (!(first[by_d] * other[by_d] < 0.0)) continue;
+      const Entries gain = implicit_derivative(first - other, by_d);
+      return answer(MinimumRadiusKind::balanced, first + first[by_d] * gain, gain);
     }
     return std::nullopt;
   }
@@ -95,10 +91,12 @@ class ActiveRoots {
     if (!(std::abs(gains.differential - gains_.differential) <= 1e-4 * natural_gain(gains, mu)))
       return std::nullopt;
     const auto factors = double_root_matrix(gains, mu).partialPivLu();
-    Gradient logarithm, gain;
-    for (int i = 0; i < by_d_; ++i) {
-      const Vector<double, 2> change = factors.solve(-double_root_residual(partial(gains, i), mu));
-      logarithm[i] = change[0] / (centre_ + mu);
+    const auto p = polynomial_.at(gains);
+    Entries logarithm, gain;
+    for (int i = 0; i < by_d; ++i) {
+      const Vector<double, 2> change =
+          factors.solve(-double_root_residual(derivative_of(p, i), mu));
+      logarithm[i] = change[0] / (polynomial_.centre + mu);
       gain[i] = change[1];
     }
     return answer(MinimumRadiusKind::double_root, logarithm, gain);
@@ -106,7 +104,7 @@ class ActiveRoots {
 
   /// The middle of two real roots, or of a pair about to become real, at the largest modulus.
   bool near_double_root(double closeness, double& mu) const {
-    const RootSensitivity<Carried>& lead = roots_.front();
+    const LoopRoot& lead = roots_.front();
     mu = lead.offset.real();
     if (lead.offset.imag() != 0.0) return lead.offset.imag() < closeness;
     for (std::size_t k = 1; k < roots_.size(); ++k) {
@@ -120,24 +118,13 @@ class ActiveRoots {
   /// |D|, or the change of D that parts a double root by its own size, whichever is larger.
   double natural_gain(const PdGains<double>& gains, double mu) const {
     const auto curvature = derivative<double, 5>(derivative<double, 6>(values_at(gains)));
-    const auto by_d = values_of<Carried, 5>(polynomial_.differential);
+    const auto slope = values_of(polynomial_.affine.differential);
     return std::max(std::abs(gains.differential),
-                    std::abs(0.5 * evaluate(curvature, mu) * mu * mu / evaluate(by_d, mu)));
+                    std::abs(0.5 * evaluate(curvature, mu) * mu * mu / evaluate(slope, mu)));
   }
 
   Polynomial<double, 5> values_at(const PdGains<double>& gains) const {
-    return values_of<Carried, 5>(dual_at(gains));
-  }
-
-  Polynomial<DualNumber<Carried>, 5> dual_at(const PdGains<double>& gains) const {
-    using Number = DualNumber<Carried>;
-    return polynomial_.at(PdGains<Number>{Number(gains.proportional), Number(gains.differential)});
-  }
-
-  /// ∂p/∂x as a polynomial; x = P is entry `by_p_`.
-  Polynomial<double, 5> partial(const PdGains<double>& gains, int entry) const {
-    if (entry == by_p_) return values_of<Carried, 5>(polynomial_.proportional);
-    return derivative_of<Carried, 5>(dual_at(gains), entry);
+    return values_of(polynomial_.at(gains));
   }
 
   static Vector<double, 2> double_root_residual(const Polynomial<double, 5>& p, double mu) {
@@ -146,7 +133,7 @@ class ActiveRoots {
 
   Matrix<double, 2> double_root_matrix(const PdGains<double>& gains, double mu) const {
     const Polynomial<double, 4> slope = derivative<double, 6>(values_at(gains));
-    const Polynomial<double, 5> d = values_of<Carried, 5>(polynomial_.differential);
+    const Polynomial<double, 5> d = values_of(polynomial_.affine.differential);
     Matrix<double, 2> matrix;
     matrix << evaluate(slope, mu), evaluate(d, mu), evaluate(derivative<double, 5>(slope), mu),
         evaluate(derivative<double, 6>(d), mu);
@@ -160,42 +147,40 @@ class ActiveRoots {
   /// @param shortfall  by how much ln|λ| may exceed that of the minimum nearby
   std::optional<MinimumRadiusSensitivity> of_smooth_minimum(double shortfall) const {
     using Complex = std::complex<double>;
-    const RootSensitivity<Carried>& root = roots_.front();
-    const Complex mu = root.offset, lambda = root.value(),
-                  by_d = root.derivative_by_differential_gain;
-    const Polynomial<double, 4> slope = derivative<double, 6>(values_at(gains_));
+    const LoopRoot& root = roots_.front();
+    const Complex mu = root.offset, lambda = root.value(), lambda_d = root.rates[by_d];
+    const auto p = polynomial_.at(gains_);
+    const Polynomial<double, 4> slope = derivative<double, 6>(values_of(p));
     const Complex p_l = evaluate(slope, mu), p_ll = evaluate(derivative<double, 5>(slope), mu);
-    const auto& dual_d = polynomial_.differential;
-    const Complex p_ld = evaluate(derivative<double, 6>(values_of<Carried, 5>(dual_d)), mu);
+    const auto& dual_d = polynomial_.affine.differential;
+    const Complex p_ld = evaluate(derivative<double, 6>(values_of(dual_d)), mu);
     const auto mixed = [&](const Complex& by_x, const Complex& p_lx, const Complex& p_dx) {
-      const Complex second = -(p_ll * by_d * by_x + p_ld * by_x + p_lx * by_d + p_dx) / p_l;
-      return (second / lambda - by_d * by_x / (lambda * lambda)).real();
+      const Complex second = -(p_ll * lambda_d * by_x + p_ld * by_x + p_lx * lambda_d + p_dx) / p_l;
+      return (second / lambda - lambda_d * by_x / (lambda * lambda)).real();
     };
-    const double slope_by_d = gradient_of(root)[by_d_], curvature = mixed(by_d, p_ld, 0.0);
+    const double slope_by_d = root.logarithmic_rates()[by_d],
+                 curvature = mixed(lambda_d, p_ld, 0.0);
     if (!(curvature > 0.0) || slope_by_d * slope_by_d > 2.0 * shortfall * curvature)
       return std::nullopt;
-    Gradient gain;
-    for (int i = 0; i < by_d_; ++i) {
-      const Complex p_lx = evaluate(derivative<double, 6>(partial(gains_, i)), mu);
-      const Complex p_dx =
-          i < Carried ? Complex(evaluate(derivative_of<Carried, 5>(dual_d, i), mu)) : Complex(0.0);
-      const Complex by_x = i < Carried ? root.rates[i] : root.derivative_by_proportional_gain;
-      gain[i] = -mixed(by_x, p_lx, p_dx) / curvature;
+    Entries gain;
+    for (int i = 0; i < by_d; ++i) {
+      const Complex p_lx = evaluate(derivative<double, 6>(derivative_of(p, i)), mu);
+      const Complex p_dx = evaluate(derivative_of(dual_d, i), mu);
+      gain[i] = -mixed(root.rates[i], p_lx, p_dx) / curvature;
     }
-    return answer(MinimumRadiusKind::smooth, gradient_of(root), gain);
+    return answer(MinimumRadiusKind::smooth, root.logarithmic_rates(), gain);
   }
 
   MinimumRadiusSensitivity of_fixed() const {
-    const Gradient none = Gradient::Constant(std::numeric_limits<double>::quiet_NaN());
+    const Entries none = Entries::Constant(std::numeric_limits<double>::quiet_NaN());
     return {MinimumRadiusKind::fixed,
-            answer(MinimumRadiusKind::fixed, gradient_of(roots_.front()), none).radius,
-            sensitivity_of(none)};
+            answer(MinimumRadiusKind::fixed, roots_.front().logarithmic_rates(), none).radius,
+            {none}};
   }
 
-  AffinePolynomial<DualNumber<Carried>, 5> polynomial_;
-  double centre_;
+  DualPolynomial polynomial_;
   PdGains<double> gains_;
-  std::vector<RootSensitivity<Carried>> roots_;
+  std::vector<LoopRoot> roots_;
 };
 
 }  // namespace detail
@@ -212,10 +197,7 @@ template <class Scalar>
 MinimumRadiusSensitivity minimum_radius_sensitivity(const TwoMass<Scalar>& plant,
                                                     const Sampling<double>& sampling,
                                                     const PdGains<double>& gains) {
-  validate(plant);
-  validate(sampling);
-  validate(gains);
-  return detail::ActiveRoots(detail::dual_polynomial(plant, sampling), gains).sensitivity();
+  return detail::ActiveRoots(detail::dual_polynomial(plant, sampling, gains), gains).sensitivity();
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

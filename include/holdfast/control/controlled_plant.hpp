@@ -1,0 +1,217 @@
+#pragma once
+
+#include <functional>
+#include <type_traits>
+
+#include "holdfast/control/controller.hpp"
+#include "holdfast/control/digital_loop.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// The derivatives of a controller of M states at one sample, (M + 1) × (M + 2): of [u_j; x_c,j+1]
+/// by [z₁; ż₁; x_c,j].
+template <int States>
+using ControllerDerivative = Matrix<double, States + 1, States + 2>;
+
+namespace detail {
+
+template <class Law, class = void>
+struct IsController : std::false_type {};
+template <class Law>
+struct IsController<Law, std::void_t<decltype(Law::states)>>
+    : std::is_same<double, decltype(std::declval<const Law&>().command(
+                               std::declval<const ControlSample&>(),
+                               std::declval<Vector<double, Law::states>&>()))> {};
+
+template <class Law, class = void>
+struct HasDerivative : std::false_type {};
+template <class Law>
+struct HasDerivative<Law, std::void_t<decltype(std::declval<const Law&>().derivative(
+                              std::declval<const ControlSample&>(),
+                              std::declval<const Vector<double, Law::states>&>()))>>
+    : std::true_type {};
+
+}  // namespace detail
+
+/// A controller of the user's own, in the place of u = P z₁ + D ż₁: any type that takes a sample in
+/// and gives a force out, its state being M numbers that the motion keeps for it.
+///
+///     struct MyController {
+///       static constexpr int states = 1;  // M ≥ 0
+///       /// u_j (N) of sample j; moves x_c,j to x_c,j+1. No other memory: it is const.
+///       double command(const ControlSample& sample, Vector<double, 1>& x_c) const;
+///       /// Optional, else by central differences: where the law jumps, its slope beside the jump.
+///       ControllerDerivative<1> derivative(const ControlSample& sample,
+///                                          const Vector<double, 1>& x_c) const;
+///     };
+///
+/// PdGains is one of M = 0, LinearController one of any M. This class hides the type, so that loops
+/// under all of them are one type, compiled once.
+class OwnController {
+ public:
+  using Column = Vector<double, Eigen::Dynamic>;      ///< [z₁; ż₁; x_c] or [u; x_c]
+  using Derivative = Matrix<double, Eigen::Dynamic>;  ///< a ControllerDerivative
+
+  /// None yet: no loop admits it.
+  OwnController() = default;
+
+  /// Any controller; copied.
+  template <class Law>
+  explicit OwnController(const Law& law)
+      : value_([law](const Column& at, double elapsed) {
+          Vector<double, Law::states> state = at.tail(Law::states);
+          Column result(Law::states + 1);
+          result[0] = law.command({at[0], at[1], elapsed}, state);
+          result.tail(Law::states) = state;
+          return result;
+        }) {
+    static_assert(detail::IsController<Law>::value,
+                  "a controller has `static constexpr int states` and "
+                  "`double command(const ControlSample&, Vector<double, states>&) const`");
+    at_ = largest_ = Column::Zero(Law::states + 2);
+    if constexpr (detail::HasDerivative<Law>::value) {
+      derivative_ = [law](const Column& at, double elapsed) -> Derivative {
+        return law.derivative({at[0], at[1], elapsed},
+                              Vector<double, Law::states>(at.tail(Law::states)));
+      };
+    }
+  }
+
+  /// Whether there is one.
+  bool exists() const { return value_ != nullptr; }
+  /// M.
+  Eigen::Index states() const { return at_.size() - 2; }
+
+  /// Takes in sample j. @return [u_j; x_c,j+1]
+  /// @param sample  what is measured of it
+  /// @param state   x_c,j
+  /// @throws InvalidParameter where the law makes no numbers of numbers
+  template <class State>
+  Column command(const ControlSample& sample, const State& state) {
+    elapsed_ = sample.elapsed;
+    at_ << sample.displacement, sample.velocity, state;
+    largest_ = largest_.cwiseMax(at_.cwiseAbs());
+    Column result = value_(at_, elapsed_);
+    if (!result.allFinite() && largest_.maxCoeff() < 1e100)
+      throw InvalidParameter("force or state of the controller", result.sum(), "", "finite");
+    return result;
+  }
+
+  /// Of the last sample, (M + 1) × (M + 2). Differences are central, over 2⁻¹⁶ of the largest that
+  /// each number has been: of a smooth law to some ten digits.
+  template <class Result = Derivative>
+  Result derivative() const {
+    if (derivative_) return derivative_(at_, elapsed_);
+    Result result(at_.size() - 1, at_.size());
+    for (Eigen::Index i = 0; i < at_.size(); ++i) {
+      Column above = at_, below = at_;
+      const double step = 0x1p-17 * (largest_[i] > 0.0 ? largest_[i] : 1.0);
+      above[i] += step;
+      below[i] -= step;
+      result.col(i) = (value_(above, elapsed_) - value_(below, elapsed_)) / (above[i] - below[i]);
+    }
+    return result;
+  }
+
+ private:
+  std::function<Column(const Column&, double)> value_;
+  std::function<Derivative(const Column&, double)> derivative_;
+  double elapsed_ = 0.0;                         // h_j of the last sample
+  Column at_ = Column::Zero(2), largest_ = at_;  // its inputs, and the largest so far
+};
+
+/// A plant under a controller of the user's own.
+///
+///     ImplementedLoopOf<ControlledPlant> loop;
+///     loop.plant = with_controller(kollar2022_plant(), MyController{});
+///
+/// The states of the controller stand behind those of the plant, [x; x_c], N + M in all: they stand
+/// still between the samples and are shown as they were before the sample. So event_motion(),
+/// find_event_orbit(), run_event_lyapunov() and classify_motion() take the loop as they take any.
+/// The gains of its DigitalLoop are 0 and its limits ideal (`validate`); `quantised` and std::clamp
+/// in `command` do what those would. Charts and margins are of P and D, and do not take it.
+struct ControlledPlant : LinearPlant<double> {
+  OwnController controller;  ///< that decides the force
+};
+
+/// @throws InvalidParameter where there is no controller, or the plant is not admissible
+template <class Plant>
+std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& plant) {
+  if (!plant.controller.exists())
+    throw InvalidParameter("number of controllers", 0.0, "", "1: see with_controller()");
+  validate<Eigen::Dynamic>(plant);
+}
+
+/// The plant under a controller. Filters and lags of the plant come first.
+template <class Law, int States>
+ControlledPlant with_controller(const LinearPlant<double, States>& plant, const Law& law) {
+  const auto [a, b, command, force, row, direct, ports] = detail::enlarged<Law::states>(plant);
+  return {{a,
+           b,
+           command,
+           force,
+           row,
+           direct,
+           {ports.displacement, ports.velocity, ports.measured_displacement,
+            ports.measured_velocity, ports.relative_displacement, ports.relative_velocity,
+            ports.displacement_lift, ports.velocity_lift}},
+          OwnController(law)};
+}
+/// The same of the two masses.
+/// @throws InvalidParameter where they are not admissible
+template <class Law>
+ControlledPlant with_controller(const TwoMass<double>& plant, const Law& law) {
+  validate(plant);
+  return with_controller(linear_plant(plant), law);
+}
+
+/// A linear controller of M states, as an observer or a filter is:
+///
+///     x_c,j+1 = A_c x_c,j + B_c y_j,   u_j = C_c x_c,j + D_c y_j,   y_j = [z₁; ż₁]
+template <int States>
+struct LinearController {
+  static constexpr int states = States;    ///< M
+  Matrix<double, States> transition;       ///< A_c, M × M
+  Matrix<double, States, 2> input;         ///< B_c, M × 2
+  RowVector<double, States> output;        ///< C_c, 1 × M (N)
+  RowVector<double, 2> feedthrough{0, 0};  ///< D_c, 1 × 2 (N/m, N s/m)
+
+  /// u_j (N); moves the state on.
+  double command(const ControlSample& sample, Vector<double, States>& state) const {
+    const Vector<double, 2> read(sample.displacement, sample.velocity);
+    const double force = output.dot(state) + feedthrough.dot(read);
+    state = (transition * state + input * read).eval();
+    return force;
+  }
+  /// [D_c, C_c; B_c, A_c].
+  ControllerDerivative<States> derivative(const ControlSample&,
+                                          const Vector<double, States>&) const {
+    ControllerDerivative<States> result;
+    result << feedthrough, output, input, transition;
+    return result;
+  }
+};
+
+namespace detail {
+
+template <class Plant>
+using ControllerOf = std::conditional_t<HasController<Plant>::value, OwnController, Controller>;
+
+/// The controller of a loop: P and D within their limits, or the plant's own.
+template <class Contact>
+ControllerOf<typename Contact::Plant> controller_of(const DigitalLoop& loop,
+                                                    [[maybe_unused]] const Contact& contact) {
+  if constexpr (HasController<typename Contact::Plant>::value) {
+    return contact.plant().controller;
+  } else {
+    return {loop.gains, loop.limits};
+  }
+}
+
+}  // namespace detail
+}  // namespace holdfast

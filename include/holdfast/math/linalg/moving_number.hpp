@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace holdfast {
+
+/// A complex number that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what is not in it.
+struct MovingNumber {
+  std::vector<std::complex<double>> terms;  ///< at least one
+  double remainder;                         ///< ≥ 0
+
+  /// Σ |terms|, what the polynomial is at most.
+  double size() const {
+    double sum = 0.0;
+    for (const std::complex<double>& term : terms) sum += std::abs(term);
+    return sum;
+  }
+};
+
+/// The product of two moving numbers.
+inline MovingNumber operator*(const MovingNumber& a, const MovingNumber& b) {
+  MovingNumber product{std::vector<std::complex<double>>(a.terms.size() + b.terms.size() - 1),
+                       a.remainder * (b.size() + b.remainder) + a.size() * b.remainder};
+  for (std::size_t i = 0; i < a.terms.size(); ++i)
+    for (std::size_t k = 0; k < b.terms.size(); ++k)
+      product.terms[i + k] += a.terms[i] * b.terms[k];
+  return product;
+}
+
+/// The sum of two moving numbers, the second being taken `factor` times.
+inline MovingNumber sum_of(MovingNumber a, const MovingNumber& b, double factor) {
+  a.terms.resize(std::max(a.terms.size(), b.terms.size()));
+  for (std::size_t k = 0; k < b.terms.size(); ++k) a.terms[k] += factor * b.terms[k];
+  a.remainder += std::abs(factor) * b.remainder;
+  return a;
+}
+
+/// |a|² − |b|² at x = 0, and what it is at least for all x.
+struct SquaresDifference {
+  double at_centre,  ///< at x = 0
+      least;         ///< of −1 ≤ x ≤ 1, a lower bound
+};
+
+/// @param a, b  of as many terms
+inline SquaresDifference squares_difference(const MovingNumber& a, const MovingNumber& b) {
+  const std::size_t last = a.terms.size() - 1;
+  double first = 0.0, fall = 0.0;
+  for (std::size_t k = 0; k <= 2 * last; ++k) {
+    double q = 0.0;
+    for (std::size_t l = k > last ? k - last : 0; l <= std::min(k, last); ++l)
+      q += (a.terms[l] * std::conj(a.terms[k - l])).real() -
+           (b.terms[l] * std::conj(b.terms[k - l])).real();
+    if (k == 0)
+      first = q;
+    else
+      fall += k % 2 == 0 ? std::max(-q, 0.0) : std::abs(q);
+  }
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double unknown = a.remainder * (2.0 * a.size() + a.remainder) +
+                         b.remainder * (2.0 * b.size() + b.remainder) +
+                         rounding * (a.size() * a.size() + b.size() * b.size());
+  return {first, first - fall - unknown};
+}
+
+}  // namespace holdfast

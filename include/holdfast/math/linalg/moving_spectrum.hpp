@@ -1,0 +1,338 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/moving_number.hpp"
+
+namespace holdfast {
+
+/// A real matrix that moves with a number x, −1 ≤ x ≤ 1, about the one at x = 0:
+///
+///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
+struct MovingMatrix {
+  std::vector<Eigen::MatrixXd> terms;  ///< terms[0] = S(0) − I and so on, n × n each, at least one
+  Eigen::MatrixXd remainder;           ///< n × n, ≥ 0
+};
+
+namespace detail {
+
+/// A unitary Q, n × n, for which Q*MQ is upper triangular: the real Schur form with the two vectors
+/// of each of its complex blocks turned into one another.
+template <class Scalar>
+Matrix<std::complex<Scalar>, Eigen::Dynamic> triangular_basis(
+    const Matrix<Scalar, Eigen::Dynamic>& matrix) {
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
+  using Complex = std::complex<Scalar>;
+  const Eigen::Index n = matrix.rows();
+  const Eigen::HessenbergDecomposition<Square> hessenberg(matrix);
+  Eigen::RealSchur<Square> schur(n);
+  const Square turned = hessenberg.matrixQ();
+  schur.computeFromHessenberg(hessenberg.matrixH(), turned, true);
+  const Square& form = schur.matrixT();
+  Matrix<Complex, Eigen::Dynamic> basis = schur.matrixU().template cast<Complex>();
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    if (form(i + 1, i) == Scalar(0)) continue;
+    const Scalar half = Scalar(0.5) * (form(i, i) - form(i + 1, i + 1));
+    const Scalar square = half * half + form(i, i + 1) * form(i + 1, i);
+    // (λ − t₂₂, t₂₁) is an eigenvector of the block.
+    Complex first = half + std::sqrt(Complex(square));
+    Complex second = form(i + 1, i);
+    const Scalar length = std::sqrt(std::norm(first) + std::norm(second));
+    first /= length;
+    second /= length;
+    const Vector<Complex, Eigen::Dynamic> one = basis.col(i), other = basis.col(i + 1);
+    basis.col(i) = first * one + second * other;
+    basis.col(i + 1) = -std::conj(second) * one + std::conj(first) * other;
+    ++i;
+  }
+  return basis;
+}
+
+}  // namespace detail
+
+/// A complex quantity of n entries that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what
+/// is not in it, entry by entry.
+struct MovingVector {
+  std::vector<Eigen::VectorXcd> terms;  ///< n × 1 each, as many as those of the matrix
+  Eigen::VectorXd remainder;            ///< n × 1, ≥ 0
+};
+
+/// A proof that all eigenvalues of a moving matrix stay inside the unit circle, or that there is
+/// none of this kind.
+///
+/// In the coordinates Q of a triangular form of S(0) the terms are T_k. A unit lower triangular
+/// W(x) = I + Σ W_k xᵏ and an upper triangular D(x) = Σ D_k xᵏ are found, order by order, so that
+///
+///     S W = W D + E,   E of the first order that was not asked for,
+///
+/// whence W⁻¹ S W = D + W⁻¹E and, W − I being nilpotent, |W⁻¹| ≤ (I − Σ|W_k|)⁻¹. The diagonal of D
+/// holds the eigenvalues as they move, so that |D_ii|² is bounded by its own Taylor polynomial and
+/// a root that goes round the circle costs nothing. With B ≥ |D| + |W⁻¹E| for all x,
+///
+///     ρ(S(x)) ≤ ρ(B) < 1   where (I − B) v = 1 has a solution v > 0       (Perron, Frobenius)
+///
+/// Where two eigenvalues come so near to one another that their entry of W would not converge, it
+/// stays 0 and the entry of D below the diagonal is kept. Nothing of this can pass over an exit;
+/// the round-off of the products is bounded as well and counted as part of R. Work: about 3 m²
+/// products n × n for m terms. Source: R. A. Horn, C. R. Johnson, Matrix Analysis, 2nd ed., 8.1
+/// and 8.3.
+/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
+template <class Scalar = double>
+class MovingSpectrum {
+ public:
+  using Complex = std::complex<Scalar>;  ///< of the triangular form
+
+  /// @param matrix  finite; a matrix that is not has no proof
+  explicit MovingSpectrum(const MovingMatrix& matrix) {
+    if (!matrix.terms.front().allFinite()) return;
+    take(matrix);
+    inside_at_centre_ =
+        ((2.0 * terms_[0].diagonal().real() + terms_[0].diagonal().cwiseAbs2()).maxCoeff() < 0.0);
+    if (inside_at_centre_ && remainder_.allFinite()) bound();
+  }
+
+  /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
+  bool inside_at_centre() const { return inside_at_centre_; }
+
+  /// Whether all of S(x) are shown to, for −1 ≤ x ≤ 1.
+  bool inside() const { return inside_; }
+
+  /// c (λI − S(x))⁻¹ g(x) for rows c, where |λ(x)| = 1 and `inside`: term by term in the
+  /// coordinates of the proof, in which |(λI − S)⁻¹| ≤ (I + Σ|W_k|) (I − B)⁻¹ (I − Σ|W_k|)⁻¹ bounds
+  /// what is missed, but for the round-off of these sums themselves.
+  /// @param from_one  λ(x) − 1, of as many terms as S
+  /// @param source    g(x), likewise
+  /// @param rows      c, any number of them, each n wide
+  std::vector<MovingNumber> responses(const MovingNumber& from_one, const MovingVector& source,
+                                      const Eigen::MatrixXd& rows) const {
+    std::vector<Eigen::VectorXcd> y;
+    std::vector<Eigen::VectorXd> beyond(order() + 1, Eigen::VectorXd::Zero(size()));
+    for (std::size_t k = 0; k <= order(); ++k) {
+      Eigen::VectorXcd right = back_ * source.terms[k];
+      for (std::size_t l = 1; l <= k; ++l)
+        right += terms_[l] * y[k - l] - from_one.terms[l] * y[k - l];
+      y.push_back(solved(from_one.terms[0], std::move(right)));
+    }
+    for (std::size_t k = order(); k > 0; --k) beyond[k - 1] = beyond[k] + y[k].cwiseAbs();
+    const Eigen::VectorXd all = beyond[0] + y[0].cwiseAbs();
+    Eigen::VectorXd missed =
+        back_.cwiseAbs() * source.remainder + remainder_ * all + from_one.remainder * all;
+    for (std::size_t l = 1; l <= order(); ++l)
+      missed += terms_[l].cwiseAbs() * beyond[order() - l] +
+                std::abs(from_one.terms[l]) * beyond[order() - l];
+    const Bound unit = Bound::Identity(size(), size()) - turned_;
+    missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
+    missed = reserve_.partialPivLu().solve(missed).cwiseAbs();
+    missed += turned_ * missed;
+    std::vector<MovingNumber> result;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const Eigen::RowVectorXcd row = rows.row(i) * basis_;
+      result.push_back({{}, row.cwiseAbs().dot(missed)});
+      for (const Eigen::VectorXcd& term : y) result.back().terms.push_back((row * term).value());
+    }
+    return result;
+  }
+
+ private:
+  using Form = Matrix<Complex, Eigen::Dynamic>;
+  using Bound = Matrix<Scalar, Eigen::Dynamic>;
+  using Pairs = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+  Eigen::Index size() const { return terms_.front().rows(); }
+  std::size_t order() const { return terms_.size() - 1; }
+
+  /// The terms in the coordinates V = Q X, in which S(0) is diagonal but for the pairs that are not
+  /// apart, and what is not in them.
+  void take(const MovingMatrix& matrix) {
+    const Eigen::Index n = matrix.remainder.rows();
+    const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
+    const Eigen::VectorXd factors = similar.factors, inverse = factors.cwiseInverse();
+    const auto balanced = [&](const Eigen::MatrixXd& entries) -> Eigen::MatrixXd {
+      return inverse.asDiagonal() * entries * factors.asDiagonal();
+    };
+    const Form unitary = detail::triangular_basis<Scalar>(similar.balanced);
+    const Form form = unitary.adjoint() * (similar.balanced * unitary);
+    find_cleared(form, unitary.adjoint() * (balanced(matrix.terms[1]) * unitary));
+    const Form x = diagonalising(form);
+    const Form basis = unitary * x, back = unit_upper_inverse_times(x, unitary.adjoint());
+    basis_ = factors.asDiagonal() * basis;
+    back_ = back * inverse.asDiagonal();
+    Bound rounded = Bound::Zero(n, n);
+    for (const Eigen::MatrixXd& term : matrix.terms) {
+      const Eigen::MatrixXd entries = balanced(term);
+      terms_.push_back(back * (entries * basis));
+      rounded += entries.cwiseAbs();
+    }
+    remainder_ =
+        back.cwiseAbs() * (rounding() * rounded + balanced(matrix.remainder)) * basis.cwiseAbs();
+    count_inverse(back, basis);
+    remainder_ += terms_[0].cwiseAbs().template triangularView<Eigen::StrictlyLower>();
+    terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
+  }
+
+  /// What a sum of as many products as there are here loses to round-off, as a share.
+  Scalar rounding() const {
+    return Scalar(4) * static_cast<Scalar>(static_cast<std::size_t>(size()) + terms_.size()) *
+           std::numeric_limits<Scalar>::epsilon();
+  }
+
+  /// Counts that `back` is the inverse of the basis but for round-off: of back·V = I + G the
+  /// similarity with V makes (I + G)⁻¹T of what is computed as T. Nothing is shown where |G| is
+  /// not small.
+  void count_inverse(const Form& back, const Form& basis) {
+    const Bound identity = Bound::Identity(size(), size());
+    off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
+           rounding() * (back.cwiseAbs() * basis.cwiseAbs());
+    if (!(off_.rowwise().sum().maxCoeff() < Scalar(0.5))) {
+      remainder_.setConstant(std::numeric_limits<Scalar>::infinity());
+      return;
+    }
+    off_ = (identity - off_).partialPivLu().solve(off_).cwiseAbs().eval();
+    Bound all = remainder_;
+    for (const Form& term : terms_) all += term.cwiseAbs();
+    remainder_ += off_ * all;
+  }
+
+  /// Which pairs of eigenvalues are to be uncoupled: those so far apart that this converges.
+  void find_cleared(const Form& form, const Form& moved) {
+    const Eigen::Index n = form.rows();
+    cleared_ = Pairs::Constant(n, n, false);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      for (Eigen::Index i = j + 1; i < n; ++i) {
+        const double there = std::abs(moved(i, j)), coupled = std::abs(form(j, i));
+        const double back = coupled + std::abs(moved(j, i));
+        const double drift = std::abs(moved(i, i) - moved(j, j)) + 2.0 * std::sqrt(there * back);
+        const double distance = std::abs(form(i, i) - form(j, j));
+        cleared_(i, j) = cleared_(j, i) = drift < 0.6 * distance && coupled < 1e5 * distance;
+      }
+    }
+  }
+
+  /// The unit upper triangular X with X⁻¹ T X zero above the diagonal where a pair is uncoupled.
+  Form diagonalising(const Form& t) const {
+    const Eigen::Index n = t.rows();
+    Form x = Form::Identity(n, n), d = t;
+    for (Eigen::Index width = 1; width < n; ++width) {
+      for (Eigen::Index i = 0, j = width; j < n; ++i, ++j) {
+        Complex left = t(i, j);
+        for (Eigen::Index p = i + 1; p < j; ++p) left += t(i, p) * x(p, j) - x(i, p) * d(p, j);
+        d(i, j) = cleared_(i, j) ? Complex(0) : left;
+        if (cleared_(i, j)) x(i, j) = left / (t(j, j) - t(i, i));
+      }
+    }
+    return x;
+  }
+
+  static Form unit_upper_inverse_times(const Form& x, Form right) {
+    for (Eigen::Index i = x.rows() - 1; i >= 0; --i)
+      for (Eigen::Index p = i + 1; p < x.rows(); ++p) right.row(i) -= x(i, p) * right.row(p);
+    return right;
+  }
+
+  /// (νI − T₀)⁻¹ of a column, T₀ being upper triangular.
+  Eigen::VectorXcd solved(const Complex& nu, Eigen::VectorXcd right) const {
+    for (Eigen::Index i = size() - 1; i >= 0; --i) {
+      for (Eigen::Index p = i + 1; p < size(); ++p) right[i] += terms_[0](i, p) * right[p];
+      right[i] /= nu - terms_[0](i, i);
+    }
+    return right;
+  }
+
+  /// W_k and D_k from what they have to cancel and leave, R = T_k + Σ (T_l W_{k−l} − W_l D_{k−l}).
+  void split(const Form& r) {
+    const Form& t = terms_[0];
+    const Eigen::Index n = size();
+    Form w = Form::Zero(n, n);
+    for (Eigen::Index i = n - 1; i > 0; --i) {
+      for (Eigen::Index j = 0; j < i; ++j) {
+        if (!cleared_(i, j)) continue;
+        Complex right = -r(i, j);
+        for (Eigen::Index p = i + 1; p < n; ++p) right -= t(i, p) * w(p, j);
+        for (Eigen::Index q = 0; q < j; ++q) right += w(i, q) * t(q, j);
+        w(i, j) = right / (t(i, i) - t(j, j));
+      }
+    }
+    Form d = r + t * w - w * t;
+    for (Eigen::Index j = 0; j < n; ++j)
+      for (Eigen::Index i = j + 1; i < n; ++i)
+        if (cleared_(i, j)) d(i, j) = 0.0;
+    turning_.push_back(std::move(w));
+    diagonal_.push_back(std::move(d));
+  }
+
+  void split_all() {
+    const Eigen::Index n = size();
+    turning_.push_back(Form::Zero(n, n));
+    diagonal_.push_back(terms_[0]);
+    for (std::size_t k = 1; k <= order(); ++k) {
+      Form r = terms_[k];
+      for (std::size_t l = 1; l < k; ++l)
+        r += terms_[l] * turning_[k - l] - turning_[l] * diagonal_[k - l];
+      split(r);
+    }
+  }
+
+  /// Σ_{k > s} |F_k| for every s.
+  static std::vector<Bound> sums_beyond(const std::vector<Form>& forms) {
+    std::vector<Bound> sums(forms.size(), Bound::Zero(forms[0].rows(), forms[0].cols()));
+    for (std::size_t s = forms.size() - 1; s > 0; --s) sums[s - 1] = sums[s] + forms[s].cwiseAbs();
+    return sums;
+  }
+
+  /// 1 − |D_ii(x)|, at least; not positive where that is not shown.
+  double distance(Eigen::Index i) const {
+    const std::size_t m = order();
+    double outside = 0.0;  // |D|² − 1, at most
+    for (std::size_t k = 0; k <= 2 * m; ++k) {
+      double q = k <= m ? 2.0 * diagonal_[k](i, i).real() : 0.0;
+      for (std::size_t l = k > m ? k - m : 0; l <= std::min(k, m); ++l)
+        q += (diagonal_[l](i, i) * std::conj(diagonal_[k - l](i, i))).real();
+      outside += k == 0 ? q : k % 2 == 0 ? std::max(q, 0.0) : std::abs(q);
+    }
+    return -outside / (1.0 + std::sqrt(std::max(0.0, 1.0 + outside)));
+  }
+
+  void bound() {
+    split_all();
+    const Eigen::Index n = size();
+    const Bound identity = Bound::Identity(n, n);
+    const std::vector<Bound> turned = sums_beyond(turning_), kept = sums_beyond(diagonal_);
+    turned_ = turned[0];
+    Bound missed = remainder_ * (identity + turned_);
+    for (std::size_t l = 1; l <= order(); ++l)
+      missed +=
+          terms_[l].cwiseAbs() * turned[order() - l] + turning_[l].cwiseAbs() * kept[order() - l];
+    // Unit lower triangular: solved from the top, nothing is subtracted.
+    const Bound unit = identity - turned_;
+    missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
+    reserve_ = -(kept[0] + diagonal_[0].cwiseAbs() + missed);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double reserve = distance(i) - missed(i, i);
+      if (!(reserve > 0.0)) return;
+      reserve_(i, i) = reserve;
+    }
+    const Eigen::VectorXd v = reserve_.partialPivLu().solve(Eigen::VectorXd::Ones(n));
+    inside_ = v.allFinite() && v.minCoeff() > 0.0 && (reserve_ * v).minCoeff() > 0.5;
+  }
+
+  Pairs cleared_;                         // which pairs of eigenvalues are uncoupled
+  std::vector<Form> terms_;               // T_k, of S − I
+  Bound remainder_;                       // of the form
+  Bound off_;                             // |V⁻¹ back⁻¹ − I|
+  std::vector<Form> turning_, diagonal_;  // W_k and D_k, of W − I and D − I
+  Form basis_, back_;                     // V and V⁻¹ of the matrix as it is given
+  Bound turned_;                          // Σ |W_k|
+  Bound reserve_;                         // I − B
+  bool inside_at_centre_ = false, inside_ = false;
+};
+
+}  // namespace holdfast

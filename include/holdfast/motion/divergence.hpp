@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "holdfast/excitation/multi_harmonic_force.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/plant/ports.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Scale of the static deflection (m) under a force (N): the largest entry of A⁻¹ c F, or of c F
+/// where A has no inverse.
+template <class Plant>
+double static_deflection(const Plant& plant, double force) {
+  const auto input = plant.excitation_input();
+  const double bend = plant.state_matrix().partialPivLu().solve(input).cwiseAbs().maxCoeff();
+  return force * (std::isfinite(bend) ? bend : input.cwiseAbs().maxCoeff());
+}
+
+}  // namespace detail
+
+/// A size (m, m/s) that no bounded motion of a loop reaches: 10¹² times all that sets its scale,
+/// the static deflection under the force and its speed, r₀ and the initial state. A motion that
+/// passes it diverges.
+/// @param loop   admissible
+/// @param state  the initial one, N × 1, finite
+template <class Plant>
+double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
+  const MultiHarmonicForce& force = loop.digital.force;
+  double largest = 0.0;
+  if (force.record)
+    for (const double row : force.record->forces()) largest = std::max(largest, std::abs(row));
+  for (const Harmonic& harmonic : force.harmonics) largest += harmonic.amplitude;
+  const double deflection = detail::static_deflection(loop.plant, largest);
+  const double scale = deflection * (1.0 + force.highest_angular_frequency()) +
+                       loop.backlash.width + state.cwiseAbs().maxCoeff();
+  return 1e12 * std::max(scale, 1e-100);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_input.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/moving_spectrum.hpp"
+#include "holdfast/math/roots/first_crossing.hpp"
+#include "holdfast/stability/margins/sampling_family.hpp"
+
+namespace holdfast::detail {
+
+/// Σ_{j > m} of a quantity whose terms grow by at most `rate`/(j + 1) from one to the next.
+inline double tail_beyond(double next, double rate, std::size_t order) {
+  const double ratio = rate / static_cast<double>(order + 2);
+  return ratio < 1.0 ? next / (1.0 - ratio) : std::numeric_limits<double>::infinity();
+}
+
+/// e^{iωτ} − 1 within `radius` of a period τ, `terms` terms.
+inline MovingNumber moving_phase(double omega, double period, double radius, std::size_t terms) {
+  const double angle = omega * period, half_sine = std::sin(angle / 2.0);
+  MovingNumber result{{{-2.0 * half_sine * half_sine, std::sin(angle)}}, 0.0};
+  std::complex<double> term = std::polar(1.0, angle);
+  for (std::size_t j = 1; j <= terms; ++j) {
+    term *= std::complex<double>(0.0, omega * radius / static_cast<double>(j));
+    if (j < terms) result.terms.push_back(term);
+  }
+  result.remainder = tail_beyond(std::abs(term), omega * radius, terms - 1);
+  return result;
+}
+
+/// The phasor g = cosine − i sine of the harmonic input within `radius` of a period, from
+/// g′ = A_d c + iωg of the exact force and g′ = A_d c of the held one, A_d′ = A A_d.
+///
+/// In the coordinates that balance A, with p_j and γ_j the sizes of the terms of A_d c and g and
+/// r = max(‖A‖, ω) radius, max(γ_j r, p_j radius) grows by at most 2 r/(j + 1).
+template <class Plant>
+MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceHold hold,
+                          double omega, double radius, std::size_t terms) {
+  const Eigen::Index size = map.size(), n = size - map.held_commands;
+  const auto input = harmonic_input(plant, map, hold, omega);
+  const Eigen::MatrixXd a = plant.state_matrix();
+  const BalancedMatrix<double, Eigen::Dynamic> similar(a);
+  Eigen::VectorXd late = map.open_map.topLeftCorner(n, n) * plant.excitation_input();
+  Eigen::VectorXcd g =
+      input.cosine.template cast<std::complex<double>>() -
+      std::complex<double>(0, 1) * input.sine.template cast<std::complex<double>>();
+  const std::complex<double> turn(0.0, hold == ForceHold::exact ? omega : 0.0);
+  MovingVector result{{g}, Eigen::VectorXd::Zero(size)};
+  for (std::size_t j = 1; j <= terms; ++j) {
+    const double share = radius / static_cast<double>(j);
+    g *= turn * share;
+    g.head(n) += share * late.template cast<std::complex<double>>();
+    late = share * (a * late).eval();
+    if (j < terms) result.terms.push_back(g);
+  }
+  const double rate = std::max(similar.balanced.cwiseAbs().rowwise().sum().maxCoeff(), omega);
+  const auto norm = [&](const Eigen::VectorXd& entries) {
+    return entries.cwiseQuotient(similar.factors).maxCoeff();
+  };
+  const double next = std::max(norm(g.head(n).cwiseAbs()), norm(late.cwiseAbs()) / rate);
+  result.remainder.head(n) = tail_beyond(next, 2.0 * rate * radius, terms - 1) * similar.factors;
+  return result;
+}
+
+/// Whether the loop is shown to be stable and to keep the conductor's steady amplitude below that
+/// of no control, all within `radius` of a period.
+///
+/// With y = (λI − S)⁻¹ g and Y = (λI − S)⁻¹ s of the closed loop, λ = e^{iωτ}, and c reading the
+/// conductor,
+///
+///     Z/Z₀ = n/(n − (c Y)(K y)),   n = (c y)(1 + K Y)
+///
+/// so that no pole of the plant without control enters. Of the amplitude the series and what they
+/// leave out are bounded, the round-off of its own sums is not.
+template <class Plant>
+Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
+                    const PdGains<double>& gains, ForceHold hold, double omega, double period,
+                    double radius) {
+  const LoopMap<double> map = family.map_at(period);
+  const MovingMatrix closed = family.moving(map, gains, radius);
+  const MovingSpectrum roots(closed);
+  if (!roots.inside()) return roots.inside_at_centre() ? Stretch::open : Stretch::fails;
+  const std::size_t terms = closed.terms.size();
+  const MovingNumber phase = moving_phase(omega, period, radius, terms);
+  Eigen::MatrixXd rows(2, map.size());
+  rows << map.conductor, gains.proportional * map.displacement + gains.differential * map.velocity;
+  const auto y = roots.responses(phase, moving_input(plant, map, hold, omega, radius, terms), rows);
+  auto by_command = roots.responses(phase, family.moving_command(map, radius), rows);
+  by_command[1].terms[0] += 1.0;
+  const MovingNumber controlled = y[0] * by_command[1];
+  const MovingNumber free = sum_of(controlled, by_command[0] * y[1], -1.0);
+  const SquaresDifference gap = squares_difference(free, controlled);
+  return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
+}
+
+}  // namespace holdfast::detail

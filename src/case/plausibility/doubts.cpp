@@ -1,0 +1,233 @@
+#include "case/plausibility/doubts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "case/model/cable_of_case.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Keys = std::vector<std::string>;
+using Quantities = std::vector<PlausibleQuantity>;
+
+/// A unit that values are often written in, and how much of the key's own it is.
+struct OtherUnit {
+  const char* own;
+  const char* name;
+  double factor;
+};
+
+constexpr std::array<OtherUnit, 28> other_units = {{
+    {"m", "mm", 1e-3},         {"m", "cm", 1e-2},          {"m", "km", 1e3},
+    {"m2", "mm2", 1e-6},       {"m2", "cm2", 1e-4},        {"kg", "g", 1e-3},
+    {"kg", "t", 1e3},          {"kg/m", "g/m", 1e-3},      {"kg/m", "t/m", 1e3},
+    {"Pa", "GPa", 1e9},        {"Pa", "MPa", 1e6},         {"Pa", "kPa", 1e3},
+    {"N", "mN", 1e-3},         {"N", "kN", 1e3},           {"N/m", "kN/m", 1e3},
+    {"N/m", "mN/m", 1e-3},     {"N s/m", "kN s/m", 1e3},   {"N s/m", "mN s/m", 1e-3},
+    {"s", "ms", 1e-3},         {"s", "us", 1e-6},          {"m/s", "km/h", 1.0 / 3.6},
+    {"m/s", "mm/s", 1e-3},     {"m/s", "m/min", 1.0 / 60}, {"Hz", "rad/s", 1.0 / 6.283185307179586},
+    {"Hz", "1/min", 1.0 / 60}, {"m/s2", "cm/s2", 1e-2},    {"kg/m3", "g/cm3", 1e3},
+    {"", "%", 1e-2},
+}};
+
+bool is_given(const Case& the_case, const std::string& key) {
+  return the_case.places.count(key) > 0;
+}
+
+/// NaN, where the case does not tell the quantity, is beyond nothing.
+bool is_beyond(const AdmissibleRange& range, double value) {
+  return value < range.lowest || value > range.highest;
+}
+
+/// How much is wrong with a case; less is better.
+int badness(const Case& the_case, const Quantities& quantities) {
+  int sum = first_fault(the_case).message.empty() ? 0 : 1000;
+  for (const PlausibleQuantity& quantity : quantities) {
+    const double value = quantity.of(the_case);
+    sum += is_beyond(quantity.possible, value) ? 100 : is_beyond(quantity.usual, value) ? 1 : 0;
+  }
+  return sum;
+}
+
+/// The case with the values of some keys times a factor, that of another unit or another.
+Case scaled(Case the_case, const Keys& keys, double factor) {
+  for (const std::string& name : keys) {
+    const CaseKey& key = *find_case_key(name);
+    if (double* value = key.number(the_case)) *value *= factor;
+  }
+  return the_case;
+}
+
+/// All keys of a table that the user gave in that unit.
+Keys of_same_unit(const Case& the_case, const CaseKey& like) {
+  Keys keys;
+  for (const CaseKey& key : case_keys())
+    if (key.number != nullptr && key.unit == like.unit && key.table() == like.table() &&
+        is_given(the_case, key.name))
+      keys.push_back(key.name);
+  return keys;
+}
+
+std::string listed(const Keys& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string value_of(const Case& the_case, const std::string& key) {
+  const std::string& unit = find_case_key(key)->unit;
+  return format_rounded(case_value(the_case, key)) + (unit.empty() ? "" : " " + unit);
+}
+
+/// "my.toml:3: conductor.area = 546 m2", or the options of the command line.
+std::string given_text(const Case& the_case, const Keys& keys) {
+  std::string text;
+  for (const std::string& key : keys) {
+    const std::string& place = the_case.places.at(key);
+    const bool is_option = place.rfind("--set", 0) == 0;
+    text += (text.empty() ? "" : ", ") +
+            (is_option ? place : place + ": " + key + " = " + value_of(the_case, key));
+  }
+  return text;
+}
+
+/// Units that explain a case equally well, of the same keys.
+class BestUnits {
+ public:
+  BestUnits(const Case& the_case, const Quantities& quantities)
+      : case_(the_case),
+        quantities_(quantities),
+        badness_(badness(the_case, quantities)),
+        least_(badness_) {}
+
+  void try_keys(const Keys& keys) {
+    const std::string unit = find_case_key(keys.front())->unit;
+    for (const OtherUnit& other : other_units) {
+      if (unit != other.own) continue;
+      const Case changed = scaled(case_, keys, other.factor);
+      const int bad = badness(changed, quantities_);
+      // What half as much again mends for the most part is no mistaken unit.
+      const double a_little = other.factor < 1.0 ? 1.0 / 1.5 : 1.5;
+      const int mended = badness_ - badness(scaled(case_, keys, a_little), quantities_);
+      if (2 * mended > badness_ - bad) continue;
+      if (bad > least_ || (bad == least_ && keys != guess_.keys)) continue;
+      is_sure_ = bad < least_;
+      names_ = (is_sure_ ? "" : names_ + " or ") + other.name;
+      if (is_sure_) guess_ = {keys, "", changed};
+      least_ = bad;
+    }
+  }
+
+  UnitGuess found() && {
+    if (guess_.keys.empty()) return std::move(guess_);
+    const bool one = guess_.keys.size() == 1;
+    guess_.text = one ? "; is it in " + names_ : "; are " + listed(guess_.keys) + " in " + names_;
+    if (one && is_sure_) guess_.text += ", " + value_of(guess_.corrected, guess_.keys.front());
+    guess_.text += "?";
+    return std::move(guess_);
+  }
+
+ private:
+  const Case& case_;
+  const Quantities& quantities_;
+  int badness_, least_;
+  std::string names_;
+  bool is_sure_ = false;  // one unit alone
+  UnitGuess guess_;
+};
+
+std::string found_text(const PlausibleQuantity& quantity, double value) {
+  const std::string unit = quantity.unit;
+  return std::string(quantity.name) + " is " + format_rounded(value) +
+         (unit.empty() ? "" : " " + unit);
+}
+
+}  // namespace
+
+UnitGuess guessed_unit(const Case& the_case, const Keys& keys, const Quantities& quantities) {
+  BestUnits best(the_case, quantities);
+  for (const std::string& name : keys) {
+    const CaseKey& key = *find_case_key(name);
+    if (key.number == nullptr || !is_given(the_case, name)) continue;
+    Case copy = the_case;
+    if (!key.bears_word(copy)) best.try_keys({name});
+  }
+  std::set<Keys> groups;
+  for (const std::string& name : keys)
+    if (is_given(the_case, name)) groups.insert(of_same_unit(the_case, *find_case_key(name)));
+  for (const Keys& together : groups)
+    if (together.size() > 1) best.try_keys(together);
+  return std::move(best).found();
+}
+
+CaseFault impossible_fault(const Case& the_case) {
+  for (const PlausibleQuantity& quantity : quantities_of_case()) {
+    const double value = quantity.of(the_case);
+    if (is_beyond(quantity.possible, value))
+      return {quantity.keys, found_text(quantity, value) + "; admissible is " +
+                                 quantity.possible.in_words(quantity.unit) + ": " +
+                                 quantity.reason};
+  }
+  return {};
+}
+
+std::vector<std::string> doubts_about(const Case& the_case, const Quantities& quantities) {
+  std::vector<std::string> doubts;
+  Case read = the_case;  // with the units that are guessed
+  for (const PlausibleQuantity& quantity : quantities) {
+    const double value = quantity.of(read);
+    if (!is_beyond(quantity.usual, value)) continue;
+    UnitGuess guess;
+    if (quantity.asks_unit) guess = guessed_unit(read, quantity.keys, quantities);
+    Keys keys = guess.keys;
+    if (keys.empty())
+      for (const std::string& key : quantity.keys)
+        if (is_given(the_case, key)) keys.push_back(key);
+    if (keys.empty()) continue;
+    doubts.push_back(given_text(read, keys) + ": " + found_text(quantity, value) + ", usual is " +
+                     quantity.usual.in_words(quantity.unit) + ": " + quantity.reason + guess.text);
+    if (!guess.keys.empty()) read = guess.corrected;
+  }
+  return doubts;
+}
+
+std::string contradicted_conductor_text(const Case& the_case) {
+  if (!the_case.conductor_given || !the_case.plant_given || plant_is_reduced(the_case)) return "";
+  constexpr double tolerance = 0.05;
+  double stiffness = the_case.plant.conductor_stiffness;
+  try {
+    stiffness = conductor_stiffness_of(the_case);
+  } catch (const WrongInput&) {
+    // The range of its readings is not that of this conductor, which no answer needs.
+  }
+  const auto [first, second] = undamped_frequencies(the_case.plant);
+  const case_tables::Reduction& reduction = the_case.reduction;
+  struct Pair {
+    const char* name;
+    double given, conductors;
+    const char* unit;
+  };
+  const std::array<Pair, 4> pairs = {
+      {{"k1", the_case.plant.conductor_stiffness, stiffness, "N/m"},
+       {"m2", the_case.plant.absorber_mass, the_case.absorber.mass, "kg"},
+       {"the lower frequency", first, reduction.first_frequency, "Hz"},
+       {"the higher frequency", second, reduction.second_frequency, "Hz"}}};
+  std::string differ;
+  for (const Pair& pair : pairs)
+    if (std::abs(pair.given - pair.conductors) > tolerance * std::abs(pair.conductors))
+      differ += (differ.empty() ? "" : ", ") + std::string(pair.name) + " " +
+                format_rounded(pair.given) + " instead of " + format_rounded(pair.conductors) +
+                " " + pair.unit;
+  if (differ.empty()) return "";
+  return "every key of [plant] is given, so that [conductor], [absorber] and [reduction] do not "
+         "count for it; it is not theirs: " +
+         differ + "; take [plant] away to have it reduced from the conductor";
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "holdfast/math/signal/decay_measures.hpp"
+
+namespace holdfast::program {
+
+/// A force on the conductor as it was recorded.
+struct ForceRecord {
+  std::vector<double> times;   // s, ascending
+  std::vector<double> forces;  // N
+};
+
+/// A record in a CSV file: the columns `time_s` and, of a decay, `displacement_m`, of a force
+/// `force_N`, in any order and beside any others.
+///
+/// Throws WrongInput, with file and line where there is one: what read_csv() refuses, no such
+/// column, an empty cell, text in a number, a number that is not finite, time that does not ascend,
+/// or too few instants, eight of a decay and two of a force. A decay must start displaced and have
+/// no gap, a step of more than one and a half times the median step.
+DecayRecord read_decay_file(const std::filesystem::path& file);
+ForceRecord read_force_record(const std::filesystem::path& file);
+
+/// The same from a text; `name` stands for the file in messages.
+DecayRecord read_decay_text(const std::string& text, const std::string& name);
+ForceRecord read_force_text(const std::string& text, const std::string& name);
+
+}  // namespace holdfast::program

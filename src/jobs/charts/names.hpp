@@ -1,0 +1,30 @@
+#pragma once
+
+#include "holdfast/stability/boundary/boundary_point.hpp"
+#include "holdfast/stability/chart/loop_chart.hpp"
+#include "io/text/names.hpp"
+
+namespace holdfast::program {
+
+/// The curves' names in tables.
+inline constexpr Named<BoundaryCurve> curve_names[] = {
+    {BoundaryCurve::plus_one, "plus_one"},
+    {BoundaryCurve::minus_one, "minus_one"},
+    {BoundaryCurve::complex_pair, "complex_pair"},
+    {BoundaryCurve::zero, "zero"},
+    {BoundaryCurve::imaginary_pair, "imaginary_pair"}};
+
+/// The keys of the case that stability depends on.
+inline constexpr Named<LoopParameter> parameter_keys[] = {
+    {LoopParameter::proportional_gain, "control.proportional_gain"},
+    {LoopParameter::differential_gain, "control.differential_gain"},
+    {LoopParameter::sampling_period, "control.sampling_period"},
+    {LoopParameter::processing_delay, "control.processing_delay"},
+    {LoopParameter::conductor_mass, "plant.conductor_mass"},
+    {LoopParameter::conductor_stiffness, "plant.conductor_stiffness"},
+    {LoopParameter::conductor_damping, "plant.conductor_damping"},
+    {LoopParameter::absorber_mass, "plant.absorber_mass"},
+    {LoopParameter::absorber_stiffness, "plant.absorber_stiffness"},
+    {LoopParameter::absorber_damping, "plant.absorber_damping"}};
+
+}  // namespace holdfast::program

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/grid/grid_output.hpp"
+#include "io/text/filled.hpp"
+
+namespace holdfast::program {
+
+/// The columns of a table, as texts/jobs.toml has them.
+/// @param table   "gain regions"
+/// @param values  what the texts leave open
+std::vector<Column> columns_of(const std::string& table, const Values& values = {});
+
+/// The same with the words of their numbers, for a grid.
+std::vector<CellColumn> cell_columns_of(const std::string& table, const Values& values = {});
+
+}  // namespace holdfast::program

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "case/case.hpp"
+#include "holdfast/control/gains.hpp"
+
+namespace holdfast::program {
+
+/// What a recommended D keeps clear of where nothing else is asked of it: half the way from the
+/// boundary of stability to the D that decays fastest (`AmplitudeOptions::margin`).
+inline constexpr double usual_margin = 0.5;
+
+/// The margins of a case's loop with some gains, in the units of the program's tables; NaN where
+/// the loop is not stable.
+struct GainMargins {
+  double spectral_radius;
+  double gain_decibels;     ///< of both gains together, upwards; infinite without an end
+  double phase_degrees;     ///< infinite where the loop's gain is 1 at no frequency
+  double delay;             ///< s, further; as far as was looked where no end was met
+  bool is_delay_of_search;  ///< the latter
+};
+
+/// @param gains  not finite: all is NaN
+GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains);
+
+}  // namespace holdfast::program

@@ -1,0 +1,81 @@
+#include "jobs/orbit/neighbours.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "holdfast/phase_space/attractor_set.hpp"
+#include "io/text/text.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Steps of one common period by which an orbit is ahead of its own first sample at some state:
+/// where it comes nearest.
+std::size_t nearest_stroboscopic_instant(const PeriodicOrbit& orbit,
+                                         const Vector<double, 4>& state) {
+  const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
+  std::size_t nearest = 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < orbit.states.size(); j += step) {
+    const double distance = (orbit.states[j].head<4>() - state).cwiseAbs().maxCoeff();
+    if (distance < smallest) nearest = j / step;
+    smallest = std::min(smallest, distance);
+  }
+  return nearest;
+}
+
+SettledMotion settled(const IdealLoop<double>& loop, const Vector<double, 4>& state) {
+  OrbitLimits limits;
+  limits.watch = throw_if_interrupted;
+  return {state, find_periodic_orbit(loop, state, limits)};
+}
+
+}  // namespace
+
+std::string meeting_text(const IdealLoop<double>& loop, const SettledMotion& reference,
+                         const SettledMotion& other) {
+  const PeriodicOrbit *first = reference.orbit(), *second = other.orbit();
+  if (first == nullptr || second == nullptr) return "no two orbits to compare";
+  if (!is_phase_shifted_copy(*first, *second)) return "different orbits";
+  const std::int64_t period = first->period_samples();
+  // Long enough for either motion to be far nearer to its own phase than to the next one.
+  const std::int64_t settled = std::max(reference.search.samples, other.search.samples);
+  const std::int64_t samples = (settled / period + 8) * period;
+  const auto phase = [&](const SettledMotion& motion) {
+    auto moving = periodically_forced_motion(loop, first->ratio, motion.initial_state);
+    for (std::int64_t j = 0; j < samples; ++j) {
+      moving.sense();
+      moving.advance();
+    }
+    return nearest_stroboscopic_instant(*first, moving.state());
+  };
+  const auto copies = first->states.size() / static_cast<std::size_t>(first->ratio.denominator);
+  const std::size_t later = (phase(reference) + copies - phase(other)) % copies;
+  if (later == 0) return "meet: the same orbit in the same phase";
+  return "stay apart: copies " + std::to_string(later) +
+         (later == 1 ? " coincidence" : " coincidences") + " later, of " + std::to_string(copies);
+}
+
+std::string apart_text(const IdealLoop<double>& loop, const Vector<double, 4>& reference,
+                       const Vector<double, 4>& other) {
+  const SettledMotion one = settled(loop, reference), two = settled(loop, other);
+  const PeriodicOrbit *first = one.orbit(), *second = two.orbit();
+  if (first == nullptr || second == nullptr)
+    return "no certified orbit was found of " +
+           std::string(first == second ? "either" : "one of them") + ", so that it is open why";
+  const std::string period = std::to_string(first->period_samples()) + " samples";
+  if (!is_phase_shifted_copy(*first, *second))
+    return "orbits coexist, and they come to different ones, certified, of " + period + " and of " +
+           std::to_string(second->period_samples());
+  const std::string meeting = meeting_text(loop, one, two);
+  const std::string orbit = "both come to one certified orbit of " + period;
+  if (meeting.rfind("meet", 0) != 0)
+    return orbit + ", which has copies shifted in time, and " + meeting;
+  return orbit + " in the same phase, where they are to meet: its largest multiplier is " +
+         format_rounded(first->largest_multiplier()) + " in a period";
+}
+
+}  // namespace holdfast::program

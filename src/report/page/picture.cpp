@@ -1,0 +1,254 @@
+#include "report/page/picture.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "case/axes/axis.hpp"
+#include "io/file/input.hpp"
+#include "io/file/metadata.hpp"
+#include "io/file/output.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+#include "process/group/mpi_launch.hpp"
+#include "process/system_words.hpp"
+#include "report/figures/figure.hpp"
+#include "report/figures/gnuplot.hpp"
+#include "report/figures/map_axis.hpp"
+#include "report/figures/table_panels.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where tables lie that only a picture is made of.
+class PassingFolder {
+ public:
+  PassingFolder() : path_((fs::temp_directory_path() / "holdfast-picture-XXXXXX").string()) {
+    if (mkdtemp(path_.data()) == nullptr)
+      throw OutputError("cannot make the folder " + path_ + ": " + system_words(errno));
+    for (const char* part : {"data", "pictures"}) fs::create_directory(fs::path(path_) / part);
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  PassingFolder(PassingFolder&&) = delete;
+  PassingFolder& operator=(PassingFolder&&) = delete;
+
+  fs::path table(const std::string& name) const { return path() / "data" / (name + ".csv"); }
+  fs::path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+bool is_given(const PictureRequest& request, const std::string& option) {
+  return std::any_of(request.context.options.begin(), request.context.options.end(),
+                     [&](const auto& given) { return given.first == option; }) ||
+         std::find(request.own.begin(), request.own.end(), option + "=true") != request.own.end();
+}
+
+std::string option_text(const PictureRequest& request, const std::string& option) {
+  return filled("@" + option + "@", request.options);
+}
+
+/// The row of the list of pictures that says how the table is drawn.
+const toml::array& row_for(const PictureRequest& request) {
+  const std::string& job = request.context.job;
+  std::string needed;
+  for (const toml::node& node : listed_pictures()) {
+    const toml::array& row = *node.as_array();
+    const std::string option = text_of(row[1]);
+    if (text_of(row[0]) != job) continue;
+    needed = option;
+    if (!option.empty() && !is_given(request, option)) continue;
+    if (!text_of(row[2]).empty()) return row;
+    throw WrongInput("--output " + request.context.output->string() + ": " + job + " " + option +
+                     " has no picture; its table is written as .csv");
+  }
+  throw WrongInput("--output " + request.context.output->string() + ": " + job +
+                   " has a picture with " + needed + " alone; its table is written as .csv");
+}
+
+/// The keys of its axes and their values; of a chart over the gains P and D.
+std::vector<KeyValues> axes_of(const PictureRequest& request) {
+  std::vector<KeyValues> axes;
+  for (const auto& [name, text] : request.context.options)
+    if (name == "--axis") axes.push_back(parse_key_values(name, text));
+  const std::string& job = request.context.job;
+  if (axes.empty() && job == "diagram")
+    return {parse_key_values("--axis", option_text(request, "--axis"))};
+  if (!axes.empty() || (job != "stability" && job != "response")) return axes;
+  return {{"control.proportional_gain", parse_axis("--p", option_text(request, "--p"))},
+          {"control.differential_gain", parse_axis("--d", option_text(request, "--d"))}};
+}
+
+/// Throws WrongInput for a single value; for a list where an image needs even steps.
+MapAxis map_axis_of(const KeyValues& axis, bool even) {
+  MapAxis shown{axis.key, 0.0, 0.0, false, label_of(axis.key), scale_of(axis.key)};
+  std::size_t count = 0;
+  if (const auto* list = std::get_if<std::vector<double>>(&axis.values)) {
+    if (even)
+      throw WrongInput("--axis " + axis.key +
+                       ": a picture over two axes needs MIN:MAX:COUNT, not a list");
+    count = list->size();
+    shown.min = *std::min_element(list->begin(), list->end());
+    shown.max = *std::max_element(list->begin(), list->end());
+  } else if (const auto* ratios = std::get_if<LogAxis>(&axis.values)) {
+    count = static_cast<std::size_t>(ratios->count);
+    shown.logarithmic = true;
+    shown.min = ratios->min;
+    shown.max = ratios->max;
+  } else {
+    const Axis& linear = std::get<Axis>(axis.values);
+    count = static_cast<std::size_t>(linear.count);
+    shown.min = linear.min;
+    shown.max = linear.max;
+  }
+  if (count < 2)
+    throw WrongInput("a picture needs at least two values of " + axis.key + " along its axis");
+  return shown;
+}
+
+void require_gnuplot() {
+  if (!gnuplot_available())
+    throw NoAnswer(
+        "pictures need gnuplot, which is not installed (Debian package gnuplot-nox); an "
+        "--output that ends in .csv needs none");
+}
+
+/// Both ends of a range as gnuplot reads them.
+std::string ends_of(const Axis& axis) {
+  return format_number(axis.min) + ":" + format_number(axis.max);
+}
+
+/// What the texts leave open of a picture over axes.
+Values values_of_axes(const std::vector<KeyValues>& axes) {
+  if (axes.size() > 2)
+    throw WrongInput("a picture shows one axis or two, not " + std::to_string(axes.size()));
+  Values values;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const MapAxis axis = map_axis_of(axes[k], axes.size() == 2);
+    const Values shown = values_of(k == 0 ? "x" : "y", axis, "$" + std::to_string(k + 1));
+    values =
+        joined(joined(values, shown), {{"label", axis.label},
+                                       {"scale", format_number(axis.scale)},
+                                       {k == 0 ? "P" : "D", ends_of({axis.min, axis.max, 2})}});
+  }
+  return values;
+}
+
+/// The same of any picture.
+Values picture_values(const PictureRequest& request) {
+  const Case& the_case = request.context.case_data;
+  const std::string& job = request.context.job;
+  Values values = {{"greatest frequency", greatest_frequency(the_case)}};
+  if (job == "boundary") {
+    const Range p = parse_range("--p", option_text(request, "--p"));
+    values.emplace_back("P", ends_of({p.min, p.max, 2}));
+    values = joined(values, window_of_gains(the_case));
+  }
+  // From where on exponents are shown: the first ones leave no room for the rest.
+  const double duration = parse_number(option_text(request, "--duration")).value_or(0.0);
+  values.emplace_back("tenth", format_number(0.1 * duration));
+  if (job == "max-delay") {
+    const Axis axis = parse_axis("--frequency", option_text(request, "--frequency"));
+    values.emplace_back("F", ends_of(axis) + ":" + std::to_string(axis.count));
+  }
+  return joined(values, values_of_axes(axes_of(request)));
+}
+
+/// "Stable gains — my-line".
+std::string heading_of(const PictureRequest& request, const std::string& title) {
+  const std::string stem = fs::path(request.context.case_source.name).stem().string();
+  return title + " — " + (stem.empty() ? "the built-in case" : one_line(stem));
+}
+
+bool is_own(const std::string& command) { return command.rfind("own", 0) == 0; }
+
+/// The command line of a table, "own" standing for the job's.
+std::vector<std::string> command_line(const PictureRequest& request, const std::string& command) {
+  std::vector<std::string> words = words_of(command);
+  if (!is_own(command)) {
+    words.emplace_back("--quiet");
+    return command_of(words, request.case_arguments);
+  }
+  words.erase(words.begin());
+  return joined(request.own, words);
+}
+
+/// Writes the tables of a picture and gives the job's own, or the first.
+CsvTable written_tables(const PictureRequest& request, const CommandRunner& run,
+                        const toml::array& tables, const Values& values,
+                        const PassingFolder& folder) {
+  fs::path own;
+  for (const toml::node& node : tables) {
+    const toml::array& table = *node.as_array();
+    const fs::path file = folder.table(request.context.job + text_of(table[0]));
+    const std::string command = text_of(table[1], values);
+    run(joined(command_line(request, command), {"--output", file.string()}));
+    if (own.empty() || command == "own") own = file;
+  }
+  return read_csv(own);
+}
+
+/// The bytes of a PDF whose date is the same on every day; the others have none.
+std::string without_date(std::string picture) {
+  const std::string before = "/CreationDate (D:", none = "19700101000000";
+  const std::size_t at = picture.find(before);
+  if (at != std::string::npos) picture.replace(at + before.size(), none.size(), none);
+  return picture;
+}
+
+std::string drawn_picture(const PictureRequest& request, const CommandRunner& run) {
+  const toml::array& row = row_for(request);
+  const std::size_t axes = axes_of(request).size();
+  const std::string listed = text_of(row[2]);
+  const std::string kind = listed == "cells" && axes < 2 ? "lines" : listed;
+  Values values = joined(values_of(*row[3].as_table()), picture_values(request));
+  require_gnuplot();
+  const PassingFolder folder;
+  const CsvTable table = written_tables(request, run, *row[5].as_array(), values, folder);
+  const LengthUnit unit = length_unit_for(largest_length(table));
+  std::vector<Values> panels;
+  if (listed == "cells") panels = panels_of(table, axes, unit);
+  values.emplace_back("panels", std::to_string(panels.size()));
+  Figure figure = figure_of_kind({request.context.job, "", "", {}, "", 0.0}, kind,
+                                 row[5].as_array(), values, panels);
+  figure.height *= static_cast<double>(std::max<std::size_t>(panels.size(), 1));
+  figure.length_unit = unit;
+  figure.heading = heading_of(request, text_of(row[4]));
+  const std::string ending = request.context.output->extension().string();
+  draw(figure, folder.path(), ending);
+  return without_date(read_input(folder.path() / "pictures" / (figure.name + ending)));
+}
+
+}  // namespace
+
+bool has_picture(const std::string& job) {
+  const toml::array& rows = listed_pictures();
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const toml::node& row) { return text_of((*row.as_array())[0]) == job; });
+}
+
+void write_picture(const PictureRequest& request, const CommandRunner& run) {
+  if (mpi_launch().size > 1)
+    throw WrongInput("a picture is drawn by one process: let several write the table");
+  OutputFile picture(request.context.output);
+  std::unique_ptr<OutputFile> metadata;
+  if (picture.is_file()) metadata = std::make_unique<OutputFile>(metadata_path(picture.target()));
+  picture.write(drawn_picture(request, run));
+  if (!metadata) return picture.commit();
+  const std::string name = picture.target().filename().string();
+  metadata->write(json_text(picture_metadata(request.context, name, picture.written())));
+  commit_together(picture, *metadata);
+}
+
+}  // namespace holdfast::program

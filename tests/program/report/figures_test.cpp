@@ -1,0 +1,68 @@
+#include "case/case_source.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/resolved_plant.hpp"
+#include "holdfast/math/signal/decay_measures.hpp"
+#include "jobs/cable/cable_decay.hpp"
+#include "report/figures/figure.hpp"
+#include "report/page/html.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::program {
+namespace {
+
+Case case_of(const std::string& text) {
+  CaseSource source;
+  source.text = text;
+  source.name = "mine.toml";
+  Case the_case = source.load();
+  settle_plant(the_case);
+  return the_case;
+}
+
+/// A stay of a bridge, whose plant is far from its own motion, and the paper's conductor.
+constexpr const char* stay =
+    "[conductor]\nmass_per_length = 60\nspan = 100\nsag = 0.184\narea = 0.006\n"
+    "youngs_modulus = 1.95e11\ndamping_ratio = 0.001\n[absorber]\nmass = 30\nposition = 3\n"
+    "[control]\nproportional_gain = \"tuned\"\ndifferential_gain = -1000\n";
+constexpr const char* span = "[conductor]\nmass_per_length = 0.0654\n";
+
+std::string decay_caption(const Case& the_case) {
+  for (const Figure& figure : figures_of(the_case, false))
+    if (figure.name == "decay") return figure.caption;
+  return "";
+}
+
+TEST(Figures, JudgeInWordsHowWellThePlantStandsForItsCable) {
+  if (!has_sundials()) GTEST_SKIP() << "without SUNDIALS";
+  for (const char* text : {stay, span}) {
+    const Case the_case = case_of(text);
+    const std::string caption = decay_caption(the_case);
+    const CableDecayOptions options = usual_decay(the_case);
+    const CableDecay cable = cable_decay(the_case, options);
+    const DecayRecord plant = plant_decay(plant_of(the_case), options.force, true, cable);
+    const double of_plant = 1.0 / decay_measures(plant).period;
+    const double of_cable = 1.0 / decay_measures(cable.record).period;
+    for (const double frequency : {of_plant, of_cable})
+      EXPECT_NE(caption.find(rounded(frequency, 4) + " Hz for the"), std::string::npos)
+          << caption << frequency;
+    const bool apart = std::abs(of_plant / of_cable - 1.0) > 0.05;
+    EXPECT_EQ(caption.find("They differ") != std::string::npos, apart) << caption;
+    EXPECT_EQ(caption.find('@'), std::string::npos) << caption;
+  }
+}
+
+TEST(Page, ShowsPicturesOnATelephoneAtASizeThatCanBeRead) {
+  Page page;
+  page.figures.push_back({{"a", "title", "caption", {}, "plot x", 300.0}, {}, "<svg></svg>", ""});
+  const std::string html = html_of(page);
+  EXPECT_NE(html.find("name=\"viewport\" content=\"width=device-width"), std::string::npos);
+  EXPECT_NE(html.find("<div class=\"scroll\"><img"), std::string::npos);
+  const std::size_t narrow = html.find("@media screen and (max-width");
+  ASSERT_NE(narrow, std::string::npos);
+  // Its letters have 13 px where the picture, 640 px wide in itself, is not made narrower.
+  const std::size_t width = html.find("width: ", html.find("figure img", narrow)) + 7;
+  EXPECT_GE(std::strtod(html.c_str() + width, nullptr) * 16.0, 640.0);
+}
+
+}  // namespace
+}  // namespace holdfast::program

@@ -1,0 +1,99 @@
+#include "holdfast/stability/margins/loop_margins.hpp"
+
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/stability/response/loop_response.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast {
+namespace {
+
+struct LoopCase {
+  Sampling<double> sampling;
+  PdGains<double> gains;
+};
+
+const LoopCase loop_cases[] = {{{0.001, 0.0}, {-557.0, -13.0}},
+                               {{0.010, 0.0}, {-557.0, -6.0}},
+                               {{0.010, 0.004}, {-557.0, -13.0}},
+                               {{0.003, 0.003}, {-200.0, 1.0}},
+                               {{0.050, 0.0}, {-20.0, -1.0}}};
+
+double radius_of_map(const Sampling<double>& sampling, const PdGains<double>& gains) {
+  return spectral_radius(loop_map(kollar2022_plant(), sampling).closed_map(gains));
+}
+
+TEST(LoopMargins, OfTheGainEndWhereTheSpectralRadiusIsOne) {
+  for (const LoopCase& c : loop_cases) {
+    const double p = c.gains.proportional, d = c.gains.differential;
+    const LoopMargins margins = loop_margins(kollar2022_plant(), c.sampling, c.gains);
+    ASSERT_EQ(margins.outcome, MarginOutcome::stable);
+    EXPECT_NEAR(1.0 - margins.unit_circle, radius_of_map(c.sampling, c.gains), 1e-9);
+    ASSERT_GT(margins.largest_factor, 1.0);
+    ASSERT_LT(margins.least_factor, 1.0);
+    for (const double factor : {margins.largest_factor, margins.least_factor}) {
+      const auto at = [&](double share) {
+        const double moved = 1.0 + share * (factor - 1.0);
+        return radius_of_map(c.sampling, {moved * p, moved * d});
+      };
+      for (int k = 0; k < 200; ++k) EXPECT_LT(at(k / 200.0), 1.0) << factor << ' ' << k;
+      EXPECT_GT(at(1.0 + 1e-5), 1.0) << factor;
+    }
+  }
+}
+
+/// Against a dense scan of L over the circle by the loop's transfer functions.
+TEST(LoopMargins, OfThePhaseAreThoseOfADenseScan) {
+  for (const LoopCase& c : loop_cases) {
+    const LoopMargins margins = loop_margins(kollar2022_plant(), c.sampling, c.gains);
+    const LoopResponse<double> response(loop_map(kollar2022_plant(), c.sampling));
+    double least = std::numeric_limits<double>::infinity();
+    std::complex<double> before = 0.0;
+    constexpr int steps = 40000;
+    for (int k = 1; k <= steps; ++k) {
+      const auto at = response.at_angle(pi<double> * k / steps);
+      const std::complex<double> loop =
+          c.gains.proportional * at.displacement + c.gains.differential * at.velocity;
+      const double was = std::abs(before), is = std::abs(loop);
+      if (k > 1 && (was < 1.0) != (is < 1.0))
+        least = std::min(least,
+                         std::abs(std::arg(before + (1.0 - was) / (is - was) * (loop - before))));
+      before = loop;
+    }
+    if (std::isinf(least)) {
+      EXPECT_TRUE(std::isinf(margins.phase));
+      continue;
+    }
+    EXPECT_NEAR(margins.phase, least, 2e-3);
+  }
+}
+
+TEST(LoopMargins, OfTheDelayEndWhereTheSpectralRadiusIsOne) {
+  for (const LoopCase& c : loop_cases) {
+    const MarginEnd delay = loop_margins(kollar2022_plant(), c.sampling, c.gains).delay;
+    const auto at = [&](double further) {
+      return radius_of_map({c.sampling.period, c.sampling.processing_delay + further}, c.gains);
+    };
+    for (int k = 0; k < 100; ++k) EXPECT_LT(at(delay.distance * k / 100.0), 1.0);
+    if (delay.outcome == MarginEndOutcome::boundary) {
+      EXPECT_GT(at(delay.distance * (1.0 + 1e-5)), 1.0);
+    }
+  }
+}
+
+TEST(LoopMargins, OfAnUnstableLoopAreNone) {
+  const LoopMargins margins = loop_margins(kollar2022_plant(), {0.05}, {-557.0, -13.0});
+  EXPECT_EQ(margins.outcome, MarginOutcome::not_stable);
+  EXPECT_LT(margins.unit_circle, 0.0);
+  EXPECT_TRUE(std::isnan(margins.largest_factor));
+  EXPECT_TRUE(std::isnan(margins.phase));
+  EXPECT_EQ(margins.delay.outcome, MarginEndOutcome::undefined);
+}
+
+TEST(LoopMargins, RefuseWhatIsNoLoop) {
+  EXPECT_THROW(loop_margins(kollar2022_plant(), {0.0}, {-557.0, -13.0}), InvalidParameter);
+  EXPECT_THROW(loop_margins(kollar2022_plant(), {0.001}, {-557.0, INFINITY}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast
