@@ -59,7 +59,7 @@ LyapunovResult exponents_of(EventMotion<Contact> motion, const JobContext& conte
                             const LyapunovQuestion&, const LyapunovRun& run) {
   const LyapunovResult result = run_event_lyapunov(motion, run, throw_if_interrupted);
   if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
-  require_resolved(motion, context.quiet);
+  tell_of_end(context, motion);
   return result;
 }
 
@@ -96,7 +96,7 @@ void write_history(EventMotion<Contact> motion, const JobContext& context, const
     run_to_completion(lyapunov, 1, {});
     write_history_row(table, motion.time(), lyapunov.spectrum().exponents().template head<5>());
   }
-  require_resolved(motion, context.quiet);
+  tell_of_end(context, motion);
 }
 
 /// One row for each exponent: per sample, per second, standard error.

@@ -60,7 +60,7 @@ void CoverageQuestion::run(const JobContext& context) const {
       run_to_completion(motion, samples - motion.index(), {}, coverage);
       table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
     }
-    require_resolved(motion, context.quiet);
+    tell_of_end(context, motion);
   });
   table.commit();
 }

@@ -37,7 +37,7 @@ struct DeviationQuestion {
         last = deviation.state;
       });
       require_completed(outcome, first.time());
-      require_resolved(first, context.quiet);
+      tell_of_end(context, first);
     });
     table.trust(trusted_digits_of_deviation(context.case_data, switching, offset, samples));
     table.commit();

@@ -35,7 +35,7 @@ struct SectionQuestion {
                                initial_state_of(context.case_data));
     run_to_completion(motion, before, {});
     require_completed(run_section(motion, samples - before, write), motion.time());
-    require_resolved(motion, context.quiet);
+    tell_of_end(context, motion);
     tell_trust(context, table,
                trusted_digits_of_motion(context.case_data, switching, samples, from));
     table.commit();

@@ -49,7 +49,7 @@ struct SimulateQuestion {
         write_motion_row(table, switching,
                          {sample.time, sample.state, sample.control_force, mode_of(sample)});
       });
-      require_resolved(motion, context.quiet);
+      tell_of_end(context, motion, choice.controlled, kicked ? kicked->displacement : 0.0);
     });
     if (digits) tell_trust(context, table, digits->result());
     table.commit();

@@ -63,7 +63,7 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
       if (digits) (*digits)(sample);
       if (sample.index >= samples - kept) record.push_back(sample.state[0]);
     });
-    require_resolved(motion, context.quiet);
+    tell_of_end(context, motion);
   });
   return {record, digits ? digits->result() : TrustedDigits{}};
 }

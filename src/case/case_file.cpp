@@ -263,8 +263,9 @@ void CaseReader::check_wind() const {
   if (!case_.wind) return;
   for (const CaseKey& key : case_keys()) {
     if (!key.required || last_given({key.name}) != nullptr) continue;
-    throw WrongInput(wind_place_ + ": " + key.name + " is missing; admissible is " +
-                     key.admissible());
+    throw WrongInput(wind_place_ + ": " + key.name + " is missing: " + key.description +
+                     "; admissible is " + key.admissible() +
+                     "; holdfast case --init FILE --wind writes all of them");
   }
   // An excitation below the layer that brought the wind is replaced; one beside it or above it
   // would be passed over without a word.

@@ -161,7 +161,7 @@ const std::vector<CaseKey> listed_keys = {
     required(number(KEY(wind, speed), "m/s", positive, "speed across the conductor")),
     required(number(KEY(wind, diameter), "m", positive, "of the conductor")),
     required(number(KEY(wind, effective_length), "m", positive,
-                    "length over which vortices are shed in step")),
+                    "length over which vortices are shed in step, for instance half a wave")),
     number(KEY(wind, strouhal), "", positive, "Strouhal number"),
     number(KEY(wind, lift_coefficient), "", not_negative, "lift coefficient"),
     number(KEY(wind, air_density), "kg/m3", positive, "density of the air"),

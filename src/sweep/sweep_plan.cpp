@@ -9,6 +9,7 @@
 #include "case/axes/grid.hpp"
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/plausibility/doubts.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "io/text/checksum.hpp"
@@ -131,6 +132,7 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
 void SweepPlan::settle_case() {
   if (shaping_axes_.empty()) {
     report_warning(settle_plant(context_.case_data), context_.quiet);
+    report_warning(borrowed_gains_text(context_.case_data), context_.quiet);
   } else {
     reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
   }

@@ -111,8 +111,8 @@ TEST_P(FoolishInputs, AreRefusedOrNamed) {
   for (const Foolish& foolish : foolish_inputs().at(GetParam())) {
     const HostileScene scene(foolish.input);
     Limits limits;
-    limits.patience = std::chrono::seconds(is_sanitized ? 60 : 10);
-    limits.processor_seconds = is_sanitized ? 120 : 20;
+    limits.patience = std::chrono::seconds(is_sanitized ? 120 : 10);
+    limits.processor_seconds = is_sanitized ? 240 : 20;
     const LimitedEnding ending = LimitedProgram(foolish.input.words, scene.place(), limits).wait();
     const std::string fault = fault_of(foolish, ending);
     if (fault.empty()) continue;

@@ -247,11 +247,12 @@ class SampledLyapunov : public LyapunovObserver<double> {
 /// @param blocks  of the loop whose S and S* are the tangents
 /// @param run     how long, and with what accuracy, is averaged
 /// @param pause   called every 2¹² samples; may throw to end the run
-/// @throws InvalidParameter where `run` is not admissible
+/// @throws InvalidParameter where `run` is not admissible or there are no blocks
 template <class Motion>
 LyapunovResult run_lyapunov(Motion& motion, const std::shared_ptr<const ItineraryBlocks>& blocks,
                             const LyapunovRun& run, const std::function<void()>& pause = {}) {
   validate(run);
+  require_within("number of itinerary blocks", blocks ? 1.0 : 0.0, "", 1, 1);
   detail::SampledLyapunov<Motion> lyapunov(motion, blocks, run.scope);
   detail::SingleLane lane(lyapunov, pause);
   return detail::run_average(lane, run)[0];

@@ -112,13 +112,14 @@ class DeviationFlow {
   /// The segment of the next `samples` samples.
   DeviationSegment next(std::int64_t samples) {
     DeviationSegment segment;
-    Matrix<Scalar, 6> flow = Matrix<Scalar, 6>::Identity();
-    for (std::int64_t k = 0; k < samples; ++k) {
-      take_sample(flow, segment);
-      if (++sample_ == distances_.size()) sample_ = 0;
-    }
-    segment.growth = flow.norm();
+    segment.growth = follow(samples, segment).norm();
     return segment;
+  }
+
+  /// Φ over the next `samples` samples.
+  Matrix<Scalar, 6> over(std::int64_t samples) {
+    DeviationSegment segment;
+    return follow(samples, segment);
   }
 
  private:
@@ -130,6 +131,15 @@ class DeviationFlow {
     double displacement = std::numeric_limits<double>::infinity();
     double velocity = std::numeric_limits<double>::infinity();
   };
+
+  Matrix<Scalar, 6> follow(std::int64_t samples, DeviationSegment& segment) {
+    Matrix<Scalar, 6> flow = Matrix<Scalar, 6>::Identity();
+    for (std::int64_t k = 0; k < samples; ++k) {
+      take_sample(flow, segment);
+      if (++sample_ == distances_.size()) sample_ = 0;
+    }
+    return flow;
+  }
 
   void take_sample(Matrix<Scalar, 6>& flow, DeviationSegment& segment) {
     const ContactDecision& decision = pattern_.decisions[sample_];
@@ -233,7 +243,8 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 /// @param orbit  attracting and certified
 /// @return in the order of the orbit; empty where no segments of up to 64 periods, or 10⁶ samples,
 ///         contract
-/// Work: about 300 multiply-adds a sample for every length of segment that is tried.
+/// Work: about 300 multiply-adds a sample for every length of segment below a period that is tried,
+/// and for the shortest one above that contracts.
 /// @tparam Scalar  `double`; a template so that only who calls it compiles it
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
@@ -241,13 +252,22 @@ std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
   const detail::DeviationFlow<Scalar> flow(loop, ItineraryMaps<Scalar>(loop, orbit.ratio), orbit);
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t common_periods = orbit.period_samples() / step;
-  // Segments of more than one period hold whole ones, to begin where they are used again.
+  // Segments of more than one period hold whole ones, to begin where they are used again; Φ over
+  // them says without another walk whether they contract.
+  Matrix<Scalar, 6> whole = Matrix<Scalar, 6>::Zero();
   std::int64_t length = 1;
   const std::int64_t longest = std::max(64 * common_periods, 1'000'000 / step);
   while (length <= longest) {
-    const std::vector<double> radii =
-        detail::attraction_radii(detail::deviation_segments(flow, orbit, length));
-    if (!radii.empty()) return detail::balls_with_radii(loop, orbit, step * length, radii);
+    if (length == common_periods) {
+      whole = detail::DeviationFlow<Scalar>(flow).over(step * length);
+    } else if (length > common_periods) {
+      whole = whole * whole;
+    }
+    if (length == 1 || whole.norm() < 1.0) {
+      const std::vector<double> radii =
+          detail::attraction_radii(detail::deviation_segments(flow, orbit, length));
+      if (!radii.empty()) return detail::balls_with_radii(loop, orbit, step * length, radii);
+    }
     length = length < common_periods ? std::min(2 * length, common_periods) : 2 * length;
   }
   return {};

@@ -1,6 +1,11 @@
 #include "case/model/loop_of_case.hpp"
 
+#include <cmath>
+
 #include "holdfast/excitation/band_limited_noise.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/motion/divergence.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -84,6 +89,27 @@ ImplementedLoop uncontrolled(ImplementedLoop loop) {
   loop.digital.gains = {0.0, 0.0};
   loop.backlash = {ContactLaw::none};
   return loop;
+}
+
+double divergence_bound(const Case& the_case, double kick) {
+  Vector<double, 4> state = initial_state_of(the_case);
+  state[0] = std::abs(state[0]) + std::abs(kick);
+  return holdfast::divergence_bound(implemented_loop_of(the_case, Switching::sampled), state);
+}
+
+std::string divergence_warning(const Case& the_case, bool controlled, double kick, double time,
+                               double size) {
+  const std::string grown = "the motion diverges: by t = " + format_rounded(time) +
+                            " s it has grown to " + format_rounded(size) + " (m, m/s)";
+  if (!(size < divergence_bound(the_case, kick)))
+    return grown + ", which no bounded motion of this loop reaches";
+  const bool has_play =
+      law_of(the_case.backlash.law) != ContactLaw::none && the_case.backlash.width > 0.0;
+  if (!controlled || has_play || !is_ideal(limits_of(the_case))) return "";
+  const double radius = spectral_radius(loop_of(the_case).engaged_map(gains_of(the_case)));
+  if (!(radius > 1.0 + 1e-9)) return "";
+  return grown + ", and nothing bounds it: the largest root of the loop has the modulus " +
+         format_number(std::round(radius * 1e9) / 1e9);
 }
 
 }  // namespace holdfast::program

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "case/case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
@@ -26,6 +28,18 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
 
 /// The loop with P = D = 0 and a drive without backlash.
 ImplementedLoop uncontrolled(ImplementedLoop loop);
+
+/// A size (m, m/s) that no bounded motion of the case reaches, from its initial state or displaced
+/// by `kick`, m, on its way.
+double divergence_bound(const Case& the_case, double kick);
+
+/// That a motion diverges: it has passed its divergence_bound(), or nothing bounds the growth of an
+/// unstable loop, neither a play nor a largest force nor a step of the readings. Empty otherwise.
+/// @param controlled  else without control
+/// @param kick        displacement on its way, m
+/// @param size        that it has reached at `time` (s), m and m/s
+std::string divergence_warning(const Case& the_case, bool controlled, double kick, double time,
+                               double size);
 
 /// Calls `visit` with the loop: in the paper's model where that is all there is to the case, else
 /// with all that the case says of it.

@@ -7,6 +7,7 @@
 #include "jobs/motion/motion_run.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
+#include "process/job_context.hpp"
 
 namespace holdfast::program {
 
@@ -49,6 +50,18 @@ void require_resolved(const EventMotion<Contact>& motion, bool quiet) {
             " change(s) of contact are decided by rounding: Delta z or its velocity only "
             "touches where the contact would change",
         quiet);
+}
+
+/// At the end of a motion: what require_resolved() says of it, and a warning where it diverges, as
+/// a motion within the range of numbers may too.
+/// @param kick  displacement on its way, m
+template <class Motion>
+void tell_of_end(const JobContext& context, const Motion& motion, bool controlled = true,
+                 double kick = 0.0) {
+  require_resolved(motion, context.quiet);
+  const double size = motion.state().cwiseAbs().maxCoeff();
+  report_warning(divergence_warning(context.case_data, controlled, kick, motion.time(), size),
+                 context.quiet);
 }
 
 }  // namespace holdfast::program

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "case/case_source.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -228,6 +229,23 @@ std::string contradicted_conductor_text(const Case& the_case) {
   return "every key of [plant] is given, so that [conductor], [absorber] and [reduction] do not "
          "count for it; it is not theirs: " +
          differ + "; take [plant] away to have it reduced from the conductor";
+}
+
+std::string borrowed_gains_text(const Case& the_case) {
+  if (is_given(the_case, "control.proportional_gain") ||
+      is_given(the_case, "control.differential_gain"))
+    return "";
+  const auto impedance = [](const case_tables::Plant& plant) {
+    return std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
+  };
+  const double here = impedance(the_case.plant), there = impedance(CaseSource{}.load().plant);
+  constexpr double factor = 3.0;
+  if (here < factor * there && there < factor * here) return "";
+  return "control.proportional_gain and control.differential_gain are not given: the gains are "
+         "those "
+         "of the built-in case, whose absorber is another (sqrt(k2 m2) is " +
+         format_rounded(here) + " N s/m here and " + format_rounded(there) +
+         " there); holdfast design names some for this plant";
 }
 
 }  // namespace holdfast::program

@@ -35,4 +35,9 @@ std::vector<std::string> doubts_about(const Case& the_case,
 /// k1 from the paper's own conductor lie within 3 % of its Table 1.) Empty otherwise.
 std::string contradicted_conductor_text(const Case& the_case);
 
+/// That the gains are those of the built-in case while the plant is far from its: by the impedance
+/// √(k2 m2), the scale of a differential gain, more than three times off. Empty otherwise, and
+/// where the user gave either gain.
+std::string borrowed_gains_text(const Case& the_case);
+
 }  // namespace holdfast::program

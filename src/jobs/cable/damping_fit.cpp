@@ -127,9 +127,15 @@ AbsorberDampingFit fit_absorber_damping(const Case& the_case, const TwoMass<doub
 
 std::string misfit_warning(const AbsorberDampingFit& found) {
   if (fit::is_measured(found.target)) return "";
+  const TwoMass<double>& plant = found.fit.minima.front().plant;
+  const double critical = 2.0 * std::sqrt(plant.absorber_stiffness * plant.absorber_mass);
+  const std::string overdamped =
+      plant.absorber_damping > critical
+          ? ", with more than critical damping, so that this absorber hardly swings by itself"
+          : "";
   return "no absorber_damping makes the two-mass plant meet the first peak and period of the "
          "continuous cable's decay; the one found misses its course by " +
-         format_number(std::round(found.history_misfit * 100.0)) + " % of the start";
+         format_number(std::round(found.history_misfit * 100.0)) + " % of the start" + overdamped;
 }
 
 }  // namespace holdfast::program

@@ -338,7 +338,10 @@ std::vector<Answer> answers_of(const JobContext& context) {
   const Question question = question_about(the_case, context.instructions);
   std::vector<Answer> answers;
   if (!context.doubts.empty()) answers.push_back(what_is_doubtful(context.doubts));
-  answers.insert(answers.end(), {does_it_help(question), which_gain(question), how_slow(the_case)});
+  Answer help = does_it_help(question);
+  if (!context.plant_remark.empty())
+    help.detail += page_text("plant remark", {{"remark", context.plant_remark}});
+  answers.insert(answers.end(), {help, which_gain(question), how_slow(the_case)});
   throw_if_interrupted();
   answers.push_back(how_much_play(question));
   answers.push_back(what_motion(question.motion));

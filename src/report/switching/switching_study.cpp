@@ -29,9 +29,10 @@ EventMotion<> motion_of(const StudiedLoop& studied) {
   return event_motion(loop_of(studied), initial_state_of(studied.the_case));
 }
 
-/// No cable moves a thousand kilometres: what does grows for ever, and it is only a matter of time
-/// when it leaves the range of the numbers.
-bool has_diverged(const Vector<double, 4>& state) { return !(state.cwiseAbs().maxCoeff() < 1e6); }
+/// Whether a state is beyond the divergence_bound() of its loop, as one without a number is.
+bool is_beyond(const Vector<double, 4>& state, double bound) {
+  return !(state.cwiseAbs().maxCoeff() < bound);
+}
 
 std::size_t index_of(ContactMode mode) { return static_cast<std::size_t>(mode); }
 
@@ -144,6 +145,7 @@ StudiedLoop without_control(Case the_case, double duration) {
 
 SteadyMotion steady_motion(const StudiedLoop& studied) {
   EventMotion<> motion = motion_of(studied);
+  const double bound = divergence_bound(studied.the_case, 0.0);
   SteadyMotion steady;
   EventOrbitMeasures measures(motion);
   ModeCounter counter(motion);
@@ -159,7 +161,7 @@ SteadyMotion steady_motion(const StudiedLoop& studied) {
       counter.start();
     }
     const EventSample sample = motion.sense();
-    steady.diverges = has_diverged(sample.state);
+    steady.diverges = is_beyond(sample.state, bound);
     steady.accumulates = motion.counts().accumulates;
     if (steady.diverges || steady.accumulates) return steady;
     counter.take(sample);
@@ -209,12 +211,13 @@ std::vector<StudiedMotion> study(const std::vector<StudiedLoop>& loops, int thre
 
 MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int instants) {
   EventMotion<> motion = motion_of(studied);
+  const double bound = divergence_bound(studied.the_case, 0.0);
   DenseOutput trace(motion);
   WindowRecorder recorder(begin, end, instants);
   while (motion.time() <= end) {
     const double previous_command = motion.previous_command();
     const EventSample sample = motion.sense();
-    if (has_diverged(sample.state)) throw NoAnswer("the motion diverges");
+    if (is_beyond(sample.state, bound)) throw NoAnswer("the motion diverges");
     if (motion.counts().accumulates) throw NoAnswer("the changes of contact accumulate");
     const bool seen = sample.time + motion.period() > begin;
     if (!seen) {
