@@ -1,4 +1,5 @@
 // Explicit instantiations of math/linalg for double.
+#include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
@@ -6,6 +7,7 @@
 
 namespace holdfast {
 
+template class EigenBasis<double>;
 template Vector<std::complex<double>, 4> eigenvalues(const Matrix<double, 4>&);
 template Vector<std::complex<double>, 5> eigenvalues(const Matrix<double, 5>&);
 template Vector<std::complex<double>, Eigen::Dynamic> eigenvalues(

@@ -4,6 +4,7 @@
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 
@@ -31,5 +32,7 @@ template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, Free
                                                     const PdGains<double>&);
 template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
                                                                const Interval<double>&);
+
+template class ResolvedCircle<double>;
 
 }  // namespace holdfast

@@ -9,3 +9,4 @@
 #include "holdfast/cable/hanging_cable.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/cable/statics.hpp"
+#include "holdfast/cable/taut_string.hpp"

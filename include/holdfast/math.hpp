@@ -3,6 +3,7 @@
 /// Linear algebra, polynomials, roots, statistics and signals.
 
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/elimination.hpp"

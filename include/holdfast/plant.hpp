@@ -7,6 +7,7 @@
 #include "holdfast/plant/energy.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"

@@ -237,7 +237,7 @@ TEST(Entries, OfStabilityRefuseByName) {
        "number of",
        {0.0, -1.0},
        [&](double x) {
-         stability_chart(loop_map(masses, sampling),
+         stability_chart(ResolvedCircle<double>({linear_plant(masses), sampling}),
                          {{-600, 0, 3}, {-20, 0, static_cast<std::int64_t>(x)}});
        }},
       {"stable_differential_gains", "gain", not_finite,

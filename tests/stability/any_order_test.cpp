@@ -4,7 +4,7 @@
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/circle_boundary.hpp"
-#include "holdfast/stability/chart/loop_map_chart.hpp"
+#include "holdfast/stability/chart/circle_chart.hpp"
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/polynomial/pair_gains.hpp"
@@ -102,7 +102,8 @@ TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
   for (const double delay : {0.0, 0.0004, 0.0027}) {
     const LoopMap<double> map = loop_map(plant, {0.001, delay});
     const GainGrid grid{{-600.0, 100.0, 36}, {-30.0, 10.0, 41}};
-    const std::vector<std::uint8_t> chart = stability_chart(map, grid);
+    const ResolvedCircle<double> circle({plant, {0.001, delay}});
+    const std::vector<std::uint8_t> chart = stability_chart(circle, grid);
     int stable = 0;
     for (std::int64_t i = 0; i < grid.proportional.count; ++i) {
       for (std::int64_t j = 0; j < grid.differential.count; ++j) {
@@ -123,7 +124,8 @@ TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
   const Sampling<double> sampling{0.01, 0.004};
   const GainGrid grid{{-600.0, 100.0, 71}, {-30.0, 10.0, 81}};
   const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-  EXPECT_EQ(stability_chart(loop_map(plant, sampling), grid), stability_chart(polynomial, grid));
+  const ResolvedCircle<double> circle({linear_plant(plant), sampling});
+  EXPECT_EQ(stability_chart(circle, grid), stability_chart(polynomial, grid));
 }
 
 TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {

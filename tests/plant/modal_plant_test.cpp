@@ -1,0 +1,106 @@
+// A conductor by its modes with the absorber: the state matrix against the receptance, which forms
+// none, and against the two masses, which are one mode.
+
+#include "holdfast/plant/modal_plant.hpp"
+
+#include "support/dense_routes.hpp"
+#include "support/message_of.hpp"
+#include "support/random.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::test {
+namespace {
+
+using Complex = std::complex<double>;
+
+std::vector<PlaceMode<double>> random_modes(Random& random, std::size_t count) {
+  std::vector<PlaceMode<double>> modes;
+  for (std::size_t n = 0; n < count; ++n)
+    modes.push_back({random.log_uniform(3.0, 300.0), random.uniform(0.0, 0.1), random.normal(),
+                     random.log_uniform(0.01, 10.0)});
+  return modes;
+}
+
+Absorber<double> random_absorber(Random& random) {
+  return {random.log_uniform(0.01, 5.0), random.log_uniform(1.0, 1e4), random.uniform(0.0, 20.0),
+          random.unit() < 0.3 ? 0.0 : random.log_uniform(1e-3, 1.0)};
+}
+
+/// h (sI − A)⁻¹ b.
+template <int States>
+Complex transfer(const LinearPlant<double, States>& plant, const RowVector<double, States>& h,
+                 const Vector<double, States>& b, const Complex& s) {
+  const Eigen::Index n = plant.order();
+  const Eigen::MatrixXcd shifted =
+      s * Eigen::MatrixXcd::Identity(n, n) - plant.state_matrix().template cast<Complex>();
+  const Eigen::VectorXcd right = b.template cast<Complex>();
+  return (h.template cast<Complex>() * solution_of(shifted, right)).value();
+}
+
+TEST(ModalPlant, AnswersAsTheReceptanceSays) {
+  Random random(252);
+  for (int draw = 0; draw < 300; ++draw) {
+    const auto modes = random_modes(random, 1 + random.index(8));
+    const Absorber<double> absorber = random_absorber(random);
+    const LinearPlant<double> plant = modal_plant(modes, absorber);
+    validate(plant);
+    const Complex s(random.uniform(0.0, 5.0), random.log_uniform(1.0, 500.0));
+    const PlaceResponse<double> expected = place_response(receptance(modes, s), absorber, s);
+    const Ports<double, Eigen::Dynamic>& ports = plant.ports();
+    const Complex to_force = transfer(plant, ports.displacement, plant.excitation, s);
+    const Complex to_drive = transfer(plant, ports.displacement, plant.force_input, s);
+    EXPECT_LT(std::abs(to_force - expected.to_force), 1e-10 * std::abs(expected.to_force)) << draw;
+    EXPECT_LT(std::abs(to_drive - expected.to_drive), 1e-10 * std::abs(expected.to_drive)) << draw;
+    const Complex velocity = transfer(plant, ports.velocity, plant.force_input, s);
+    EXPECT_LT(std::abs(velocity - s * expected.to_drive), 1e-10 * std::abs(velocity)) << draw;
+  }
+}
+
+TEST(ModalPlant, OfOneModeIsTheTwoMasses) {
+  const TwoMass<double> masses = kollar2022_plant();
+  const double omega = std::sqrt(masses.conductor_stiffness / masses.conductor_mass);
+  const LinearPlant<double> plant = modal_plant<double>(
+      {{omega, masses.conductor_damping / (2.0 * omega * masses.conductor_mass), 1.0,
+        masses.conductor_mass}},
+      {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping});
+  const LinearPlant<double, 4> expected = linear_plant(masses);
+  const double size = expected.released_matrix.cwiseAbs().maxCoeff();
+  EXPECT_LT((plant.released_matrix - expected.released_matrix).cwiseAbs().maxCoeff(), 1e-13 * size);
+  EXPECT_LT((plant.force_input - expected.force_input).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((plant.excitation - expected.excitation).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_EQ(plant.ports().relative_displacement, expected.ports().relative_displacement);
+  EXPECT_EQ(plant.ports().measured_velocity, expected.ports().measured_velocity);
+}
+
+/// Part of the clamp in the mode's own mass or apart makes no difference.
+TEST(ModalPlant, AClampOnOneModeAddsToItsMass) {
+  const double mass = 0.08, clamp = 0.03, stiffness = 50.0;
+  const auto mode_of = [&](double m) {
+    const double omega = std::sqrt(stiffness / m);
+    return std::vector<PlaceMode<double>>{{omega, 0.4 / (2.0 * omega * m), 1.0, m}};
+  };
+  const auto apart = modal_plant<double>(mode_of(mass), {0.16, 74.4, 4.0, clamp});
+  const auto within = modal_plant<double>(mode_of(mass + clamp), {0.16, 74.4, 4.0, 0.0});
+  EXPECT_LT((apart.released_matrix - within.released_matrix).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_LT((apart.excitation - within.excitation).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(ModalPlant, RefusesWhatIsNotAdmissible) {
+  const std::vector<PlaceMode<double>> modes = {{10.0, 0.01, 0.5, 1.0}};
+  const Absorber<double> absorber{0.16, 74.4, 4.0, 0.01};
+  EXPECT_THROW(modal_plant<double>({}, absorber), InvalidParameter);
+  const auto refused = [&](const PlaceMode<double>& mode) {
+    return tests::message_of<InvalidParameter>([&] { modal_plant<double>({mode}, absorber); });
+  };
+  EXPECT_NE(refused({0.0, 0.01, 0.5, 1.0}).find("angular frequency"), std::string::npos);
+  EXPECT_NE(refused({10.0, -0.01, 0.5, 1.0}).find("damping ratio"), std::string::npos);
+  EXPECT_NE(refused({10.0, 0.01, NAN, 1.0}).find("shape"), std::string::npos);
+  EXPECT_NE(refused({10.0, 0.01, 0.5, 0.0}).find("mass of a mode"), std::string::npos);
+  for (const Absorber<double>& other :
+       {Absorber<double>{0.0, 74.4, 4.0}, Absorber<double>{0.16, -1.0, 4.0},
+        Absorber<double>{0.16, 74.4, -4.0}, Absorber<double>{0.16, 74.4, 4.0, -0.01}})
+    EXPECT_THROW(modal_plant(modes, other), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast::test

@@ -1,0 +1,61 @@
+// Transfer functions as sums over eigenvalues, against the elimination of LoopResponse.
+
+#include "holdfast/stability/response/modal_response.hpp"
+
+#include "holdfast/cable/taut_string.hpp"
+#include "support/lagging_plant.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::test {
+namespace {
+
+template <class Plant>
+void expect_same(const Plant& plant, const Sampling<double>& sampling, double tolerance) {
+  const ModalResponse<double> sums(plant, sampling);
+  const LoopResponse<double> elimination(loop_map(plant, sampling));
+  for (int i = 1; i < 200; ++i) {
+    const double angle = 3.141592653589793 * i / 200.0;
+    const auto found = sums.at_angle(angle), expected = elimination.at_angle(angle);
+    EXPECT_LT(std::abs(found.displacement - expected.displacement),
+              tolerance * std::abs(expected.displacement))
+        << angle;
+    EXPECT_LT(std::abs(found.velocity - expected.velocity), tolerance * std::abs(expected.velocity))
+        << angle;
+  }
+}
+
+TEST(ModalResponse, IsThatOfTheEliminationForAnyDelay) {
+  for (const double delay : {0.0, 0.0004, 0.001, 0.0027, 0.01}) {
+    expect_same(through_ports(kollar2022_plant()), {0.001, delay}, 1e-9);
+    expect_same(of_dynamic_order(filtered_and_lagging_plant()), {0.001, delay}, 1e-9);
+    const auto modes = string_modes(taut_string(kollar2022_conductor()), 0.64, 20);
+    expect_same(modal_plant<double>(modes, {0.16, 74.4, 4.0, 0.01}), {0.001, delay}, 1e-9);
+  }
+}
+
+/// A critically damped drive has a double eigenvalue, which no sum over eigenvalues can bear.
+TEST(ModalResponse, HoldsWhereEigenvaluesCoincide) {
+  const auto plant =
+      of_dynamic_order(filtered_and_lagging_plant(80.0, 60.0, kollar2022_plant(), 1.0));
+  expect_same(plant, {0.001, 0.0004}, 1e-13);
+}
+
+TEST(ModalResponse, CountsWhatGrowsByItself) {
+  TwoMass<double> masses = kollar2022_plant();
+  EXPECT_EQ(ModalResponse<double>(through_ports(masses), {0.001}).unstable_poles(), 0);
+  LinearPlant<double> plant = through_ports(masses);
+  plant.released_matrix += 5.0 * Eigen::MatrixXd::Identity(4, 4);
+  EXPECT_EQ(ModalResponse<double>(plant, {0.001}).unstable_poles(), 2);
+}
+
+TEST(ModalResponse, RefusesWhatIsNotAdmissible) {
+  LinearPlant<double> plant = through_ports(kollar2022_plant());
+  EXPECT_THROW(ModalResponse<double>(plant, {0.0}), InvalidParameter);
+  EXPECT_THROW((ModalResponse<double>(plant, {0.001, -0.001})), InvalidParameter);
+  EXPECT_THROW((ModalResponse<double>(plant, {0.001, 2.0})), InvalidParameter);
+  plant.released_matrix(0, 0) = NAN;
+  EXPECT_THROW(ModalResponse<double>(plant, {0.001}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast::test
