@@ -63,7 +63,9 @@ TautString<Scalar> taut_string(const Conductor<Scalar>& conductor) {
 /// H(s) = sinh(s a/c) sinh(s (L − a)/c) / (s Z_c sinh(s L/c)) (m/N): the receptance of the string
 /// without damping and bending stiffness at a place a from the left support, all its modes at once
 /// (unchecked). Written in decaying exponentials, so that no s with Re s ≥ 0 overflows.
-/// @param s  1/s, Re s ≥ 0, not on a mode
+/// @param string  whose damping and bending stiffness do not count
+/// @param place   a (m), inside the span
+/// @param s       1/s, Re s ≥ 0, not on a mode
 template <class Scalar>
 std::complex<Scalar> receptance(const TautString<Scalar>& string, const Scalar& place,
                                 const std::complex<Scalar>& s) {

@@ -51,7 +51,8 @@ inline void validate(const std::vector<PlaceMode<double>>& modes,
 
 /// H(s) = Σ φ_n² / (M_n (s² + 2 ζ_n ω_n s + ω_n²)) (m/N), the receptance of the bare conductor at
 /// the absorber's place, by these modes (unchecked).
-/// @param s  1/s
+/// @param modes  as its place sees them
+/// @param s      1/s
 template <class Scalar>
 std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
                                 const std::complex<Scalar>& s) {
@@ -77,8 +78,9 @@ struct PlaceResponse {
 ///
 /// The route to a plant's transfer functions that forms no matrix; H may be that of all modes at
 /// once.
-/// @param bare  H (m/N) at s
-/// @param s     1/s
+/// @param bare      H (m/N) at s
+/// @param absorber  with its clamp
+/// @param s         1/s
 template <class Scalar>
 PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
                                      const Absorber<Scalar>& absorber,

@@ -66,6 +66,7 @@ class ResolvedCircle {
   }
 
   /// All passages of one gain, the other being held; ascending.
+  /// @param free   the gain that varies
   /// @param gains  the held one; the value of the free one does not matter
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
     const Line line{free, gains};
@@ -88,6 +89,7 @@ class ResolvedCircle {
   }
 
   /// The open intervals of one gain, the other being held, in which the loop is stable.
+  /// @param free   the gain that varies
   /// @param gains  the held one; the value of the free one does not matter
   /// @throws InvalidParameter for a held gain that is not finite
   std::vector<Interval<Scalar>> stable_gains(FreeGain free, const PdGains<Scalar>& gains) const {
