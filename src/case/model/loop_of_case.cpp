@@ -105,7 +105,8 @@ std::string divergence_warning(const Case& the_case, bool controlled, double kic
     return grown + ", which no bounded motion of this loop reaches";
   const bool has_play =
       law_of(the_case.backlash.law) != ContactLaw::none && the_case.backlash.width > 0.0;
-  if (!controlled || has_play || !is_ideal(limits_of(the_case))) return "";
+  const bool is_ideal_loop = is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0;
+  if (!controlled || has_play || !is_ideal_loop || size == 0.0) return "";
   const double radius = spectral_radius(loop_of(the_case).engaged_map(gains_of(the_case)));
   if (!(radius > 1.0 + 1e-9)) return "";
   return grown + ", and nothing bounds it: the largest root of the loop has the modulus " +

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -27,16 +29,17 @@ struct GainPassage {
 
 /// What a loop of any order does on the unit circle, at angles so close together that G_z and G_v
 /// of `ModalResponse` are smooth between them: the step is a fraction of the distance to the
-/// nearest pole. From it the gains at which roots pass through the circle, and the number of roots
-/// outside for any gains:
+/// nearest pole, and of what a delay of many samples turns. From it the gains at which roots pass
+/// through the circle, and the number of roots outside for any gains:
 ///
 ///     p(λ) = 1 − P G_z(λ) − D G_v(λ),   n_out = n_plant − (1/π) [arg p(e^{iθ})] from 0 to π
 ///
 /// A free gain x is passed where X(θ) = (1 − y G_held)/G_free is real; the roots leave as x grows
-/// where Im X rises through zero, since dλ/dx = 1/X′(λ). Every stable interval found so is counted
-/// a second time by the winding; should the two not agree, every gap is decided by winding alone.
+/// where Im X rises through zero, since dλ/dx = 1/X′(λ). Every interval whose count says that it is
+/// stable, or would be had two pairs been missed, is counted a second time by the winding (of a few
+/// intervals all are); where the two differ, every one is decided by winding alone.
 /// Work: about 30 angles a pole once, then some 10 operations an angle and 10 values of G a
-/// passage. No power of λ and no determinant is formed: order 800 loses no digit.
+/// passage. No power of λ and no determinant is formed.
 template <class Scalar>
 class ResolvedCircle {
  public:
@@ -44,22 +47,32 @@ class ResolvedCircle {
   explicit ResolvedCircle(ModalResponse<Scalar> response) : response_(std::move(response)) {
     const Scalar close(0.12);
     const auto poles = response_.pole_increments();
-    Scalar angle = Scalar(1e-4) * nearest(poles, Scalar(0));
-    while (angle < pi<Scalar>) {
+    // Nearer to the real axis than that Im X is round-off.
+    const Scalar from_ends(1e-4);
+    Scalar angle = from_ends * nearest(poles, Scalar(0));
+    const Scalar last = pi<Scalar> - from_ends * nearest(poles, pi<Scalar>);
+    while (angle < last) {
       add(angle);
       const Scalar to_ends = std::min(angle, pi<Scalar> - angle);
       const Scalar step = close * std::min(nearest(poles, angle), to_ends);
-      angle += std::max(step, Scalar(1e-7));
+      const Scalar least = Scalar(1e-13) + Scalar(1e-14) * angle;
+      angle += std::min(std::max(step, least), Scalar(0.4) / Scalar(response_.held_commands()));
     }
     add(pi<Scalar>);
+    for (const Place& place : places_) {
+      size_of_z_ = std::max(size_of_z_, std::abs(place.g.displacement));
+      size_of_v_ = std::max(size_of_v_, std::abs(place.g.velocity));
+    }
   }
 
-  /// The number of roots of the loop outside the unit circle; −1 where one lies on it but for
-  /// round-off.
+  /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
+  /// lies on the circle, or the gains are so large or so little finite that p is noise.
   int roots_outside(const PdGains<Scalar>& gains) const {
     Scalar turned(0);
+    auto budget = static_cast<std::int64_t>(20 * places_.size());
     for (std::size_t i = 0; i + 1 < places_.size(); ++i)
-      turned += turn_between(places_[i], places_[i + 1], gains, 40);
+      turned += turn_between(places_[i], places_[i + 1], gains, budget);
+    if (budget < 0) return -1;
     const Scalar half_turns = turned / pi<Scalar>;
     if (!(std::abs(half_turns - std::round(half_turns)) < Scalar(0.05))) return -1;
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
@@ -98,7 +111,8 @@ class ResolvedCircle {
                    static_cast<double>(by_d ? gains.proportional : gains.differential),
                    by_d ? "N/m" : "N s/m");
     const auto found = passages(free, gains);
-    const auto outside = [&](const Scalar& x) {
+    const auto outside = [&](const Interval<Scalar>& gap) {
+      const Scalar x = gap.contains(Scalar(0)) ? Scalar(0) : gap.representative();
       return roots_outside(by_d ? PdGains<Scalar>{gains.proportional, x}
                                 : PdGains<Scalar>{x, gains.differential});
     };
@@ -150,17 +164,19 @@ class ResolvedCircle {
     return Scalar(1) - gains.proportional * g.displacement - gains.differential * g.velocity;
   }
 
-  /// The turn of p between two angles, halved while it is not small.
+  /// The turn of p between two angles, which are halved while it is not small.
+  /// @param budget  values of G that may still be taken
   Scalar turn_between(const Place& from, const Place& to, const PdGains<Scalar>& gains,
-                      int halvings) const {
+                      std::int64_t& budget) const {
     const auto a = characteristic(from.g, gains), b = characteristic(to.g, gains);
     const Scalar along = a.real() * b.real() + a.imag() * b.imag();
     const Scalar across = a.real() * b.imag() - a.imag() * b.real();
-    if (std::abs(across) <= along || halvings == 0) return std::atan2(across, along);
+    if (std::abs(across) <= along) return std::atan2(across, along);
     const Scalar middle = (from.angle + to.angle) / Scalar(2);
+    if (!std::isfinite(across) || !(from.angle < middle && middle < to.angle)) budget = 0;
+    if (--budget < 0) return Scalar(0);
     const Place between{middle, response_.at_angle(middle)};
-    return turn_between(from, between, gains, halvings - 1) +
-           turn_between(between, to, gains, halvings - 1);
+    return turn_between(from, between, gains, budget) + turn_between(between, to, gains, budget);
   }
 
   /// A root pair where Im X changes its sign.
@@ -169,8 +185,16 @@ class ResolvedCircle {
     const auto zero = bracketing_root<Scalar>(
         [&](const Scalar& angle) { return line.imaginary(response_.at_angle(angle)); },
         {lower, upper, at_lower, at_upper}, Scalar(0));
-    const Scalar gain = line.gain(response_.at_angle(zero.lower));
-    if (std::isfinite(gain)) found.push_back({gain, zero.lower, at_upper > Scalar(0) ? 2 : -2});
+    keep({line.gain(response_.at_angle(zero.lower)), zero.lower, at_upper > Scalar(0) ? 2 : -2},
+         line, found);
+  }
+
+  /// Takes a passage unless its gain is what round-off leaves where the free gain moves nothing, as
+  /// both do at λ = 1 of a drive between absorber and conductor.
+  void keep(const GainPassage<Scalar>& passage, const Line& line,
+            std::vector<GainPassage<Scalar>>& found) const {
+    const Scalar size = line.free == FreeGain::differential ? size_of_v_ : size_of_z_;
+    if (std::abs(passage.gain) * size < Scalar(1e12)) found.push_back(passage);
   }
 
   /// The root at λ = 1 or −1.
@@ -178,10 +202,10 @@ class ResolvedCircle {
   void add_real_root(const Line& line, const Place& place, const Scalar& rising,
                      std::vector<GainPassage<Scalar>>& found) const {
     const Scalar end = place.angle < Scalar(1) ? Scalar(0) : pi<Scalar>;
+    // G is real there but for round-off.
     const CommandResponse<Scalar> g = response_.at_angle(end);
-    const Scalar size = std::abs(line.of_free(places_[places_.size() / 2].g));
-    if (!(std::abs(line.of_free(g)) > Scalar(1e-13) * size)) return;  // it moves nothing there
-    found.push_back({line.gain(g), end, rising > Scalar(0) ? 1 : -1});
+    keep({line.rest(g).real() / line.of_free(g).real(), end, rising > Scalar(0) ? 1 : -1}, line,
+         found);
   }
 
   /// Two passages within a step, where Im X touches zero but for a little: looked for where its
@@ -223,38 +247,37 @@ class ResolvedCircle {
     return gaps;
   }
 
-  /// Of the gaps those without a root outside, touching ones joined.
+  /// Of the gaps those without a root outside; one that the winding cannot decide is none of them.
   template <class Outside>
   static std::vector<Interval<Scalar>> without_roots_outside(
       const std::vector<GainPassage<Scalar>>& found, const std::vector<Interval<Scalar>>& gaps,
       const Outside& outside) {
-    // The count begins in the widest bounded gap, where the winding is surest.
+    // The count begins in the widest bounded gap.
     std::size_t first = 0;
     for (std::size_t k = 1; k + 1 < gaps.size(); ++k)
       if (first == 0 || gaps[k].upper - gaps[k].lower > gaps[first].upper - gaps[first].lower)
         first = k;
     std::vector<int> roots(gaps.size());
-    roots[first] = outside(gaps[first].representative());
+    roots[first] = outside(gaps[first]);
     for (std::size_t k = first; k + 1 < gaps.size(); ++k)
       roots[k + 1] = roots[k] + found[k].leaving;
     for (std::size_t k = first; k-- > 0;) roots[k] = roots[k + 1] - found[k].leaving;
-    bool agree = roots[first] >= 0;
-    for (std::size_t k = 0; k < gaps.size() && agree; ++k) {
-      agree = roots[k] >= 0;
-      if (roots[k] == 0 && gaps[k].lower < gaps[k].upper && k != first)
-        agree = agree && outside(gaps[k].representative()) == 0;
-    }
+    const int fewest = *std::min_element(roots.begin(), roots.end());
+    const int doubtful = gaps.size() <= 12 ? std::numeric_limits<int>::max() : std::max(4, fewest);
+    bool agree = fewest >= 0;
+    for (std::size_t k = 0; k < gaps.size() && agree; ++k)
+      if (k != first && roots[k] <= doubtful && gaps[k].lower < gaps[k].upper)
+        agree = outside(gaps[k]) == roots[k];
     std::vector<Interval<Scalar>> stable;
-    for (std::size_t k = 0; k < gaps.size(); ++k) {
-      if (!(gaps[k].lower < gaps[k].upper)) continue;
-      if (agree ? roots[k] != 0 : outside(gaps[k].representative()) != 0) continue;
-      stable.push_back(gaps[k]);
-    }
+    for (std::size_t k = 0; k < gaps.size(); ++k)
+      if (gaps[k].lower < gaps[k].upper && (agree ? roots[k] : outside(gaps[k])) == 0)
+        stable.push_back(gaps[k]);
     return stable;
   }
 
   ModalResponse<Scalar> response_;
-  std::vector<Place> places_;  // ascending, from about 0 to π
+  std::vector<Place> places_;           // ascending, from about 0 to π
+  Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
