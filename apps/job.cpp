@@ -70,6 +70,19 @@ void doubt(JobContext& context, const std::vector<std::string>& texts) {
   }
 }
 
+/// Settles the plant where the job needs it, and warns of what is not plausible.
+void examine(JobContext& context, bool needs_plant, bool needs_gains) {
+  report_warning(wind_warning(context.case_data), context.quiet);
+  doubt(context, doubts_about(context.case_data, quantities_of_case()));
+  doubt(context, {contradicted_conductor_text(context.case_data)});
+  if (needs_plant) context.plant_remark = settle_plant(context.case_data);
+  report_warning(context.plant_remark, context.quiet);
+  // What follows from one mistake in the plant would look like another.
+  if (context.doubts.empty() && (needs_plant || !plant_is_reduced(context.case_data)))
+    doubt(context, doubts_about(context.case_data, quantities_of_plant()));
+  if (needs_gains) doubt(context, {borrowed_gains_text(context.case_data)});
+}
+
 }  // namespace
 
 CLI::App* add_subcommand(CLI::App& program, const std::string& name) {
@@ -146,18 +159,9 @@ JobContext Job::context(const std::optional<std::string>& case_file) const {
   require_not_overwritten(context.case_data.excitation.record, context.output);
   if (common_->output && !is_told("writes_folder", false))
     require_output_name(*common_->output, has_picture(context.job));
-  report_warning(wind_warning(context.case_data), context.quiet);
-  doubt(context, doubts_about(context.case_data, quantities_of_case()));
-  doubt(context, {contradicted_conductor_text(context.case_data)});
-  const bool needs_plant = is_told("needs_plant", true);
-  if (needs_plant) context.plant_remark = settle_plant(context.case_data);
-  report_warning(context.plant_remark, context.quiet);
-  // What follows from one mistake in the plant would look like another.
-  if (context.doubts.empty() && (needs_plant || !plant_is_reduced(context.case_data)))
-    doubt(context, doubts_about(context.case_data, quantities_of_plant()));
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
-  if (is_told("needs_gains", false) && (no_control == nullptr || no_control->empty()))
-    doubt(context, {borrowed_gains_text(context.case_data)});
+  const bool controlled = no_control == nullptr || no_control->empty();
+  examine(context, is_told("needs_plant", true), controlled && is_told("needs_gains", false));
   context.options = given_options(*options_);
   context.progress = common_->progress;
   context.yes = common_->yes;

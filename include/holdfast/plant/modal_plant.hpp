@@ -93,6 +93,43 @@ PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
   return {to_force, transmitted * to_force};
 }
 
+namespace detail {
+
+/// How the modes of a conductor move by themselves, and by what its place moves and is moved.
+template <class Scalar>
+struct ModesAtPlace {
+  Matrix<Scalar, Eigen::Dynamic> released;      // of the bare modes
+  RowVector<Scalar, Eigen::Dynamic> z, v;       // of the conductor at the place
+  RowVector<Scalar, Eigen::Dynamic> restoring;  // φᵀ(ω² q + 2ζω q̇), which presses on a clamp
+  Vector<Scalar, Eigen::Dynamic> receptive;     // φ/M on the velocities
+  Scalar mobility{0};                           // Σ φ²/M, 1/kg
+
+  /// @param order  2N and the states behind them, which are left at zero
+  ModesAtPlace(const std::vector<PlaceMode<Scalar>>& modes, Eigen::Index order)
+      : released(Matrix<Scalar, Eigen::Dynamic>::Zero(order, order)),
+        z(RowVector<Scalar, Eigen::Dynamic>::Zero(order)),
+        v(z),
+        restoring(z),
+        receptive(z.transpose()) {
+    Eigen::Index q = 0;
+    for (const PlaceMode<Scalar>& mode : modes) {
+      const Scalar stiffness = mode.angular_frequency * mode.angular_frequency;
+      const Scalar damping = Scalar(2) * mode.damping_ratio * mode.angular_frequency;
+      z[q] = v[q + 1] = mode.shape;
+      restoring[q] = mode.shape * stiffness;
+      restoring[q + 1] = mode.shape * damping;
+      receptive[q + 1] = mode.shape / mode.mass;
+      mobility += mode.shape * mode.shape / mode.mass;
+      released(q, q + 1) = Scalar(1);
+      released(q + 1, q) = -stiffness;
+      released(q + 1, q + 1) = -damping;
+      q += 2;
+    }
+  }
+};
+
+}  // namespace detail
+
 /// A conductor by N of its modes with the absorber, as a plant of order 2N + 2.
 ///
 ///     x = [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
@@ -106,47 +143,31 @@ template <class Scalar>
 LinearPlant<Scalar> modal_plant(const std::vector<PlaceMode<Scalar>>& modes,
                                 const Absorber<Scalar>& absorber) {
   if constexpr (std::is_same_v<Scalar, double>) validate(modes, absorber);
-  using Row = RowVector<Scalar, Eigen::Dynamic>;
-  using Column = Vector<Scalar, Eigen::Dynamic>;
-  const auto count = static_cast<Eigen::Index>(modes.size());
-  const Eigen::Index order = 2 * count + 2, z2 = 2 * count, v2 = z2 + 1;
-
-  Row z = Row::Zero(order), v = z;  // of the conductor at the absorber
-  Row restoring = z;  // φᵀ (ω² q + 2 ζ ω q̇), what the modes press on the clamp with
-  Column receptive = Column::Zero(order);  // φ/M on the velocities
-  Scalar mobility(0);                      // Σ φ²/M, 1/kg
-  LinearPlant<Scalar> plant;
-  plant.released_matrix = Matrix<Scalar, Eigen::Dynamic>::Zero(order, order);
-  for (Eigen::Index n = 0; n < count; ++n) {
-    const PlaceMode<Scalar>& mode = modes[static_cast<std::size_t>(n)];
-    const Eigen::Index q = 2 * n, rate = q + 1;
-    const Scalar stiffness = mode.angular_frequency * mode.angular_frequency;
-    const Scalar damping = Scalar(2) * mode.damping_ratio * mode.angular_frequency;
-    z[q] = v[rate] = mode.shape;
-    restoring[q] = mode.shape * stiffness;
-    restoring[rate] = mode.shape * damping;
-    receptive[rate] = mode.shape / mode.mass;
-    mobility += mode.shape * mode.shape / mode.mass;
-    plant.released_matrix(q, rate) = Scalar(1);
-    plant.released_matrix(rate, q) = -stiffness;
-    plant.released_matrix(rate, rate) = -damping;
-  }
-  const Scalar share = Scalar(1) / (Scalar(1) + absorber.clamp_mass * mobility);
-  plant.released_matrix += absorber.clamp_mass * share * receptive * restoring;
-
-  Row relative_z = -z, relative_v = -v;
+  const auto z2 = static_cast<Eigen::Index>(2 * modes.size()), v2 = z2 + 1, order = z2 + 2;
+  const detail::ModesAtPlace<Scalar> conductor(modes, order);
+  RowVector<Scalar, Eigen::Dynamic> relative_z = -conductor.z, relative_v = -conductor.v;
   relative_z[z2] = relative_v[v2] = Scalar(1);
-  plant.excitation = share * receptive;
+
+  LinearPlant<Scalar> plant;
+  const Scalar share = Scalar(1) / (Scalar(1) + absorber.clamp_mass * conductor.mobility);
+  plant.excitation = share * conductor.receptive;
   plant.force_input = plant.excitation;
   plant.force_input[v2] = Scalar(-1) / absorber.mass;
-  plant.released_matrix +=
+  plant.released_matrix =
+      conductor.released + absorber.clamp_mass * share * conductor.receptive * conductor.restoring +
       plant.force_input * (absorber.stiffness * relative_z + absorber.damping * relative_v);
   plant.released_matrix(z2, v2) += Scalar(1);
 
-  plant.command_input = Column::Zero(order);
-  plant.drive_force = Row::Zero(order);
-  plant.connections = {
-      z, v, z, v, relative_z, relative_v, Column::Unit(order, z2), Column::Unit(order, v2)};
+  plant.command_input = Vector<Scalar, Eigen::Dynamic>::Zero(order);
+  plant.drive_force = RowVector<Scalar, Eigen::Dynamic>::Zero(order);
+  plant.connections = {conductor.z,
+                       conductor.v,
+                       conductor.z,
+                       conductor.v,
+                       relative_z,
+                       relative_v,
+                       Vector<Scalar, Eigen::Dynamic>::Unit(order, z2),
+                       Vector<Scalar, Eigen::Dynamic>::Unit(order, v2)};
   return plant;
 }
 
