@@ -10,6 +10,7 @@
 #include "holdfast/stability/sensitivity/minimum_radius_sensitivity.hpp"
 #include "job.hpp"
 #include "jobs/charts/names.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -78,6 +79,7 @@ void add_minimum_amplitude(const Question& q, std::vector<Sensitivities>& answer
 void add_largest_period(const Question& q, DelayCriterion criterion, const char* name,
                         std::vector<Sensitivities>& answers) {
   MaxDelayOptions question;
+  question.watch = throw_if_interrupted;
   question.frequency = q.frequency;
   question.proportional_gain = q.gains.proportional;
   question.criterion = criterion;

@@ -231,6 +231,15 @@ std::string contradicted_conductor_text(const Case& the_case) {
          differ + "; take [plant] away to have it reduced from the conductor";
 }
 
+std::string borrowed_control(const Case& the_case) {
+  if (!the_case.plant_given && !the_case.conductor_given) return "";
+  Keys missing;
+  for (const char* key : {"control.proportional_gain", "control.differential_gain",
+                          "control.sampling_period", "backlash.width"})
+    if (!is_given(the_case, key)) missing.emplace_back(key);
+  return listed(missing);
+}
+
 std::string borrowed_gains_text(const Case& the_case) {
   if (is_given(the_case, "control.proportional_gain") ||
       is_given(the_case, "control.differential_gain"))
@@ -242,8 +251,7 @@ std::string borrowed_gains_text(const Case& the_case) {
   constexpr double factor = 3.0;
   if (here < factor * there && there < factor * here) return "";
   return "control.proportional_gain and control.differential_gain are not given: the gains are "
-         "those "
-         "of the built-in case, whose absorber is another (sqrt(k2 m2) is " +
+         "those of the built-in case, whose absorber is another (sqrt(k2 m2) is " +
          format_rounded(here) + " N s/m here and " + format_rounded(there) +
          " there); holdfast design names some for this plant";
 }

@@ -40,4 +40,8 @@ std::string contradicted_conductor_text(const Case& the_case);
 /// where the user gave either gain.
 std::string borrowed_gains_text(const Case& the_case);
 
+/// The keys of gains, sampling period and play that a case with a plant or conductor of its own
+/// leaves to the built-in one: "control.sampling_period, backlash.width". Empty without such.
+std::string borrowed_control(const Case& the_case);
+
 }  // namespace holdfast::program

@@ -5,6 +5,7 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -33,6 +34,7 @@ const MinimumAmplitude& BestGains::of(const IdealLoop<double>& loop) {
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {
   const TwoMass<double> plant = plant_of(the_case);
   MaxDelayOptions question;
+  question.watch = throw_if_interrupted;
   question.criterion = DelayCriterion::attenuates;
   question.hold = force_hold_of(the_case);
   question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;

@@ -8,6 +8,7 @@
 #include "case/case_keys.hpp"
 #include "case/model/held_force.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/plausibility/doubts.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
@@ -89,13 +90,8 @@ std::string exact_switching_text(const Question& question) {
   return page_text("left by exact switching", {{"ratio", percent(exact.ratio())}});
 }
 
-/// The gains and the play that the user's case leaves to the built-in one.
 std::string borrowed_text(const Case& the_case) {
-  if (!the_case.plant_given && !the_case.conductor_given) return "";
-  std::string names;
-  for (const char* key : {"control.proportional_gain", "control.differential_gain",
-                          "control.sampling_period", "backlash.width"})
-    if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
+  const std::string names = borrowed_control(the_case);
   return names.empty() ? "" : page_text("not given", {{"names", names}});
 }
 

@@ -1,5 +1,7 @@
 #include "holdfast/stability/design/max_delay.hpp"
 
+#include <stdexcept>
+
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -121,6 +123,19 @@ TEST(MaxDelay, IsUnlimitedWhereNoControlIsNeededForStability) {
 
 /// A plant a hundred times slower than the paper's: its first period without a gain lies beyond 1
 /// s.
+TEST(MaxDelay, IsWatchedAtEachStepAndEndsWhereTheWatchThrows) {
+  auto options = tuned_to(10.0, DelayCriterion::stable);
+  int looks = 0;
+  options.watch = [&looks] { ++looks; };
+  const auto answer = max_sampling_period(kollar2022_plant(), options);
+  ASSERT_EQ(answer.outcome, MaxDelayOutcome::found);
+  ASSERT_GT(looks, 2);
+  options.watch = [left = looks / 2]() mutable {
+    if (--left < 0) throw std::runtime_error("told to end");
+  };
+  EXPECT_THROW(max_sampling_period(kollar2022_plant(), options), std::runtime_error);
+}
+
 TEST(MaxDelay, IsLookedForInThePlantsOwnTime) {
   auto slow = kollar2022_plant();
   slow.conductor_stiffness *= 1e-4;

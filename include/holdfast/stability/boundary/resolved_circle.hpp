@@ -84,18 +84,19 @@ class ResolvedCircle {
   std::vector<GainPassage<Scalar>> passages(FreeGain free, const PdGains<Scalar>& gains) const {
     const Line line{free, gains};
     std::vector<GainPassage<Scalar>> found;
-    Scalar before = line.imaginary(places_.front());
-    add_real_root(line, places_.front(), before, found);
-    for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
-      const Scalar here = line.imaginary(places_[i]);
-      if ((before > Scalar(0)) != (here > Scalar(0))) {
-        add_pair(line, places_[i - 1].angle, before, places_[i].angle, here, found);
-      } else if (i + 2 < places_.size()) {
-        add_close_pairs(line, i, before, here, found);
+    // Not at the last place, π, where Im X is round-off.
+    std::vector<Scalar> values;
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i)
+      values.push_back(line.imaginary(places_[i].g));
+    add_real_root(line, places_.front(), values.front(), found);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if ((values[i - 1] > Scalar(0)) != (values[i] > Scalar(0))) {
+        add_pair(line, places_[i - 1].angle, values[i - 1], places_[i].angle, values[i], found);
+      } else if (i + 1 < values.size()) {
+        add_close_pairs(line, i, &values[i], found);
       }
-      before = here;
     }
-    add_real_root(line, places_.back(), -before, found);
+    add_real_root(line, places_.back(), -values.back(), found);
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return a.gain < b.gain; });
     return found;
@@ -143,7 +144,6 @@ class ResolvedCircle {
       const std::complex<Scalar> a = rest(g), b = of_free(g);
       return a.imag() * b.real() - a.real() * b.imag();
     }
-    Scalar imaginary(const Place& place) const { return imaginary(place.g); }
     /// Re X.
     Scalar gain(const CommandResponse<Scalar>& g) const { return (rest(g) / of_free(g)).real(); }
   };
@@ -152,8 +152,7 @@ class ResolvedCircle {
 
   /// min |e^{iθ} − e^{sτ}| over the poles.
   static Scalar nearest(const std::vector<std::complex<Scalar>>& poles, const Scalar& angle) {
-    const Scalar half_sine = std::sin(angle / Scalar(2));
-    const std::complex<Scalar> mu(Scalar(-2) * half_sine * half_sine, std::sin(angle));
+    const std::complex<Scalar> mu = circle_increment(angle);
     Scalar least(4);
     for (const auto& pole : poles) least = std::min(least, std::norm(mu - pole));
     return std::sqrt(least);
@@ -210,9 +209,10 @@ class ResolvedCircle {
 
   /// Two passages within a step, where Im X touches zero but for a little: looked for where its
   /// modulus is least among three neighbours.
-  void add_close_pairs(const Line& line, std::size_t i, const Scalar& before, const Scalar& here,
+  /// @param at  the value of place i, between those of its neighbours
+  void add_close_pairs(const Line& line, std::size_t i, const Scalar* at,
                        std::vector<GainPassage<Scalar>>& found) const {
-    const Scalar after = line.imaginary(places_[i + 1]);
+    const Scalar before = at[-1], here = at[0], after = at[1];
     if ((after > Scalar(0)) != (here > Scalar(0)) || std::abs(here) > std::abs(before) ||
         std::abs(here) > std::abs(after))
       return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct MaxDelayOptions {
                                   ///< where no D is shown to serve all over a step of this ratio
   int most_steps = 20000;  ///< ≥ 1; of the search, each some 40 µs or more for two masses,
                            ///< after which it gives up
+  std::function<void()> watch = {};  ///< called at each step; may throw to end the search
 
   /// ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }

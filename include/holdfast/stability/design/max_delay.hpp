@@ -122,12 +122,17 @@ class DelaySearch {
 
   bool is_exhausted() const { return steps_ >= options_.most_steps; }
 
+  void count_step() {
+    ++steps_;
+    if (options_.watch) options_.watch();
+  }
+
   /// Moves `feasible_` to the goal by links while there are steps left; @return an infeasible
   /// period met on the way.
   std::optional<double> advance(double goal) {
     double ratio = longest_link_;
     while (feasible_ < goal && !is_exhausted()) {
-      ++steps_;
+      count_step();
       const double next = std::min(goal, feasible_ * ratio);
       Intervals gains = gains_at(next);
       if (gains.empty()) return next;
@@ -168,7 +173,7 @@ class DelaySearch {
     bool fails = false;
     const auto until_failure = [&](double period, double radius) {
       if (fails || is_exhausted()) return Stretch::open;
-      ++steps_;
+      count_step();
       const Stretch stretch = shown(period, radius);
       fails = stretch == Stretch::fails;
       return fails ? Stretch::open : stretch;

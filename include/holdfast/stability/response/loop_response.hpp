@@ -17,6 +17,14 @@ struct CommandResponse {
   std::complex<Scalar> velocity;      ///< G_v(λ) (m/(N s))
 };
 
+/// e^{iθ} − 1 without cancellation.
+/// @param angle  θ (rad)
+template <class Scalar>
+std::complex<Scalar> circle_increment(const Scalar& angle) {
+  const Scalar half_sine = std::sin(angle / Scalar(2));
+  return {Scalar(-2) * half_sine * half_sine, std::sin(angle)};
+}
+
 /// The zero-order-hold transfer functions of a loop of any order,
 ///
 ///     G_z(λ) = h_z (λI − S₀)⁻¹ s,   G_v(λ) = h_v (λI − S₀)⁻¹ s
@@ -69,8 +77,7 @@ class LoopResponse {
   /// G_z and G_v at λ = e^{iθ}.
   /// @param angle  θ (rad), 0 … π
   CommandResponse<Scalar> at_angle(const Scalar& angle) const {
-    const Scalar half_sine = std::sin(angle / Scalar(2));
-    return at_distance_from_one({Scalar(-2) * half_sine * half_sine, std::sin(angle)});
+    return at_distance_from_one(circle_increment(angle));
   }
 
  private:

@@ -88,8 +88,7 @@ class ModalResponse {
   /// G_z and G_v at λ = e^{iθ}.
   /// @param angle  θ (rad), 0 … π
   CommandResponse<Scalar> at_angle(const Scalar& angle) const {
-    const Scalar half_sine = std::sin(angle / Scalar(2));
-    return at_distance_from_one({Scalar(-2) * half_sine * half_sine, std::sin(angle)});
+    return at_distance_from_one(circle_increment(angle));
   }
 
   /// e^{s_k τ} − 1 of the plant's eigenvalues.
