@@ -121,8 +121,6 @@ TEST(MaxDelay, IsUnlimitedWhereNoControlIsNeededForStability) {
   EXPECT_EQ(answer.sampling_period, std::numeric_limits<double>::infinity());
 }
 
-/// A plant a hundred times slower than the paper's: its first period without a gain lies beyond 1
-/// s.
 TEST(MaxDelay, IsWatchedAtEachStepAndEndsWhereTheWatchThrows) {
   auto options = tuned_to(10.0, DelayCriterion::stable);
   int looks = 0;
@@ -136,6 +134,8 @@ TEST(MaxDelay, IsWatchedAtEachStepAndEndsWhereTheWatchThrows) {
   EXPECT_THROW(max_sampling_period(kollar2022_plant(), options), std::runtime_error);
 }
 
+/// A plant a hundred times slower than the paper's: its first period without a gain lies beyond 1
+/// s.
 TEST(MaxDelay, IsLookedForInThePlantsOwnTime) {
   auto slow = kollar2022_plant();
   slow.conductor_stiffness *= 1e-4;
