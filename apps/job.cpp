@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "io/file/input.hpp"
@@ -70,11 +71,31 @@ void doubt(JobContext& context, const std::vector<std::string>& texts) {
   }
 }
 
+/// The names of the jobs that answer on every plant, for a message.
+std::string jobs_on_any_plant() {
+  std::string names;
+  for (const auto& [name, told] : *job_texts()["jobs"].as_table())
+    if (told.as_table()->get("any_plant") != nullptr)
+      names += (names.empty() ? "" : ", ") + std::string(name.str());
+  return names;
+}
+
+/// Nothing is silently answered by two masses.
+void require_two_masses(const Case& the_case, const std::string& job) {
+  if (!is_modal(the_case)) return;
+  const auto place = the_case.places.find("plant.model");
+  throw WrongInput((place == the_case.places.end() ? "" : place->second + ": ") +
+                   "plant.model = \"" + the_case.plant.model + "\": " + job +
+                   " answers for two_masses alone; those that answer on the conductor itself are " +
+                   jobs_on_any_plant());
+}
+
 /// Settles the plant where the job needs it, and warns of what is not plausible.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
   doubt(context, doubts_about(context.case_data, quantities_of_case()));
   doubt(context, {contradicted_conductor_text(context.case_data)});
+  if (needs_plant) doubt(context, {modes_warning(context.case_data)});
   if (needs_plant) context.plant_remark = settle_plant(context.case_data);
   report_warning(context.plant_remark, context.quiet);
   // What follows from one mistake in the plant would look like another.
@@ -159,6 +180,7 @@ JobContext Job::context(const std::optional<std::string>& case_file) const {
   require_not_overwritten(context.case_data.excitation.record, context.output);
   if (common_->output && !is_told("writes_folder", false))
     require_output_name(*common_->output, has_picture(context.job));
+  if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
   examine(context, is_told("needs_plant", true), controlled && is_told("needs_gains", false));

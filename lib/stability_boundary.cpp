@@ -30,7 +30,7 @@ template std::vector<GainCrossing> circle_crossings(const LoopMap<double>&, Free
                                                     const PdGains<double>&);
 template std::vector<Interval<double>> stable_gains(const LoopMap<double>&, FreeGain,
                                                     const PdGains<double>&);
-template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
+template std::vector<BoundaryPoint<double>> stability_boundary(const ModalResponse<double>&,
                                                                const Interval<double>&);
 
 template class ResolvedCircle<double>;

@@ -109,7 +109,7 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& options)
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
   const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
-  const LyapunovResult result = with_motion_of(
+  const LyapunovResult result = with_two_mass_motion_of(
       context.case_data, {options.switching},
       [&](const auto& motion) { return exponents_of(motion, context, options, run); });
   if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
@@ -129,7 +129,7 @@ void write_exponent_history(const JobContext& context, const LyapunovQuestion& o
   const std::int64_t steps = steps_of(context, options);
   require_consistent(context.case_data, options);
   Table table(context, columns_of("exponent history"));
-  with_motion_of(context.case_data, {options.switching}, [&](const auto& motion) {
+  with_two_mass_motion_of(context.case_data, {options.switching}, [&](const auto& motion) {
     write_history(motion, context, options, steps, table);
   });
   table.commit();

@@ -16,9 +16,11 @@ double known(const std::optional<Part>& part, const Read& read) {
 }
 
 template <class Orbit>
-std::string warning_of(const OrbitResultOf<Orbit>& search) {
-  const bool certified = search.outcome == OrbitOutcome::certified;
-  return certified ? near_border_warning(search.orbit->border_share()) : "";
+void warn_of(const OrbitResultOf<Orbit>& search, bool quiet) {
+  if (search.outcome != OrbitOutcome::certified) return;
+  const Orbit& orbit = *search.orbit;
+  report_warning(near_border_warning(orbit.border_share()), quiet);
+  report_warning(shifted_copies_warning(orbit.period_samples(), orbit.ratio.denominator), quiet);
 }
 
 /// The verdict for a reader who does not count columns: "periodic(100), 0.1 s: …".
@@ -34,7 +36,7 @@ template <class Found>
 void write(const JobContext& context, Table& table, const Found& found) {
   const Classification& classification = found.classification;
   const ChaosIndicators& indicators = found.indicators;
-  report_warning(warning_of(found.search), context.quiet);
+  warn_of(found.search, context.quiet);
   report_warning(stepped_reading_warning(context.case_data), context.quiet);
   const double period = classification.period > 0 ? static_cast<double>(classification.period) *
                                                         context.case_data.control.sampling_period

@@ -6,8 +6,8 @@
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
@@ -32,7 +32,8 @@ void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>
   if (given.noise_rms > 0.0)
     derived.emplace_back("noise_period",
                          given.noise_lines / (given.noise_highest - given.noise_lowest));
-  derived.emplace_back("static_displacement", excitation.amplitude / plant.conductor_stiffness);
+  if (!is_modal(the_case))
+    derived.emplace_back("static_displacement", excitation.amplitude / plant.conductor_stiffness);
 }
 
 void add_gains(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
@@ -69,11 +70,12 @@ void add_clock(Derivations& derived, const Case& the_case) {
 }
 
 void add_stability(Derivations& derived, const Case& the_case) {
-  const auto loop = loop_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
-  derived.emplace_back("spectral_radius", spectral_radius(loop.engaged_map(gains)));
-  const auto stable =
-      stable_differential_gains(characteristic_polynomial(loop), gains.proportional);
+  derived.emplace_back("spectral_radius", spectral_radius_of(the_case));
+  const auto stable = is_modal(the_case)
+                          ? circle_of(the_case).stable_gains(FreeGain::differential, gains)
+                          : stable_differential_gains(characteristic_polynomial(loop_of(the_case)),
+                                                      gains.proportional);
   double lower = unknown, upper = unknown;
   for (const auto& interval : stable) {
     const bool nearest = interval.lower <= gains.differential || std::isnan(lower);
@@ -89,7 +91,7 @@ Derivations derivations_of(const Case& the_case) {
   Derivations derived;
   add_force(derived, the_case, plant);
   add_gains(derived, the_case, plant);
-  add_modes(derived, plant);
+  if (!is_modal(the_case)) add_modes(derived, plant);
   add_clock(derived, the_case);
   add_stability(derived, the_case);
   return derived;
@@ -102,7 +104,7 @@ std::string origin_of(const CaseKey& key, const Case& the_case) {
   const bool computed =
       (key.name == "reduction.first_frequency" && the_case.first_frequency_computed) ||
       (key.name == "reduction.second_frequency" && the_case.second_frequency_computed) ||
-      (key.table() == "plant" && plant_is_reduced(the_case));
+      (key.table() == "plant" && !key.beyond_two_masses && plant_is_reduced(the_case));
   return computed ? "computed from the conductor" : "built-in";
 }
 

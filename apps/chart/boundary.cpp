@@ -1,9 +1,11 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "case/axes/axis.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
+#include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
@@ -66,7 +68,7 @@ struct GainPlane {
   const GainName& gain;
   const GainName& fixed;
   double value;
-  std::vector<Interval<Precise>> intervals;
+  std::vector<Interval<double>> intervals;
 
   std::string refusal() const {
     return std::string("no ") + gain.symbol + " stabilises the loop at " + fixed.symbol + " = " +
@@ -74,17 +76,43 @@ struct GainPlane {
   }
 };
 
+std::vector<Interval<double>> rounded(const std::vector<Interval<Precise>>& intervals) {
+  std::vector<Interval<double>> result;
+  result.reserve(intervals.size());
+  for (const Interval<Precise>& interval : intervals)
+    result.push_back({static_cast<double>(interval.lower), static_cast<double>(interval.upper)});
+  return result;
+}
+
 template <int Degree>
 std::vector<GainPlane> answers(const AffinePolynomial<Precise, Degree>& polynomial,
                                const FixedGains& fixed) {
   std::vector<GainPlane> result;
   for (const double p : fixed.proportional)
+    result.push_back({differential, proportional, p,
+                      rounded(stable_differential_gains(polynomial, Precise(p)))});
+  for (const double d : fixed.differential)
+    result.push_back({proportional, differential, d,
+                      rounded(stable_proportional_gains(polynomial, Precise(d)))});
+  return result;
+}
+
+/// Of a modal case.
+std::vector<GainPlane> answers(const ResolvedCircle<double>& circle, const FixedGains& fixed) {
+  std::vector<GainPlane> result;
+  for (const double p : fixed.proportional)
     result.push_back(
-        {differential, proportional, p, stable_differential_gains(polynomial, Precise(p))});
+        {differential, proportional, p, circle.stable_gains(FreeGain::differential, {p, 0.0})});
   for (const double d : fixed.differential)
     result.push_back(
-        {proportional, differential, d, stable_proportional_gains(polynomial, Precise(d))});
+        {proportional, differential, d, circle.stable_gains(FreeGain::proportional, {0.0, d})});
   return result;
+}
+
+std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bool continuous) {
+  if (is_modal(the_case)) return answers(circle_of(the_case), fixed);
+  return with_polynomial<Precise>(
+      the_case, continuous, [&](const auto& polynomial) { return answers(polynomial, fixed); });
 }
 
 /// The refusals of those without an interval, each on its own or, when there is no other, as one.
@@ -108,11 +136,14 @@ Values angle_words(bool continuous) {
 
 void write_boundary(const JobContext& context, const Interval<double>& gains, bool continuous) {
   const Case& the_case = context.case_data;
-  report_warning(near_cusp_warning(precise_features(the_case, {gains, every_gain}, continuous)),
-                 context.quiet);
-  const auto points = with_polynomial<double>(the_case, continuous, [&](const auto& polynomial) {
-    return stability_boundary(polynomial, gains);
-  });
+  if (!is_modal(the_case))
+    report_warning(near_cusp_warning(precise_features(the_case, {gains, every_gain}, continuous)),
+                   context.quiet);
+  const auto points = is_modal(the_case) ? stability_boundary(circle_of(the_case).response(), gains)
+                                         : with_polynomial<double>(
+                                               the_case, continuous, [&](const auto& polynomial) {
+                                                 return stability_boundary(polynomial, gains);
+                                               });
   Table table(context, columns_of("boundary", angle_words(continuous)));
   for (const auto& point : points) {
     table.row(name_in(curve_names, point.curve), point.angle, point.gains.proportional,
@@ -140,16 +171,12 @@ void write_boundary_features(const JobContext& context, const GainWindow& window
 /// One row for every stable interval: of D at each P, then of P at each D. A gain at which nothing
 /// stabilises the loop is warned of, since its row is missing.
 void write_stable_intervals(const JobContext& context, const FixedGains& fixed, bool continuous) {
-  const auto all =
-      with_polynomial<Precise>(context.case_data, continuous,
-                               [&](const auto& polynomial) { return answers(polynomial, fixed); });
+  const std::vector<GainPlane> all = answers(context.case_data, fixed, continuous);
   Table table(context, columns_of("stable intervals"));
   report_refusals(all, context.quiet);
   for (const GainPlane& answer : all) {
-    for (const Interval<Precise>& interval : answer.intervals) {
-      table.row(answer.gain.column, answer.value, static_cast<double>(interval.lower),
-                static_cast<double>(interval.upper));
-    }
+    for (const Interval<double>& interval : answer.intervals)
+      table.row(answer.gain.column, answer.value, interval.lower, interval.upper);
   }
   table.commit();
 }
@@ -184,6 +211,11 @@ struct BoundaryQuestion {
 
   void run(const Job& job) const {
     const JobContext context = job.context();
+    if (is_modal(context.case_data) && (continuous || regions || features))
+      throw WrongInput(std::string(continuous ? "--continuous"
+                                   : regions  ? "--regions"
+                                              : "--features") +
+                       " goes with plant.model = \"two_masses\" alone");
     if (stable_interval) {
       write_stable_intervals(context, fixed_gains(job, context.case_data), continuous);
     } else if (regions) {

@@ -1,7 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
-#include "case/model/plant_of_case.hpp"
-#include "holdfast/control/loop_input.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 
@@ -18,20 +17,19 @@ struct ResponseQuestion {
   }
 
   void run(const JobContext& context) const {
-    const SampledLoop<double> loop = loop_of(context.case_data);
     const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
     const double omega = excitation.angular_frequency();
-    const TwoMass<double> plant = plant_of(context.case_data);
-    const auto input = harmonic_input(plant, loop, force_hold_of(context.case_data), omega);
-    const auto response = SteadyResponse<double>(loop, input, omega)
-                              .relative_to(true_amplitude_per_force(plant, omega));
+    const Case& the_case = context.case_data;
+    const auto response =
+        steady_response_of(the_case, sampling_of(the_case), force_hold_of(the_case), omega)
+            .relative_to(true_amplitude_of(the_case, omega));
     report_warning(held_force_warning(context.case_data,
                                       "amplitudes are those of the force as it "
                                       "is held, ratios to the true force's"),
                    context.quiet);
     const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
     GridOutput output(context, {gain_axes(grid), cell_columns_of("response")});
-    append_response_chart(context, loop, response, excitation.amplitude, grid, output);
+    append_response_chart(context, response, excitation.amplitude, grid, output);
     output.commit();
   }
 };

@@ -1,6 +1,7 @@
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "job.hpp"
@@ -47,6 +48,9 @@ struct StabilityQuestion {
     job.add("--radius", radius);
   }
   void run(const JobContext& context) const {
+    if (is_modal(context.case_data) && (continuous || !axes.empty()))
+      throw WrongInput(std::string(continuous ? "--continuous" : "--axis") +
+                       " goes with plant.model = \"two_masses\" alone");
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
   }
 
@@ -62,7 +66,9 @@ struct StabilityQuestion {
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
   const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
   GridOutput output(context, {gain_axes(grid), columns()});
-  if (continuous) {
+  if (is_modal(context.case_data)) {
+    append_modal_chart(context, grid, radius, output);
+  } else if (continuous) {
     append_continuous_chart(context, plant_of(context.case_data), grid, radius, output);
   } else {
     const LoopChart chart{operating_point_of(context.case_data),

@@ -24,6 +24,7 @@ struct DeviationQuestion {
     if (offset == 0.0)
       throw WrongInput(
           "--offset is 0: the neighbour would be the motion itself; the default is 1e-5 m");
+    require_displaceable(context.case_data, switching, "deviation");
     require_within_span("--offset", offset, context.case_data);
     Table table(context, columns_of("deviation"));
     const std::int64_t samples = samples_of(context.case_data, duration);
@@ -46,7 +47,7 @@ struct DeviationQuestion {
 
   /// Neighbours that have not come together in the duration: why, by the orbits they come to.
   void tell_why_apart(const JobContext& context, double last) const {
-    if (!is_of_the_paper(context.case_data, switching)) return;
+    if (is_modal(context.case_data) || !is_of_the_paper(context.case_data, switching)) return;
     const Vector<double, 4> first = initial_state_of(context.case_data);
     Vector<double, 4> second = first;
     second[0] += offset;

@@ -33,6 +33,7 @@ struct SimulateQuestion {
 
   void run(const JobContext& context) const {
     const std::optional<Kick> kicked = parsed_kick();
+    if (kicked) require_displaceable(context.case_data, switching, "--kick");
     if (from > duration) throw WrongInput("--from lies after --duration: no row is left");
     if (kicked) require_within_span("--kick", kicked->displacement, context.case_data);
     if (kicked && kicked->time > duration) throw WrongInput("--kick acts after --duration");

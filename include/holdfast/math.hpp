@@ -3,6 +3,7 @@
 /// Linear algebra, polynomials, roots, statistics and signals.
 
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
@@ -20,6 +21,7 @@
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/math/roots/series.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "holdfast/math/signal/spectrum.hpp"

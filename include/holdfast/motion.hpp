@@ -8,6 +8,7 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/instant.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/motion/mode_motion.hpp"
 #include "holdfast/motion/next_event.hpp"
 #include "holdfast/motion/no_event_bound.hpp"

@@ -9,6 +9,7 @@
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/natural_modes.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/reduction.hpp"

@@ -26,11 +26,14 @@ struct Conductor {
   double youngs_modulus = 0.0;
   double damping_ratio = 0.0;
   double gravity = 9.81;
+  double tension = std::numeric_limits<double>::infinity();  // infinity: "sag", what that leaves
+  double bending_stiffness = 0.0;
 };
 
 struct Absorber {
   double mass = 0.0;
   double position = 0.0;
+  double clamp_mass = 0.0;
 };
 
 struct Reduction {
@@ -48,6 +51,8 @@ struct Plant {
   double absorber_mass = 0.0;
   double absorber_stiffness = 0.0;
   double absorber_damping = 0.0;
+  std::string model = "two_masses";
+  double modes = std::numeric_limits<double>::infinity();  // whole; infinity: "chosen"
 };
 
 struct Control {
@@ -121,8 +126,8 @@ struct Case {
 
   // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
   std::map<std::string, std::string> places;
-  bool plant_given = false;      // the user gave a key of [plant]
-  bool conductor_given = false;  // the user gave a key of [conductor], [absorber] or [reduction]
+  bool plant_given = false;      // the user gave a key of [plant] that the two masses depend on
+  bool conductor_given = false;  // or one of [conductor], [absorber] or [reduction]
   // The frequencies of [reduction] are computed from the conductor: it is the user's, they are not.
   bool first_frequency_computed = false;
   bool second_frequency_computed = false;

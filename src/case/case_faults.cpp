@@ -57,6 +57,16 @@ CaseFault contact_fault(const Case& c) {
   return {};
 }
 
+CaseFault tension_fault(const Case& c) {
+  const double tension = c.conductor.tension, left = conductor_of(c).parabolic_tension();
+  constexpr double tolerance = 0.01;
+  if (!std::isfinite(tension) || std::abs(left - tension) <= tolerance * tension) return {};
+  return {{"conductor.tension", "conductor.sag"},
+          quantity("conductor.tension", tension, "N") + " and " +
+              quantity("conductor.sag", c.conductor.sag, "m") + ", which leaves a tension of " +
+              format_rounded(left) + " N, contradict each other: give one of them"};
+}
+
 CaseFault noise_fault(const Case& c) {
   const Excitation& force = c.excitation;
   if (!(force.noise_rms > 0.0) || force.noise_lowest < force.noise_highest) return {};
@@ -126,12 +136,19 @@ CaseFault conductor_fault(const Case& the_case) {
 }
 
 CaseFault first_fault(const Case& the_case) {
-  for (const auto find : {control_fault, jitter_fault, contact_fault, impossible_fault,
-                          conductor_fault, reduction_fault, force_fault, noise_fault}) {
+  for (const auto find :
+       {control_fault, jitter_fault, contact_fault, tension_fault, impossible_fault,
+        conductor_fault, reduction_fault, force_fault, noise_fault}) {
     CaseFault fault = find(the_case);
     if (!fault.message.empty()) return fault;
   }
   return {};
+}
+
+void settle_sag(Case& the_case) {
+  case_tables::Conductor& c = the_case.conductor;
+  if (std::isfinite(c.tension))
+    c.sag = c.mass_per_length * c.gravity * c.span * c.span / (8.0 * c.tension);
 }
 
 void check_case(const Case& the_case) {

@@ -42,9 +42,6 @@ bool is_case_table(std::string_view name) {
 }
 
 std::string unknown_key(std::string_view name) {
-  if (name.size() >= 7 && name.substr(name.size() - 7) == "tension")
-    return "unknown key: a tension H is given by the sag that it leaves, "
-           "conductor.sag = mass_per_length gravity span^2 / (8 H)";
   const CaseKey& nearest = nearest_case_key(name);
   return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
 }
@@ -70,6 +67,7 @@ class CaseReader {
   const Given* blamed(const std::vector<std::string>& keys) const;
   void check_wind() const;
   void settle_frequencies();
+  bool given_by_user(const std::string& key) const;
   void check_faults() const;
 
   Case case_, builtin_;
@@ -196,6 +194,7 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
   if (layer == Layer::builtin) return;
   case_.places[name] = place.rfind("--set", 0) == 0 ? place : place.substr(0, place.find(": "));
   const std::string table = key->table();
+  if (key->beyond_two_masses) return;
   case_.plant_given |= table == "plant";
   case_.conductor_given |= table == "conductor" || table == "absorber" || table == "reduction";
 }
@@ -275,20 +274,22 @@ void CaseReader::check_wind() const {
                    wind_place_ + ")");
 }
 
+bool CaseReader::given_by_user(const std::string& key) const {
+  const Given* given = last_given({key});
+  return given != nullptr && given->layer != Layer::builtin;
+}
+
 /// The built-in frequencies of [reduction] belong to the built-in conductor and the absorber's
 /// place on it; another one's are computed where they are not given.
 void CaseReader::settle_frequencies() {
   const auto& keys = case_keys();
   const bool another = std::any_of(keys.begin(), keys.end(), [this](const CaseKey& key) {
     const bool shapes = key.name == "absorber.position" ||
-                        (key.table() == "conductor" && key.name != "conductor.damping_ratio");
+                        (key.table() == "conductor" && key.name != "conductor.damping_ratio" &&
+                         !key.beyond_two_masses);
     return shapes && *key.number(case_) != *key.number(builtin_);
   });
   if (!another || !conductor_fault(case_).message.empty()) return;
-  const auto given_by_user = [this](const std::string& key) {
-    const Given* given = last_given({key});
-    return given != nullptr && given->layer != Layer::builtin;
-  };
   const auto [first, second] = default_frequencies(case_);
   case_.first_frequency_computed = !given_by_user("reduction.first_frequency");
   case_.second_frequency_computed = !given_by_user("reduction.second_frequency");
@@ -310,6 +311,7 @@ void CaseReader::check_faults() const {
 Case CaseReader::finish(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) read_override(text);
   check_wind();
+  if (!given_by_user("conductor.sag")) settle_sag(case_);
   settle_frequencies();
   check_faults();
   return case_;

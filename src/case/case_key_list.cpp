@@ -15,6 +15,7 @@ constexpr AdmissibleRange not_negative{0.0};
 constexpr AdmissibleRange below_one{0.0, 1.0, false, true};
 constexpr AdmissibleRange any_number{};
 constexpr AdmissibleRange some_lines{1.0, 10000.0, false, false, true};
+constexpr AdmissibleRange some_modes{1.0, 1000.0, false, false, true};
 /// Whole numbers that a double tells apart.
 constexpr AdmissibleRange seed{0.0, 9007199254740992.0, false, false, true};
 
@@ -75,6 +76,11 @@ CaseKey required(CaseKey key) {
   return key;
 }
 
+CaseKey beyond_two_masses(CaseKey key) {
+  key.beyond_two_masses = true;
+  return key;
+}
+
 CaseKey replaced_by_wind(CaseKey key) {
   key.replaced_by_wind = true;
   return key;
@@ -89,10 +95,17 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(conductor, youngs_modulus), "Pa", positive, "Young's modulus"),
     number(KEY(conductor, damping_ratio), "", below_one, "fraction of critical damping"),
     number(KEY(conductor, gravity), "m/s2", positive, "gravitational acceleration"),
+    or_word("sag", number(KEY(conductor, tension), "N", positive,
+                          "horizontal tension; \"sag\": the one that the sag leaves, "
+                          "mass_per_length gravity span^2 / (8 sag)")),
+    beyond_two_masses(number(KEY(conductor, bending_stiffness), "N m2", not_negative,
+                             "EI, which stiffens the modes of the string")),
 
     number(KEY(absorber, mass), "kg", positive, "mass of the absorber"),
     number(KEY(absorber, position), "m", positive,
            "distance from the left support, inside the span"),
+    beyond_two_masses(number(KEY(absorber, clamp_mass), "kg", not_negative,
+                             "what of the absorber moves with the conductor, on its own modes")),
 
     number(KEY(reduction, first_frequency), "Hz", positive,
            "lower natural frequency that the plant shall have"),
@@ -111,6 +124,12 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(plant, absorber_mass), "kg", positive, "m2"),
     number(KEY(plant, absorber_stiffness), "N/m", positive, "k2"),
     number(KEY(plant, absorber_damping), "N s/m", not_negative, "c2"),
+    beyond_two_masses(word(KEY(plant, model), {"two_masses", "string"},
+                           "what the absorber hangs on: one mass, or the taut conductor by its "
+                           "modes")),
+    beyond_two_masses(or_word("chosen", number(KEY(plant, modes), "", some_modes,
+                                               "how many modes of the conductor are kept; "
+                                               "\"chosen\": by the sampling rate"))),
 
     or_word("tuned",
             number(KEY(control, proportional_gain), "N/m", any_number,

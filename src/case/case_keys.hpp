@@ -43,6 +43,7 @@ struct CaseKey {
   std::vector<std::string> words;  // admissible words; a number may have one, "tuned" or "none"
   bool required = false;           // of [wind]: has no default
   bool replaced_by_wind = false;   // of [excitation]: [wind] stands in its place
+  bool beyond_two_masses = false;  // nothing of the two masses depends on it
   double* (*number)(Case&) = nullptr;
   std::string* (*word)(Case&) = nullptr;
   std::string* (*file)(Case&) = nullptr;  // the name of a file, empty for none
@@ -98,6 +99,9 @@ CaseFault first_fault(const Case& the_case);
 
 /// The part of it that is about [conductor] and [absorber].
 CaseFault conductor_fault(const Case& the_case);
+
+/// Gives the conductor the sag that its tension leaves, where it has a tension.
+void settle_sag(Case& the_case);
 
 /// Throws WrongInput when first_fault() finds one.
 void check_case(const Case& the_case);

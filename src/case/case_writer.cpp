@@ -73,8 +73,7 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
 /// What a person should know of a table before changing it; empty for most.
 std::string table_comment(const std::string& table) {
   if (table == "conductor")
-    return "# The sag of a span L under a horizontal tension H is mass_per_length gravity L^2 / (8 "
-           "H).\n"
+    return "# Sag or tension: the other one is what it leaves.\n"
            "# This table, [absorber] and [reduction] make the plant where [plant] does not give "
            "it.\n";
   if (table == "plant")
@@ -99,6 +98,8 @@ Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
   const bool is_given = the_case.places.count(key.name) > 0;
   const bool reduced = plant_is_reduced(the_case), from_conductor = form == CaseForm::conductor;
   const std::string table = key.table();
+  if (table == "plant" && key.beyond_two_masses)
+    return is_given ? Standing::value : Standing::left_out;
   if (table == "plant" && from_conductor)
     return is_given && reduced ? Standing::value : Standing::left_out;
   const bool of_cable = table == "conductor" || table == "absorber" || table == "reduction";

@@ -32,6 +32,7 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"response --p -600:0:40 --d -20:0:40", "response --yes --p -1000:200:1000000 --d -40:20:1000"},
     {"design", "design --frequency 5:60:10000000"},
     {"margins", ""},
+    {"modal-damping --no-control --set plant.model=string --set control.sampling_period=0.01", ""},
     {"sensitivity", ""},
     {"max-delay --frequency 5:6:2", "max-delay --frequency 5:60:10000000"},
     {"simulate --duration 1", "simulate --yes --duration 9e6"},

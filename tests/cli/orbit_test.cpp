@@ -129,7 +129,7 @@ TEST(BasinsJob, RefusesOtherAxes) {
 }
 
 TEST(VerdictJob, SaysWhatTheMotionIsAndOnWhatThatRests) {
-  const CsvTable slow_motion = table_of("verdict" + slow);
+  const CsvTable slow_motion = table_of("verdict --quiet" + slow);
   EXPECT_EQ(slow_motion.text(0, "verdict"), "periodic(2100)");
   EXPECT_EQ(slow_motion.number(0, "certified"), 1.0);
   EXPECT_NE(slow_motion.text(0, "rests_on").find("Certified"), std::string::npos);
@@ -168,6 +168,18 @@ TEST(DeviationJob, SaysWhyNeighboursStayApartBesideCertifiedOrbits) {
       << shifted;
   const std::string together = run_holdfast("deviation --set backlash.width=0").errors;
   EXPECT_EQ(together.find("apart"), std::string::npos) << together;
+}
+
+TEST(VerdictJob, SaysThatAnOrbitHasCopiesShiftedInTime) {
+  const CsvTable orbit = table_of("orbit --quiet --set backlash.width=0.002");
+  const double copies = orbit.number(0, "period_samples") / 100.0;  // 10 Hz at 1 ms
+  ASSERT_GE(copies, 2.0);
+  const std::string several = run_holdfast("verdict --set backlash.width=0.002").errors;
+  EXPECT_NE(several.find("has " + std::to_string(static_cast<int>(copies)) + " copies"),
+            std::string::npos)
+      << several;
+  const std::string one = run_holdfast("verdict --set backlash.width=0").errors;
+  EXPECT_EQ(one.find("copies"), std::string::npos) << one;
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ void expect_every_figure_as_table_and_picture(const fs::path& report) {
     const std::string picture = read_text(report / "pictures" / (figure + ".svg"));
     EXPECT_NE(picture.find("<svg"), std::string::npos) << figure;
     EXPECT_NE(picture.find("</svg>"), std::string::npos) << figure;
+    // No viewer has to bear a transformation without an inverse.
+    EXPECT_EQ(picture.find("scale(0.00)"), std::string::npos) << figure;
     EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
   }
   EXPECT_EQ(count_of(page, "data:image/svg+xml;base64,"), figures.size());

@@ -35,6 +35,11 @@ a design
 a design --frequency 5:10:2
 a design --band 9:11
 a margins
+t stability --set plant.model=string --set plant.modes=10 --p -600:0:7 --d -20:0:5 --radius
+a boundary --stable-interval --set plant.model=string --set plant.modes=10
+a modal-damping --set plant.model=string --set plant.modes=10
+a simulate --duration 0.2 --set plant.model=string --set plant.modes=10
+a simulate --duration 0.05 --switching exact --set plant.model=string --set plant.modes=4
 a sensitivity
 a simulate --duration 0.5
 a simulate --duration 0.2 --switching exact

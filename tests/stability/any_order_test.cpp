@@ -150,7 +150,8 @@ TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {
 TEST(AnyOrder, BoundaryPointsHaveARootOnTheCircle) {
   const auto plant = filtered_and_lagging_plant(40.0, 64.0);
   const LoopMap<double> map = loop_map(plant, {0.002, 0.003});
-  const auto points = stability_boundary(map, {-1000.0, 200.0});
+  const auto points =
+      stability_boundary(ModalResponse<double>(plant, {0.002, 0.003}), {-1000.0, 200.0});
   int pairs = 0;
   for (const BoundaryPoint<double>& point : points) {
     EXPECT_GE(point.gains.proportional, -1000.0);
@@ -173,7 +174,8 @@ TEST(AnyOrder, BoundaryOfTwoMassesPassesWhereTheClosedFormsDo) {
   const Sampling<double> sampling{0.01, 0.002};
   const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
   int compared = 0;
-  for (const auto& point : stability_boundary(loop_map(plant, sampling), {-1000.0, 200.0})) {
+  for (const auto& point :
+       stability_boundary(ModalResponse<double>(plant, sampling), {-1000.0, 200.0})) {
     if (point.curve != BoundaryCurve::complex_pair) continue;
     const auto gains = test::complex_pair_gains(polynomial, point.angle);
     ASSERT_TRUE(gains.has_value());

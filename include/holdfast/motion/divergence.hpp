@@ -16,7 +16,7 @@ namespace detail {
 /// where A has no inverse.
 template <class Plant>
 double static_deflection(const Plant& plant, double force) {
-  const auto input = plant.excitation_input();
+  const auto& input = plant.excitation_input();
   const double bend = plant.state_matrix().partialPivLu().solve(input).cwiseAbs().maxCoeff();
   return force * (std::isfinite(bend) ? bend : input.cwiseAbs().maxCoeff());
 }

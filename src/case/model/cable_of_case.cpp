@@ -32,7 +32,8 @@ std::string blame_for_range(const Case& the_case, const char* key, const char* r
 bool plant_is_reduced(const Case& the_case) {
   const auto& keys = case_keys();
   return the_case.conductor_given && std::any_of(keys.begin(), keys.end(), [&](const CaseKey& key) {
-           return key.table() == "plant" && the_case.places.count(key.name) == 0;
+           return key.table() == "plant" && !key.beyond_two_masses &&
+                  the_case.places.count(key.name) == 0;
          });
 }
 

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "case/model/plant_of_case.hpp"
-#include "holdfast/stability/response/response.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
@@ -11,11 +10,10 @@ namespace holdfast::program {
 double held_share(const Case& the_case, double sampling_period, double frequency) {
   if (force_hold_of(the_case) == ForceHold::exact || !(excitation_of(the_case).amplitude > 0.0))
     return 1.0;
-  const TwoMass<double> plant = plant_of(the_case);
   const double omega = 2.0 * pi<double> * frequency;
-  return steady_response(plant, {sampling_period}, ForceHold::sampled, omega)
+  return steady_response_of(the_case, {sampling_period}, ForceHold::sampled, omega)
              .uncontrolled_amplitude_per_force() /
-         true_amplitude_per_force(plant, omega);
+         true_amplitude_of(the_case, omega);
 }
 
 std::string held_force_warning(const Case& the_case, double sampling_period, double frequency,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "case/model/modal_plant_of_case.hpp"
+#include "holdfast/control/loop_map.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/motion/divergence.hpp"
@@ -58,12 +60,6 @@ SampledMotion<double> motion_of(const Case& the_case) {
   return harmonically_forced_motion(ideal_loop_of(the_case), initial_state_of(the_case));
 }
 
-IdealLoop<double> uncontrolled(IdealLoop<double> loop) {
-  loop.gains = {0.0, 0.0};
-  loop.backlash_width = 0.0;
-  return loop;
-}
-
 bool is_of_the_paper(const Case& the_case, Switching switching) {
   const auto excitation = effective_excitation(the_case);
   const ContactLaw law = law_of(the_case.backlash.law);
@@ -85,13 +81,17 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
       switching};
 }
 
-ImplementedLoop uncontrolled(ImplementedLoop loop) {
-  loop.digital.gains = {0.0, 0.0};
-  loop.backlash = {ContactLaw::none};
-  return loop;
+double spectral_radius_of(const Case& the_case) {
+  const PdGains<double> gains = gains_of(the_case);
+  if (!is_modal(the_case)) return spectral_radius(loop_of(the_case).engaged_map(gains));
+  return spectral_radius(
+      loop_map(modal_plant_of(the_case), sampling_of(the_case)).closed_map(gains));
 }
 
 double divergence_bound(const Case& the_case, double kick) {
+  if (is_modal(the_case))
+    return holdfast::divergence_bound(modal_implemented_loop_of(the_case, Switching::sampled),
+                                      modal_state_of(the_case));
   Vector<double, 4> state = initial_state_of(the_case);
   state[0] = std::abs(state[0]) + std::abs(kick);
   return holdfast::divergence_bound(implemented_loop_of(the_case, Switching::sampled), state);
@@ -107,7 +107,7 @@ std::string divergence_warning(const Case& the_case, bool controlled, double kic
       law_of(the_case.backlash.law) != ContactLaw::none && the_case.backlash.width > 0.0;
   const bool is_ideal_loop = is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0;
   if (!controlled || has_play || !is_ideal_loop || size == 0.0) return "";
-  const double radius = spectral_radius(loop_of(the_case).engaged_map(gains_of(the_case)));
+  const double radius = spectral_radius_of(the_case);
   if (!(radius > 1.0 + 1e-9)) return "";
   return grown + ", and nothing bounds it: the largest root of the loop has the modulus " +
          format_number(std::round(radius * 1e9) / 1e9);

@@ -14,7 +14,12 @@ namespace holdfast::program {
 IdealLoop<double> ideal_loop_of(const Case& the_case);
 
 /// The loop with P = D = 0 and a drive without backlash.
-IdealLoop<double> uncontrolled(IdealLoop<double> loop);
+template <class Plant>
+IdealLoop<double, Plant> uncontrolled(IdealLoop<double, Plant> loop) {
+  loop.gains = {0.0, 0.0};
+  loop.backlash_width = 0.0;
+  return loop;
+}
 
 /// Whether the motion is one of the paper's model, which IdealLoop describes: switching at
 /// samples, the paper's backlash or none, one harmonic, an ideal computer.
@@ -27,7 +32,15 @@ SampledMotion<double> motion_of(const Case& the_case);
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
 
 /// The loop with P = D = 0 and a drive without backlash.
-ImplementedLoop uncontrolled(ImplementedLoop loop);
+template <class Plant>
+ImplementedLoopOf<Plant> uncontrolled(ImplementedLoopOf<Plant> loop) {
+  loop.digital.gains = {0.0, 0.0};
+  loop.backlash = {ContactLaw::none};
+  return loop;
+}
+
+/// The largest modulus of a root of the loop, which is stable where it is below 1; on any plant.
+double spectral_radius_of(const Case& the_case);
 
 /// A size (m, m/s) that no bounded motion of the case reaches, from its initial state or displaced
 /// by `kick`, m, on its way.

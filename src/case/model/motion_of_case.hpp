@@ -3,6 +3,8 @@
 #include <string>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
 #include "io/text/text.hpp"
 #include "jobs/motion/motion_run.hpp"
 #include "process/errors.hpp"
@@ -17,10 +19,10 @@ struct MotionChoice {
   bool controlled = true;
 };
 
-/// Calls `visit` with the motion of the case from its initial state: the stepper of the paper's
-/// model where that is all there is to the case, else an EventMotion.
+/// Calls `visit` with the motion of a case of two masses from its initial state: the stepper of the
+/// paper's model where that is all there is to the case, else an EventMotion.
 template <class Visit>
-auto with_motion_of(const Case& the_case, const MotionChoice& choice, Visit&& visit) {
+auto with_two_mass_motion_of(const Case& the_case, const MotionChoice& choice, const Visit& visit) {
   const Vector<double, 4> state = initial_state_of(the_case);
   if (is_of_the_paper(the_case, choice.switching)) {
     const IdealLoop<double> loop = ideal_loop_of(the_case);
@@ -28,6 +30,75 @@ auto with_motion_of(const Case& the_case, const MotionChoice& choice, Visit&& vi
   }
   const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
   return visit(event_motion(choice.controlled ? loop : uncontrolled(loop), state));
+}
+
+/// The event-driven motion of a modal case, as conductor and absorber at its place show it: states
+/// are [z1, v1, z2, v2].
+class MotionAtAbsorber {
+ public:
+  using Motion = EventMotion<DriveContact<LinearPlant<double>>>;
+
+  explicit MotionAtAbsorber(const Motion& motion) : motion_(motion) {}
+
+  EventSample sense() {
+    const auto full = motion_.sense();
+    EventSample sample;
+    sample.index = full.index;
+    sample.time = full.time;
+    sample.state = motion_.readings().both_sides(full.state);
+    sample.control_force = full.control_force;
+    sample.engaged = full.engaged;
+    sample.mode = full.mode;
+    return sample;
+  }
+  void advance() { motion_.advance(); }
+  void displace_conductor(double by) { motion_.displace_conductor(by); }
+
+  std::int64_t index() const { return motion_.index(); }
+  double time() const { return motion_.time(); }
+  Vector<double, 4> state() const { return motion_.readings().both_sides(motion_.state()); }
+  PortReadings<TwoMass<double>> readings() const { return {}; }
+  const Motion& motion() const { return motion_; }
+
+ private:
+  Motion motion_;
+};
+
+/// The motion of a modal case in the paper's model, of which alone a kick has a shape.
+/// Throws NoAnswer where two natural motions of it cannot be told apart.
+inline ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
+  ModalLoop loop = modal_loop_of(the_case);
+  if (!controlled) {
+    loop.gains = {0.0, 0.0};
+    loop.backlash_width = 0.0;
+  }
+  const auto motion = modal_motion(loop, modal_state_of(the_case));
+  if (motion) return *motion;
+  throw NoAnswer(
+      "two natural motions of conductor and absorber coincide too nearly to be told apart: change "
+      "plant.absorber_damping or absorber.position by a thousandth");
+}
+
+/// The same of any plant: of a modal case a ModalMotion, else a MotionAtAbsorber. What it visits
+/// has states [z1, v1, z2, v2].
+template <class Visit>
+auto with_motion_of(const Case& the_case, const MotionChoice& choice, const Visit& visit) {
+  if (!is_modal(the_case)) return with_two_mass_motion_of(the_case, choice, visit);
+  if (is_of_the_paper(the_case, choice.switching))
+    return visit(modal_motion_of(the_case, choice.controlled));
+  const auto loop = modal_implemented_loop_of(the_case, choice.switching);
+  return visit(MotionAtAbsorber(
+      event_motion(choice.controlled ? loop : uncontrolled(loop), modal_state_of(the_case))));
+}
+
+/// Throws WrongInput where the conductor itself is to be displaced in its motion and the motion is
+/// not of the paper's model.
+inline void require_displaceable(const Case& the_case, Switching switching,
+                                 const std::string& option) {
+  if (!is_modal(the_case) || is_of_the_paper(the_case, switching)) return;
+  throw WrongInput(option + " goes with plant.model = \"" + the_case.plant.model +
+                   "\" in the paper's model alone: switching at samples, its law of the backlash, "
+                   "one harmonic, an ideal computer");
 }
 
 /// Throws NoAnswer where a motion's changes of contact accumulate, so that it is not to be trusted;
@@ -50,6 +121,10 @@ void require_resolved(const EventMotion<Contact>& motion, bool quiet) {
             " change(s) of contact are decided by rounding: Delta z or its velocity only "
             "touches where the contact would change",
         quiet);
+}
+
+inline void require_resolved(const MotionAtAbsorber& motion, bool quiet) {
+  require_resolved(motion.motion(), quiet);
 }
 
 /// At the end of a motion: what require_resolved() says of it, and a warning where it diverges, as

@@ -14,17 +14,19 @@
 namespace holdfast::program {
 namespace {
 
-/// The keys of [plant] that the user gave.
+/// The keys of the two masses that the user gave.
 std::vector<const CaseKey*> given_of_plant(const Case& the_case) {
   std::vector<const CaseKey*> given;
   for (const CaseKey& key : case_keys())
-    if (key.table() == "plant" && the_case.places.count(key.name) > 0) given.push_back(&key);
+    if (key.table() == "plant" && !key.beyond_two_masses && the_case.places.count(key.name) > 0)
+      given.push_back(&key);
   return given;
 }
 
 void take_plant(Case& the_case, const TwoMass<double>& reduced) {
   the_case.plant = {reduced.conductor_mass, reduced.conductor_stiffness, reduced.conductor_damping,
-                    reduced.absorber_mass,  reduced.absorber_stiffness,  reduced.absorber_damping};
+                    reduced.absorber_mass,  reduced.absorber_stiffness,  reduced.absorber_damping,
+                    the_case.plant.model,   the_case.plant.modes};
 }
 
 std::string partial_plant_text(const std::vector<const CaseKey*>& given) {

@@ -6,9 +6,13 @@
 #include <limits>
 #include <vector>
 
+#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "holdfast/control/loop_map.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/chart/circle_chart.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/columns.hpp"
@@ -112,6 +116,26 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
       });
 }
 
+void append_modal_chart(const JobContext& context, const GainGrid& grid, bool radius,
+                        GridOutput& output) {
+  const ResolvedCircle<double> circle = circle_of(context.case_data);
+  const LoopMap<double> map =
+      loop_map(modal_plant_of(context.case_data), sampling_of(context.case_data));
+  append_rows(context, grid.proportional.count, Block(grid.differential.count, radius ? 1 : 0),
+              nullptr, output,
+              [&](std::nullptr_t, std::int64_t first, std::int64_t count, std::int64_t offset,
+                  Block& block) {
+                for (std::int64_t row = 0; row < count; ++row) {
+                  fill_stability_row(circle, grid.proportional.at(first + row), grid.differential,
+                                     block.flags(offset + row));
+                  for (std::int64_t j = 0; radius && j < grid.differential.count && !interrupted();
+                       ++j)
+                    block.numbers(0, offset + row)[j] =
+                        spectral_radius(map.closed_map(grid.at(first + row, j)));
+                }
+              });
+}
+
 void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
                              const GainGrid& grid, bool abscissa, GridOutput& output) {
   using Kernel = StabilityRows<4>;
@@ -135,26 +159,37 @@ void append_continuous_chart(const JobContext& context, const TwoMass<double>& p
       });
 }
 
-void append_response_chart(const JobContext& context, const SampledLoop<double>& loop,
-                           const SteadyResponse<double>& response, double force_amplitude,
-                           const GainGrid& grid, GridOutput& output) {
-  using Kernel = StabilityRows<5>;
-  const Kernel kernel(in_half_plane(characteristic_polynomial(loop)), grid.differential);
-  append_rows(
-      context, grid.proportional.count, Block(grid.differential.count, 2), kernel, output,
-      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-        for (std::int64_t row = offset; row < offset + count; ++row) {
-          own.fill(grid.proportional.at(first + row - offset), block.flags(row));
-          for (std::int64_t j = 0; j < grid.differential.count; ++j) {
-            const bool stable = block.flags(row)[j] != 0;
-            constexpr double none = std::numeric_limits<double>::quiet_NaN();
-            const PdGains<double> gains = grid.at(first + row - offset, j);
-            block.numbers(0, row)[j] =
-                stable ? force_amplitude * response.amplitude_per_force(gains) : none;
-            block.numbers(1, row)[j] = stable ? response.ratio_to_uncontrolled(gains) : none;
+void append_response_chart(const JobContext& context, const SteadyResponse<double>& response,
+                           double force_amplitude, const GainGrid& grid, GridOutput& output) {
+  // @param fill  (kernel, P, flags): the stable cells of a row
+  const auto append = [&](const auto& kernel, const auto& fill) {
+    append_rows(
+        context, grid.proportional.count, Block(grid.differential.count, 2), kernel, output,
+        [&](auto& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
+          for (std::int64_t row = offset; row < offset + count; ++row) {
+            const std::int64_t i = first + row - offset;
+            fill(own, grid.proportional.at(i), block.flags(row));
+            for (std::int64_t j = 0; j < grid.differential.count; ++j) {
+              const bool stable = block.flags(row)[j] != 0;
+              constexpr double none = std::numeric_limits<double>::quiet_NaN();
+              const PdGains<double> gains = grid.at(i, j);
+              block.numbers(0, row)[j] =
+                  stable ? force_amplitude * response.amplitude_per_force(gains) : none;
+              block.numbers(1, row)[j] = stable ? response.ratio_to_uncontrolled(gains) : none;
+            }
           }
-        }
-      });
+        });
+  };
+  if (is_modal(context.case_data)) {
+    const ResolvedCircle<double> circle = circle_of(context.case_data);
+    append(nullptr, [&](std::nullptr_t, double p, std::uint8_t* flags) {
+      fill_stability_row(circle, p, grid.differential, flags);
+    });
+  } else {
+    const auto polynomial = characteristic_polynomial(loop_of(context.case_data));
+    append(StabilityRows<5>(in_half_plane(polynomial), grid.differential),
+           [](StabilityRows<5>& rows, double p, std::uint8_t* flags) { rows.fill(p, flags); });
+  }
 }
 
 }  // namespace holdfast::program

@@ -20,13 +20,17 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid);
 void append_sampled_chart(const JobContext& context, const LoopChart& chart, bool radius,
                           GridOutput& output);
 
+/// The same of a modal case.
+void append_modal_chart(const JobContext& context, const GainGrid& grid, bool radius,
+                        GridOutput& output);
+
 /// Columns: stable and, with `abscissa`, the spectral abscissa (1/s) of the continuous loop.
 void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
                              const GainGrid& grid, bool abscissa, GridOutput& output);
 
-/// Columns: stable, amplitude (m) and its ratio to that without control; nan where unstable.
-void append_response_chart(const JobContext& context, const SampledLoop<double>& loop,
-                           const SteadyResponse<double>& response, double force_amplitude,
-                           const GainGrid& grid, GridOutput& output);
+/// Columns: stable, amplitude (m) and its ratio to that without control; nan where unstable. On any
+/// plant of the case.
+void append_response_chart(const JobContext& context, const SteadyResponse<double>& response,
+                           double force_amplitude, const GainGrid& grid, GridOutput& output);
 
 }  // namespace holdfast::program

@@ -36,6 +36,15 @@ std::string near_border_warning(double border_share) {
          " of its own size: a change of the loop in its fourth digit may end it";
 }
 
+std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence) {
+  const std::int64_t copies = period / coincidence;
+  if (copies < 2) return "";
+  return "the orbit has " + std::to_string(copies) + " copies, each " +
+         std::to_string(coincidence) +
+         " samples later: neighbours that come to different ones stay apart for good, though each "
+         "is stable; deviation tells of two";
+}
+
 std::string open_sign_warning(const LyapunovResult& result) {
   if (result.sign_is_known()) return "";
   return "the largest exponent, " + format_rounded(result.exponents[0]) + " per sample with the " +

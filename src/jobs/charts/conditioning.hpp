@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ std::string near_cusp_warning(const std::vector<BoundaryFeature<long double>>& f
 /// Of an orbit near a switching surface.
 /// @param border_share  of PeriodicOrbit or EventOrbit
 std::string near_border_warning(double border_share);
+
+/// Of an orbit that has copies shifted in time: neighbours may come to different ones and then stay
+/// apart for good, though each is asymptotically stable.
+/// @param period       of the orbit (samples)
+/// @param coincidence  samples after which sampling and forcing meet again; 0 < coincidence ≤
+/// period
+std::string shifted_copies_warning(std::int64_t period, std::int64_t coincidence);
 
 /// Of a largest exponent whose sign is not known.
 std::string open_sign_warning(const LyapunovResult& result);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/phase_space/deviation.hpp"
@@ -98,7 +99,7 @@ TrustedDigits MotionDigits::result() const {
 
 std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
                                           const std::optional<Kick>& kick, double from) {
-  if (!is_of_the_paper(the_case, choice.switching)) return std::nullopt;
+  if (is_modal(the_case) || !is_of_the_paper(the_case, choice.switching)) return std::nullopt;
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   return MotionDigits(choice.controlled ? loop : uncontrolled(loop), initial_state_of(the_case),
                       kick, from);
@@ -115,7 +116,7 @@ TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching
 
 TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
                                           std::int64_t samples) {
-  if (!is_of_the_paper(the_case, switching)) return {};
+  if (is_modal(the_case) || !is_of_the_paper(the_case, switching)) return {};
   auto first = motion_of(the_case), second = first;
   auto wide_first = wide_motion(ideal_loop_of(the_case), initial_state_of(the_case));
   auto wide_second = wide_first;

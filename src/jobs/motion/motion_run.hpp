@@ -36,7 +36,7 @@ inline void require_completed(TrajectoryOutcome outcome, double time) {
 template <class Motion, class... Observers>
 void run_to_completion(Motion& motion, std::int64_t samples, const std::optional<Kick>& kick,
                        Observers&&... observers) {
-  const auto look = [](const MotionSample<double>& sample) { look_for_interrupt(sample.index); };
+  const auto look = [](const auto& sample) { look_for_interrupt(sample.index); };
   const TrajectoryOutcome outcome =
       run_trajectory(motion, samples, kick, look, std::forward<Observers>(observers)...);
   require_completed(outcome, motion.time());

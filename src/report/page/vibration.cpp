@@ -5,7 +5,6 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "jobs/motion/cell_motion.hpp"
 
 namespace holdfast::program {
@@ -25,7 +24,7 @@ Question question_about(const Case& the_case, InstructionSet set) {
   constexpr double motions = 150.0;  // that the answers compare
   require_bearable(motions * duration_of(the_case) / the_case.control.sampling_period);
   return {the_case, set, motion_of_the_case(the_case), steady_peak_without_control(the_case, set),
-          spectral_radius(loop_of(the_case).engaged_map(gains_of(the_case)))};
+          spectral_radius_of(the_case)};
 }
 
 std::vector<Vibration> vibrations_of(const std::vector<Case>& cases, const Question& question,

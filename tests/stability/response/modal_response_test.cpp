@@ -3,6 +3,7 @@
 #include "holdfast/stability/response/modal_response.hpp"
 
 #include "holdfast/cable/taut_string.hpp"
+#include "holdfast/stability/response/modal_steady_response.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
 
@@ -38,6 +39,34 @@ TEST(ModalResponse, HoldsWhereEigenvaluesCoincide) {
   const auto plant =
       of_dynamic_order(filtered_and_lagging_plant(80.0, 60.0, kollar2022_plant(), 1.0));
   expect_same(plant, {0.001, 0.0004}, 1e-13);
+}
+
+/// Its poles and the force's, against the map of its plant.
+TEST(ModalResponse, OfTheSteadyLoopIsThatOfTheMap) {
+  const Absorber<double> absorber{0.16, 74.4, 4.0, 0.01};
+  for (const int count : {1, 9}) {
+    const auto modes = string_modes(taut_string(kollar2022_conductor()), 0.64, count);
+    const auto plant = modal_plant(modes, absorber);
+    for (const double omega : {3.0, 21.0, 62.8, 700.0}) {
+      EXPECT_NEAR(true_amplitude_per_force(modes, absorber, omega),
+                  true_amplitude_per_force(plant, omega),
+                  1e-9 * true_amplitude_per_force(plant, omega));
+      for (const double delay : {0.0, 0.001, 0.01}) {
+        for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
+          const Sampling<double> sampling{0.006, delay};
+          const auto found = steady_response(modes, absorber, sampling, hold, omega);
+          const auto expected = steady_response(plant, sampling, hold, omega);
+          for (const PdGains<double> gains :
+               {PdGains<double>{0.0, 0.0}, PdGains<double>{-557.0, -4.0},
+                PdGains<double>{90.0, 2.0}}) {
+            const double amplitude = expected.amplitude_per_force(gains);
+            EXPECT_NEAR(found.amplitude_per_force(gains), amplitude, 1e-9 * amplitude)
+                << count << ' ' << omega << ' ' << delay;
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(ModalResponse, CountsWhatGrowsByItself) {

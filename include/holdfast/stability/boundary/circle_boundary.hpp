@@ -5,13 +5,11 @@
 #include <complex>
 #include <vector>
 
-#include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/boundary_curves.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/response/loop_response.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
 
@@ -21,10 +19,10 @@ namespace detail {
 template <class Scalar>
 class CircleBoundary {
  public:
-  CircleBoundary(const LoopMap<Scalar>& map, const Interval<double>& range)
-      : response_(map), range_(range) {
-    for (const std::complex<Scalar>& root : balanced_eigenvalues(map.open_map))
-      if (root.imag() > Scalar(0)) pole_angles_.push_back(std::arg(root));
+  CircleBoundary(const ModalResponse<Scalar>& response, const Interval<double>& range)
+      : response_(response), range_(range) {
+    for (const std::complex<Scalar>& increment : response.pole_increments())
+      if (increment.imag() > Scalar(0)) pole_angles_.push_back(std::arg(Scalar(1) + increment));
   }
 
   /// The gains with a root pair e^{±iθ}: P = Im G_v / Im(Ḡ_z G_v), D = −Im G_z / Im(Ḡ_z G_v).
@@ -84,7 +82,7 @@ class CircleBoundary {
     return angles;
   }
 
-  LoopResponse<Scalar> response_;
+  const ModalResponse<Scalar>& response_;
   Interval<double> range_;
   std::vector<Scalar> pole_angles_;
 };
@@ -95,16 +93,16 @@ class CircleBoundary {
 /// −1 (their two ends), then the curve of root pairs e^{±iθ} by ascending angle.
 ///
 /// 1 − P G_z(λ) − D G_v(λ) = 0 at λ = e^{iθ} are two real linear equations in P and D
-/// (`LoopResponse`). The points lie as close together as the curve's bends need; its crossings with
-/// a line of constant P or D are in `circle_crossings`.
-/// @param map    the loop
-/// @param range  P (N/m), its ends included
+/// (`ModalResponse`). The points lie as close together as the curve's bends need; its crossings
+/// with a line of constant P or D are in `circle_crossings`.
+/// @param response  of the loop
+/// @param range     P (N/m), its ends included
 /// @throws InvalidParameter unless range.lower < range.upper, both finite
 template <class Scalar>
-std::vector<BoundaryPoint<Scalar>> stability_boundary(const LoopMap<Scalar>& map,
+std::vector<BoundaryPoint<Scalar>> stability_boundary(const ModalResponse<Scalar>& response,
                                                       const Interval<double>& range) {
   validate_proportional(range);
-  const detail::CircleBoundary<Scalar> boundary(map, range);
+  const detail::CircleBoundary<Scalar> boundary(response, range);
   std::vector<BoundaryPoint<Scalar>> points;
   boundary.append_line(BoundaryCurve::plus_one, points);
   boundary.append_line(BoundaryCurve::minus_one, points);
@@ -113,7 +111,7 @@ std::vector<BoundaryPoint<Scalar>> stability_boundary(const LoopMap<Scalar>& map
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::vector<BoundaryPoint<double>> stability_boundary(const LoopMap<double>&,
+extern template std::vector<BoundaryPoint<double>> stability_boundary(const ModalResponse<double>&,
                                                                       const Interval<double>&);
 #endif
 

@@ -65,6 +65,9 @@ class ResolvedCircle {
     }
   }
 
+  /// G_z and G_v, of which all this is made.
+  const ModalResponse<Scalar>& response() const { return response_; }
+
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
   /// lies on the circle, or the gains are so large or so little finite that p is noise.
   int roots_outside(const PdGains<Scalar>& gains) const {

@@ -10,6 +10,23 @@
 
 namespace holdfast {
 
+/// Stable (1) or not (0) for a row of gains, of a loop of any order.
+/// @param circle        of the loop
+/// @param proportional  P (N/m) of the row
+/// @param differential  D (N s/m) along it
+/// @param stable        of as many cells, which are written
+template <class Scalar>
+void fill_stability_row(const ResolvedCircle<Scalar>& circle, const Scalar& proportional,
+                        const Axis& differential, std::uint8_t* stable) {
+  std::fill(stable, stable + differential.count, std::uint8_t{0});
+  for (const auto& interval :
+       circle.stable_gains(FreeGain::differential, {proportional, Scalar(0)})) {
+    const std::int64_t first = differential.first_above(static_cast<double>(interval.lower));
+    const std::int64_t last = differential.first_not_below(static_cast<double>(interval.upper));
+    if (first < last) std::fill(stable + first, stable + last, std::uint8_t{1});
+  }
+}
+
 /// Stable (1) or not (0) for every cell of a grid of gains, of a loop of any order; P slowest.
 ///
 /// The stable intervals of D of each row, by `ResolvedCircle`. Of the two masses `stability_chart`
@@ -23,17 +40,9 @@ std::vector<std::uint8_t> stability_chart(const ResolvedCircle<Scalar>& circle,
   validate(grid);
   const std::int64_t width = grid.differential.count;
   std::vector<std::uint8_t> stable(static_cast<std::size_t>(grid.cells()));
-  for (std::int64_t i = 0; i < grid.proportional.count; ++i) {
-    const PdGains<Scalar> row{Scalar(grid.proportional.at(i)), Scalar(0)};
-    for (const auto& interval : circle.stable_gains(FreeGain::differential, row)) {
-      const std::int64_t first = grid.differential.first_above(static_cast<double>(interval.lower));
-      const std::int64_t last =
-          grid.differential.first_not_below(static_cast<double>(interval.upper));
-      if (first < last)
-        std::fill(stable.begin() + (i * width + first), stable.begin() + (i * width + last),
-                  std::uint8_t{1});
-    }
-  }
+  for (std::int64_t i = 0; i < grid.proportional.count; ++i)
+    fill_stability_row(circle, Scalar(grid.proportional.at(i)), grid.differential,
+                       stable.data() + i * width);
   return stable;
 }
 

@@ -7,7 +7,9 @@
 
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/errors.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
 namespace holdfast {
@@ -30,12 +32,7 @@ class ModalResponse {
   /// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
   /// @throws InvalidParameter where the sampling is another or the state matrix is not finite
   template <class Plant>
-  ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling) {
-    require_positive("sampling period tau", static_cast<double>(sampling.period), "s");
-    require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
-                   1000.0 * static_cast<double>(sampling.period));
-    commands_ = holdfast::held_commands(
-        {static_cast<double>(sampling.period), static_cast<double>(sampling.processing_delay)});
+  ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling) : ModalResponse(sampling) {
     const Matrix<Scalar, Eigen::Dynamic> matrix = plant.state_matrix();
     require_finite("entries of the plant's state matrix", static_cast<double>(matrix.sum()), "");
     const EigenBasis<Scalar> basis(matrix);
@@ -45,36 +42,41 @@ class ModalResponse {
     const auto of_z = basis.readings(ports.measured_displacement);
     const auto of_v = basis.readings(ports.measured_velocity);
     const auto values = basis.values();
-    const Scalar period = sampling.period;
-    const Scalar late = sampling.processing_delay - Scalar(commands_ - 1) * period;
-    for (Eigen::Index k = 0; k < values.size(); ++k) {
-      Complex s = values[k];
-      // What nothing damps lies on the circle but for round-off: here just within it.
-      if (std::abs(s.real()) * period < undamped) s.real(-undamped / period);
-      const Complex present = integral(s, period - late);
-      const Complex past = std::exp(s * (period - late)) * integral(s, late);
-      poles_.push_back({expm1(s * period), of_z[k] * beta[k] * present, of_v[k] * beta[k] * present,
-                        of_z[k] * beta[k] * past, of_v[k] * beta[k] * past});
-      unstable_ += s.real() > Scalar(0) ? 1 : 0;
-    }
-    has_past_ = late > Scalar(0);
+    for (Eigen::Index k = 0; k < values.size(); ++k)
+      add({values[k], of_z[k] * beta[k], of_v[k] * beta[k]});
+  }
+
+  /// s_k with γ_k β_k of what P and of what D multiplies.
+  struct Residue {
+    Complex s;             ///< 1/s
+    Complex displacement;  ///< m/(N s)
+    Complex velocity;      ///< m/(N s²)
+  };
+
+  /// @param residues  of all eigenvalues of a plant
+  /// @param sampling  as above
+  /// @throws InvalidParameter where the sampling is another
+  ModalResponse(const std::vector<Residue>& residues, const Sampling<Scalar>& sampling)
+      : ModalResponse(sampling) {
+    for (const Residue& residue : residues) add(residue);
   }
 
   /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return dense_->at_distance_from_one(mu);
+    const bool has_past = late_ > Scalar(0);
     Complex z(0), v(0), past_z(0), past_v(0);
     for (const Pole& pole : poles_) {
       const Complex away = mu - pole.increment;
       const Complex inverse = std::conj(away) / std::norm(away);
       z += times(pole.displacement, inverse);
       v += times(pole.velocity, inverse);
-      if (!has_past_) continue;
+      if (!has_past) continue;
       past_z += times(pole.past_displacement, inverse);
       past_v += times(pole.past_velocity, inverse);
     }
     const Complex lambda = Complex(1) + mu;
-    if (has_past_) {
+    if (has_past) {
       z += past_z / lambda;
       v += past_v / lambda;
     }
@@ -111,21 +113,30 @@ class ModalResponse {
     Complex past_displacement, past_velocity;  // b_k
   };
 
+  explicit ModalResponse(const Sampling<Scalar>& sampling) : period_(sampling.period) {
+    require_positive("sampling period tau", static_cast<double>(sampling.period), "s");
+    require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
+                   1000.0 * static_cast<double>(sampling.period));
+    commands_ = holdfast::held_commands(
+        {static_cast<double>(sampling.period), static_cast<double>(sampling.processing_delay)});
+    late_ = sampling.processing_delay - Scalar(commands_ - 1) * sampling.period;
+  }
+
+  void add(const Residue& residue) {
+    Complex s = residue.s;
+    // What nothing damps lies on the circle but for round-off: here just within it.
+    if (std::abs(s.real()) * period_ < undamped) s.real(-undamped / period_);
+    const Complex present = exponential_integral(s, period_ - late_);
+    const Complex past = std::exp(s * (period_ - late_)) * exponential_integral(s, late_);
+    poles_.push_back({complex_expm1(s * period_), residue.displacement * present,
+                      residue.velocity * present, residue.displacement * past,
+                      residue.velocity * past});
+    unstable_ += s.real() > Scalar(0) ? 1 : 0;
+  }
+
   /// A product without the checks for NaN that std::complex makes.
   static Complex times(const Complex& a, const Complex& b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-  }
-
-  /// e^x − 1 to full relative accuracy.
-  static Complex expm1(const Complex& x) {
-    const Scalar half_sine = std::sin(x.imag() / Scalar(2)), grown = std::expm1(x.real());
-    return {grown * std::cos(x.imag()) - Scalar(2) * half_sine * half_sine,
-            (grown + Scalar(1)) * std::sin(x.imag())};
-  }
-
-  /// ∫₀^t e^{s r} dr.
-  static Complex integral(const Complex& s, const Scalar& t) {
-    return s == Complex(0) ? Complex(t) : expm1(s * t) / s;
   }
 
   static constexpr Scalar undamped{1e-11};  // of −Re s τ
@@ -133,8 +144,39 @@ class ModalResponse {
   std::vector<Pole> poles_;
   std::optional<LoopResponse<Scalar>> dense_;  // where the sums are not to be trusted
   int commands_ = 1, unstable_ = 0;
-  bool has_past_ = false;
+  Scalar period_, late_{0};  // τ and δ′
 };
+
+/// The response of which these are all poles.
+/// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
+/// @param poles     of `plant_poles`
+/// @param sampling  τ and δ
+/// @throws InvalidParameter where the sampling is not admissible
+template <class Scalar = double>
+ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
+                                     const Sampling<detail::Undeduced<Scalar>>& sampling) {
+  std::vector<typename ModalResponse<Scalar>::Residue> residues;
+  residues.reserve(poles.size());
+  for (const PlantPole& pole : poles)
+    residues.push_back({pole.s, pole.residue, pole.s * pole.residue});
+  return {residues, sampling};
+}
+
+/// The response of a conductor by its modes with the absorber: from its poles (`plant_poles`), or
+/// where those are not all found from the eigenvalues of its plant.
+/// @tparam Scalar   double, as above
+/// @param modes     as the absorber's place sees them
+/// @param absorber  with its clamp
+/// @param sampling  τ and δ
+/// @throws InvalidParameter where modes, absorber or sampling are not admissible
+template <class Scalar = double>
+ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
+                                     const Absorber<detail::Undeduced<Scalar>>& absorber,
+                                     const Sampling<detail::Undeduced<Scalar>>& sampling) {
+  const auto poles = plant_poles(modes, absorber);
+  if (poles.empty()) return {modal_plant<Scalar>(modes, absorber), sampling};
+  return modal_response<Scalar>(poles, sampling);
+}
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class ModalResponse<double>;

@@ -1,0 +1,73 @@
+#include "holdfast/stability/response/modal_damping.hpp"
+#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "job.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Which roots of an unstable loop grow: those of the conductor's modes, or the absorber's with its
+/// computer; empty where none does.
+std::string growth_text(const Case& the_case, const std::vector<ModeDamping>& modes) {
+  const int outside = circle_of(the_case).roots_outside(gains_of(the_case));
+  int growing = 0;
+  std::string names;
+  for (std::size_t n = 0; n < modes.size(); ++n) {
+    if (!(modes[n].damping() < 0.0)) continue;
+    if (++growing <= 3) names += (names.empty() ? "mode " : ", ") + std::to_string(n + 1);
+  }
+  if (outside == 0 && growing == 0) return "";
+  std::string text = "the loop is unstable: ";
+  if (growing > 0)
+    text += names + (growing > 3 ? " and others grow" : growing > 1 ? " grow" : " grows");
+  // A pair each.
+  if (outside > 2 * growing || growing == 0)
+    text += std::string(growing > 0 ? ", and " : "") +
+            "a root grows that is no mode of the conductor: the absorber's place with its "
+            "computer, which feels the waves that it sends out and its clamp";
+  return text;
+}
+
+struct ModalDampingQuestion {
+  std::int64_t count = 20;
+  bool no_control = false;
+
+  void add_to(const Job& job) {
+    job.add("--count", count);
+    job.add("--no-control", no_control);
+  }
+
+  void run(const JobContext& context) const {
+    const Case& the_case = context.case_data;
+    if (!is_modal(the_case))
+      throw WrongInput(
+          "modal-damping is of the conductor's modes, and the case's plant is two masses: add "
+          "--set plant.model=string");
+    const PdGains<double> gains = no_control ? PdGains<double>{0.0, 0.0} : gains_of(the_case);
+    Table table(context, columns_of("modal-damping"));
+    const auto modes = modal_damping(place_modes_of(the_case), absorber_of(the_case),
+                                     sampling_of(the_case), gains);
+    std::int64_t number = 0, lost = 0;
+    for (const ModeDamping& mode : modes) {
+      lost += std::isnan(mode.damping()) ? 1 : 0;
+      if (++number <= count)
+        table.row(number, mode.angular_frequency / (2.0 * pi<double>), mode.bare, mode.damping(),
+                  mode.first_order);
+    }
+    if (lost > 0)
+      report_warning(std::to_string(lost) +
+                         " mode(s) could not be followed as the absorber and "
+                         "the gains grow: their damping is nan",
+                     context.quiet);
+    if (!no_control) report_warning(growth_text(the_case, modes), context.quiet);
+    table.commit();
+  }
+};
+
+}  // namespace
+
+void add_modal_damping(CLI::App& program) {
+  add_job<ModalDampingQuestion>(program, "modal-damping");
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace holdfast {
+
+/// The root of 1 − ε g(s) at ε = 1 that begins at a pole p of g at ε = 0: how a natural motion
+/// moves as what acts on it grows from nothing to what it is.
+///
+/// It is followed along 1/g(s) = ε, which is smooth at the pole, by Euler's step and the secant. ε
+/// goes a little beside the real axis, where a root that meets its conjugate has a direction all
+/// the same. Steps are shortened while the root turns. A pole so weak that it moves by less than
+/// 10⁻⁷ of itself is moved by its residue alone.
+///
+/// This follows and proves nothing: where two roots meet on the way, which is whose is a matter of
+/// name.
+/// @param loop_gain  g: a complex number to one; some hundred values of it are taken
+/// @param pole       p ≠ 0, simple, exact to round-off
+/// @return NaN where 1000 steps do not do (unchecked)
+template <class LoopGain>
+std::complex<double> root_from_pole(const LoopGain& loop_gain, const std::complex<double>& pole) {
+  using Complex = std::complex<double>;
+  const double close = 1e-9 * std::abs(pole);
+  const Complex here = loop_gain(pole + close), beside = loop_gain(pole + 2.0 * close);
+  // g = r/(s − p) + b nearby.
+  const Complex residue = 2.0 * close * (here - beside);
+  const Complex moved = residue / (1.0 - (here - residue / close));
+  if (!(std::abs(moved) > 100.0 * close)) return pole + moved;
+
+  const auto strength = [&](const Complex& s) { return 1.0 / loop_gain(s); };
+  const auto on_path = [](double t) { return Complex(t, 0.05 * t * (1.0 - t)); };
+  Complex root = pole, slope = 1.0 / residue;
+  double done = 0.0, step = 1.0 / 64.0;
+  for (int steps = 0; steps < 1000; ++steps) {
+    const double next = std::min(1.0, done + step);
+    Complex before = root, at_before = on_path(done);
+    const Complex expected = root + (on_path(next) - at_before) / slope;
+    const double way = std::abs(expected - root);
+    Complex s = expected;
+    bool settled = false;
+    for (int turn = 0; turn < 8 && !settled; ++turn) {
+      const Complex at_s = strength(s), secant = (at_s - at_before) / (s - before);
+      before = s;
+      at_before = at_s;
+      s += (on_path(next) - at_s) / (std::isfinite(std::abs(secant)) ? secant : slope);
+      settled = std::abs(s - before) <= 1e-12 * std::abs(s) + 1e-9 * way;
+    }
+    if (!settled || !(std::abs(s - expected) <= 0.1 * way)) {
+      step /= 3.0;
+      continue;
+    }
+    root = s;
+    done = next;
+    if (done == 1.0) return root;
+    slope = (strength(root + close) - strength(root)) / close;
+    step = std::min(2.0 * step, 1.0 / 8.0);
+  }
+  return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+}
+
+}  // namespace holdfast

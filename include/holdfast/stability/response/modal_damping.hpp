@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
+
+namespace holdfast {
+
+/// How a mode of the conductor is damped, by itself and by the absorber with its computer.
+struct ModeDamping {
+  double angular_frequency;   ///< ω_n (rad/s) of the bare conductor
+  double bare;                ///< ζ_n without absorber
+  std::complex<double> root;  ///< s (1/s) of the loop that the mode becomes; NaN: not followed
+  double first_order;         ///< ζ_n with what a light device would add to it
+
+  /// −Re s/|s|; negative where the mode grows.
+  double damping() const { return -root.real() / std::abs(root); }
+};
+
+namespace detail {
+
+/// The eigenvalue s of the plant, as a response has it, that another route gives nearly.
+/// @return NaN where there is none
+inline std::complex<double> matched_pole(const std::vector<std::complex<double>>& increments,
+                                         const std::complex<double>& s, double period) {
+  const std::complex<double> mu = complex_expm1(s * period);
+  std::complex<double> nearest(std::numeric_limits<double>::infinity(), 0.0);
+  for (const std::complex<double>& increment : increments)
+    if (std::abs(increment - mu) < std::abs(nearest)) nearest = increment - mu;
+  if (!(std::abs(nearest) < 1e-6)) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  return s + nearest / ((1.0 + mu) * period);
+}
+
+/// ζ_n + φ_n²/(2 M_n ω_n) Re[Z_passive + T_a Z_eff] at s = i ω_n, with
+/// Z_eff = −(D + P/s) sinc(ωτ/2) e^{−s(δ + τ/2)}.
+inline double first_order_damping(const PlaceMode<double>& mode, const Absorber<double>& absorber,
+                                  const Sampling<double>& sampling, const PdGains<double>& gains) {
+  const std::complex<double> s(0.0, mode.angular_frequency);
+  const double half = mode.angular_frequency * sampling.period / 2.0;
+  const std::complex<double> late =
+      std::sin(half) / half * std::exp(-s * (sampling.processing_delay + sampling.period / 2.0));
+  const std::complex<double> drive =
+      -(gains.differential + gains.proportional / s) * late * transmitted_share(absorber, s);
+  const double share = mode.shape * mode.shape / (2.0 * mode.mass * mode.angular_frequency);
+  return mode.damping_ratio + share * (passive_stiffness(absorber, s) / s + drive).real();
+}
+
+}  // namespace detail
+
+/// The damping of each mode of a conductor with the absorber and its computer: of the root of the
+/// sampled loop that the bare mode becomes as first the absorber and then the gains are let grow
+/// from nothing to what they are, s = ln λ/τ without the ambiguity of the logarithm; beside it the
+/// law of first order in a light device.
+///
+/// A mode is followed, not proved: where two roots meet on their way, which of them is whose is a
+/// matter of name, and where the steps become too small its damping is NaN. Work: some hundred
+/// values of the transfer functions a mode.
+/// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
+/// @param modes     of the bare conductor, as the absorber's place sees them, ζ_n < 1
+/// @param absorber  with its clamp
+/// @param sampling  τ and δ
+/// @param gains     P and D; 0: without control
+/// @throws InvalidParameter where modes, absorber or sampling are not admissible
+template <class Scalar = double>
+std::vector<ModeDamping> modal_damping(
+    const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
+    const Absorber<detail::Undeduced<Scalar>>& absorber,
+    const Sampling<detail::Undeduced<Scalar>>& sampling,
+    const PdGains<detail::Undeduced<Scalar>>& gains) {
+  using Complex = std::complex<double>;
+  const ModalResponse<Scalar> response = modal_response<Scalar>(modes, absorber, sampling);
+  const detail::PoleFinder finder(modes, absorber);
+  const auto of_gains = [&](const Complex& s) {
+    const auto g = response.at_distance_from_one(complex_expm1(s * sampling.period));
+    return gains.proportional * g.displacement + gains.differential * g.velocity;
+  };
+  const bool controlled = gains.proportional != 0.0 || gains.differential != 0.0;
+  const auto poles = response.pole_increments();
+  std::vector<ModeDamping> found;
+  found.reserve(modes.size());
+  for (std::size_t n = 0; n < modes.size(); ++n) {
+    Complex root = finder.of_mode(n).s;
+    if (controlled)
+      root = root_from_pole(of_gains, detail::matched_pole(poles, root, sampling.period));
+    found.push_back({modes[n].angular_frequency, modes[n].damping_ratio, root,
+                     detail::first_order_damping(modes[n], absorber, sampling, gains)});
+  }
+  return found;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
+#include "holdfast/stability/response/response.hpp"
+
+namespace holdfast {
+
+/// |z| / F_m (m/N) of a conductor by its modes with the absorber, without control, under the true
+/// force F_m cos ωt at the absorber's place: |H′/(1 + H′K_p)| at s = iω (unchecked).
+/// @param modes              as the absorber's place sees them
+/// @param absorber           with its clamp
+/// @param angular_frequency  ω (rad/s), > 0
+inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& modes,
+                                       const Absorber<double>& absorber, double angular_frequency) {
+  const std::complex<double> s(0.0, angular_frequency);
+  return std::abs(place_response(receptance(modes, s), absorber, s).to_force);
+}
+
+/// The steady response of the loop of a conductor by its modes, the force acting at the absorber's
+/// place: as `steady_response` of `modal_plant`, in N operations once its poles are known.
+/// @param modes              as the absorber's place sees them
+/// @param absorber           with its clamp
+/// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
+/// @param hold               how the excitation enters a sample
+/// @param angular_frequency  ω (rad/s), > 0
+/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
+/// called
+/// @throws InvalidParameter outside these ranges
+template <class Scalar = double>
+SteadyResponse<Scalar> steady_response(
+    const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
+    const Absorber<detail::Undeduced<Scalar>>& absorber,
+    const Sampling<detail::Undeduced<Scalar>>& sampling, ForceHold hold, double angular_frequency) {
+  using Complex = std::complex<double>;
+  require_positive("angular frequency", angular_frequency, "rad/s");
+  const auto poles = plant_poles(modes, absorber);
+  if (poles.empty())
+    return steady_response(modal_plant<Scalar>(modes, absorber), sampling, hold, angular_frequency);
+  const Complex turn = complex_expm1(Complex(0.0, angular_frequency * sampling.period));
+  const auto drive = modal_response<Scalar>(poles, sampling).at_distance_from_one(turn);
+  Complex force, force_velocity;
+  if (hold == ForceHold::exact) {
+    const Complex s(0.0, angular_frequency);
+    force = place_response(receptance(modes, s), absorber, s).to_force;
+    force_velocity = s * force;
+  } else {
+    // A held force on the conductor alone is a drive without delay whose whole force reaches it.
+    std::vector<PlantPole> of_force = poles;
+    for (PlantPole& pole : of_force) pole.residue /= detail::transmitted_share(absorber, pole.s);
+    const auto held =
+        modal_response<Scalar>(of_force, {sampling.period}).at_distance_from_one(turn);
+    force = held.displacement;
+    force_velocity = held.velocity;
+  }
+  return SteadyResponse<double>(
+      {drive.displacement, drive.velocity, force, force_velocity, drive.displacement, force});
+}
+
+}  // namespace holdfast

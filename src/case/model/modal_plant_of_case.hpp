@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+
+#include "case/case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/response/response.hpp"
+
+namespace holdfast::program {
+
+/// Whether the absorber hangs on the conductor itself, by its modes, and not on one mass.
+bool is_modal(const Case& the_case);
+
+/// The conductor as a taut string, with the tension of the case or the one that its sag leaves.
+TautString<double> string_of(const Case& the_case);
+
+/// N: plant.modes, or as many as reach the sampling rate, 20 to 500.
+int modes_of(const Case& the_case);
+
+/// The modes of the conductor as the absorber's place sees them.
+std::vector<PlaceMode<double>> place_modes_of(const Case& the_case);
+
+/// The absorber with what of it moves with the conductor.
+Absorber<double> absorber_of(const Case& the_case);
+
+/// The plant of a modal case.
+LinearPlant<double> modal_plant_of(const Case& the_case);
+
+/// Its loop on the unit circle.
+ResolvedCircle<double> circle_of(const Case& the_case);
+
+/// The steady response of the loop of either kind of plant at ω (rad/s), and its amplitude without
+/// control under the true force, m/N.
+SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
+                                          ForceHold hold, double angular_frequency);
+double true_amplitude_of(const Case& the_case, double angular_frequency);
+
+/// The loops of a modal case, as those of two masses (loop_of_case.hpp).
+ModalLoop modal_loop_of(const Case& the_case);
+ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the_case,
+                                                                 Switching switching);
+
+/// The initial state of a modal case: the conductor as a force at the absorber's place bends it to
+/// z1, with the velocities that a blow there gives it to have v1; the absorber at z2 and v2.
+Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
+
+/// What the user has to know of the modes that are kept, beside half the sampling rate; and of keys
+/// that do not count for the case's plant. Empty where there is nothing.
+std::string modes_warning(const Case& the_case);
+
+}  // namespace holdfast::program

@@ -1,0 +1,216 @@
+// The conductor itself by its modes (plant.model = "string"): a string of one mode against the two
+// masses that it is, longer ones against eigenvalues, and what is refused.
+
+#include "cli/program.hpp"
+#include "holdfast/cable/taut_string.hpp"
+#include "io/text/csv.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+using program::CsvTable;
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text << std::setprecision(17) << value;
+  return text.str();
+}
+
+const std::string one_mode = " --quiet --set plant.model=string --set plant.modes=1";
+
+/// The first mode at the absorber's place is one mass on a spring.
+std::string its_two_masses() {
+  const PlaceMode<double> mode = string_modes(taut_string(kollar2022_conductor()), 0.64, 1).front();
+  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
+  return " --quiet --set plant.conductor_mass=" + text_of(mass) +
+         " --set plant.conductor_stiffness=" + text_of(mass * omega * omega) +
+         " --set plant.conductor_damping=" + text_of(2.0 * mode.damping_ratio * omega * mass);
+}
+
+void expect_same(const CsvTable& found, const CsvTable& expected,
+                 const std::vector<std::string>& columns, double tolerance) {
+  ASSERT_EQ(found.rows(), expected.rows());
+  for (const std::string& column : columns) {
+    double largest = 0.0;
+    for (std::size_t row = 0; row < expected.rows(); ++row)
+      if (std::isfinite(expected.number(row, column)))
+        largest = std::max(largest, std::abs(expected.number(row, column)));
+    for (std::size_t row = 0; row < expected.rows(); ++row) {
+      const double one = found.number(row, column), other = expected.number(row, column);
+      if (std::isnan(other)) {
+        EXPECT_TRUE(std::isnan(one)) << column << " in row " << row;
+      } else if (!std::isfinite(other)) {
+        EXPECT_EQ(one, other) << column << " in row " << row;
+      } else {
+        EXPECT_NEAR(one, other, tolerance * largest) << column << " in row " << row;
+      }
+    }
+  }
+}
+
+TEST(String, OfOneModeIsTwoMasses) {
+  const auto compare = [](const std::string& job, const std::vector<std::string>& columns,
+                          double tolerance) {
+    expect_same(table_of(job + one_mode), table_of(job + its_two_masses()), columns, tolerance);
+  };
+  for (const char* sampling : {"", " --set control.sampling_period=0.01",
+                               " --set control.sampling_period=0.003"
+                               " --set control.processing_delay=0.002"}) {
+    compare(std::string("boundary --stable-interval --p -900,-557,0 --d -13,0") + sampling,
+            {"other_gain", "lower", "upper"}, 1e-7);
+    compare(std::string("stability --p -1000:200:25 --d -41.3:20:25 --radius") + sampling,
+            {"stable", "spectral_radius"}, 1e-9);
+    compare(
+        "simulate --duration 2 --set backlash.width=0.002 --set initial.z1=0.001"
+        " --set initial.v2=0.01" +
+            std::string(sampling),
+        {"z1_m", "v1_m_per_s", "z2_m", "v2_m_per_s", "control_force_N", "in_backlash"}, 1e-8);
+  }
+  for (const char* hold : {"sampled", "exact"})
+    compare(std::string("response --p -900:0:7 --d -30:5:8 --set excitation.hold=") + hold,
+            {"stable", "amplitude_m", "ratio_to_uncontrolled"}, 1e-8);
+  compare("simulate --duration 1 --kick 0.3:0.0005", {"z1_m", "z2_m", "control_force_N"}, 1e-8);
+  compare("spectrum --duration 4", {"frequency_Hz", "amplitude_m"}, 1e-8);
+  // Not from rest, where the round-off of Δż = 0 would decide whether the drive enters its gap.
+  compare("deviation --duration 1 --set initial.v2=0.01", {"z1_deviation_m", "state_deviation"},
+          1e-6);
+  compare("coverage --durations 1,3", {"visited", "fraction"}, 1e-9);
+  compare("simulate --duration 0.5 --no-control", {"z1_m", "z2_m"}, 1e-10);
+  compare("simulate --duration 0.3 --switching exact --set backlash.width=0.002",
+          {"z1_m", "v1_m_per_s", "z2_m", "in_backlash"}, 1e-8);
+}
+
+TEST(String, ChartAndIntervalsAreThoseOfTheEigenvalues) {
+  const std::string string =
+      " --quiet --set plant.model=string --set plant.modes=12 --set absorber.clamp_mass=0.01"
+      " --set control.sampling_period=0.01";
+  const CsvTable chart = table_of("stability --radius --p -900:100:9 --d -30:10:17" + string);
+  std::size_t stable = 0;
+  for (std::size_t row = 0; row < chart.rows(); ++row) {
+    EXPECT_EQ(chart.number(row, "stable") == 1.0, chart.number(row, "spectral_radius") < 1.0)
+        << row;
+    stable += chart.number(row, "stable") == 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(stable, 10U);
+  EXPECT_LT(stable, chart.rows() - 10U);
+  const CsvTable interval = table_of("boundary --stable-interval --p -557" + string);
+  for (const char* end : {"lower", "upper"}) {
+    const std::string d = text_of(interval.number(0, end));
+    const CsvTable edge =
+        table_of("stability --radius --p -557:-557:1 --d " + d + ":" + d + ":1" + string);
+    EXPECT_NEAR(edge.number(0, "spectral_radius"), 1.0, 1e-9) << end;
+  }
+}
+
+/// On each boundary point a root of modulus 1.
+TEST(String, BoundaryHasARootOnTheCircle) {
+  const std::string string = " --quiet --set plant.model=string --set plant.modes=6";
+  const CsvTable boundary = table_of("boundary --p -600:-550" + string);
+  ASSERT_GT(boundary.rows(), 20U);
+  std::size_t on_edge = 0;
+  for (std::size_t row = 0; row < boundary.rows(); row += 7) {
+    const std::string p = text_of(boundary.number(row, "proportional_gain"));
+    const std::string d = text_of(boundary.number(row, "differential_gain"));
+    if (!std::isfinite(boundary.number(row, "differential_gain"))) continue;
+    const CsvTable cell =
+        table_of("stability --radius --p " + p + ":" + p + ":1 --d " + d + ":" + d + ":1" + string);
+    EXPECT_GT(cell.number(0, "spectral_radius"), 1.0 - 1e-8) << p << ' ' << d;
+    on_edge += cell.number(0, "spectral_radius") < 1.0 + 1e-8 ? 1 : 0;
+  }
+  EXPECT_GT(on_edge, 0U);
+}
+
+TEST(String, BeginsWithTheInitialStateOfTheCase) {
+  const CsvTable motion = table_of(
+      "simulate --duration 0.01 --quiet --set plant.model=string --set plant.modes=30"
+      " --set initial.z1=0.002 --set initial.v1=-0.03 --set initial.z2=0.001 --set "
+      "initial.v2=0.02");
+  EXPECT_NEAR(motion.number(0, "z1_m"), 0.002, 1e-15);
+  EXPECT_NEAR(motion.number(0, "v1_m_per_s"), -0.03, 1e-15);
+  EXPECT_NEAR(motion.number(0, "z2_m"), 0.001, 1e-15);
+  EXPECT_NEAR(motion.number(0, "v2_m_per_s"), 0.02, 1e-15);
+}
+
+/// A motion in the unstable part grows, in the stable part it decays; a motion is of the string.
+TEST(String, MotionGrowsWhereTheChartSaysSo) {
+  const std::string string =
+      "simulate --duration 4 --quiet --set plant.model=string --set plant.modes=40"
+      " --set control.sampling_period=0.003 --set backlash.width=0 --set excitation.amplitude=0"
+      " --set initial.z1=0.001";
+  const auto last = [&](const std::string& settings) {
+    const CsvTable motion = table_of(string + settings);
+    return std::abs(motion.number(motion.rows() - 1, "v2_m_per_s"));
+  };
+  EXPECT_LT(last(" --set control.differential_gain=-4"), 1e-3);
+  EXPECT_GT(last(" --set control.differential_gain=-7.5"), 1.0);
+  EXPECT_LT(last(" --set control.differential_gain=-7.5 --set absorber.clamp_mass=0.01"), 1e-3);
+}
+
+TEST(String, ModalDampingTellsWhichRootGrows) {
+  const std::string string =
+      "modal-damping --count 9 --set plant.model=string --set plant.modes=60"
+      " --set control.sampling_period=0.003";
+  const CsvTable table = table_of(string + " --quiet --no-control");
+  ASSERT_EQ(table.rows(), 9U);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    EXPECT_EQ(table.number(row, "mode"), static_cast<double>(row + 1));
+    EXPECT_EQ(table.number(row, "damping_ratio_bare"), 0.02);
+    EXPECT_GT(table.number(row, "damping_ratio"), 0.019);
+  }
+  const std::string grows = run_holdfast(string + " --set control.differential_gain=-8").errors;
+  EXPECT_NE(grows.find("no mode of the conductor"), std::string::npos) << grows;
+  const std::string rests = run_holdfast(string + " --set control.differential_gain=-3").errors;
+  EXPECT_EQ(rests.find("unstable"), std::string::npos) << rests;
+}
+
+TEST(String, JobsOfTwoMassesRefuseIt) {
+  for (const std::string job :
+       {"decay", "peaks", "fit", "design", "margins", "sensitivity", "max-delay", "verdict",
+        "orbit", "basins", "diagram --axis backlash.width=0:0.001:2", "section", "lyapunov",
+        "sweep --axis backlash.width=0:0.001:2", "answers", "report --output never"})
+    expect_refused(job + " --set plant.model=string", {"plant.model", "two_masses", "boundary"});
+  for (const std::string options :
+       {"stability --continuous",
+        "stability --axis control.sampling_period=0.001:0.01:2"
+        " --axis control.differential_gain=-9:0:2",
+        "boundary --regions", "boundary --features", "boundary --continuous"})
+    expect_refused(options + " --quiet --set plant.model=string", {"two_masses"});
+  expect_refused("modal-damping", {"plant.model=string"});
+  expect_refused("simulate --switching exact --kick 0.1:0.001 --quiet --set plant.model=string",
+                 {"--kick", "the paper's model alone"});
+}
+
+TEST(String, WrongInputIsNamed) {
+  expect_refused("boundary --set plant.model=strnig", {"plant.model", "string"});
+  expect_refused("boundary --set plant.modes=0", {"plant.modes", "at least 1"});
+  expect_refused("boundary --set plant.modes=2.5", {"plant.modes", "whole"});
+  expect_refused("boundary --set conductor.tension=0", {"conductor.tension", "greater than 0"});
+  expect_refused("boundary --set absorber.clamp_mass=-0.01", {"absorber.clamp_mass"});
+  expect_refused("boundary --set conductor.tension=9 --set conductor.sag=0.29",
+                 {"conductor.tension", "conductor.sag", "contradict"});
+  expect_refused(
+      "boundary --stable-interval --quiet --set plant.model=string"
+      " --set plant.modes=3 --set absorber.position=1e-8",
+      {"absorber.position", "does not move"});
+  const Outcome idle = run_holdfast("margins --set absorber.clamp_mass=0.01");
+  EXPECT_EQ(idle.exit_code, 0);
+  EXPECT_NE(idle.errors.find("absorber.clamp_mass"), std::string::npos) << idle.errors;
+  const Outcome few = run_holdfast("boundary --set plant.model=string --set plant.modes=10");
+  EXPECT_NE(few.errors.find("end below half the sampling rate"), std::string::npos) << few.errors;
+}
+
+/// H and the sag that it leaves are one thing given in two ways.
+TEST(String, TensionStandsForTheSag) {
+  const double tension = taut_string(kollar2022_conductor()).tension * 1.5;
+  const CsvTable by_tension =
+      table_of("statics --force -0.1:0.1:3 --quiet --set conductor.tension=" + text_of(tension));
+  const CsvTable by_sag =
+      table_of("statics --force -0.1:0.1:3 --quiet --set conductor.sag=" + text_of(0.29 / 1.5));
+  ASSERT_EQ(by_tension.rows(), by_sag.rows());
+  EXPECT_NEAR(by_tension.number(2, by_tension.names().back()),
+              by_sag.number(2, by_sag.names().back()), 1e-12);
+}
+
+}  // namespace
+}  // namespace holdfast::tests

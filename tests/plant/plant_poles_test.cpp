@@ -1,0 +1,98 @@
+// Poles of a conductor with its absorber one by one, against eigenvalues of the plant's matrix and
+// the closed transfer function.
+
+#include "holdfast/plant/plant_poles.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "holdfast/cable/taut_string.hpp"
+#include "support/random.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::test {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Σ r/(s − s_k) against T_a H/(1 + H K), to a share of it.
+double misfit(const std::vector<PlantPole>& poles, const std::vector<PlaceMode<double>>& modes,
+              const Absorber<double>& absorber, const Complex& s) {
+  Complex sum(0);
+  for (const PlantPole& pole : poles) sum += pole.residue / (s - pole.s);
+  const Complex expected = place_response(receptance(modes, s), absorber, s).to_drive;
+  return std::abs(sum - expected) / std::abs(expected);
+}
+
+TEST(PlantPoles, OfThePapersStringMakeItsTransferFunction) {
+  const TwoMass<double> masses = kollar2022_plant();
+  for (const int count : {1, 7, 40, 200, 400}) {
+    for (const double clamp_mass : {0.0, 0.01}) {
+      const auto modes = string_modes(taut_string(kollar2022_conductor()), 0.64, count);
+      const Absorber<double> absorber{masses.absorber_mass, masses.absorber_stiffness,
+                                      masses.absorber_damping, clamp_mass};
+      const auto poles = plant_poles(modes, absorber);
+      ASSERT_EQ(poles.size(), 2U * static_cast<std::size_t>(count) + 2U) << clamp_mass;
+      for (const double omega : {0.3, 6.0, 20.0, 61.0, 500.0, 3000.0})
+        EXPECT_LT(misfit(poles, modes, absorber, {0.1, omega}), 1e-7) << count << ' ' << omega;
+    }
+  }
+}
+
+/// Modes at any distances, with nodes, absorbers from hardly to more than critically damped.
+TEST(PlantPoles, AreTheEigenvaluesOfRandomPlants) {
+  Random random(20251125);
+  int found = 0;
+  constexpr int plants = 400;
+  for (int k = 0; k < plants; ++k) {
+    std::vector<PlaceMode<double>> modes;
+    double omega = random.log_uniform(0.1, 10.0);
+    const auto count = static_cast<int>(random.uniform(1.0, 12.0));
+    for (int n = 0; n < count; ++n) {
+      const double shape = n % 4 == 3 ? 0.0 : random.uniform(-1.0, 1.0);
+      modes.push_back({omega, random.log_uniform(1e-4, 0.5), shape, random.uniform(0.1, 2.0)});
+      omega *= random.uniform(1.05, 2.0);
+    }
+    const double own = random.uniform(0.5, 1.5) * modes[modes.size() / 2].angular_frequency;
+    const double mass = random.log_uniform(0.01, 1.0);
+    const Absorber<double> absorber{mass, mass * own * own,
+                                    2.0 * random.log_uniform(1e-3, 1.6) * mass * own,
+                                    k % 2 == 0 ? 0.0 : random.uniform(0.0, 0.1)};
+    const auto poles = plant_poles(modes, absorber);
+    if (poles.empty()) continue;
+    ++found;
+    const Eigen::VectorXcd expected = modal_plant(modes, absorber).state_matrix().eigenvalues();
+    for (const Complex& value : expected) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const PlantPole& pole : poles) nearest = std::min(nearest, std::abs(pole.s - value));
+      EXPECT_LT(nearest, 1e-6 * std::abs(value)) << k;
+    }
+  }
+  EXPECT_GT(found, plants * 95 / 100);
+}
+
+/// A critically damped absorber has a double pole to begin at, and says so by nothing.
+TEST(PlantPoles, AreNoneWhereTheyAreNotAllFound) {
+  const std::vector<PlaceMode<double>> modes = {{3.0, 0.01, 1.0, 1.0}, {3.0, 0.01, 1.0, 1.0}};
+  EXPECT_TRUE(plant_poles(modes, {0.1, 0.9, 0.1, 0.0}).empty());
+}
+
+TEST(PlantPoles, RefuseWhatIsNotAdmissible) {
+  EXPECT_THROW(plant_poles({}, {0.1, 1.0, 0.1}), InvalidParameter);
+  EXPECT_THROW(plant_poles({{1.0, 1.0, 1.0, 1.0}}, {0.1, 1.0, 0.1}), InvalidParameter);
+  EXPECT_THROW(plant_poles({{1.0, 0.1, 1.0, 1.0}}, {0.0, 1.0, 0.1}), InvalidParameter);
+}
+
+/// 1 = g of k/((s − a)(s − b)): the roots of a quadratic.
+TEST(RootFromPole, OfTwoPolesIsARootOfTheQuadratic) {
+  const Complex a(-1.0, 2.0), b(-0.5, 5.0), k(0.7, 0.3);
+  const auto gain = [&](const Complex& s) { return k / ((s - a) * (s - b)); };
+  const Complex half = (a + b) / 2.0, root = std::sqrt((a - b) * (a - b) / 4.0 + k);
+  for (const Complex& begin : {a, b}) {
+    const Complex found = root_from_pole(gain, begin);
+    EXPECT_LT(std::min(std::abs(found - half - root), std::abs(found - half + root)), 1e-12);
+  }
+  EXPECT_GT(std::abs(root_from_pole(gain, a) - root_from_pole(gain, b)), 1.0);
+}
+
+}  // namespace
+}  // namespace holdfast::test
