@@ -16,7 +16,7 @@ std::string growth_text(const Case& the_case, const std::vector<ModeDamping>& mo
     if (!(modes[n].damping() < 0.0)) continue;
     if (++growing <= 3) names += (names.empty() ? "mode " : ", ") + std::to_string(n + 1);
   }
-  if (outside == 0 && growing == 0) return "";
+  if (outside <= 0) return "";
   std::string text = "the loop is unstable: ";
   if (growing > 0)
     text += names + (growing > 3 ? " and others grow" : growing > 1 ? " grow" : " grows");

@@ -210,8 +210,10 @@ class ModalMotion {
     of.sine = 0.0;
     if (loop_.hold == ForceHold::exact) {
       const Complex i(0.0, 1.0), turn = i * loop_.excitation.angular_frequency();
-      const Complex ahead = forced * whole * exponential_integral(turn - s, period);
-      const Complex behind = forced * whole * exponential_integral(-turn - s, period);
+      const Complex ahead =
+          forced * std::exp(turn * period) * exponential_integral(s - turn, period);
+      const Complex behind =
+          forced * std::exp(-turn * period) * exponential_integral(s + turn, period);
       of.cosine = 0.5 * (ahead + behind);
       of.sine = 0.5 * i * (ahead - behind);
     }

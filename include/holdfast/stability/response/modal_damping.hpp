@@ -91,8 +91,8 @@ std::vector<ModeDamping> modal_damping(
   found.reserve(modes.size());
   for (std::size_t n = 0; n < modes.size(); ++n) {
     Complex root = finder.of_mode(n).s;
-    if (controlled)
-      root = root_from_pole(of_gains, detail::matched_pole(poles, root, sampling.period));
+    root = detail::matched_pole(poles, root, sampling.period);
+    if (controlled) root = root_from_pole(of_gains, root);
     found.push_back({modes[n].angular_frequency, modes[n].damping_ratio, root,
                      detail::first_order_damping(modes[n], absorber, sampling, gains)});
   }
