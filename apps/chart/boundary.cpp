@@ -211,11 +211,9 @@ struct BoundaryQuestion {
 
   void run(const Job& job) const {
     const JobContext context = job.context();
-    if (is_modal(context.case_data) && (continuous || regions || features))
-      throw WrongInput(std::string(continuous ? "--continuous"
-                                   : regions  ? "--regions"
-                                              : "--features") +
-                       " goes with plant.model = \"two_masses\" alone");
+    refuse_on_modes(context.case_data, continuous, "--continuous");
+    refuse_on_modes(context.case_data, regions, "--regions");
+    refuse_on_modes(context.case_data, features, "--features");
     if (stable_interval) {
       write_stable_intervals(context, fixed_gains(job, context.case_data), continuous);
     } else if (regions) {

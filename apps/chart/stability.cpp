@@ -48,9 +48,8 @@ struct StabilityQuestion {
     job.add("--radius", radius);
   }
   void run(const JobContext& context) const {
-    if (is_modal(context.case_data) && (continuous || !axes.empty()))
-      throw WrongInput(std::string(continuous ? "--continuous" : "--axis") +
-                       " goes with plant.model = \"two_masses\" alone");
+    refuse_on_modes(context.case_data, continuous, "--continuous");
+    refuse_on_modes(context.case_data, !axes.empty(), "--axis");
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
   }
 

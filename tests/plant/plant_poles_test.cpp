@@ -82,17 +82,5 @@ TEST(PlantPoles, RefuseWhatIsNotAdmissible) {
   EXPECT_THROW(plant_poles({{1.0, 0.1, 1.0, 1.0}}, {0.0, 1.0, 0.1}), InvalidParameter);
 }
 
-/// 1 = g of k/((s − a)(s − b)): the roots of a quadratic.
-TEST(RootFromPole, OfTwoPolesIsARootOfTheQuadratic) {
-  const Complex a(-1.0, 2.0), b(-0.5, 5.0), k(0.7, 0.3);
-  const auto gain = [&](const Complex& s) { return k / ((s - a) * (s - b)); };
-  const Complex half = (a + b) / 2.0, root = std::sqrt((a - b) * (a - b) / 4.0 + k);
-  for (const Complex& begin : {a, b}) {
-    const Complex found = root_from_pole(gain, begin);
-    EXPECT_LT(std::min(std::abs(found - half - root), std::abs(found - half + root)), 1e-12);
-  }
-  EXPECT_GT(std::abs(root_from_pole(gain, a) - root_from_pole(gain, b)), 1.0);
-}
-
 }  // namespace
 }  // namespace holdfast::test

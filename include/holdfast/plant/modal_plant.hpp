@@ -21,6 +21,12 @@ struct PlaceMode {
   Scalar damping_ratio;      ///< ζ_n, ≥ 0
   Scalar shape;              ///< φ_n at the absorber, in any unit: M_n goes with its square
   Scalar mass;               ///< M_n (kg), > 0
+
+  /// s² + 2 ζ_n ω_n s + ω_n² (1/s²), by which a force is divided.
+  std::complex<Scalar> divisor(const std::complex<Scalar>& s) const {
+    return s * (s + Scalar(2) * damping_ratio * angular_frequency) +
+           angular_frequency * angular_frequency;
+  }
 };
 
 /// The absorber on a conductor, its drive being apart.
@@ -58,11 +64,30 @@ std::complex<Scalar> receptance(const std::vector<PlaceMode<Scalar>>& modes,
                                 const std::complex<Scalar>& s) {
   std::complex<Scalar> sum(0);
   for (const PlaceMode<Scalar>& mode : modes)
-    sum += mode.shape * mode.shape /
-           (mode.mass * (s * (s + Scalar(2) * mode.damping_ratio * mode.angular_frequency) +
-                         mode.angular_frequency * mode.angular_frequency));
+    sum += mode.shape * mode.shape / (mode.mass * mode.divisor(s));
   return sum;
 }
+
+namespace detail {
+
+/// T_a(s) = m₂ s²/(m₂ s² + c₂ s + k₂): how much of the drive's force reaches the conductor.
+template <class Scalar>
+std::complex<Scalar> transmitted_share(const Absorber<Scalar>& absorber,
+                                       const std::complex<Scalar>& s) {
+  const std::complex<Scalar> inertia = absorber.mass * s * s;
+  return inertia / (inertia + absorber.stiffness + absorber.damping * s);
+}
+
+/// M_c s² + K_p(s), K_p = T_a (k₂ + c₂ s) (N/m): what the absorber presses back with, its drive
+/// apart.
+template <class Scalar>
+std::complex<Scalar> passive_stiffness(const Absorber<Scalar>& absorber,
+                                       const std::complex<Scalar>& s) {
+  return absorber.clamp_mass * s * s +
+         transmitted_share(absorber, s) * (absorber.stiffness + absorber.damping * s);
+}
+
+}  // namespace detail
 
 /// What the conductor answers at the absorber's place to a force there, and to the drive.
 template <class Scalar>
@@ -85,12 +110,46 @@ template <class Scalar>
 PlaceResponse<Scalar> place_response(const std::complex<Scalar>& bare,
                                      const Absorber<Scalar>& absorber,
                                      const std::complex<Scalar>& s) {
-  const std::complex<Scalar> inertia = absorber.mass * s * s;
-  const std::complex<Scalar> spring = absorber.stiffness + absorber.damping * s;
-  const std::complex<Scalar> transmitted = inertia / (inertia + spring);
   const std::complex<Scalar> to_force =
-      Scalar(1) / (Scalar(1) / bare + absorber.clamp_mass * s * s + transmitted * spring);
-  return {to_force, transmitted * to_force};
+      Scalar(1) / (Scalar(1) / bare + detail::passive_stiffness(absorber, s));
+  return {to_force, detail::transmitted_share(absorber, s) * to_force};
+}
+
+namespace detail {
+
+/// What modes take part with, N × 1, scaled so that the place itself has 1.
+/// @param share  of a mode
+template <class Scalar, class Share>
+Vector<Scalar, Eigen::Dynamic> scaled_at_place(const std::vector<PlaceMode<Scalar>>& modes,
+                                               const Share& share) {
+  Vector<Scalar, Eigen::Dynamic> shares(static_cast<Eigen::Index>(modes.size()));
+  Scalar there(0);
+  Eigen::Index n = 0;
+  for (const PlaceMode<Scalar>& mode : modes) {
+    shares[n] = share(mode);
+    there += mode.shape * shares[n++];
+  }
+  return shares / there;
+}
+
+}  // namespace detail
+
+/// The conductor as a force at the place bends it by 1 m there: q of each mode, N × 1 (unchecked).
+/// @param modes  as its place sees them, not all with a node there
+template <class Scalar>
+Vector<Scalar, Eigen::Dynamic> bent_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
+  return detail::scaled_at_place(modes, [](const PlaceMode<Scalar>& mode) {
+    return mode.shape / (mode.mass * mode.angular_frequency * mode.angular_frequency);
+  });
+}
+
+/// The conductor as a blow at the place leaves it, with 1 m/s there: q̇ of each mode, N × 1
+/// (unchecked).
+/// @param modes  as above
+template <class Scalar>
+Vector<Scalar, Eigen::Dynamic> struck_conductor(const std::vector<PlaceMode<Scalar>>& modes) {
+  return detail::scaled_at_place(
+      modes, [](const PlaceMode<Scalar>& mode) { return mode.shape / mode.mass; });
 }
 
 namespace detail {

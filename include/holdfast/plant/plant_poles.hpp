@@ -20,29 +20,13 @@ struct PlantPole {
 
 namespace detail {
 
-/// What the absorber presses back with at the place, its drive apart: M_c s² + K_p(s) (N/m).
-inline std::complex<double> passive_stiffness(const Absorber<double>& absorber,
-                                              const std::complex<double>& s) {
-  const std::complex<double> inertia = absorber.mass * s * s;
-  const std::complex<double> spring = absorber.stiffness + absorber.damping * s;
-  return absorber.clamp_mass * s * s + inertia * spring / (inertia + spring);
-}
-
-/// T_a(s): how much of the drive's force reaches the conductor.
-inline std::complex<double> transmitted_share(const Absorber<double>& absorber,
-                                              const std::complex<double>& s) {
-  const std::complex<double> inertia = absorber.mass * s * s;
-  return inertia / (inertia + absorber.stiffness + absorber.damping * s);
-}
-
 /// dH/ds of `receptance`.
 inline std::complex<double> receptance_slope(const std::vector<PlaceMode<double>>& modes,
                                              const std::complex<double>& s) {
   std::complex<double> sum(0);
   for (const PlaceMode<double>& mode : modes) {
     const double damping = 2.0 * mode.damping_ratio * mode.angular_frequency;
-    const std::complex<double> part =
-        s * (s + damping) + mode.angular_frequency * mode.angular_frequency;
+    const std::complex<double> part = mode.divisor(s);
     sum -= mode.shape * mode.shape * (2.0 * s + damping) / (mode.mass * part * part);
   }
   return sum;

@@ -13,9 +13,9 @@ namespace holdfast::program {
 /// All that a motion depends on beside its initial state.
 IdealLoop<double> ideal_loop_of(const Case& the_case);
 
-/// The loop with P = D = 0 and a drive without backlash.
-template <class Plant>
-IdealLoop<double, Plant> uncontrolled(IdealLoop<double, Plant> loop) {
+/// The loop, an IdealLoop or a ModalLoop, with P = D = 0 and a drive without backlash.
+template <class Loop>
+Loop uncontrolled(Loop loop) {
   loop.gains = {0.0, 0.0};
   loop.backlash_width = 0.0;
   return loop;

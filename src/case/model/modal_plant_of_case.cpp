@@ -40,22 +40,6 @@ std::string idle_keys_warning(const Case& the_case) {
   return names + ": the two masses do not depend on it; plant.model = \"string\" does";
 }
 
-/// The shape of the conductor at rest under a force at the place, or its velocities after a blow
-/// there, with `size` at the place itself.
-void shape_conductor(Vector<double, Eigen::Dynamic>& state, Eigen::Index first, double size,
-                     const std::vector<PlaceMode<double>>& modes, bool bent) {
-  double at_place = 0.0;
-  std::vector<double> shares;
-  shares.reserve(modes.size());
-  for (const PlaceMode<double>& mode : modes) {
-    const double soft = bent ? 1.0 / (mode.angular_frequency * mode.angular_frequency) : 1.0;
-    shares.push_back(mode.shape / mode.mass * soft);
-    at_place += mode.shape * shares.back();
-  }
-  for (std::size_t n = 0; n < modes.size(); ++n)
-    state[first + 2 * static_cast<Eigen::Index>(n)] = size * shares[n] / at_place;
-}
-
 }  // namespace
 
 bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
@@ -123,11 +107,16 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
   const auto& initial = the_case.initial;
   const auto absorber = static_cast<Eigen::Index>(2 * modes.size());
   Vector<double, Eigen::Dynamic> state = Vector<double, Eigen::Dynamic>::Zero(absorber + 2);
-  shape_conductor(state, 0, initial.z1, modes, true);
-  shape_conductor(state, 1, initial.v1, modes, false);
+  state(Eigen::seq(0, absorber - 2, 2)) = initial.z1 * bent_conductor(modes);
+  state(Eigen::seq(1, absorber - 1, 2)) = initial.v1 * struck_conductor(modes);
   state[absorber] = initial.z2;
   state[absorber + 1] = initial.v2;
   return state;
+}
+
+void refuse_on_modes(const Case& the_case, bool given, const std::string& option) {
+  if (given && is_modal(the_case))
+    throw WrongInput(option + " goes with plant.model = \"two_masses\" alone");
 }
 
 std::string modes_warning(const Case& the_case) {

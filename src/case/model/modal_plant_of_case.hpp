@@ -50,6 +50,9 @@ ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the
 /// z1, with the velocities that a blow there gives it to have v1; the absorber at z2 and v2.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
 
+/// Throws WrongInput where an option of two masses is given for a modal case.
+void refuse_on_modes(const Case& the_case, bool given, const std::string& option);
+
 /// What the user has to know of the modes that are kept, beside half the sampling rate; and of keys
 /// that do not count for the case's plant. Empty where there is nothing.
 std::string modes_warning(const Case& the_case);

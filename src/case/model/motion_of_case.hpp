@@ -67,12 +67,9 @@ class MotionAtAbsorber {
 /// The motion of a modal case in the paper's model, of which alone a kick has a shape.
 /// Throws NoAnswer where two natural motions of it cannot be told apart.
 inline ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
-  ModalLoop loop = modal_loop_of(the_case);
-  if (!controlled) {
-    loop.gains = {0.0, 0.0};
-    loop.backlash_width = 0.0;
-  }
-  const auto motion = modal_motion(loop, modal_state_of(the_case));
+  const ModalLoop loop = modal_loop_of(the_case);
+  const auto motion =
+      modal_motion(controlled ? loop : uncontrolled(loop), modal_state_of(the_case));
   if (motion) return *motion;
   throw NoAnswer(
       "two natural motions of conductor and absorber coincide too nearly to be told apart: change "

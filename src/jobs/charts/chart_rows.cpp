@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "case/model/modal_plant_of_case.hpp"
@@ -119,8 +120,8 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
 void append_modal_chart(const JobContext& context, const GainGrid& grid, bool radius,
                         GridOutput& output) {
   const ResolvedCircle<double> circle = circle_of(context.case_data);
-  const LoopMap<double> map =
-      loop_map(modal_plant_of(context.case_data), sampling_of(context.case_data));
+  std::optional<LoopMap<double>> map;  // dense: N³ operations, for the radii alone
+  if (radius) map = loop_map(modal_plant_of(context.case_data), sampling_of(context.case_data));
   append_rows(context, grid.proportional.count, Block(grid.differential.count, radius ? 1 : 0),
               nullptr, output,
               [&](std::nullptr_t, std::int64_t first, std::int64_t count, std::int64_t offset,
@@ -131,7 +132,7 @@ void append_modal_chart(const JobContext& context, const GainGrid& grid, bool ra
                   for (std::int64_t j = 0; radius && j < grid.differential.count && !interrupted();
                        ++j)
                     block.numbers(0, offset + row)[j] =
-                        spectral_radius(map.closed_map(grid.at(first + row, j)));
+                        spectral_radius(map->closed_map(grid.at(first + row, j)));
                 }
               });
 }

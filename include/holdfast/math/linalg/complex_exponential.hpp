@@ -13,6 +13,13 @@ std::complex<Scalar> complex_expm1(const std::complex<Scalar>& x) {
           (grown + Scalar(1)) * std::sin(x.imag())};
 }
 
+/// e^{iθ} − 1 to full relative accuracy: how far a point of the unit circle is from 1.
+/// @param angle  θ (rad)
+template <class Scalar>
+std::complex<Scalar> circle_increment(const Scalar& angle) {
+  return complex_expm1(std::complex<Scalar>(0, angle));
+}
+
 /// ∫₀^t e^{s r} dr = (e^{st} − 1)/s, also near s = 0.
 /// @param s  1/s
 /// @param t  s

@@ -60,7 +60,8 @@ class ModalMotion {
         phases_({Vector<double, 2>::Unit(0), Vector<double, 2>::Unit(1)}, loop.excitation,
                 loop.sampling.period) {
     const detail::PoleFinder finder(loop.modes, loop.absorber);
-    const Full unit = bent_conductor();
+    Full unit = Full::Zero(state.size());
+    unit.head(state.size() - 2)(Eigen::seq(0, Eigen::last, 2)) = bent_conductor(loop.modes);
     std::size_t count = 0;
     for (std::size_t k = 0; k < poles.size(); ++k) {
       const std::complex<double> s = poles[k].s;
@@ -87,19 +88,16 @@ class ModalMotion {
   void advance() {
     const double u = present_force_, before = previous_force_;
     const Vector<double, 2> force = phases_.next();
-    Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
+    Seen seen;
     for (Block& b : blocks_) {
       const Lanes re = b.decay.re * b.state.re - b.decay.im * b.state.im + b.present.re * u +
                        b.past.re * before + b.cosine.re * force[0] + b.sine.re * force[1];
       const Lanes im = b.decay.re * b.state.im + b.decay.im * b.state.re + b.present.im * u +
                        b.past.im * before + b.cosine.im * force[0] + b.sine.im * force[1];
       b.state = {re, im};
-      z += b.z.re * re + b.z.im * im;
-      v += b.v.re * re + b.v.im * im;
-      z2 += b.z2.re * re + b.z2.im * im;
-      v2 += b.v2.re * re + b.v2.im * im;
+      seen.add(b);
     }
-    seen_ = {z.sum(), v.sum(), z2.sum(), v2.sum()};
+    seen_ = seen.sums();
     previous_force_ = u;
     ++index_;
   }
@@ -165,6 +163,20 @@ class ModalMotion {
       z2.set(k, std::conj(of.z2));
       v2.set(k, std::conj(of.v2));
     }
+  };
+
+  /// [z, ż, z₂, ż₂] of the blocks that were added, lane by lane.
+  struct Seen {
+    Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
+
+    void add(const Block& of) {
+      const Lanes &re = of.state.re, &im = of.state.im;
+      z += of.z.re * re + of.z.im * im;
+      v += of.v.re * re + of.v.im * im;
+      z2 += of.z2.re * re + of.z2.im * im;
+      v2 += of.v2.re * re + of.v2.im * im;
+    }
+    State sums() const { return {z.sum(), v.sum(), z2.sum(), v2.sum()}; }
   };
 
   /// The shape ψ of a natural motion under a force f on the bare conductor.
@@ -238,10 +250,7 @@ class ModalMotion {
       const double damping = 2.0 * mode.damping_ratio * mode.angular_frequency;
       const bool own = natural.weak && n == natural.mode;
       const Complex shape =
-          own ? natural.own
-              : natural.force * mode.shape /
-                    (mode.mass *
-                     (s * (s + damping) + mode.angular_frequency * mode.angular_frequency));
+          own ? natural.own : natural.force * mode.shape / (mode.mass * mode.divisor(s));
       z += mode.shape * state[q];
       v += mode.shape * state[q + 1];
       sum += shape * mode.mass * ((s + damping) * state[q] + state[q + 1]);
@@ -251,28 +260,10 @@ class ModalMotion {
            absorber.mass * theta * place * (s * state[q] + state[q + 1]);
   }
 
-  /// The conductor as a force at the place bends it by 1 m there; the absorber stays.
-  Full bent_conductor() const {
-    Full bent = Full::Zero(static_cast<Eigen::Index>(2 * loop_.modes.size()) + 2);
-    double there = 0.0;
-    Eigen::Index q = 0;
-    for (const PlaceMode<double>& mode : loop_.modes) {
-      bent[q] = mode.shape / (mode.mass * mode.angular_frequency * mode.angular_frequency);
-      there += mode.shape * bent[q];
-      q += 2;
-    }
-    return bent / there;
-  }
-
   void read() {
-    Lanes z = Lanes::Zero(), v = z, z2 = z, v2 = z;
-    for (const Block& b : blocks_) {
-      z += b.z.re * b.state.re + b.z.im * b.state.im;
-      v += b.v.re * b.state.re + b.v.im * b.state.im;
-      z2 += b.z2.re * b.state.re + b.z2.im * b.state.im;
-      v2 += b.v2.re * b.state.re + b.v2.im * b.state.im;
-    }
-    seen_ = {z.sum(), v.sum(), z2.sum(), v2.sum()};
+    Seen seen;
+    for (const Block& block : blocks_) seen.add(block);
+    seen_ = seen.sums();
   }
 
   ModalLoop loop_;

@@ -12,6 +12,7 @@
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/moving_spectrum.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
@@ -26,8 +27,8 @@ inline double tail_beyond(double next, double rate, std::size_t order) {
 
 /// e^{iωτ} − 1 within `radius` of a period τ, `terms` terms.
 inline MovingNumber moving_phase(double omega, double period, double radius, std::size_t terms) {
-  const double angle = omega * period, half_sine = std::sin(angle / 2.0);
-  MovingNumber result{{{-2.0 * half_sine * half_sine, std::sin(angle)}}, 0.0};
+  const double angle = omega * period;
+  MovingNumber result{{circle_increment(angle)}, 0.0};
   std::complex<double> term = std::polar(1.0, angle);
   for (std::size_t j = 1; j <= terms; ++j) {
     term *= std::complex<double>(0.0, omega * radius / static_cast<double>(j));

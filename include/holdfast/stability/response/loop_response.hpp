@@ -7,6 +7,7 @@
 
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 
 namespace holdfast {
 
@@ -16,14 +17,6 @@ struct CommandResponse {
   std::complex<Scalar> displacement;  ///< G_z(λ) (m/N)
   std::complex<Scalar> velocity;      ///< G_v(λ) (m/(N s))
 };
-
-/// e^{iθ} − 1 without cancellation.
-/// @param angle  θ (rad)
-template <class Scalar>
-std::complex<Scalar> circle_increment(const Scalar& angle) {
-  const Scalar half_sine = std::sin(angle / Scalar(2));
-  return {Scalar(-2) * half_sine * half_sine, std::sin(angle)};
-}
 
 /// The zero-order-hold transfer functions of a loop of any order,
 ///

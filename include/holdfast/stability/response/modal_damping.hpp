@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -79,19 +78,22 @@ std::vector<ModeDamping> modal_damping(
     const Sampling<detail::Undeduced<Scalar>>& sampling,
     const PdGains<detail::Undeduced<Scalar>>& gains) {
   using Complex = std::complex<double>;
-  const ModalResponse<Scalar> response = modal_response<Scalar>(modes, absorber, sampling);
-  const detail::PoleFinder finder(modes, absorber);
+  const auto poles = plant_poles(modes, absorber);
+  const ModalResponse<Scalar> response = modal_response<Scalar>(modes, absorber, poles, sampling);
   const auto of_gains = [&](const Complex& s) {
     const auto g = response.at_distance_from_one(complex_expm1(s * sampling.period));
     return gains.proportional * g.displacement + gains.differential * g.velocity;
   };
   const bool controlled = gains.proportional != 0.0 || gains.differential != 0.0;
-  const auto poles = response.pole_increments();
+  const detail::PoleFinder finder(modes, absorber);
+  const auto eigenvalues = response.pole_increments();
   std::vector<ModeDamping> found;
   found.reserve(modes.size());
   for (std::size_t n = 0; n < modes.size(); ++n) {
-    Complex root = finder.of_mode(n).s;
-    root = detail::matched_pole(poles, root, sampling.period);
+    // Where not all poles were found those of the response are the plant's eigenvalues.
+    Complex root = poles.empty()
+                       ? detail::matched_pole(eigenvalues, finder.of_mode(n).s, sampling.period)
+                       : poles[n].s;
     if (controlled) root = root_from_pole(of_gains, root);
     found.push_back({modes[n].angular_frequency, modes[n].damping_ratio, root,
                      detail::first_order_damping(modes[n], absorber, sampling, gains)});

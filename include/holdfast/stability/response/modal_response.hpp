@@ -162,20 +162,34 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
   return {residues, sampling};
 }
 
-/// The response of a conductor by its modes with the absorber: from its poles (`plant_poles`), or
-/// where those are not all found from the eigenvalues of its plant.
+/// The response of a conductor by its modes with the absorber: from its poles, or where those are
+/// not all found from the eigenvalues of its plant.
 /// @tparam Scalar   double, as above
 /// @param modes     as the absorber's place sees them
 /// @param absorber  with its clamp
+/// @param poles     `plant_poles` of the two
 /// @param sampling  τ and δ
 /// @throws InvalidParameter where modes, absorber or sampling are not admissible
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
                                      const Absorber<detail::Undeduced<Scalar>>& absorber,
+                                     const std::vector<PlantPole>& poles,
                                      const Sampling<detail::Undeduced<Scalar>>& sampling) {
-  const auto poles = plant_poles(modes, absorber);
   if (poles.empty()) return {modal_plant<Scalar>(modes, absorber), sampling};
   return modal_response<Scalar>(poles, sampling);
+}
+
+/// The same, whose poles are found here.
+/// @tparam Scalar   double, as above
+/// @param modes     as above
+/// @param absorber  as above
+/// @param sampling  as above
+/// @throws InvalidParameter as above
+template <class Scalar = double>
+ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
+                                     const Absorber<detail::Undeduced<Scalar>>& absorber,
+                                     const Sampling<detail::Undeduced<Scalar>>& sampling) {
+  return modal_response<Scalar>(modes, absorber, plant_poles(modes, absorber), sampling);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -45,7 +45,7 @@ SteadyResponse<Scalar> steady_response(
   const auto poles = plant_poles(modes, absorber);
   if (poles.empty())
     return steady_response(modal_plant<Scalar>(modes, absorber), sampling, hold, angular_frequency);
-  const Complex turn = complex_expm1(Complex(0.0, angular_frequency * sampling.period));
+  const Complex turn = circle_increment(angular_frequency * sampling.period);
   const auto drive = modal_response<Scalar>(poles, sampling).at_distance_from_one(turn);
   Complex force, force_velocity;
   if (hold == ForceHold::exact) {

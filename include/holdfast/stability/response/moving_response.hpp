@@ -9,6 +9,7 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/elimination.hpp"
 
 namespace holdfast {
@@ -61,12 +62,11 @@ class MovingResponse {
   MovingResponse(const Loop& loop, const Input& input, const Scalar& angular_frequency)
       : loop_(loop) {
     const Scalar angle = angular_frequency * loop.sampling.period;
-    const Scalar half_sine = std::sin(angle / Scalar(2));
     lambda_ = std::polar(Scalar(1), angle);
     lambda_rate_ = Complex(0, angular_frequency) * lambda_;
     // (λ − 1) I − (S₀ − I): both parts small and accurate where sampling is fast.
     system_ = -loop.increment.template cast<Complex>();
-    system_.diagonal().array() += Complex(Scalar(-2) * half_sine * half_sine, std::sin(angle));
+    system_.diagonal().array() += circle_increment(angle);
     response_ = eliminated(system_, sources(loop, input));
   }
 
