@@ -115,6 +115,34 @@ std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bo
       the_case, continuous, [&](const auto& polynomial) { return answers(polynomial, fixed); });
 }
 
+/// What the same conductor by other modes says; empty where no end moves by more than a hundredth.
+std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
+                               const std::vector<GainPlane>& found) {
+  const OtherModes other = other_modes_of(the_case);
+  const std::vector<GainPlane> others = answers(other.circle, fixed);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& here = found[i].intervals;
+    const auto& there = others[i].intervals;
+    const auto differs = [](double one, double two) {
+      return !(std::abs(one - two) <= 0.01 * std::max(std::abs(one), std::abs(two)));
+    };
+    const auto moved = [&](std::size_t k) {
+      return differs(here[k].lower, there[k].lower) || differs(here[k].upper, there[k].upper);
+    };
+    const std::string at = std::string("at ") + found[i].fixed.symbol + " = " +
+                           format_number(found[i].value) + " " + found[i].fixed.unit + " ";
+    if (here.size() != there.size())
+      return "the answer depends on the modes kept: " + at + other.words + " there are " +
+             std::to_string(there.size()) + " stable intervals";
+    for (std::size_t k = 0; k < here.size(); ++k)
+      if (moved(k))
+        return "the answer depends on the modes kept: " + at + other.words + " the interval is " +
+               format_rounded(there[k].lower) + " to " + format_rounded(there[k].upper) + " " +
+               found[i].gain.unit;
+  }
+  return "";
+}
+
 /// The refusals of those without an interval, each on its own or, when there is no other, as one.
 void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   std::vector<std::string> refusals;
@@ -174,6 +202,8 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
   const std::vector<GainPlane> all = answers(context.case_data, fixed, continuous);
   Table table(context, columns_of("stable intervals"));
   report_refusals(all, context.quiet);
+  if (is_modal(context.case_data))
+    report_warning(truncation_warning(context.case_data, fixed, all), context.quiet);
   for (const GainPlane& answer : all) {
     for (const Interval<double>& interval : answer.intervals)
       table.row(answer.gain.column, answer.value, interval.lower, interval.upper);

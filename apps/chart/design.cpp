@@ -1,5 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -7,6 +8,7 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
 #include "io/text/names.hpp"
 #include "job.hpp"
 #include "jobs/design/gain_margins.hpp"
@@ -59,14 +61,43 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
         quiet);
 }
 
+/// What is best for a loop of the case's plant, one frequency and P after another.
+class BestForPlant {
+ public:
+  BestForPlant(const Case& the_case, const AmplitudeOptions& options)
+      : case_(the_case), options_(options) {
+    if (is_modal(the_case)) {
+      modal_.emplace(modal_response(poles_of(the_case), options.sampling));
+    } else {
+      loop_.emplace(sampled_loop(plant_of(the_case), options.sampling));
+    }
+  }
+
+  MinimumAmplitude quietest(double frequency, double p) const {
+    if (loop_) return minimum_amplitude(plant_of(case_), options_, frequency, p);
+    const double omega = 2.0 * pi<double> * frequency;
+    return minimum_amplitude(*modal_, options_, frequency, p,
+                             steady_response_of(case_, options_.sampling, options_.hold, omega)
+                                 .relative_to(true_amplitude_of(case_, omega)));
+  }
+  MinimumRadius fastest(double p) const {
+    return loop_ ? minimum_radius(*loop_, p) : minimum_radius(*modal_, p);
+  }
+
+ private:
+  const Case& case_;
+  AmplitudeOptions options_;
+  std::optional<SampledLoop<double>> loop_;
+  std::optional<ModalResponse<double>> modal_;
+};
+
 /// The best D at each frequency, P tuned to each by Eq. 6; without frequencies at the case's own
 /// frequency and P.
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
                       const Admissible& admissible) {
   const Case& the_case = context.case_data;
   const AmplitudeOptions options = options_of(the_case, admissible);
-  const TwoMass<double> plant = plant_of(the_case);
-  const auto loop = sampled_loop(plant, sampling_of(the_case));
+  const BestForPlant best(the_case, options);
   const double own = excitation_of(the_case).frequency;
   const Axis axis = frequencies.value_or(Axis{own, own, 1});
   Table table(context, columns_of("best gains"));
@@ -75,11 +106,11 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
   for (std::int64_t i = 0; i < axis.count; ++i) {
     throw_if_interrupted();
     const double frequency = axis.at(i);
-    const double p = frequencies ? tuned_proportional_gain(plant.absorber_stiffness,
-                                                           plant.absorber_mass, frequency)
+    const double p = frequencies ? tuned_proportional_gain(the_case.plant.absorber_stiffness,
+                                                           the_case.plant.absorber_mass, frequency)
                                  : gains_of(the_case).proportional;
-    const auto quietest = minimum_amplitude(plant, options, frequency, p);
-    const MinimumRadius fastest = minimum_radius(loop, p);
+    const MinimumAmplitude quietest = best.quietest(frequency, p);
+    const MinimumRadius fastest = best.fastest(p);
     if (!frequencies) warn_of_no_gain(quietest.outcome, p, options.largest_radius, context.quiet);
     const GainMargins margins = gain_margins(the_case, {p, quietest.differential_gain});
     largest = std::max(largest, margins.spectral_radius);
@@ -148,6 +179,8 @@ struct DesignQuestion {
   }
 
   void run(const JobContext& context) const {
+    refuse_on_modes(context.case_data, both_gains, "--both-gains");
+    refuse_on_modes(context.case_data, !band.empty(), "--band");
     if (both_gains) return write_best_pair(context);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), admissible);
     std::optional<Axis> frequencies;

@@ -1,5 +1,8 @@
 #include "holdfast/stability/margins/margins.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/stability/margins/modal_margins.hpp"
 #include "job.hpp"
 #include "jobs/charts/names.hpp"
 
@@ -25,13 +28,23 @@ void write(Table& table, const char* quantity, const char* unit, double value,
 }
 
 void tell_margins(const JobContext& context) {
-  const TwoMass<double> plant = plant_of(context.case_data);
-  const Sampling<double> sampling = sampling_of(context.case_data);
-  const PdGains<double> gains = gains_of(context.case_data);
-  const StabilityMargins margins = stability_margins(plant, sampling, gains);
+  const Case& the_case = context.case_data;
+  const Sampling<double> sampling = sampling_of(the_case);
+  const PdGains<double> gains = gains_of(the_case);
+  MarginSearch search;
+  search.longest_period_ratio = 100.0;  // of a modal case, whose periods are walked
+  const StabilityMargins margins =
+      is_modal(the_case) ? modal_stability_margins(poles_of(the_case), sampling, gains, search)
+                         : stability_margins(plant_of(the_case), sampling, gains);
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
-                   format_rounded(1.0 - margins.unit_circle));
+                   format_rounded(spectral_radius_of(the_case)));
+  if (is_modal(the_case))
+    report_warning(
+        "on its modes, those of the case's period, sampling_period was walked in steps of 5 % and "
+        "processing_delay in eighths of a sample: a gap of instability narrower than that is not "
+        "seen",
+        context.quiet);
   Table table(context, columns_of("margins"));
   write(table, "differential_gain", "N.s/m", gains.differential, margins.differential_gain);
   write(table, "proportional_gain", "N/m", gains.proportional, margins.proportional_gain);

@@ -47,13 +47,22 @@ struct ModalDampingQuestion {
     Table table(context, columns_of("modal-damping"));
     const auto modes = modal_damping(place_modes_of(the_case), absorber_of(the_case),
                                      sampling_of(the_case), gains);
-    std::int64_t number = 0, lost = 0;
+    std::int64_t number = 0, lost = 0, not_light = 0;
     for (const ModeDamping& mode : modes) {
       lost += std::isnan(mode.damping()) ? 1 : 0;
-      if (++number <= count)
-        table.row(number, mode.angular_frequency / (2.0 * pi<double>), mode.bare, mode.damping(),
-                  mode.first_order);
+      if (++number > count || number > modes_of(the_case)) continue;
+      table.row(number, mode.angular_frequency / (2.0 * pi<double>), mode.bare, mode.damping(),
+                mode.first_order);
+      const double added = mode.damping() - mode.bare, promised = mode.first_order - mode.bare;
+      // Of what hardly moves round-off decides.
+      const bool counts = std::abs(promised) > 0.01 * mode.bare + 1e-9;
+      not_light += counts && !(std::abs(added - promised) < 0.5 * std::abs(promised)) ? 1 : 0;
     }
+    if (not_light > 0)
+      report_warning("damping_ratio_first_order is the law of a light device; to " +
+                         std::to_string(not_light) +
+                         " of the modes shown the absorber is not light: it is more than twice off",
+                     context.quiet);
     if (lost > 0)
       report_warning(std::to_string(lost) +
                          " mode(s) could not be followed as the absorber and "

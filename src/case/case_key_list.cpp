@@ -12,6 +12,8 @@ using Words = std::vector<std::string>;
 
 constexpr AdmissibleRange positive{0.0, std::numeric_limits<double>::infinity(), true};
 constexpr AdmissibleRange not_negative{0.0};
+constexpr AdmissibleRange clamp_masses{0.0, 1e4};
+constexpr AdmissibleRange bending_stiffnesses{0.0, 1e12};
 constexpr AdmissibleRange below_one{0.0, 1.0, false, true};
 constexpr AdmissibleRange any_number{};
 constexpr AdmissibleRange some_lines{1.0, 10000.0, false, false, true};
@@ -98,13 +100,13 @@ const std::vector<CaseKey> listed_keys = {
     or_word("sag", number(KEY(conductor, tension), "N", positive,
                           "horizontal tension; \"sag\": the one that the sag leaves, "
                           "mass_per_length gravity span^2 / (8 sag)")),
-    beyond_two_masses(number(KEY(conductor, bending_stiffness), "N m2", not_negative,
+    beyond_two_masses(number(KEY(conductor, bending_stiffness), "N m2", bending_stiffnesses,
                              "EI, which stiffens the modes of the string")),
 
     number(KEY(absorber, mass), "kg", positive, "mass of the absorber"),
     number(KEY(absorber, position), "m", positive,
            "distance from the left support, inside the span"),
-    beyond_two_masses(number(KEY(absorber, clamp_mass), "kg", not_negative,
+    beyond_two_masses(number(KEY(absorber, clamp_mass), "kg", clamp_masses,
                              "what of the absorber moves with the conductor, on its own modes")),
 
     number(KEY(reduction, first_frequency), "Hz", positive,

@@ -63,6 +63,37 @@ TEST(TautString, BendingStiffnessRaisesTheHighModes) {
               1e-3);
 }
 
+/// Bundles bend under a force and start under a blow as their modes do together.
+TEST(TautString, BundlesStandForAllModes) {
+  TautString<double> string = taut_string(kollar2022_conductor());
+  const double place = 0.64;
+  for (const double stiffness : {0.0, 1e-4}) {
+    string.bending_stiffness = stiffness;
+    const auto all = string_modes(string, place, 3000);
+    const double highest = all.back().angular_frequency;
+    for (const int apart : {1, 17, 100}) {
+      const auto bundled = bundled_string_modes(string, place, apart, highest);
+      EXPECT_LT(bundled.size(), static_cast<std::size_t>(apart) + 100U);
+      // The first behind is a mode alone.
+      const auto next = static_cast<std::size_t>(apart);
+      EXPECT_NEAR(bundled[next].angular_frequency, all[next].angular_frequency,
+                  0.3 / apart * all[next].angular_frequency);
+      EXPECT_NEAR(std::pow(bundled[next].shape, 2), std::pow(all[next].shape, 2), 1e-12);
+      EXPECT_EQ(bundled[next].damping_ratio, string.damping_ratio);
+      // At s on the real axis, from rest to far above where bundling begins.
+      for (const double s : {1e-3, 20.0, 300.0, 3000.0}) {
+        const double expected = receptance(all, Complex(s)).real();
+        const double tolerance = apart > 1 && s < 100.0 ? 1e-3 : 0.025;
+        EXPECT_NEAR(receptance(bundled, Complex(s)).real(), expected, tolerance * expected)
+            << apart << ' ' << s << ' ' << stiffness;
+      }
+    }
+  }
+  EXPECT_EQ(bundled_string_modes(string, place, 5, 1.0).size(), 5U);
+  EXPECT_THROW(bundled_string_modes(string, place, 5, std::nan("")), InvalidParameter);
+  EXPECT_THROW(bundled_string_modes(string, 7.0, 5, 1e3), InvalidParameter);
+}
+
 TEST(TautString, RefusesWhatIsNotAdmissible) {
   const TautString<double> string = lossless_string();
   EXPECT_THROW(string_modes(string, 0.0, 4), InvalidParameter);

@@ -15,6 +15,13 @@ double number_behind(const std::string& text, const std::string& before) {
   return at == std::string::npos ? 0.0 : std::strtod(text.c_str() + at + before.size(), nullptr);
 }
 
+/// U+2212 as the minus sign of C.
+std::string with_hyphens(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\u2212", at)) != std::string::npos;)
+    text.replace(at, std::strlen("\u2212"), "-");
+  return text;
+}
+
 /// Whether control helps, of a case that is doubted before.
 std::string help_of_doubtful(const std::string& settings) {
   const Outcome outcome = run_holdfast("answers --quiet --set " + settings);
@@ -23,11 +30,59 @@ std::string help_of_doubtful(const std::string& settings) {
   return answers.text(1, "answer");
 }
 
-constexpr std::size_t help = 0, gain = 1, slow = 2, play = 3, motion = 4;
+constexpr std::size_t help = 0, gain = 1, slow = 2, play = 3, motion = 4, string = 5;
+
+/// The paper's gains are stable on two masses and not on its conductor, unless some of the absorber
+/// moves with the clamp.
+TEST(Answers, SayWhatDoesNotHoldOnTheConductorItself) {
+  const std::string answer = with_hyphens(table_of("answers --quiet").text(string, "answer"));
+  EXPECT_EQ(answer.rfind("No: on a taut string D = -13 N s/m is unstable", 0), 0U) << answer;
+  const std::string on_string = " --quiet --set plant.model=string";
+  const auto interval = table_of("boundary --stable-interval --p -557" + on_string);
+  EXPECT_NEAR(number_behind(answer, "stable from "), interval.number(0, "lower"), 1e-3);
+  EXPECT_NEAR(number_behind(answer, " to "), interval.number(0, "upper"), 1e-3);
+  const double clamp = number_behind(answer, "or with ");
+  const auto is_stable = [&](double grams) {
+    return table_of("stability --p -557:-557:1 --d -13:-13:1" + on_string +
+                    " --set absorber.clamp_mass=" + std::to_string(1e-3 * grams))
+               .number(0, "stable") == 1.0;
+  };
+  EXPECT_TRUE(is_stable(1.03 * clamp)) << clamp;
+  EXPECT_FALSE(is_stable(0.96 * clamp)) << clamp;
+}
+
+TEST(Answers, AreUndecidedWhereTheModesDecide) {
+  const std::string answer =
+      table_of("answers --quiet --set control.differential_gain=-4.95").text(string, "answer");
+  EXPECT_EQ(answer.rfind("Undecided", 0), 0U) << answer;
+}
+
+TEST(Answers, SayWhatIsLeftOnTheConductorItself) {
+  const std::string settings = " --set control.differential_gain=-4";
+  const std::string answer = table_of("answers --quiet" + settings).text(string, "answer");
+  EXPECT_EQ(answer.rfind("Yes", 0), 0U) << answer;
+  const std::string cell = "response --p -557:-557:1 --d -4:-4:1 --quiet";
+  const double here = table_of(cell).number(0, "amplitude_m");
+  EXPECT_NEAR(number_behind(answer, "of two masses "), 100.0 * here / 1.2559e-3,
+              0.6);  // 0.5 N without control (README)
+  const double there =
+      table_of(cell + " --set plant.model=string").number(0, "ratio_to_uncontrolled");
+  EXPECT_NEAR(number_behind(answer, "it leaves "), 100.0 * there, 1.0);
+}
+
+TEST(Answers, AskTheConductorOnlyWhereTheCaseGivesIt) {
+  TemporaryFolder folder;
+  const std::string file = folder / "plant.toml";
+  write_text(file,
+             "[plant]\nconductor_mass = 0.08\nconductor_stiffness = 52\nconductor_damping = 0.08\n"
+             "absorber_mass = 0.16\nabsorber_stiffness = 74\nabsorber_damping = 4\n");
+  const auto answers = table_of("answers --quiet --case '" + file + "'");
+  EXPECT_TRUE(holds(answers.text(answers.rows() - 1, "answer"), "Not asked"));
+}
 
 TEST(Answers, AreThoseOfTheJobsThatTheyName) {
   const auto answers = table_of("answers --details");
-  ASSERT_EQ(answers.rows(), 5U);
+  ASSERT_EQ(answers.rows(), 6U);
   const auto vibration = table_of(
       "sweep --axis backlash.width=0.0005:0.0005:1 --metric ratio_to_uncontrolled --metric "
       "force_peak --set control.sampling_period=0.001 --duration 20");
@@ -54,7 +109,7 @@ TEST(Answers, AreThoseOfTheJobsThatTheyName) {
 
 TEST(Answers, AloneAreTwoColumns) {
   const auto lines = lines_of(run_holdfast("answers").output);
-  ASSERT_EQ(lines.size(), 6U);
+  ASSERT_EQ(lines.size(), 7U);
   EXPECT_EQ(lines.front(), "question,answer");
 }
 

@@ -70,6 +70,25 @@ TEST(String, OfOneModeIsTwoMasses) {
   for (const char* hold : {"sampled", "exact"})
     compare(std::string("response --p -900:0:7 --d -30:5:8 --set excitation.hold=") + hold,
             {"stable", "amplitude_m", "ratio_to_uncontrolled"}, 1e-8);
+  for (const char* sampling : {"", " --set control.processing_delay=0.0005"}) {
+    compare(std::string("design") + sampling,
+            {"least_amplitude_gain", "ratio_to_uncontrolled", "spectral_radius", "gain_margin_dB",
+             "phase_margin_deg", "delay_margin_s"},
+            1e-4);
+    const std::string job = std::string("margins --quiet") + sampling;
+    const CsvTable found = table_of(job + one_mode), expected = table_of(job + its_two_masses());
+    ASSERT_EQ(found.rows(), expected.rows());
+    for (std::size_t row = 0; row < found.rows(); ++row) {
+      if (expected.text(row, "outcome") != "boundary") continue;
+      // A hundred periods are walked.
+      if (expected.text(row, "quantity") == "sampling_period" &&
+          expected.number(row, "position") > 0.1)
+        continue;
+      EXPECT_EQ(found.text(row, "outcome"), "boundary") << row;
+      EXPECT_EQ(found.text(row, "curve"), expected.text(row, "curve")) << row;
+      EXPECT_NEAR(found.number(row, "position") / expected.number(row, "position"), 1.0, 1e-7);
+    }
+  }
   compare("simulate --duration 1 --kick 0.3:0.0005", {"z1_m", "z2_m", "control_force_N"}, 1e-8);
   compare("spectrum --duration 4", {"frequency_Hz", "amplitude_m"}, 1e-8);
   // Not from rest, where the round-off of Δż = 0 would decide whether the drive enters its gap.
@@ -158,6 +177,7 @@ TEST(String, ModalDampingTellsWhichRootGrows) {
     EXPECT_EQ(table.number(row, "damping_ratio_bare"), 0.02);
     EXPECT_GT(table.number(row, "damping_ratio"), 0.019);
   }
+  EXPECT_NE(run_holdfast(string).errors.find("law of a light device"), std::string::npos);
   const std::string grows = run_holdfast(string + " --set control.differential_gain=-8").errors;
   EXPECT_NE(grows.find("no mode of the conductor"), std::string::npos) << grows;
   const std::string rests = run_holdfast(string + " --set control.differential_gain=-3").errors;
@@ -166,15 +186,16 @@ TEST(String, ModalDampingTellsWhichRootGrows) {
 
 TEST(String, JobsOfTwoMassesRefuseIt) {
   for (const std::string job :
-       {"decay", "peaks", "fit", "design", "margins", "sensitivity", "max-delay", "verdict",
-        "orbit", "basins", "diagram --axis backlash.width=0:0.001:2", "section", "lyapunov",
+       {"decay", "peaks", "fit", "sensitivity", "max-delay", "verdict", "orbit", "basins",
+        "diagram --axis backlash.width=0:0.001:2", "section", "lyapunov",
         "sweep --axis backlash.width=0:0.001:2", "answers", "report --output never"})
     expect_refused(job + " --set plant.model=string", {"plant.model", "two_masses", "boundary"});
   for (const std::string options :
        {"stability --continuous",
         "stability --axis control.sampling_period=0.001:0.01:2"
         " --axis control.differential_gain=-9:0:2",
-        "boundary --regions", "boundary --features", "boundary --continuous"})
+        "design --both-gains", "design --band 8:12", "boundary --regions", "boundary --features",
+        "boundary --continuous"})
     expect_refused(options + " --quiet --set plant.model=string", {"two_masses"});
   expect_refused("modal-damping", {"plant.model=string"});
   expect_refused("simulate --switching exact --kick 0.1:0.001 --quiet --set plant.model=string",
@@ -193,11 +214,70 @@ TEST(String, WrongInputIsNamed) {
       "boundary --stable-interval --quiet --set plant.model=string"
       " --set plant.modes=3 --set absorber.position=1e-8",
       {"absorber.position", "does not move"});
+  expect_refused("boundary --set absorber.clamp_mass=1e300", {"absorber.clamp_mass", "at most"});
+  expect_refused("boundary --set conductor.bending_stiffness=1e300", {"bending_stiffness"});
+  for (const std::string heavy : {"absorber.clamp_mass=10", "conductor.bending_stiffness=1"}) {
+    const Outcome doubted =
+        run_holdfast("boundary --set plant.model=string --set plant.modes=5 --set " + heavy);
+    EXPECT_EQ(doubted.exit_code, 0) << heavy;
+    EXPECT_NE(doubted.errors.find(heavy.substr(0, heavy.find('='))), std::string::npos)
+        << doubted.errors;
+  }
   const Outcome idle = run_holdfast("margins --set absorber.clamp_mass=0.01");
   EXPECT_EQ(idle.exit_code, 0);
   EXPECT_NE(idle.errors.find("absorber.clamp_mass"), std::string::npos) << idle.errors;
-  const Outcome few = run_holdfast("boundary --set plant.model=string --set plant.modes=10");
-  EXPECT_NE(few.errors.find("end below half the sampling rate"), std::string::npos) << few.errors;
+}
+
+/// What is kept of the conductor is said where it decides, and all modes count unless told not to.
+TEST(String, SaysWhatTheModesLeftOutWouldChange) {
+  const std::string ask = "boundary --stable-interval --p -557 --set plant.model=string";
+  const auto said = [&](const std::string& settings, const std::string& words) {
+    const std::string errors = run_holdfast(ask + settings).errors;
+    return errors.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(said(" --set plant.modes=20", "more at the clamp"));
+  EXPECT_TRUE(said(" --set plant.modes=20", "with all modes the interval is"));
+  const std::string settled = " --set absorber.clamp_mass=0.01 --set control.sampling_period=0.01";
+  EXPECT_FALSE(said(settled, "warning")) << run_holdfast(ask + settled).errors;
+  EXPECT_TRUE(said(settled + " --set conductor.damping_ratio=0.0005", "did not come back"));
+  EXPECT_TRUE(said(settled + " --set excitation.frequency=700", "is faster than they"));
+  // Without plant.modes the answer hardly moves with the computer's speed; 20 modes are 14 g.
+  const CsvTable slow = table_of(ask + " --quiet --set control.sampling_period=2e-4");
+  const CsvTable fast = table_of(ask + " --quiet --set control.sampling_period=2e-5");
+  EXPECT_NEAR(fast.number(0, "lower") / slow.number(0, "lower"), 1.0, 0.1);
+}
+
+/// The roots of the modes at once make the radii, against the eigenvalues of the map.
+TEST(String, RadiusOfTheCaseIsThatOfItsCell) {
+  const std::string string =
+      " --quiet --set plant.model=string --set control.sampling_period=0.02"
+      " --set control.differential_gain=-3";
+  const CsvTable told = table_of("case" + string);
+  double radius = 0.0;
+  for (std::size_t row = 0; row < told.rows(); ++row)
+    if (told.text(row, "key") == "spectral_radius") radius = std::stod(told.text(row, "value"));
+  const CsvTable cell = table_of("stability --radius --p -557:-557:1 --d -3:-3:1" + string);
+  EXPECT_NEAR(cell.number(0, "spectral_radius"), radius, 1e-12);
+  EXPECT_EQ(cell.number(0, "stable") == 1.0, radius < 1.0);
+}
+
+/// The absorber on another conductor is the same one: nothing is reduced to two masses, also where
+/// none exist.
+TEST(String, OfAnotherTensionNeedsNoTwoMasses) {
+  const std::string ask =
+      "boundary --stable-interval --p -557 --set plant.model=string --set plant.modes=8 --set ";
+  const double own = taut_string(kollar2022_conductor()).tension;
+  for (const double factor : {1.2, 120.0}) {
+    const CsvTable by_tension =
+        table_of(ask + "conductor.tension=" + text_of(factor * own) + " --quiet");
+    const CsvTable by_sag = table_of(ask + "conductor.sag=" + text_of(0.29 / factor) + " --quiet");
+    for (const char* end : {"lower", "upper"})
+      EXPECT_NEAR(by_tension.number(0, end) / by_sag.number(0, end), 1.0, 1e-9) << factor;
+  }
+  const std::string errors = run_holdfast(ask + "conductor.tension=9").errors;
+  EXPECT_NE(errors.find("plant.absorber_stiffness, plant.absorber_damping not given"),
+            std::string::npos)
+      << errors;
 }
 
 /// H and the sag that it leaves are one thing given in two ways.

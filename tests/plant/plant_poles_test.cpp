@@ -7,6 +7,7 @@
 
 #include "holdfast/cable/taut_string.hpp"
 #include "support/random.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -24,12 +25,10 @@ double misfit(const std::vector<PlantPole>& poles, const std::vector<PlaceMode<d
 }
 
 TEST(PlantPoles, OfThePapersStringMakeItsTransferFunction) {
-  const TwoMass<double> masses = kollar2022_plant();
   for (const int count : {1, 7, 40, 200, 400}) {
     for (const double clamp_mass : {0.0, 0.01}) {
       const auto modes = string_modes(taut_string(kollar2022_conductor()), 0.64, count);
-      const Absorber<double> absorber{masses.absorber_mass, masses.absorber_stiffness,
-                                      masses.absorber_damping, clamp_mass};
+      const Absorber<double> absorber = papers_absorber(clamp_mass);
       const auto poles = plant_poles(modes, absorber);
       ASSERT_EQ(poles.size(), 2U * static_cast<std::size_t>(count) + 2U) << clamp_mass;
       for (const double omega : {0.3, 6.0, 20.0, 61.0, 500.0, 3000.0})

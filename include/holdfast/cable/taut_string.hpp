@@ -34,10 +34,10 @@ struct TautString {
   }
   /// M_n = μ L/2 (kg), of every mode sin(nπx/L).
   Scalar modal_mass() const { return mass_per_length * span / Scalar(2); }
-  /// ω_n = (nπ/L) √(T/μ) √(1 + n²π² EI/(T L²)) (rad/s), n ≥ 1.
-  Scalar angular_frequency(int n) const {
+  /// ω_n = (nπ/L) √(T/μ) √(1 + n²π² EI/(T L²)) (rad/s), n > 0; between whole n what lies between.
+  Scalar angular_frequency(const Scalar& n) const {
     using std::sqrt;
-    const Scalar waves = Scalar(n) * pi<Scalar> / span;
+    const Scalar waves = n * pi<Scalar> / span;
     return waves * wave_speed() * sqrt(Scalar(1) + waves * waves * bending_stiffness / tension);
   }
 };
@@ -90,8 +90,57 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
   require_within("number of modes", count, "", 1, 10000);
   std::vector<PlaceMode<Scalar>> modes;
   for (int n = 1; n <= count; ++n)
-    modes.push_back({string.angular_frequency(n), string.damping_ratio,
+    modes.push_back({string.angular_frequency(Scalar(n)), string.damping_ratio,
                      sin(Scalar(n) * pi<Scalar> * place / string.span), string.modal_mass()});
+  return modes;
+}
+
+/// All modes of the string at once, for what is asked at frequencies below mode `count`: the modes
+/// 1 … count as they are, and those above in bundles of ever more neighbours, h = 1 + (n −
+/// count)/10 rounded down, up to the frequency given.
+///
+/// A bundle of h modes from n on counts as one of M = μL/(2h) with the mean of their squared
+/// shapes, at ω = √(ω(n − ½) ω(n + h − ½)), where it bends as far under a force as they do
+/// together. It is damped over the width of the bundle, so that the waves of its modes go out and
+/// do not come back; on a string whose damping lets no wave beyond mode `count` return that is what
+/// they do. Cut off at `count`, the string would act at the place as if 1/Σ φ²/M were clamped to
+/// it.
+/// @param string   of which modes are bundled
+/// @param place    a (m), inside the span
+/// @param count    modes that are kept apart, 1 … 10⁴
+/// @param highest  ω (rad/s) up to which bundles are formed; none where mode `count` reaches it
+/// @throws InvalidParameter as `string_modes`, and for a frequency that is not finite
+template <class Scalar>
+std::vector<PlaceMode<Scalar>> bundled_string_modes(const TautString<Scalar>& string,
+                                                    const Scalar& place, int count,
+                                                    const Scalar& highest) {
+  using std::cos;
+  using std::floor;
+  using std::hypot;
+  using std::max;
+  using std::sin;
+  using std::sqrt;
+  require_finite("highest angular frequency", static_cast<double>(highest), "rad/s");
+  std::vector<PlaceMode<Scalar>> modes = string_modes(string, place, count);
+  const Scalar phase = pi<Scalar> * place / string.span, half(0.5);
+  Scalar size;
+  for (Scalar first(count + 1); string.angular_frequency(first) < highest; first += size) {
+    const Scalar waves = first * pi<Scalar> / string.span;
+    const Scalar stiff = waves * waves * string.bending_stiffness / string.tension;
+    // d ln ω/d ln n, so that a bundle is as wide of a beam as of a string.
+    const Scalar spread = (Scalar(1) + Scalar(2) * stiff) / (Scalar(1) + stiff);
+    size = floor(Scalar(1) + (first - Scalar(count + 1)) / (Scalar(10) * spread));
+    const Scalar lower = string.angular_frequency(first - half);
+    const Scalar upper = string.angular_frequency(first + size - half);
+    const Scalar omega = sqrt(lower) * sqrt(upper);
+    const Scalar width = (upper - lower) / (Scalar(2) * omega) * (Scalar(1) - Scalar(1) / size);
+    // Σ sin² over the bundle.
+    const Scalar squares =
+        size / Scalar(2) - sin(size * phase) * cos((Scalar(2) * first + size - Scalar(1)) * phase) /
+                               (Scalar(2) * sin(phase));
+    modes.push_back({omega, hypot(string.damping_ratio, width),
+                     sqrt(max(squares / size, Scalar(0))), string.modal_mass() / size});
+  }
   return modes;
 }
 

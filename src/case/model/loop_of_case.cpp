@@ -84,8 +84,7 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
 double spectral_radius_of(const Case& the_case) {
   const PdGains<double> gains = gains_of(the_case);
   if (!is_modal(the_case)) return spectral_radius(loop_of(the_case).engaged_map(gains));
-  return spectral_radius(
-      loop_map(modal_plant_of(the_case), sampling_of(the_case)).closed_map(gains));
+  return ModalRadius(the_case)(gains);
 }
 
 double divergence_bound(const Case& the_case, double kick) {

@@ -5,7 +5,9 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -13,7 +15,8 @@
 namespace holdfast::program {
 namespace {
 
-constexpr int fewest_modes = 20, most_modes = 500;
+/// Of what is chosen.
+constexpr int fewest_modes = 60, most_modes = 300;
 
 /// Of mode n, Hz.
 double frequency(const TautString<double>& string, int n) {
@@ -25,6 +28,22 @@ int first_above(const TautString<double>& string, double limit, int last) {
   int n = 1;
   while (n <= last && frequency(string, n) <= limit) ++n;
   return n;
+}
+
+/// Σ φ²/M (1/kg): the place with its clamp off starts under a newton as one over it would.
+double mobility_of(const std::vector<PlaceMode<double>>& modes) {
+  double sum = 0.0;
+  for (const PlaceMode<double>& mode : modes) sum += mode.shape * mode.shape / mode.mass;
+  return sum;
+}
+
+/// All modes of the string, `apart` of them on their own.
+std::vector<PlaceMode<double>> all_modes_of(const Case& the_case, int apart) {
+  const TautString<double> string = string_of(the_case);
+  // Beyond, what is left out is felt by no clamp: it passes many times within a sample.
+  const double highest =
+      std::max(100.0 / the_case.control.sampling_period, 10.0 * string.angular_frequency(apart));
+  return bundled_string_modes(string, the_case.absorber.position, apart, highest);
 }
 
 /// What is given that nothing of the two masses depends on.
@@ -42,6 +61,10 @@ std::string idle_keys_warning(const Case& the_case) {
 
 }  // namespace
 
+const char* const coinciding_motions =
+    "two natural motions of conductor and absorber coincide too nearly to be told apart: change "
+    "plant.absorber_damping or absorber.position by a thousandth";
+
 bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
 
 TautString<double> string_of(const Case& the_case) {
@@ -53,12 +76,15 @@ TautString<double> string_of(const Case& the_case) {
 
 int modes_of(const Case& the_case) {
   if (std::isfinite(the_case.plant.modes)) return static_cast<int>(the_case.plant.modes);
-  const double rate = 1.0 / the_case.control.sampling_period;
-  return std::clamp(first_above(string_of(the_case), rate, most_modes), fewest_modes, most_modes);
+  const double seen = std::max(0.5 / the_case.control.sampling_period,
+                               2.0 * effective_excitation(the_case).frequency);
+  return std::clamp(first_above(string_of(the_case), seen, most_modes), fewest_modes, most_modes);
 }
 
 std::vector<PlaceMode<double>> place_modes_of(const Case& the_case) {
-  return string_modes(string_of(the_case), the_case.absorber.position, modes_of(the_case));
+  const int modes = modes_of(the_case);
+  if (!std::isfinite(the_case.plant.modes)) return all_modes_of(the_case, modes);
+  return string_modes(string_of(the_case), the_case.absorber.position, modes);
 }
 
 Absorber<double> absorber_of(const Case& the_case) {
@@ -71,9 +97,60 @@ LinearPlant<double> modal_plant_of(const Case& the_case) {
   return modal_plant(place_modes_of(the_case), absorber_of(the_case));
 }
 
+std::vector<PlantPole> poles_of(const Case& the_case) {
+  std::vector<PlantPole> poles = plant_poles(place_modes_of(the_case), absorber_of(the_case));
+  if (poles.empty()) throw NoAnswer(coinciding_motions);
+  return poles;
+}
+
+namespace {
+
+ModalResponse<double> response_of(const Case& the_case,
+                                  const std::vector<PlaceMode<double>>& modes) {
+  return modal_response(modes, absorber_of(the_case), sampling_of(the_case));
+}
+
+}  // namespace
+
 ResolvedCircle<double> circle_of(const Case& the_case) {
-  return ResolvedCircle<double>(
-      modal_response(place_modes_of(the_case), absorber_of(the_case), sampling_of(the_case)));
+  return ResolvedCircle<double>(response_of(the_case, place_modes_of(the_case)));
+}
+
+ModalRadius::ModalRadius(const Case& the_case)
+    : case_(the_case), response_(response_of(the_case, place_modes_of(the_case))) {}
+
+double ModalRadius::operator()(const PdGains<double>& gains) {
+  const std::complex<double> root = largest_loop_root(response_, gains);
+  if (std::abs(root) > 0.0) return std::abs(root);
+  if (!map_) map_ = loop_map(modal_plant_of(case_), sampling_of(case_));
+  return spectral_radius(map_->closed_map(gains));
+}
+
+std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains) {
+  return largest_loop_root(response_of(the_case, place_modes_of(the_case)), gains);
+}
+
+bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
+  Case changed = the_case;
+  changed.absorber.clamp_mass = clamp_mass;
+  const auto modes = all_modes_of(changed, std::min(60, modes_of(changed)));
+  const ModalResponse<double> response = response_of(changed, modes);
+  const PdGains<double> gains = gains_of(changed);
+  const double radius = std::abs(largest_loop_root(response, gains));
+  if (std::isfinite(radius)) return radius < 1.0;
+  return ResolvedCircle<double>(response).roots_outside(gains) == 0;
+}
+
+OtherModes other_modes_of(const Case& the_case) {
+  const auto circle_by = [&](const std::vector<PlaceMode<double>>& modes) {
+    return ResolvedCircle<double>(response_of(the_case, modes));
+  };
+  const int modes = modes_of(the_case);
+  if (std::isfinite(the_case.plant.modes))
+    return {circle_by(all_modes_of(the_case, modes)), "with all modes"};
+  const int half = (modes + 1) / 2;
+  return {circle_by(all_modes_of(the_case, half)),
+          "with " + std::to_string(half) + " modes kept apart instead of " + std::to_string(modes)};
 }
 
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
@@ -123,17 +200,33 @@ std::string modes_warning(const Case& the_case) {
   if (!is_modal(the_case)) return idle_keys_warning(the_case);
   const TautString<double> string = string_of(the_case);
   const int modes = modes_of(the_case);
+  const double end = frequency(string, modes), force = effective_excitation(the_case).frequency;
+  const std::string faster =
+      force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than they" : "";
+  const std::string kept =
+      std::to_string(modes) + " modes of the conductor, up to " + format_rounded(end) + " Hz, ";
+  if (!std::isfinite(the_case.plant.modes)) {
+    const double returned = std::exp(-2.0 * pi<double> * string.damping_ratio * modes);
+    if (returned < 0.05 && faster.empty()) return "";
+    return kept +
+           "are kept apart and the faster ones bundled, as if their waves did not come back" +
+           (returned < 0.05 ? ""
+                            : "; with the case's damping up to " +
+                                  format_rounded(100.0 * returned) + " % of such a wave does") +
+           faster;
+  }
+  const double cut_mass = 1.0 / mobility_of(place_modes_of(the_case));
+  const double felt_mass =
+      std::max(the_case.absorber.clamp_mass,
+               (the_case.plant.absorber_damping + 2.0 * string.wave_impedance()) *
+                   the_case.control.sampling_period / 2.0);
   const double half_rate = 0.5 / the_case.control.sampling_period;
-  const std::string kept = std::to_string(modes) + " modes of the conductor are kept, up to " +
-                           format_rounded(frequency(string, modes)) + " Hz: ";
-  const std::string rate = "half the sampling rate, " + format_rounded(half_rate) + " Hz";
-  const int seen = first_above(string, half_rate, modes) - 1;
-  if (seen == modes)
-    return kept + "they end below " + rate +
-           ", and what the controller does to faster ones is not seen; plant.modes keeps more";
-  if (!std::isfinite(the_case.plant.modes)) return "";
-  return kept + "those from the " + std::to_string(seen + 1) + "th on lie above " + rate +
-         ", and the computer sees them folded below it";
+  if (cut_mass < 0.02 * felt_mass && end > half_rate && faster.empty()) return "";
+  return kept + "are kept and the faster ones left out: the drive feels that as " +
+         format_rounded(1e3 * cut_mass) +
+         " g more at the clamp, and gains may look stable far beyond where they are; without "
+         "plant.modes all modes count" +
+         faster;
 }
 
 }  // namespace holdfast::program

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <complex>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "case/case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/cable/taut_string.hpp"
+#include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/response/response.hpp"
 
@@ -20,10 +25,13 @@ bool is_modal(const Case& the_case);
 /// The conductor as a taut string, with the tension of the case or the one that its sag leaves.
 TautString<double> string_of(const Case& the_case);
 
-/// N: plant.modes, or as many as reach the sampling rate, 20 to 500.
+/// N: plant.modes, or as many as reach half the sampling rate and twice the force's frequency, 40
+/// to 300. They are all of the plant's where the case gives them; else faster ones are bundled
+/// behind.
 int modes_of(const Case& the_case);
 
-/// The modes of the conductor as the absorber's place sees them.
+/// The modes of the conductor as the absorber's place sees them, N and where these are chosen the
+/// bundles of `bundled_string_modes`.
 std::vector<PlaceMode<double>> place_modes_of(const Case& the_case);
 
 /// The absorber with what of it moves with the conductor.
@@ -32,8 +40,41 @@ Absorber<double> absorber_of(const Case& the_case);
 /// The plant of a modal case.
 LinearPlant<double> modal_plant_of(const Case& the_case);
 
+/// Its poles. Throws NoAnswer where two natural motions of it cannot be told apart.
+std::vector<PlantPole> poles_of(const Case& the_case);
+
 /// Its loop on the unit circle.
 ResolvedCircle<double> circle_of(const Case& the_case);
+
+/// The largest modulus of the roots of a modal case's loop, for one pair of gains after another.
+class ModalRadius {
+ public:
+  explicit ModalRadius(const Case& the_case);
+  double operator()(const PdGains<double>& gains);
+
+ private:
+  const Case& case_;
+  ModalResponse<double> response_;
+  std::optional<LoopMap<double>> map_;  // once the roots were not found without it
+};
+
+/// The root of a modal case's loop of largest modulus; NaN where the roots were not found.
+std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains);
+
+/// Whether the gains of a case on all modes would be stable with another clamp mass (kg), judged by
+/// 60 modes kept apart.
+bool is_stable_with_clamp(const Case& the_case, double clamp_mass);
+
+/// The same conductor by other modes: how far an answer depends on those that were kept.
+struct OtherModes {
+  ResolvedCircle<double> circle;
+  std::string words;  ///< "with all modes"
+
+  bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
+};
+
+/// With all modes where the case gives how many; else with half as many kept apart.
+OtherModes other_modes_of(const Case& the_case);
 
 /// The steady response of the loop of either kind of plant at ω (rad/s), and its amplitude without
 /// control under the true force, m/N.
@@ -52,6 +93,9 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
 
 /// Throws WrongInput where an option of two masses is given for a modal case.
 void refuse_on_modes(const Case& the_case, bool given, const std::string& option);
+
+/// What is said where two natural motions of a modal case cannot be told apart.
+extern const char* const coinciding_motions;
 
 /// What the user has to know of the modes that are kept, beside half the sampling rate; and of keys
 /// that do not count for the case's plant. Empty where there is nothing.

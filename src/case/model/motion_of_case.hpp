@@ -71,9 +71,7 @@ inline ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
   const auto motion =
       modal_motion(controlled ? loop : uncontrolled(loop), modal_state_of(the_case));
   if (motion) return *motion;
-  throw NoAnswer(
-      "two natural motions of conductor and absorber coincide too nearly to be told apart: change "
-      "plant.absorber_damping or absorber.position by a thousandth");
+  throw NoAnswer(coinciding_motions);
 }
 
 /// The same of any plant: of a modal case a ModalMotion, else a MotionAtAbsorber. What it visits

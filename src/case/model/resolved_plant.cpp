@@ -4,6 +4,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
 #include "io/text/text.hpp"
@@ -63,10 +64,21 @@ std::string settle_damping(Case& the_case) {
   return misfit_warning(found);
 }
 
+/// Of a conductor by its modes only the absorber is wanted, which no reduction changes.
+std::string settle_absorber(Case& the_case) {
+  if (the_case.places.count("plant.absorber_mass") == 0)
+    the_case.plant.absorber_mass = the_case.absorber.mass;
+  std::string names;
+  for (const char* key : {"plant.absorber_stiffness", "plant.absorber_damping"})
+    if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
+  return names.empty() ? "" : names + " not given: the absorber's built-in value stands in";
+}
+
 }  // namespace
 
 std::string settle_plant(Case& the_case) {
   if (!plant_is_reduced(the_case)) return "";
+  if (is_modal(the_case)) return settle_absorber(the_case);
   const std::vector<const CaseKey*> given = given_of_plant(the_case);
   Case as_given = the_case;
   take_plant(the_case, plant_without_absorber_damping(the_case));

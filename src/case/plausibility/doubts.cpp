@@ -8,6 +8,7 @@
 
 #include "case/case_source.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/modal_plant_of_case.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -199,7 +200,9 @@ std::vector<std::string> doubts_about(const Case& the_case, const Quantities& qu
 }
 
 std::string contradicted_conductor_text(const Case& the_case) {
-  if (!the_case.conductor_given || !the_case.plant_given || plant_is_reduced(the_case)) return "";
+  if (!the_case.conductor_given || !the_case.plant_given || plant_is_reduced(the_case) ||
+      is_modal(the_case))
+    return "";
   constexpr double tolerance = 0.05;
   double stiffness = the_case.plant.conductor_stiffness;
   try {

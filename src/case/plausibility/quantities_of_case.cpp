@@ -116,6 +116,18 @@ const Quantities listed_of_case = {
      at_most(1),
      whatever,
      "encoders have 1e-6 to 0.1"},
+    {"conductor.bending_stiffness over that of a solid rod",
+     "",
+     {"conductor.bending_stiffness", "conductor.area", "conductor.youngs_modulus"},
+     [](const Case& c) {
+       const double area = c.conductor.area;
+       return has_own_cable(c) ? c.conductor.bending_stiffness * 4.0 * pi<double> /
+                                     (c.conductor.youngs_modulus * area * area)
+                               : unknown;
+     },
+     at_most(3),
+     whatever,
+     "a strand bends at least as easily as one rod of its area, E A^2/(4 pi)"},
     {"conductor.mass_per_length / conductor.area",
      "kg/m3",
      {"conductor.area", "conductor.mass_per_length"},

@@ -119,22 +119,19 @@ void append_sampled_chart(const JobContext& context, const LoopChart& chart, boo
 
 void append_modal_chart(const JobContext& context, const GainGrid& grid, bool radius,
                         GridOutput& output) {
+  using Kernel = std::optional<ModalRadius>;
   const ResolvedCircle<double> circle = circle_of(context.case_data);
-  std::optional<LoopMap<double>> map;  // dense: N³ operations, for the radii alone
-  if (radius) map = loop_map(modal_plant_of(context.case_data), sampling_of(context.case_data));
-  append_rows(context, grid.proportional.count, Block(grid.differential.count, radius ? 1 : 0),
-              nullptr, output,
-              [&](std::nullptr_t, std::int64_t first, std::int64_t count, std::int64_t offset,
-                  Block& block) {
-                for (std::int64_t row = 0; row < count; ++row) {
-                  fill_stability_row(circle, grid.proportional.at(first + row), grid.differential,
-                                     block.flags(offset + row));
-                  for (std::int64_t j = 0; radius && j < grid.differential.count && !interrupted();
-                       ++j)
-                    block.numbers(0, offset + row)[j] =
-                        spectral_radius(map->closed_map(grid.at(first + row, j)));
-                }
-              });
+  append_rows(
+      context, grid.proportional.count, Block(grid.differential.count, radius ? 1 : 0),
+      radius ? Kernel(context.case_data) : Kernel(), output,
+      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
+        for (std::int64_t row = 0; row < count; ++row) {
+          fill_stability_row(circle, grid.proportional.at(first + row), grid.differential,
+                             block.flags(offset + row));
+          for (std::int64_t j = 0; own && j < grid.differential.count && !interrupted(); ++j)
+            block.numbers(0, offset + row)[j] = (*own)(grid.at(first + row, j));
+        }
+      });
 }
 
 void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "case/model/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/margins/loop_margins.hpp"
+#include "holdfast/stability/margins/modal_margins.hpp"
 
 namespace holdfast::program {
 
@@ -12,7 +14,10 @@ GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(gains.proportional) || !std::isfinite(gains.differential))
     return {none, none, none, none, false};
-  const LoopMargins margins = loop_margins(plant_of(the_case), sampling_of(the_case), gains);
+  const Sampling<double> sampling = sampling_of(the_case);
+  const LoopMargins margins = is_modal(the_case)
+                                  ? modal_loop_margins(poles_of(the_case), sampling, gains)
+                                  : loop_margins(plant_of(the_case), sampling, gains);
   return {1.0 - margins.unit_circle, 20.0 * std::log10(margins.largest_factor),
           margins.phase * 180.0 / pi<double>, margins.delay.distance,
           margins.delay.outcome == MarginEndOutcome::beyond_search};

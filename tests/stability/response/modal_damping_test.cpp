@@ -7,6 +7,7 @@
 
 #include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/loop_map.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -16,11 +17,6 @@ using Complex = std::complex<double>;
 
 std::vector<PlaceMode<double>> papers_modes(int count) {
   return string_modes(taut_string(kollar2022_conductor()), 0.64, count);
-}
-
-Absorber<double> papers_absorber(double clamp_mass) {
-  const TwoMass<double> masses = kollar2022_plant();
-  return {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping, clamp_mass};
 }
 
 /// How far λ is from the nearest of the eigenvalues, which is taken out.

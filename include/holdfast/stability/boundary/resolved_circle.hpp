@@ -68,6 +68,13 @@ class ResolvedCircle {
   /// G_z and G_v, of which all this is made.
   const ModalResponse<Scalar>& response() const { return response_; }
 
+  /// θ (rad) at which the circle is resolved, ascending.
+  std::vector<Scalar> angles() const {
+    std::vector<Scalar> all;
+    for (const Place& place : places_) all.push_back(place.angle);
+    return all;
+  }
+
   /// The number of roots of the loop outside the unit circle; −1 where round-off hides it: a root
   /// lies on the circle, or the gains are so large or so little finite that p is noise.
   int roots_outside(const PdGains<Scalar>& gains) const {

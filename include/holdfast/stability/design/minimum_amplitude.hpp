@@ -102,6 +102,26 @@ SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, Fo
              : response;
 }
 
+/// The D of least steady amplitude of a loop among the admissible ones.
+/// @param response_at  () → SteadyResponse at the frequency, taken where there are such D
+template <class Loop, class ResponseAt>
+MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& options,
+                                      double frequency, double proportional_gain,
+                                      const ResponseAt& response_at) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!(2.0 * frequency * options.sampling.period < 1.0))
+    return {MinimumAmplitudeOutcome::aliased, none, none, none};
+  const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
+  if (admissible.empty()) return {MinimumAmplitudeOutcome::none, none, none, none};
+  const auto best = response_at().best_differential_gain(proportional_gain, admissible);
+  if (!std::isfinite(best.differential_gain))
+    return {MinimumAmplitudeOutcome::none, none, none, none};
+  const bool inside = contains_any(admissible, best.differential_gain);
+  return {inside ? MinimumAmplitudeOutcome::stationary : MinimumAmplitudeOutcome::edge,
+          best.differential_gain, best.ratio_to_uncontrolled,
+          holdfast::attenuation(best.ratio_to_uncontrolled)};
+}
+
 }  // namespace detail
 
 /// The D of least steady amplitude among the admissible ones.
@@ -122,23 +142,11 @@ MinimumAmplitude minimum_amplitude(const Plant& plant, const AmplitudeOptions& o
   validate(options);
   require_positive("frequency", frequency, "Hz");
   require_finite("proportional gain P", proportional_gain, "N/m");
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (!(2.0 * frequency * options.sampling.period < 1.0))
-    return {MinimumAmplitudeOutcome::aliased, none, none, none};
   const auto loop = detail::loop_of(plant, options.sampling);
-  const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
-  if (admissible.empty()) return {MinimumAmplitudeOutcome::none, none, none, none};
-
-  const double omega = 2.0 * pi<double> * frequency;
-  const auto response =
-      detail::response_of_loop(plant, loop, options.hold, omega, options.relative_to_true_force);
-  const auto best = response.best_differential_gain(proportional_gain, admissible);
-  if (!std::isfinite(best.differential_gain))
-    return {MinimumAmplitudeOutcome::none, none, none, none};
-  const bool inside = contains_any(admissible, best.differential_gain);
-  return {inside ? MinimumAmplitudeOutcome::stationary : MinimumAmplitudeOutcome::edge,
-          best.differential_gain, best.ratio_to_uncontrolled,
-          attenuation(best.ratio_to_uncontrolled)};
+  return detail::minimum_amplitude_of(loop, options, frequency, proportional_gain, [&] {
+    return detail::response_of_loop(plant, loop, options.hold, 2.0 * pi<double> * frequency,
+                                    options.relative_to_true_force);
+  });
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

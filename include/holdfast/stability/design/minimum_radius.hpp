@@ -159,20 +159,21 @@ class MinimumRadiusSearch {
 };
 
 /// A loop of any order as `MinimumRadiusSearch` asks for it, radii counted from 1.
-template <class Scalar>
+/// @tparam Loop  a `LoopMap<double>` or `ModalResponse<double>`
+template <class Loop>
 struct RadiusLevels {
-  LoopMap<Scalar> map;        ///< the loop
-  Scalar centre = Scalar(1);  ///< from which radii are counted
+  const Loop& loop;     ///< kept outside
+  double centre = 1.0;  ///< from which radii are counted
 
   /// What round-off of a root is a share of: the commands on their way have entries of 1.
-  Scalar scale() const { return Scalar(1); }
+  double scale() const { return 1.0; }
   /// ρ(P, D) − 1.
-  Scalar radius_offset(const PdGains<Scalar>& gains) const { return loop_excess(map, gains); }
+  double radius_offset(const PdGains<double>& gains) const { return loop_excess(loop, gains); }
   /// The D with ρ(P, D) < 1 + offset.
-  std::vector<Interval<Scalar>> differential_gains_within(Scalar proportional_gain,
-                                                          Scalar offset) const {
-    if (!(Scalar(1) + offset > Scalar(0))) return {};
-    return differential_gains_within_radius(map, proportional_gain, Scalar(1) + offset);
+  std::vector<Interval<double>> differential_gains_within(double proportional_gain,
+                                                          double offset) const {
+    if (!(1.0 + offset > 0.0)) return {};
+    return differential_gains_within_radius(loop, proportional_gain, 1.0 + offset);
   }
 };
 
@@ -195,7 +196,7 @@ MinimumRadius minimum_radius(const Loop& loop, double proportional_gain, double 
   require_finite("proportional gain P", proportional_gain, "N/m");
   require_finite("differential gain D", start, "N s/m");
   if constexpr (std::is_same_v<Loop, LoopMap<double>>) {
-    const detail::RadiusLevels<double> levels{loop};
+    const detail::RadiusLevels<Loop> levels{loop};
     return detail::MinimumRadiusSearch(levels, proportional_gain, 1e-9).from(start);
   } else {
     return detail::MinimumRadiusSearch(loop_polynomial(loop), proportional_gain).from(start);

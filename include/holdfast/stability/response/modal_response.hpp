@@ -93,6 +93,29 @@ class ModalResponse {
     return at_distance_from_one(circle_increment(angle));
   }
 
+  /// The response of a loop whose roots are those of this one's divided by r: G(rλ).
+  /// @param offset  r − 1, above −1
+  /// @return nothing where LoopResponse gives the values
+  std::optional<ModalResponse> at_radius(const Scalar& offset) const {
+    if (dense_) return std::nullopt;
+    ModalResponse scaled = *this;
+    const Scalar radius = Scalar(1) + offset;
+    Scalar factor(1);
+    for (int k = 0; k < commands_; ++k) factor /= radius;
+    scaled.unstable_ = 0;
+    for (Pole& pole : scaled.poles_) {
+      pole.increment = (pole.increment - offset) / radius;
+      pole.displacement *= factor;
+      pole.velocity *= factor;
+      pole.past_displacement *= factor / radius;
+      pole.past_velocity *= factor / radius;
+      const bool outside =
+          Scalar(2) * pole.increment.real() + std::norm(pole.increment) > Scalar(0);
+      scaled.unstable_ += outside ? 1 : 0;
+    }
+    return scaled;
+  }
+
   /// e^{s_k τ} − 1 of the plant's eigenvalues.
   std::vector<Complex> pole_increments() const {
     std::vector<Complex> increments;
@@ -102,6 +125,26 @@ class ModalResponse {
 
   /// k, the commands on their way.
   int held_commands() const { return commands_; }
+
+  /// A pole's part in P G_z + D G_v.
+  struct LoopPart {
+    Complex increment;      ///< e^{s_k τ} − 1
+    Complex present, past;  ///< P and D times a_k and b_k
+  };
+
+  /// The parts of all poles; nothing where LoopResponse gives the values.
+  std::vector<LoopPart> loop_parts(const PdGains<Scalar>& gains) const {
+    std::vector<LoopPart> parts;
+    if (dense_) return parts;
+    const Scalar p = gains.proportional, d = gains.differential;
+    for (const Pole& pole : poles_)
+      parts.push_back({pole.increment, p * pole.displacement + d * pole.velocity,
+                       p * pole.past_displacement + d * pole.past_velocity});
+    return parts;
+  }
+
+  /// Whether a command comes between two samples.
+  bool is_late_within_sample() const { return late_ > Scalar(0); }
 
   /// How many of the plant's own eigenvalues grow.
   int unstable_poles() const { return unstable_; }

@@ -1,0 +1,238 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/bracketing_root.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/margins/loop_margins.hpp"
+#include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/stability/response/loop_roots.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// The margins of a loop by the poles of its plant.
+template <class Scalar>
+class ModalMargins {
+ public:
+  using Response = ModalResponse<Scalar>;
+
+  ModalMargins(const std::vector<PlantPole>& poles, const Sampling<Scalar>& sampling,
+               const PdGains<Scalar>& gains)
+      : poles_(poles),
+        sampling_(sampling),
+        gains_(gains),
+        response_(modal_response<Scalar>(poles, sampling)),
+        reserve_(-excess_of(response_)) {}
+
+  bool is_stable() const { return reserve_ > Scalar(0); }
+  Scalar reserve() const { return reserve_; }
+
+  TwoSidedMargin of_gain(FreeGain free) const {
+    const bool by_d = free == FreeGain::differential;
+    const ResolvedCircle<Scalar> circle(response_);
+    return two_sided(circle.stable_gains(free, gains_),
+                     by_d ? gains_.differential : gains_.proportional, [&](Scalar value) {
+                       return by_d ? PdGains<Scalar>{gains_.proportional, value}
+                                   : PdGains<Scalar>{value, gains_.differential};
+                     });
+  }
+
+  /// Of a common factor of both gains, about 1.
+  Interval<Scalar> factors() const {
+    std::vector<typename Response::Residue> residues;
+    residues.reserve(poles_.size());
+    for (const PlantPole& pole : poles_)
+      residues.push_back({pole.s, pole.residue,
+                          (gains_.proportional + gains_.differential * pole.s) * pole.residue});
+    const ResolvedCircle<Scalar> circle(Response(residues, sampling_));
+    for (const Interval<Scalar>& interval : circle.stable_gains(FreeGain::differential, {}))
+      if (interval.contains(Scalar(1))) return interval;
+    return {Scalar(1), Scalar(1)};
+  }
+
+  /// The least |arg L| where |L| = 1, L = P G_z + D G_v.
+  Scalar phase() const {
+    const auto loop_gain = [&](const Scalar& angle) {
+      const auto g = response_.at_angle(angle);
+      return gains_.proportional * g.displacement + gains_.differential * g.velocity;
+    };
+    const auto level = [&](const Scalar& angle) { return std::norm(loop_gain(angle)) - Scalar(1); };
+    Scalar least = std::numeric_limits<Scalar>::infinity(), before(0), at_before(-1);
+    for (const Scalar& angle : ResolvedCircle<Scalar>(response_).angles()) {
+      const Scalar here = level(angle);
+      if ((here > Scalar(0)) != (at_before > Scalar(0))) {
+        const auto crossing =
+            bracketing_root<Scalar>(level, {before, angle, at_before, here}, Scalar(0));
+        least = std::min(least, std::abs(std::arg(loop_gain(crossing.lower))));
+      }
+      before = angle;
+      at_before = here;
+    }
+    return least;
+  }
+
+  /// Walks a quantity from its value until the loop is not stable, or to a limit.
+  /// @param sampling_at  of the quantity
+  /// @param next         the place after one, towards the limit
+  template <class SamplingAt, class Next>
+  MarginEnd walk(Scalar value, Scalar limit, const SamplingAt& sampling_at,
+                 const Next& next) const {
+    const auto response_at = [&](const Scalar& x) {
+      return modal_response<Scalar>(poles_, sampling_at(x));
+    };
+    const auto excess = [&](const Scalar& x) { return excess_of(response_at(x)); };
+    Scalar inside = value;
+    while (inside != limit) {
+      const Scalar beyond =
+          limit > value ? std::min(limit, next(inside)) : std::max(limit, next(inside));
+      const Scalar there = excess(beyond);
+      if (there < Scalar(0)) {
+        inside = beyond;
+        continue;
+      }
+      SignChange<Scalar> ends{inside, beyond, excess(inside), there};
+      if (beyond < inside) ends = {beyond, inside, there, ends.value_at_lower};
+      const auto crossing = bracketing_root<Scalar>(excess, ends, Scalar(1e-9) * value);
+      const bool down = beyond < inside;
+      const Scalar edge = down ? crossing.upper : crossing.lower;
+      const Scalar outside = down ? crossing.lower : crossing.upper;
+      return boundary_at(response_at(outside), gains_, edge, value, sampling_at(edge).period);
+    }
+    return beyond_search(inside, value);
+  }
+
+  TwoSidedMargin of_period(Scalar ratio) const {
+    const Scalar period = sampling_.period, share = sampling_.processing_delay / period;
+    const auto sampling_at = [&](Scalar tau) { return Sampling<Scalar>{tau, share * tau}; };
+    return {
+        walk(period, period / ratio, sampling_at, [](Scalar tau) { return tau / Scalar(1.05); }),
+        walk(period, period * ratio, sampling_at, [](Scalar tau) { return tau * Scalar(1.05); })};
+  }
+
+  TwoSidedMargin of_delay(Scalar samples) const {
+    const Scalar period = sampling_.period, delay = sampling_.processing_delay;
+    const Scalar step = period / Scalar(8);
+    const auto sampling_at = [&](Scalar late) { return Sampling<Scalar>{period, late}; };
+    MarginEnd below = no_boundary(0.0);
+    if (delay > Scalar(0)) {
+      below = walk(delay, Scalar(0), sampling_at, [&](Scalar late) { return late - step; });
+      if (below.outcome == MarginEndOutcome::beyond_search && below.position == 0.0)
+        below = no_boundary(0.0);
+    }
+    return {below, walk(delay, delay + samples * period, sampling_at,
+                        [&](Scalar late) { return late + step; })};
+  }
+
+ private:
+  /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
+  Scalar excess_of(const Response& response) const {
+    const Scalar excess = loop_excess(response, gains_);
+    if (std::isfinite(excess)) return excess;
+    const bool stable = ResolvedCircle<Scalar>(response).roots_outside(gains_) == 0;
+    return stable ? -std::numeric_limits<Scalar>::min() : std::numeric_limits<Scalar>::min();
+  }
+
+  template <class GainsAt>
+  TwoSidedMargin two_sided(const std::vector<Interval<Scalar>>& intervals, Scalar value,
+                           const GainsAt& gains_at) const {
+    const auto end = [&](Scalar position) {
+      if (!std::isfinite(position)) return no_boundary(position);
+      const Scalar outside = position + Scalar(1e-9) * (position - value);
+      return boundary_at(response_, gains_at(outside), position, value, sampling_.period);
+    };
+    for (const Interval<Scalar>& interval : intervals)
+      if (interval.contains(value)) return {end(interval.lower), end(interval.upper)};
+    return {};
+  }
+
+  /// The end at which a root crosses the unit circle.
+  /// @param response  and gains just outside, where that root is the largest
+  static MarginEnd boundary_at(const Response& response, const PdGains<Scalar>& gains,
+                               Scalar position, Scalar value, Scalar period) {
+    const std::complex<Scalar> root = largest_loop_root(response, gains);
+    const bool real = std::abs(root.imag()) <= Scalar(1e-6) * std::abs(root - Scalar(1));
+    const BoundaryCurve curve = !real                     ? BoundaryCurve::complex_pair
+                                : root.real() < Scalar(0) ? BoundaryCurve::minus_one
+                                                          : BoundaryCurve::plus_one;
+    return {MarginEndOutcome::boundary, position, std::abs(position - value), curve,
+            std::abs(std::arg(root)) / (Scalar(2) * pi<Scalar> * period)};
+  }
+
+  const std::vector<PlantPole>& poles_;
+  Sampling<Scalar> sampling_;
+  PdGains<Scalar> gains_;
+  Response response_;
+  Scalar reserve_;
+};
+
+}  // namespace detail
+
+/// How far D, P, τ and δ, each on its own, are from the boundary of stability, of a loop by the
+/// poles of its plant.
+///
+/// D and P as `ResolvedCircle` has them. τ and δ are walked, τ by 5 % and δ by an eighth of a
+/// sample at a time, with all roots at each step: a stretch of instability narrower than a step is
+/// missed, and what is not met is `beyond_search`, never `none` but for δ = 0.
+/// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
+/// @param poles     `plant_poles`, all of them; kept outside while this runs
+/// @param sampling  τ (s) > 0, δ (s) ≥ 0
+/// @param gains     P (N/m) and D (N s/m), finite
+/// @param search    its ratios bound the walks, τ downwards too
+/// @throws InvalidParameter outside these ranges
+template <class Scalar = double>
+StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
+                                         const Sampling<detail::Undeduced<Scalar>>& sampling,
+                                         const PdGains<detail::Undeduced<Scalar>>& gains,
+                                         const MarginSearch& search = {}) {
+  validate(gains);
+  validate(search);
+  const detail::ModalMargins<Scalar> margins(poles, sampling, gains);
+  const TwoSidedMargin by_d = margins.of_gain(FreeGain::differential);
+  const TwoSidedMargin by_p = margins.of_gain(FreeGain::proportional);
+  const bool stable = margins.is_stable() && by_d.below.outcome != MarginEndOutcome::undefined &&
+                      by_p.below.outcome != MarginEndOutcome::undefined;
+  if (!stable) return {MarginOutcome::not_stable, std::min(margins.reserve(), 0.0), {}, {}, {}, {}};
+  return {MarginOutcome::stable,
+          margins.reserve(),
+          by_d,
+          by_p,
+          margins.of_period(search.longest_period_ratio),
+          margins.of_delay(search.longest_delay_ratio)};
+}
+
+/// The margins of such a loop as a whole, δ walked as above.
+/// @tparam Scalar   double, as above
+/// @param poles     as above
+/// @param sampling  as above
+/// @param gains     as above
+/// @param search    as above
+/// @throws InvalidParameter as above
+template <class Scalar = double>
+LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
+                               const Sampling<detail::Undeduced<Scalar>>& sampling,
+                               const PdGains<detail::Undeduced<Scalar>>& gains,
+                               const MarginSearch& search = {}) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  validate(gains);
+  validate(search);
+  const detail::ModalMargins<Scalar> margins(poles, sampling, gains);
+  if (!margins.is_stable())
+    return {MarginOutcome::not_stable, margins.reserve(), none, none, none, {}};
+  const Interval<Scalar> factors = margins.factors();
+  return {MarginOutcome::stable, margins.reserve(),
+          factors.upper,         factors.lower,
+          margins.phase(),       margins.of_delay(search.longest_delay_ratio).above};
+}
+
+}  // namespace holdfast
