@@ -11,6 +11,7 @@
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -107,7 +108,10 @@ namespace {
 
 ModalResponse<double> response_of(const Case& the_case,
                                   const std::vector<PlaceMode<double>>& modes) {
-  return modal_response(modes, absorber_of(the_case), sampling_of(the_case));
+  throw_if_interrupted();
+  auto response = modal_response(modes, absorber_of(the_case), sampling_of(the_case));
+  throw_if_interrupted();
+  return response;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <vector>
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal_plant_of_case.hpp"
@@ -76,53 +77,71 @@ std::string clamp_text(const Case& string) {
   return page_text("a clamp serves", {{"clamp", rounded(1e3 * clamp, 2)}});
 }
 
+std::string detail_text(const Case& string) {
+  const TautString<double> conductor = string_of(string);
+  const std::string doubt = modes_warning(string);
+  return page_text("string detail", {{"tension", rounded(conductor.tension, 4)},
+                                     {"waves", rounded(2.0 * conductor.wave_impedance(), 3)},
+                                     {"modes", std::to_string(modes_of(string))},
+                                     {"own clamp", rounded(1e3 * string.absorber.clamp_mass, 3)}}) +
+         (doubt.empty() ? "" : page_text("modes doubted", {{"doubt", doubt}}));
+}
+
+/// The interval that holds D, or else the nearest to it.
+Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals, double d) {
+  const auto away = [&](const Interval<double>& gap) {
+    return std::max({0.0, gap.lower - d, d - gap.upper});
+  };
+  return *std::min_element(
+      intervals.begin(), intervals.end(),
+      [&](const auto& one, const auto& other) { return away(one) < away(other); });
+}
+
+/// Gives the answer and what is to be added to its detail.
+void judge(const Case& the_case, const Case& string, Answer& answer) {
+  const PdGains<double> gains = gains_of(the_case);
+  const auto stable = circle_of(string).stable_gains(FreeGain::differential, gains);
+  throw_if_interrupted();
+  Values values = {{"D", damping(gains.differential)}};
+  const bool is_stable = std::any_of(stable.begin(), stable.end(), [&](const auto& gap) {
+    return gap.contains(gains.differential);
+  });
+  const char* text = is_stable         ? "stable on the string"
+                     : !stable.empty() ? "unstable on the string"
+                                       : "no gain on the string";
+  if (is_stable != other_modes_of(string).is_stable(gains)) text = "undecided on the string";
+  if (!stable.empty()) {
+    const Interval<double> nearest = nearest_interval(stable, gains.differential);
+    values.emplace_back("lower", damping(nearest.lower));
+    values.emplace_back("upper", damping(nearest.upper));
+  }
+  answer.answer = page_text(text, values);
+  if (text == std::string("unstable on the string")) {
+    answer.answer += clamp_text(string);
+    answer.detail += growth_text(string, largest_root_of(string, gains));
+  } else if (text == std::string("stable on the string")) {
+    throw_if_interrupted();
+    const double there = share_left(string, gains), here = share_left(the_case, gains);
+    if (std::isfinite(there))
+      answer.answer += page_text("left on the string", {{"there", rounded(100.0 * there, 3)},
+                                                        {"here", rounded(100.0 * here, 3)}});
+  }
+}
+
 }  // namespace
 
 Answer does_it_hold_on_the_string(const Case& the_case) {
-  const PdGains<double> gains = gains_of(the_case);
   Answer answer{page_text("string question"), "", "",
-                words_of(page_text("string command", {{"P", format_number(gains.proportional)}}))};
+                words_of(page_text("string command",
+                                   {{"P", format_number(gains_of(the_case).proportional)}}))};
   if (!plausibility::has_own_cable(the_case)) {
     answer.answer = page_text("no conductor");
     answer.arguments = {"case"};
     return answer;
   }
   const Case string = on_string(the_case);
-  const TautString<double> conductor = string_of(string);
-  const ResolvedCircle<double> circle = circle_of(string);
-  const auto stable = circle.stable_gains(FreeGain::differential, gains);
-  const auto own = std::find_if(stable.begin(), stable.end(), [&](const Interval<double>& gap) {
-    return gap.contains(gains.differential);
-  });
-  const auto& nearest = own != stable.end() || stable.empty() ? own : stable.begin();
-  Values values = {{"D", damping(gains.differential)},
-                   {"tension", rounded(conductor.tension, 4)},
-                   {"waves", rounded(2.0 * conductor.wave_impedance(), 3)},
-                   {"modes", std::to_string(modes_of(string))},
-                   {"own clamp", rounded(1e3 * string.absorber.clamp_mass, 3)}};
-  answer.detail = page_text("string detail", values);
-  const std::string doubt = modes_warning(string);
-  if (!doubt.empty()) answer.detail += page_text("modes doubted", {{"doubt", doubt}});
-  if ((own == stable.end()) != !other_modes_of(string).is_stable(gains)) {
-    answer.answer = page_text("undecided on the string", values);
-    return answer;
-  }
-  if (stable.empty()) {
-    answer.answer = page_text("no gain on the string", values);
-    return answer;
-  }
-  values.emplace_back("lower", damping(nearest->lower));
-  values.emplace_back("upper", damping(nearest->upper));
-  if (own == stable.end()) {
-    answer.answer = page_text("unstable on the string", values) + clamp_text(string);
-    answer.detail += growth_text(string, largest_root_of(string, gains));
-    return answer;
-  }
-  answer.answer = page_text("stable on the string", values);
-  const double there = share_left(string, gains), here = share_left(the_case, gains);
-  if (std::isfinite(there))
-    answer.answer += page_text("left on the string", {{"there", rounded(100.0 * there, 3)},
-                                                      {"here", rounded(100.0 * here, 3)}});
+  answer.detail = detail_text(string);
+  judge(the_case, string, answer);
   return answer;
 }
 

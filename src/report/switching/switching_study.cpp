@@ -155,7 +155,7 @@ SteadyMotion steady_motion(const StudiedLoop& studied) {
   bool is_steady = false;
   double largest = 0.0;
   for (std::int64_t j = 0; j < samples; ++j) {
-    look_for_interrupt(j);
+    throw_if_interrupted();  // at each: a stiff plant takes a millisecond a sample
     if (!is_steady && not_before(motion.time(), half)) {
       is_steady = true;
       counter.start();
@@ -215,6 +215,7 @@ MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int
   DenseOutput trace(motion);
   WindowRecorder recorder(begin, end, instants);
   while (motion.time() <= end) {
+    throw_if_interrupted();
     const double previous_command = motion.previous_command();
     const EventSample sample = motion.sense();
     if (is_beyond(sample.state, bound)) throw NoAnswer("the motion diverges");
