@@ -40,44 +40,41 @@ std::vector<Complex> eigenvalues_of(const std::vector<PlaceMode<double>>& modes,
   return {values.begin(), values.end()};
 }
 
+/// Of a string, and of one with few modes and bundles behind.
 TEST(LoopRoots, AreTheEigenvaluesOfTheMap) {
   const TautString<double> string = taut_string(kollar2022_conductor());
-  int compared = 0;
-  for (const double period : {1e-4, 1e-3, 0.01})
-    for (const double late : {0.0, 0.3, 1.0, 2.5})
-      for (const double clamp_mass : {0.0, 0.01})
-        for (const bool bundled : {false, true})
-          for (const PdGains<double> gains :
-               {PdGains<double>{-557.0, -13.0}, PdGains<double>{0.0, 0.0},
-                PdGains<double>{300.0, 6.0}, PdGains<double>{2000.0, -40.0}}) {
-            const auto modes = bundled ? bundled_string_modes(string, 0.64, 12, 20.0 / period)
-                                       : string_modes(string, 0.64, 20);
-            const Sampling<double> sampling{period, late * period};
-            const auto absorber = papers_absorber(clamp_mass);
-            auto found = loop_roots(modal_response(modes, absorber, sampling), gains);
-            ASSERT_FALSE(found.empty()) << period << ' ' << late << ' ' << gains.proportional;
-            if (late == 0.0) found.emplace_back(0.0);
-            const auto expected = eigenvalues_of(modes, absorber, sampling, gains);
-            EXPECT_EQ(found.size(), expected.size());
-            // Near 0, where the dead ones crowd, the matrix has few digits.
-            EXPECT_LT(distance(found, expected), bundled ? 1e-3 : 1e-9)
-                << period << ' ' << late << ' ' << gains.proportional;
-            const auto largest = [](const std::vector<Complex>& roots) {
-              double modulus = 0.0;
-              for (const Complex& root : roots) modulus = std::max(modulus, std::abs(root));
-              return modulus;
-            };
-            EXPECT_NEAR(largest(found) / largest(expected), 1.0, 1e-10);
-            ++compared;
-          }
-  EXPECT_EQ(compared, 192);
+  const auto largest = [](const std::vector<Complex>& roots) {
+    double modulus = 0.0;
+    for (const Complex& root : roots) modulus = std::max(modulus, std::abs(root));
+    return modulus;
+  };
+  for (const double period : {1e-4, 0.01})
+    for (const double late : {0.0, 0.3, 2.5})
+      for (const bool bundled : {false, true})
+        for (const PdGains<double> gains :
+             {PdGains<double>{-557.0, -13.0}, PdGains<double>{0.0, 0.0},
+              PdGains<double>{2000.0, -40.0}}) {
+          const auto modes = bundled ? bundled_string_modes(string, 0.64, 6, 500.0)
+                                     : string_modes(string, 0.64, 20);
+          const Sampling<double> sampling{period, late * period};
+          const auto absorber = papers_absorber(bundled ? 0.01 : 0.0);
+          auto found = loop_roots(modal_response(modes, absorber, sampling), gains);
+          ASSERT_FALSE(found.empty()) << period << ' ' << late << ' ' << gains.proportional;
+          if (late == 0.0) found.emplace_back(0.0);
+          const auto expected = eigenvalues_of(modes, absorber, sampling, gains);
+          EXPECT_EQ(found.size(), expected.size());
+          // Near 0, where the dead ones crowd, the matrix has few digits.
+          EXPECT_LT(distance(found, expected), bundled ? 1e-3 : 1e-9)
+              << period << ' ' << late << ' ' << gains.proportional;
+          EXPECT_NEAR(largest(found) / largest(expected), 1.0, 1e-10);
+        }
 }
 
 /// Random plants with nodes, light and heavy absorbers: what is found is right, and most is found.
 TEST(LoopRoots, OfRandomPlantsAreRightOrNotFound) {
   Random random(20251126);
   int found = 0;
-  constexpr int plants = 500;
+  constexpr int plants = 300;
   for (int k = 0; k < plants; ++k) {
     std::vector<PlaceMode<double>> modes;
     double omega = random.log_uniform(0.1, 10.0);
@@ -135,7 +132,7 @@ TEST(BundledModes, HaveTheLimitOfTheInfiniteString) {
       const double limit = clamp_mass == 0.0
                                ? -dashpots
                                : -dashpots / std::tanh(dashpots * period / (2.0 * clamp_mass));
-      for (const int apart : {60, 125, 250}) {
+      for (const int apart : {60, 125}) {
         const auto modes = bundled_string_modes(string, 0.64, apart, 100.0 / period);
         const auto response = modal_response(modes, papers_absorber(clamp_mass), {period});
         const double found = (1.0 / response.at_angle(pi<double>).velocity).real();
