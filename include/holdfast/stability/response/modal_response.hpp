@@ -128,8 +128,9 @@ class ModalResponse {
 
   /// A pole's part in P G_z + D G_v.
   struct LoopPart {
-    Complex increment;      ///< e^{s_k τ} − 1
-    Complex present, past;  ///< P and D times a_k and b_k
+    Complex increment;  ///< e^{s_k τ} − 1
+    Complex present;    ///< P and D times a_k
+    Complex past;       ///< P and D times b_k
   };
 
   /// The parts of all poles; nothing where LoopResponse gives the values.
