@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
+#include "support/random.hpp"
 
 namespace holdfast::test {
 
@@ -9,6 +12,20 @@ namespace holdfast::test {
 inline Absorber<double> papers_absorber(double clamp_mass) {
   const TwoMass<double> masses = kollar2022_plant();
   return {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping, clamp_mass};
+}
+
+/// Up to twelve modes at any distances, every fourth with a node at the absorber.
+inline std::vector<PlaceMode<double>> random_modes(Random& random, double largest_damping) {
+  std::vector<PlaceMode<double>> modes;
+  double omega = random.log_uniform(0.1, 10.0);
+  const auto count = static_cast<int>(random.uniform(1.0, 12.0));
+  for (int n = 0; n < count; ++n) {
+    const double shape = n % 4 == 3 ? 0.0 : random.uniform(-1.0, 1.0);
+    modes.push_back(
+        {omega, random.log_uniform(1e-4, largest_damping), shape, random.uniform(0.1, 2.0)});
+    omega *= random.uniform(1.05, 2.0);
+  }
+  return modes;
 }
 
 }  // namespace holdfast::test

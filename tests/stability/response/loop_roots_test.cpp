@@ -76,14 +76,7 @@ TEST(LoopRoots, OfRandomPlantsAreRightOrNotFound) {
   int found = 0;
   constexpr int plants = 300;
   for (int k = 0; k < plants; ++k) {
-    std::vector<PlaceMode<double>> modes;
-    double omega = random.log_uniform(0.1, 10.0);
-    const auto count = static_cast<int>(random.uniform(1.0, 12.0));
-    for (int n = 0; n < count; ++n) {
-      const double shape = n % 4 == 3 ? 0.0 : random.uniform(-1.0, 1.0);
-      modes.push_back({omega, random.log_uniform(1e-4, 0.3), shape, random.uniform(0.1, 2.0)});
-      omega *= random.uniform(1.05, 2.0);
-    }
+    const std::vector<PlaceMode<double>> modes = random_modes(random, 0.3);
     const double mass = random.log_uniform(0.01, 1.0), own = modes.front().angular_frequency;
     const Absorber<double> absorber{mass, mass * own * own,
                                     random.log_uniform(0.01, 1.0) * mass * own,
