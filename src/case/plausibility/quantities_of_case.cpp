@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "case/plausibility/words.hpp"
+#include "holdfast/core/types.hpp"
 
 namespace holdfast::program {
 namespace {
