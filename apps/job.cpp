@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "case/model/cable_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "io/file/input.hpp"

@@ -15,5 +15,6 @@ template BarChain::Nodes unbalanced_forces(const BarChain&, const BarChain::Node
 template ChainEquilibrium chain_equilibrium(const BarChain&, double);
 template ElementsModes elements_modes(const Conductor<double>&, int, int);
 template class BasicCableElements<double>;
+template CablePlaceModes cable_place_modes(const BarChain&, const HungMass&, int, BarMass);
 
 }  // namespace holdfast

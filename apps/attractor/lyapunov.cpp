@@ -1,4 +1,5 @@
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
@@ -70,6 +71,15 @@ void require_consistent(const Case& the_case, const LyapunovQuestion& options) {
       "ideal computer only");
 }
 
+/// Of hundreds of states all exponents would cost days.
+void require_largest_of_modes(const Case& the_case, const LyapunovQuestion& options) {
+  refuse_on_modes(the_case, options.history, "--history");
+  refuse_on_modes(the_case, options.tangent == "printed", "--tangent printed");
+  if (is_modal(the_case) && !options.largest)
+    throw WrongInput("of plant.model = \"" + the_case.plant.model +
+                     "\" the largest exponent alone is computed: add --largest");
+}
+
 /// A row of the exponents so far.
 void write_history_row(Table& table, double time, const Vector<double, 5>& exponents) {
   table.writer().cell(time);
@@ -109,9 +119,14 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& options)
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
   const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
-  const LyapunovResult result = with_two_mass_motion_of(
-      context.case_data, {options.switching},
-      [&](const auto& motion) { return exponents_of(motion, context, options, run); });
+  const LyapunovResult result =
+      is_modal(context.case_data)
+          ? exponents_of(event_motion(controlled_conductor_of(context.case_data, options.switching),
+                                      modal_state_of(context.case_data)),
+                         context, options, run)
+          : with_two_mass_motion_of(
+                context.case_data, {options.switching},
+                [&](const auto& motion) { return exponents_of(motion, context, options, run); });
   if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);
@@ -136,6 +151,8 @@ void write_exponent_history(const JobContext& context, const LyapunovQuestion& o
 }
 
 void LyapunovQuestion::run(const JobContext& context) const {
+  require_largest_of_modes(context.case_data, *this);
+  report_warning(dense_work_warning(context.case_data), context.quiet);
   history ? write_exponent_history(context, *this) : write_exponents(context, *this);
 }
 

@@ -4,6 +4,8 @@
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -46,6 +48,13 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
   const std::string& law = context.case_data.backlash.law;
   const bool at_samples =
       options.switching == Switching::sampled && (law == "immediate" || law == "play");
+  if (is_modal(context.case_data)) {
+    report_warning(dense_work_warning(context.case_data), context.quiet);
+    EventOrbit orbit = certified_orbit_of_modes(context, options.switching, options.largest_period);
+    if (at_samples) forget_margins(orbit);
+    visit(orbit);
+    return;
+  }
   with_loop_of(context.case_data, options.switching, [&](const auto& loop) {
     auto orbit = certified_orbit(context, loop, options.largest_period);
     if (at_samples) forget_margins(orbit);
@@ -239,6 +248,7 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
 }
 
 void OrbitQuestion::run(const JobContext& context) const {
+  refuse_on_modes(context.case_data, follow.has_value(), "--follow");
   if (follow && !is_of_the_paper(context.case_data, switching))
     throw WrongInput(
         "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "

@@ -1,6 +1,8 @@
 #include <limits>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "job.hpp"
@@ -68,9 +70,17 @@ struct VerdictQuestion {
 
   void run(const JobContext& context) const {
     Table table(context, columns_of("verdict"));
-    const Vector<double, 4> state = initial_state_of(context.case_data);
+    const Case& the_case = context.case_data;
     const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-    with_loop_of(context.case_data, switching, [&](const auto& loop) {
+    if (is_modal(the_case)) {
+      report_warning(dense_work_warning(the_case), context.quiet);
+      write(context, table,
+            classify_motion(controlled_conductor_of(the_case, switching), modal_state_of(the_case),
+                            limits));
+      return;
+    }
+    const Vector<double, 4> state = initial_state_of(the_case);
+    with_loop_of(the_case, switching, [&](const auto& loop) {
       write(context, table, classify_motion(loop, state, limits));
     });
   }

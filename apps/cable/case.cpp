@@ -6,7 +6,7 @@
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"

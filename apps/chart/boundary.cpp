@@ -1,6 +1,6 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "case/axes/axis.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"

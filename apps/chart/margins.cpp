@@ -1,6 +1,6 @@
 #include "holdfast/stability/margins/margins.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "job.hpp"

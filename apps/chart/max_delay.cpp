@@ -1,6 +1,9 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/stability/design/modal_max_delay.hpp"
+#include "holdfast/stability/response/loop_roots.hpp"
 #include "job.hpp"
 #include "jobs/design/best_gains.hpp"
 
@@ -17,7 +20,41 @@ struct MaxDelayQuestion {
   }
 
   void run(const JobContext& context) {
-    const TwoMass<double> plant = plant_of(context.case_data);
+    const Case& the_case = context.case_data;
+    if (is_modal(the_case)) {
+      const ConductorWithAbsorber conductor{place_modes_of(the_case), absorber_of(the_case),
+                                            poles_of(the_case)};
+      answer(context, conductor);
+      report_warning(
+          "of the conductor the period is walked by 3 %, with the modes of the case's own: a "
+          "stretch of instability narrower than a step is missed",
+          context.quiet);
+    } else {
+      answer(context, plant_of(the_case));
+    }
+  }
+
+ private:
+  static MaxDelay largest_period(const TwoMass<double>& plant, const MaxDelayOptions& question) {
+    return max_sampling_period(plant, question);
+  }
+  static MaxDelay largest_period(const ConductorWithAbsorber& plant,
+                                 const MaxDelayOptions& question) {
+    return modal_max_sampling_period(plant, question);
+  }
+
+  /// ρ − 1.
+  static double excess_of(const TwoMass<double>& plant, const Sampling<double>& sampling,
+                          const PdGains<double>& gains) {
+    return loop_polynomial(sampled_loop(plant, sampling)).excess(gains);
+  }
+  static double excess_of(const ConductorWithAbsorber& plant, const Sampling<double>& sampling,
+                          const PdGains<double>& gains) {
+    return loop_excess(modal_response(plant.poles, sampling), gains);
+  }
+
+  template <class Plant>
+  void answer(const JobContext& context, const Plant& plant) {
     const Axis axis = parse_axis("--frequency", frequency);
     Table table(context, columns_of("max-delay"));
     Progress progress(static_cast<std::uint64_t>(axis.count), "max-delay",
@@ -26,7 +63,7 @@ struct MaxDelayQuestion {
       throw_if_interrupted();
       MaxDelayOptions question = tuned_delay_question(context.case_data, axis.at(i));
       if (criterion == "stable") question.criterion = DelayCriterion::stable;
-      const MaxDelay answer = max_sampling_period(plant, question);
+      const MaxDelay answer = largest_period(plant, question);
       if (answer.outcome == MaxDelayOutcome::beyond_search)
         report_warning("at " + format_rounded(question.frequency) +
                            " Hz the search ended without a limit at a period of " +
@@ -47,14 +84,13 @@ struct MaxDelayQuestion {
     report_warning(held_force_, context.quiet);
   }
 
- private:
   /// Notes where D is a limit, and where the hold of the force decides what is attenuated.
-  void note(const TwoMass<double>& plant, const MaxDelayOptions& question, const MaxDelay& answer,
+  template <class Plant>
+  void note(const Plant& plant, const MaxDelayOptions& question, const MaxDelay& answer,
             const JobContext& context) {
     if (!(answer.sampling_period > 0.0 && std::isfinite(answer.sampling_period))) return;
     const PdGains<double> gains{question.proportional_gain, answer.differential_gain};
-    const auto loop = sampled_loop(plant, question.sampling(answer.sampling_period));
-    if (loop_polynomial(loop).excess(gains) > -1e-9) ++on_boundary_;
+    if (excess_of(plant, question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
       held_force_ =
           held_force_warning(context.case_data, answer.sampling_period, question.frequency,

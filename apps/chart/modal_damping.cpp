@@ -1,5 +1,5 @@
 #include "holdfast/stability/response/modal_damping.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "job.hpp"
 
@@ -42,15 +42,16 @@ struct ModalDampingQuestion {
     if (!is_modal(the_case))
       throw WrongInput(
           "modal-damping is of the conductor's modes, and the case's plant is two masses: add "
-          "--set plant.model=string");
+          "--set plant.model=cable");
     const PdGains<double> gains = no_control ? PdGains<double>{0.0, 0.0} : gains_of(the_case);
     Table table(context, columns_of("modal-damping"));
-    const auto modes = modal_damping(place_modes_of(the_case), absorber_of(the_case),
-                                     sampling_of(the_case), gains);
+    const ConductorModes conductor = conductor_modes_of(the_case);
+    const auto modes =
+        modal_damping(conductor.modes, absorber_of(the_case), sampling_of(the_case), gains);
     std::int64_t number = 0, lost = 0, not_light = 0;
     for (const ModeDamping& mode : modes) {
       lost += std::isnan(mode.damping()) ? 1 : 0;
-      if (++number > count || number > modes_of(the_case)) continue;
+      if (++number > count || number > conductor.apart) continue;
       table.row(number, mode.angular_frequency / (2.0 * pi<double>), mode.bare, mode.damping(),
                 mode.first_order);
       const double added = mode.damping() - mode.bare, promised = mode.first_order - mode.bare;

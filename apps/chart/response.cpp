@@ -1,6 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 

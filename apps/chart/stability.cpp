@@ -1,7 +1,7 @@
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "job.hpp"

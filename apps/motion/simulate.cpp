@@ -4,6 +4,7 @@
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
+#include "jobs/motion/elements_run.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
@@ -22,6 +23,8 @@ struct SimulateQuestion {
   std::optional<std::string> kick;
   bool no_control = false;
   Switching switching = Switching::sampled;
+  std::string plant = "case";
+  std::optional<int> elements;
 
   void add_to(const Job& job) {
     job.add("--duration", duration);
@@ -29,6 +32,8 @@ struct SimulateQuestion {
     job.add("--kick", kick);
     job.add("--no-control", no_control);
     job.add("--switching", switching);
+    job.add("--plant", plant);
+    job.add("--elements", elements);
   }
 
   void run(const JobContext& context) const {
@@ -41,6 +46,12 @@ struct SimulateQuestion {
     require_text_meant(context, samples_of(context.case_data, duration - from), "rows",
                        "a later --from or a shorter --duration leaves fewer");
     Table table(context, motion_columns(switching));
+    if (elements && plant != "elements") throw WrongInput("--elements goes with --plant elements");
+    if (plant == "elements") {
+      write_elements(context, table, samples);
+      table.commit();
+      return;
+    }
     const MotionChoice choice{switching, !no_control};
     auto digits = digits_beside(context.case_data, choice, kicked, from);
     with_motion_of(context.case_data, choice, [&](auto motion) {
@@ -54,6 +65,22 @@ struct SimulateQuestion {
     });
     if (digits) tell_trust(context, table, digits->result());
     table.commit();
+  }
+
+  /// Rows of the nonlinear cable.
+  void write_elements(const JobContext& context, Table& table, std::int64_t samples) const {
+    if (kick || switching == Switching::exact)
+      throw WrongInput(std::string("--plant elements does not go with ") +
+                       (kick ? "--kick" : "--switching exact"));
+    Progress progress(static_cast<std::uint64_t>(samples), "simulate, samples",
+                      progress_wanted(context));
+    run_elements(
+        context.case_data, {elements.value_or(200), !no_control, samples}, [&](const auto& sample) {
+          progress.advance();
+          if (!not_before(sample.time, from)) return;
+          write_motion_row(table, switching,
+                           {sample.time, sample.state, sample.control_force, mode_of(sample)});
+        });
   }
 
   std::optional<Kick> parsed_kick() const {

@@ -3,6 +3,7 @@
 /// The suspended cable: statics, elements, modes.
 
 #include "holdfast/cable/bar_chain.hpp"
+#include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/cable/chain_modes.hpp"
 #include "holdfast/cable/conductor.hpp"
 #include "holdfast/cable/elements.hpp"

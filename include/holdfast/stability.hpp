@@ -25,6 +25,7 @@
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
+#include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/stability/margins/loop_form.hpp"
 #include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/margins.hpp"

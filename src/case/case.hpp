@@ -28,12 +28,15 @@ struct Conductor {
   double gravity = 9.81;
   double tension = std::numeric_limits<double>::infinity();  // infinity: "sag", what that leaves
   double bending_stiffness = 0.0;
+  std::string damping = "chosen";  // by the plant: ratio of the string, Rayleigh's of the cable
+  std::array<double, 2> rayleigh_frequencies{2.0, 7.0};  // Hz
 };
 
 struct Absorber {
   double mass = 0.0;
   double position = 0.0;
   double clamp_mass = 0.0;
+  std::string motion = "vertical";
 };
 
 struct Reduction {

@@ -67,6 +67,15 @@ CaseFault tension_fault(const Case& c) {
               format_rounded(left) + " N, contradict each other: give one of them"};
 }
 
+CaseFault modes_fault(const Case& c) {
+  constexpr double most = 300.0;
+  if (c.plant.model != "cable" || !std::isfinite(c.plant.modes) || c.plant.modes <= most) return {};
+  return {{"plant.modes", "plant.model"},
+          "plant.modes = " + format_number(c.plant.modes) +
+              ": of plant.model = \"cable\" at most " + format_number(most) +
+              " modes are found; without plant.modes all count"};
+}
+
 CaseFault noise_fault(const Case& c) {
   const Excitation& force = c.excitation;
   if (!(force.noise_rms > 0.0) || force.noise_lowest < force.noise_highest) return {};
@@ -138,7 +147,7 @@ CaseFault conductor_fault(const Case& the_case) {
 CaseFault first_fault(const Case& the_case) {
   for (const auto find :
        {control_fault, jitter_fault, contact_fault, tension_fault, impossible_fault,
-        conductor_fault, reduction_fault, force_fault, noise_fault}) {
+        conductor_fault, reduction_fault, force_fault, noise_fault, modes_fault}) {
     CaseFault fault = find(the_case);
     if (!fault.message.empty()) return fault;
   }

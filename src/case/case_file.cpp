@@ -119,6 +119,21 @@ std::vector<std::array<double, 3>> harmonics_of(const CaseKey& key, const toml::
   return harmonics;
 }
 
+/// [lower, higher].
+std::array<double, 2> interval_of(const CaseKey& key, const toml::node& node,
+                                  const std::string& place) {
+  const toml::array* list = node.as_array();
+  std::array<double, 2> ends{};
+  bool fine = list != nullptr && list->size() == ends.size();
+  for (std::size_t k = 0; fine && k < ends.size(); ++k) {
+    const toml::node& number = (*list)[k];
+    ends[k] = number.value<double>().value_or(std::nan(""));
+    fine = number.is_number() && key.range.contains(ends[k]);
+  }
+  if (!fine || !(ends[0] < ends[1])) throw WrongInput(place + ": must be " + key.admissible());
+  return ends;
+}
+
 void CaseReader::read_text(std::string_view text, const std::string& name, Layer layer) {
   const toml::table root = parse_case_text(text, name);
   folder_ = std::filesystem::path(name).parent_path();
@@ -185,6 +200,8 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
     set_word(*key, node, place);
   } else if (key->file != nullptr) {
     set_file(*key, node, place);
+  } else if (key->interval != nullptr) {
+    *key->interval(case_) = interval_of(*key, node, place);
   } else if (key->harmonics != nullptr) {
     *key->harmonics(case_) = harmonics_of(*key, node, place);
   } else {

@@ -66,6 +66,13 @@ CaseKey harmonics(const char* name, std::vector<std::array<double, 3>>* (*place)
   return key;
 }
 
+CaseKey interval(const char* name, std::array<double, 2>* (*place)(Case&), const char* unit,
+                 const AdmissibleRange& range, const char* description) {
+  CaseKey key{name, unit, description, range, {}};
+  key.interval = place;
+  return key;
+}
+
 /// A number that a word may stand for.
 CaseKey or_word(const char* word, CaseKey key, bool* (*tuned)(Case&) = nullptr) {
   key.words = {word};
@@ -102,12 +109,20 @@ const std::vector<CaseKey> listed_keys = {
                           "mass_per_length gravity span^2 / (8 sag)")),
     beyond_two_masses(number(KEY(conductor, bending_stiffness), "N m2", bending_stiffnesses,
                              "EI, which stiffens the modes of the string")),
+    beyond_two_masses(word(KEY(conductor, damping), {"chosen", "ratio", "rayleigh"},
+                           "of the modes: damping_ratio of each, or Rayleigh's; \"chosen\": ratio "
+                           "of the string, Rayleigh's of the cable")),
+    beyond_two_masses(interval(KEY(conductor, rayleigh_frequencies), "Hz", positive,
+                               "the two at which Rayleigh's damping is damping_ratio")),
 
     number(KEY(absorber, mass), "kg", positive, "mass of the absorber"),
     number(KEY(absorber, position), "m", positive,
            "distance from the left support, inside the span"),
     beyond_two_masses(number(KEY(absorber, clamp_mass), "kg", clamp_masses,
                              "what of the absorber moves with the conductor, on its own modes")),
+    beyond_two_masses(word(KEY(absorber, motion), {"vertical", "plane"},
+                           "whether its mass moves up and down alone, or goes sideways with the "
+                           "cable too")),
 
     number(KEY(reduction, first_frequency), "Hz", positive,
            "lower natural frequency that the plant shall have"),
@@ -126,9 +141,9 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(plant, absorber_mass), "kg", positive, "m2"),
     number(KEY(plant, absorber_stiffness), "N/m", positive, "k2"),
     number(KEY(plant, absorber_damping), "N s/m", not_negative, "c2"),
-    beyond_two_masses(word(KEY(plant, model), {"two_masses", "string"},
-                           "what the absorber hangs on: one mass, or the taut conductor by its "
-                           "modes")),
+    beyond_two_masses(word(KEY(plant, model), {"two_masses", "string", "cable"},
+                           "what the absorber hangs on: one mass, or the conductor by its modes, "
+                           "taut or hanging")),
     beyond_two_masses(or_word("chosen", number(KEY(plant, modes), "", some_modes,
                                                "how many modes of the conductor are kept; "
                                                "\"chosen\": by the sampling rate"))),

@@ -124,6 +124,7 @@ std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1)
 std::string CaseKey::admissible() const {
   if (file != nullptr) return "the name of a file in quotes, or \"\" for none";
   if (harmonics != nullptr) return harmonics_in_words();
+  if (interval != nullptr) return "[lower, higher], each " + range.in_words(unit);
   std::string text = number != nullptr ? range.in_words(unit) : "";
   for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
   return text;

@@ -33,20 +33,22 @@ struct HarmonicPart {
 /// Amplitude, frequency and phase, of which the last may be left out.
 const std::array<HarmonicPart, 3>& harmonic_parts();
 
-/// One key of the case file. Exactly one of `number`, `word`, `file` and `harmonics` says where its
-/// value lies in a case; a key of [wind] gives a null pointer for a case without wind.
+/// One key of the case file. Exactly one of `number`, `word`, `file`, `interval` and `harmonics`
+/// says where its value lies in a case; a key of [wind] gives a null pointer for a case without
+/// wind.
 struct CaseKey {
   std::string name;  // with its table: "control.sampling_period"
   std::string unit;  // "" without dimension
   std::string description;
-  AdmissibleRange range;           // of numbers
+  AdmissibleRange range;           // of numbers; of both ends of an interval
   std::vector<std::string> words;  // admissible words; a number may have one, "tuned" or "none"
   bool required = false;           // of [wind]: has no default
   bool replaced_by_wind = false;   // of [excitation]: [wind] stands in its place
   bool beyond_two_masses = false;  // nothing of the two masses depends on it
   double* (*number)(Case&) = nullptr;
   std::string* (*word)(Case&) = nullptr;
-  std::string* (*file)(Case&) = nullptr;  // the name of a file, empty for none
+  std::string* (*file)(Case&) = nullptr;                // the name of a file, empty for none
+  std::array<double, 2>* (*interval)(Case&) = nullptr;  // two numbers, ascending
   std::vector<std::array<double, 3>>* (*harmonics)(Case&) = nullptr;
   bool* (*tuned)(Case&) = nullptr;  // set when a key that is a number is given the word "tuned"
 

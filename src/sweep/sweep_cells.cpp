@@ -24,12 +24,27 @@ CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {
   return CellOutcome::computed;
 }
 
+/// The poles and their residues, by which two conductors with their absorbers are told apart.
+std::vector<double> poles_of(const CellMotion& motion) {
+  std::vector<double> places;
+  if (!motion.conductor) return places;
+  places.reserve(4 * motion.conductor->poles.size());
+  for (const PlantPole& pole : motion.conductor->poles) {
+    places.push_back(pole.s.real());
+    places.push_back(pole.s.imag());
+    places.push_back(pole.residue.real());
+    places.push_back(pole.residue.imag());
+  }
+  return places;
+}
+
 /// What two motions without control must have in common to be one, to be compared.
-auto all_numbers_of(const SweepMotion& motion) {
-  const IdealLoop<double>& loop = motion.loop;
-  const Vector<double, 4>& state = motion.initial_state;
+auto all_numbers_of(const CellMotion& motion) {
+  const IdealLoop<double>& loop = motion.of_paper.loop;
+  const Vector<double, 4>& state = motion.of_paper.initial_state;
   return std::tuple(numbers_of(loop.plant), loop.sampling.period, loop.excitation.amplitude,
-                    loop.excitation.frequency, loop.hold, state[0], state[1], state[2], state[3]);
+                    loop.excitation.frequency, loop.hold, state[0], state[1], state[2], state[3],
+                    poles_of(motion));
 }
 
 /// The admissible cells of a tile as motions, and what is found of each.
@@ -119,13 +134,13 @@ class TileCells {
   /// Of each distinct motion without control once: many cells share theirs.
   void find_uncontrolled_peaks() {
     std::vector<CellMotion> distinct;
-    std::map<decltype(all_numbers_of(motions_[0].of_paper)), std::size_t> known;
+    std::map<decltype(all_numbers_of(motions_[0])), std::size_t> known;
     std::vector<std::size_t> number_of(motions_.size());
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       const CellMotion motion = without_control(motions_[k], plan_.options().duration);
-      const auto [entry, added] =
-          motion.built ? std::pair(known.end(), true)
-                       : known.try_emplace(all_numbers_of(motion.of_paper), distinct.size());
+      const auto [entry, added] = motion.built
+                                      ? std::pair(known.end(), true)
+                                      : known.try_emplace(all_numbers_of(motion), distinct.size());
       number_of[k] = added ? distinct.size() : entry->second;
       if (added) distinct.push_back(motion);
     }

@@ -9,6 +9,8 @@
 #include "case/axes/grid.hpp"
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
@@ -97,6 +99,14 @@ void require_room_for_best_gain(const SweepOptions& options, const std::vector<G
   }
 }
 
+/// Of the conductor's motion by its modes nothing is asked that needs its map.
+void require_of_modes(const Case& the_case, const SweepPlan& plan) {
+  refuse_on_modes(the_case, plan.options().best_gain, "--best-gain");
+  for (const SweepMetric metric :
+       {SweepMetric::largest_exponent, SweepMetric::period_samples, SweepMetric::verdict})
+    refuse_on_modes(the_case, plan.wants(metric), "--metric " + metric_column(metric).column.name);
+}
+
 /// Of the numbers of a record, so that another record of the same name is noticed.
 std::string checksum_of(const RecordedForce& record) {
   const auto bytes_of = [](const std::vector<double>& numbers) {
@@ -121,6 +131,7 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
       layout_{sweep_axes(options.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
   require_room_for_best_gain(options_, layout_.axes);
+  require_of_modes(context_.case_data, *this);
   for (const GridAxis& axis : layout_.axes)
     require_in_force(context_.case_data, *find_case_key(axis.column.name));
   shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
@@ -133,6 +144,7 @@ void SweepPlan::settle_case() {
   if (shaping_axes_.empty()) {
     report_warning(settle_plant(context_.case_data), context_.quiet);
     report_warning(borrowed_gains_text(context_.case_data), context_.quiet);
+    report_warning(modes_warning(context_.case_data), context_.quiet);
   } else {
     reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
   }

@@ -30,20 +30,20 @@ std::string help_of_doubtful(const std::string& settings) {
   return answers.text(1, "answer");
 }
 
-constexpr std::size_t help = 0, gain = 1, slow = 2, play = 3, motion = 4, string = 5;
+constexpr std::size_t help = 0, gain = 1, slow = 2, play = 3, motion = 4, cable = 5;
 
 /// The paper's gains are stable on two masses and not on its conductor, unless some of the absorber
 /// moves with the clamp.
 TEST(Answers, SayWhatDoesNotHoldOnTheConductorItself) {
-  const std::string answer = with_hyphens(table_of("answers --quiet").text(string, "answer"));
-  EXPECT_EQ(answer.rfind("No: on a taut string D = -13 N s/m is unstable", 0), 0U) << answer;
-  const std::string on_string = " --quiet --set plant.model=string";
-  const auto interval = table_of("boundary --stable-interval --p -557" + on_string);
+  const std::string answer = with_hyphens(table_of("answers --quiet").text(cable, "answer"));
+  EXPECT_EQ(answer.rfind("No: on the cable D = -13 N s/m is unstable", 0), 0U) << answer;
+  const std::string on_cable = " --quiet --set plant.model=cable";
+  const auto interval = table_of("boundary --stable-interval --p -557" + on_cable);
   EXPECT_NEAR(number_behind(answer, "stable from "), interval.number(0, "lower"), 1e-3);
   EXPECT_NEAR(number_behind(answer, " to "), interval.number(0, "upper"), 1e-3);
   const double clamp = number_behind(answer, "or with ");
   const auto is_stable = [&](double grams) {
-    return table_of("stability --p -557:-557:1 --d -13:-13:1" + on_string +
+    return table_of("stability --p -557:-557:1 --d -13:-13:1" + on_cable +
                     " --set absorber.clamp_mass=" + std::to_string(1e-3 * grams))
                .number(0, "stable") == 1.0;
   };
@@ -53,20 +53,20 @@ TEST(Answers, SayWhatDoesNotHoldOnTheConductorItself) {
 
 TEST(Answers, AreUndecidedWhereTheModesDecide) {
   const std::string answer =
-      table_of("answers --quiet --set control.differential_gain=-4.95").text(string, "answer");
+      table_of("answers --quiet --set control.differential_gain=-6.603").text(cable, "answer");
   EXPECT_EQ(answer.rfind("Undecided", 0), 0U) << answer;
 }
 
 TEST(Answers, SayWhatIsLeftOnTheConductorItself) {
   const std::string settings = " --set control.differential_gain=-4";
-  const std::string answer = table_of("answers --quiet" + settings).text(string, "answer");
+  const std::string answer = table_of("answers --quiet" + settings).text(cable, "answer");
   EXPECT_EQ(answer.rfind("Yes", 0), 0U) << answer;
   const std::string cell = "response --p -557:-557:1 --d -4:-4:1 --quiet";
   const double here = table_of(cell).number(0, "amplitude_m");
   EXPECT_NEAR(number_behind(answer, "of two masses "), 100.0 * here / 1.2559e-3,
               0.6);  // 0.5 N without control (README)
   const double there =
-      table_of(cell + " --set plant.model=string").number(0, "ratio_to_uncontrolled");
+      table_of(cell + " --set plant.model=cable").number(0, "ratio_to_uncontrolled");
   EXPECT_NEAR(number_behind(answer, "it leaves "), 100.0 * there, 1.0);
 }
 

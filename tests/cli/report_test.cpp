@@ -19,11 +19,11 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 void expect_every_figure_as_table_and_picture(const fs::path& report) {
   const std::string page = read_text(report / "report.html");
   std::vector<std::string> figures = {
-      "fig02a", "fig03",   "fig04a",           "fig04b",       "fig04c", "fig04d",  "fig05",
-      "fig05b", "fig06a",  "fig06b",           "fig07a",       "fig07b", "fig08a",  "fig08b",
-      "fig09a", "fig09b",  "fig09c",           "fig10a",       "fig10b", "fig11a",  "fig11b",
-      "fig12a", "fig12b",  "fig12c",           "fig13a",       "fig13b", "table2a", "table2b",
-      "orbits", "section", "diagram-backlash", "diagram-gain", "basins"};
+      "fig02a", "fig03",   "fig04a",           "fig04b",       "fig04c", "fig04d",    "fig05",
+      "fig05b", "fig06a",  "fig06b",           "fig07a",       "fig07b", "fig08a",    "fig08b",
+      "fig09a", "fig09b",  "fig09c",           "fig10a",       "fig10b", "fig11a",    "fig11b",
+      "fig12a", "fig12b",  "fig12c",           "fig13a",       "fig13b", "table2a",   "table2b",
+      "orbits", "section", "diagram-backlash", "diagram-gain", "basins", "amplitudes"};
   figures.insert(figures.end(), {"success-delay-backlash", "success-frequency-delay"});
   figures.insert(figures.end(),
                  {"switching-phases", "switching-laws", "switching-delay", "switching-backlash"});

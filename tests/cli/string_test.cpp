@@ -186,18 +186,19 @@ TEST(String, ModalDampingTellsWhichRootGrows) {
 
 TEST(String, JobsOfTwoMassesRefuseIt) {
   for (const std::string job :
-       {"decay", "peaks", "fit", "sensitivity", "max-delay", "verdict", "orbit", "basins",
-        "diagram --axis backlash.width=0:0.001:2", "section", "lyapunov",
-        "sweep --axis backlash.width=0:0.001:2", "answers", "report --output never"})
+       {"decay", "peaks", "fit", "sensitivity", "basins", "diagram --axis backlash.width=0:0.001:2",
+        "section", "answers", "report --output never"})
     expect_refused(job + " --set plant.model=string", {"plant.model", "two_masses", "boundary"});
   for (const std::string options :
        {"stability --continuous",
         "stability --axis control.sampling_period=0.001:0.01:2"
         " --axis control.differential_gain=-9:0:2",
         "design --both-gains", "design --band 8:12", "boundary --regions", "boundary --features",
-        "boundary --continuous"})
+        "boundary --continuous", "orbit --follow backlash.width=0:0.001", "lyapunov --history",
+        "sweep --axis backlash.width=0:0.001:2 --best-gain",
+        "sweep --axis backlash.width=0:0.001:2 --metric verdict"})
     expect_refused(options + " --quiet --set plant.model=string", {"two_masses"});
-  expect_refused("modal-damping", {"plant.model=string"});
+  expect_refused("modal-damping", {"plant.model=cable"});
   expect_refused("simulate --switching exact --kick 0.1:0.001 --quiet --set plant.model=string",
                  {"--kick", "the paper's model alone"});
 }
@@ -245,6 +246,30 @@ TEST(String, SaysWhatTheModesLeftOutWouldChange) {
   const CsvTable slow = table_of(ask + " --quiet --set control.sampling_period=2e-4");
   const CsvTable fast = table_of(ask + " --quiet --set control.sampling_period=2e-5");
   EXPECT_NEAR(fast.number(0, "lower") / slow.number(0, "lower"), 1.0, 0.1);
+}
+
+/// Of one mode the motions are those of two masses, and what is swept, certified and judged of
+/// them.
+TEST(String, OrbitVerdictAndSweepOfOneModeAreThoseOfTwoMasses) {
+  const std::string settings =
+      " --set control.sampling_period=0.005 --set control.differential_gain=-4"
+      " --set backlash.width=0.0005 --set excitation.amplitude=0.6";
+  const auto compare = [&](const std::string& job, const std::vector<std::string>& columns,
+                           double tolerance) {
+    expect_same(table_of(job + settings + one_mode), table_of(job + settings + its_two_masses()),
+                columns, tolerance);
+  };
+  compare("orbit", {"period_samples", "period_s", "forcing_periods", "largest_multiplier"}, 1e-8);
+  compare("orbit --trace", {"z1_m", "v1_m_per_s", "z2_m", "control_force_N"}, 1e-7);
+  compare("verdict", {"period_samples", "certified"}, 0.0);
+  compare("lyapunov --largest --duration 200 --discard 60", {"per_sample"}, 1e-2);
+  compare(
+      "sweep --axis backlash.width=0.0001:0.001:4 --metric steady_peak"
+      " --metric ratio_to_uncontrolled --metric force_peak --metric engaged_fraction"
+      " --metric absorber_stroke --duration 10",
+      {"steady_peak", "ratio_to_uncontrolled", "force_peak", "engaged_fraction", "absorber_stroke"},
+      1e-7);
+  compare("max-delay --frequency 6:12:2", {"max_sampling_period_s"}, 1e-6);
 }
 
 /// The roots of the modes at once make the radii, against the eigenvalues of the map.

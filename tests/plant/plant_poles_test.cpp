@@ -43,7 +43,8 @@ TEST(PlantPoles, AreTheEigenvaluesOfRandomPlants) {
   int found = 0;
   constexpr int plants = 400;
   for (int k = 0; k < plants; ++k) {
-    const std::vector<PlaceMode<double>> modes = random_modes(random, 0.5);
+    // Of a third of them some modes are overdamped.
+    const std::vector<PlaceMode<double>> modes = random_modes(random, k % 3 == 0 ? 20.0 : 0.5);
     const double own = random.uniform(0.5, 1.5) * modes[modes.size() / 2].angular_frequency;
     const double mass = random.log_uniform(0.01, 1.0);
     const Absorber<double> absorber{mass, mass * own * own,
@@ -70,7 +71,6 @@ TEST(PlantPoles, AreNoneWhereTheyAreNotAllFound) {
 
 TEST(PlantPoles, RefuseWhatIsNotAdmissible) {
   EXPECT_THROW(plant_poles({}, {0.1, 1.0, 0.1}), InvalidParameter);
-  EXPECT_THROW(plant_poles({{1.0, 1.0, 1.0, 1.0}}, {0.1, 1.0, 0.1}), InvalidParameter);
   EXPECT_THROW(plant_poles({{1.0, 0.1, 1.0, 1.0}}, {0.0, 1.0, 0.1}), InvalidParameter);
 }
 

@@ -21,12 +21,16 @@ struct HangingAbsorber {
   double mass;              ///< m₂ (kg), ≥ 0; > 0 for the spring–mass
   double stiffness = 0.0;   ///< k₂ (N/m), of the spring–mass only
   double damping = 0.0;     ///< c₂ (N s/m), of the spring–mass only
+  /// M_c (kg), ≥ 0, of the spring–mass only: what moves with the node, its weight counted in m₂'s
+  double clamp_mass = 0.0;
+  bool sideways = false;  ///< of the spring–mass: whether m₂ goes along the span with the node
 };
 
 /// @throws InvalidParameter for m₂ below zero; of the spring–mass also for m₂ or k₂ not above zero,
-/// or c₂ below zero
+/// or c₂ or M_c below zero
 inline void validate(const HangingAbsorber& absorber) {
   require_non_negative("absorber mass m2", absorber.mass, "kg");
+  require_non_negative("clamp mass", absorber.clamp_mass, "kg");
   if (absorber.reading != AbsorberReading::spring_mass) return;
   require_positive("absorber mass m2", absorber.mass, "kg");
   require_positive("absorber stiffness k2", absorber.stiffness, "N/m");
@@ -37,6 +41,11 @@ inline void validate(const HangingAbsorber& absorber) {
 struct RayleighDamping {
   double mass_factor;       ///< α (1/s), ≥ 0
   double stiffness_factor;  ///< β (s), ≥ 0
+
+  /// ζ = α/(2ω) + βω/2 of a mode of ω (rad/s) > 0.
+  double damping_ratio(double angular_frequency) const {
+    return 0.5 * (mass_factor / angular_frequency + stiffness_factor * angular_frequency);
+  }
 };
 
 /// α = 2 ζ ω₁ω₂/(ω₁ + ω₂), β = 2 ζ/(ω₁ + ω₂): the damping ratio ζ at both frequencies (Hz).
@@ -58,7 +67,8 @@ inline RayleighDamping rayleigh_damping(double damping_ratio, double first_frequ
 ///
 /// State: [x, y, ẋ, ẏ] (m, m/s) per free node, and behind the loaded node of the spring–mass
 /// reading its two states [a, ȧ], a (m) counted like the node's drop from the equilibrium. The
-/// Jacobian's entries lie within `half_bandwidth()` of the diagonal.
+/// Jacobian's entries lie within `half_bandwidth()` of the diagonal. Downward forces at the
+/// absorber's place may be added to it by `push()`.
 /// @tparam Real  `double`; a parameter so that the class is compiled only where it is used
 template <class Real>
 class BasicCableElements {
@@ -89,6 +99,8 @@ class BasicCableElements {
 
   /// The cable's bars and nodes, without absorber and damping.
   const BasicBarChain<Real>& chain() const { return chain_; }
+  /// Whether the absorber is a mass on a spring.
+  bool is_sprung() const { return sprung(); }
   /// Number of states.
   int states() const { return 4 * chain_.free_nodes() + (sprung() ? 2 : 0); }
   /// 7; 9 with the two further states of the spring–mass.
@@ -117,6 +129,31 @@ class BasicCableElements {
     return start;
   }
 
+  /// What the absorber's place and the absorber do: [z, ż, a, ȧ] (m, m/s, m, m/s), of the
+  /// spring–mass.
+  Vector<Real, 4> at_absorber(const Real* state) const {
+    const int own = first_state(chain_.loaded_node());
+    return {state[own + 1] - rest_.nodes(1, chain_.loaded_node()), state[own + 3], state[own + 4],
+            state[own + 5]};
+  }
+
+  /// Strikes the absorber's node and the absorber of the spring–mass: adds to their velocities
+  /// (m/s), and to the absorber's displacement (m).
+  void strike(Real* state, Real node_velocity, Real displacement, Real velocity) const {
+    const int own = first_state(chain_.loaded_node());
+    state[own + 3] += node_velocity;
+    state[own + 4] += displacement;
+    state[own + 5] += velocity;
+  }
+
+  /// Adds to a rate what forces (N, downward) do on the absorber's node and, of the spring–mass, on
+  /// the absorber.
+  void push(Real* rate_of_state, Real on_node, Real on_absorber) const {
+    const int own = first_state(chain_.loaded_node());
+    rate_of_state[own + 3] += on_node / inertia(chain_.loaded_node())[1];
+    if (sprung()) rate_of_state[own + 5] += on_absorber / absorber_.mass;
+  }
+
   /// Drop (m) of the absorber's node from the equilibrium.
   template <class State>
   auto displacement(const State& state) const {
@@ -141,7 +178,7 @@ class BasicCableElements {
       Scalar* own = rate_of_state + first_state(node);
       for (int i = 0; i < 2; ++i) {
         own[i] = here.velocity[i];
-        own[2 + i] = force[i] / Scalar(inertia(node)) - damping_.mass_factor * here.velocity[i];
+        own[2 + i] = force[i] / Scalar(inertia(node)[i]) - mass_drag(node)[i] * here.velocity[i];
       }
       here = next;
       pull_before = pull_behind;
@@ -169,14 +206,14 @@ class BasicCableElements {
     Matrix<Real, 2> before = stiffness(0);
     for (int node = 0; node < chain_.free_nodes(); ++node) {
       const int own = first_state(node);
-      const Real inverse = 1.0 / inertia(node);
+      const Matrix<Real, 2> inverse = inertia(node).cwiseInverse().asDiagonal();
       const Matrix<Real, 2> behind = stiffness(node + 1);
       Matrix<Real, 2> place = -inverse * (before + behind);
       Matrix<Real, 2> velocity = -inverse * (damper(node) + damper(node + 1)) -
-                                 damping_.mass_factor * Matrix<Real, 2>::Identity();
+                                 Matrix<Real, 2>(mass_drag(node).asDiagonal());
       if (sprung() && node == chain_.loaded_node()) {
-        place(1, 1) -= inverse * absorber_.stiffness;
-        velocity(1, 1) -= inverse * absorber_.damping;
+        place(1, 1) -= inverse(1, 1) * absorber_.stiffness;
+        velocity(1, 1) -= inverse(1, 1) * absorber_.damping;
         spring_jacobian(set);
       }
       for (int i = 0; i < 2; ++i) set(own + i, own + 2 + i, 1.0);
@@ -205,10 +242,20 @@ class BasicCableElements {
   int first_state(int node) const {
     return 4 * node + (sprung() && node > chain_.loaded_node() ? 2 : 0);
   }
-  Real inertia(int node) const {
-    const bool carries =
-        node == chain_.loaded_node() && absorber_.reading == AbsorberReading::rigid_mass;
-    return chain_.mass(node) + (carries ? absorber_.mass : 0.0);
+  /// kg, along the span and downward.
+  Vector<Real, 2> inertia(int node) const {
+    Vector<Real, 2> masses = Vector<Real, 2>::Constant(chain_.mass(node));
+    if (node != chain_.loaded_node()) return masses;
+    if (absorber_.reading == AbsorberReading::rigid_mass) masses.array() += absorber_.mass;
+    if (sprung()) masses.array() += absorber_.clamp_mass;
+    if (sprung() && absorber_.sideways) masses[0] += absorber_.mass;
+    return masses;
+  }
+  /// 1/s, α as it slows a node: going up and down, the clamp is not damped by it.
+  Vector<Real, 2> mass_drag(int node) const {
+    Vector<Real, 2> drag = Vector<Real, 2>::Constant(damping_.mass_factor);
+    if (sprung() && node == chain_.loaded_node()) drag[1] *= chain_.mass(node) / inertia(node)[1];
+    return drag;
   }
   /// Place (m) and velocity (m/s) of a node.
   template <class Scalar>
@@ -253,7 +300,7 @@ class BasicCableElements {
   template <class Set>
   void spring_jacobian(Set&& set) const {
     const int own = first_state(chain_.loaded_node());
-    const Real node = inertia(chain_.loaded_node()), mass = absorber_.mass;
+    const Real node = inertia(chain_.loaded_node())[1], mass = absorber_.mass;
     const Real stiffness = absorber_.stiffness, damping = absorber_.damping;
     set(own + 3, own + 4, stiffness / node);
     set(own + 3, own + 5, damping / node);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "holdfast/math/roots/root_from_pole.hpp"
@@ -49,23 +51,33 @@ class PoleFinder {
   PoleFinder(const std::vector<PlaceMode<double>>& modes, const Absorber<double>& absorber)
       : modes_(modes), absorber_(absorber) {}
 
+  /// s of one natural motion of a bare mode, and of its other one.
+  struct BarePair {
+    Complex s, partner;
+    /// The other one, with this one as its partner.
+    BarePair other() const { return {partner, s}; }
+  };
+
   /// A mode that the absorber hardly moves, as one with a node there: what is needed of it beside
   /// what the others do.
   struct Weak {
-    Complex own;      ///< ρ of H = ρ/(s − s_n) + b
-    Complex pressed;  ///< K
-    Complex held;     ///< 1 + bK
+    std::size_t mode;  ///< n
+    Complex apart;     ///< s_n less the mode's other one
+    Complex own;       ///< ρ of H = ρ/(s − s_n) + b
+    Complex pressed;   ///< K
+    Complex held;      ///< 1 + bK
   };
 
   /// The n-th mode, if it is weak: |ρK/(1 + bK)| < 10⁻⁸ |s_n|.
-  std::optional<Weak> weak(std::size_t n) const {
+  /// @param begin  one of `bare`
+  std::optional<Weak> weak(std::size_t n, const BarePair& begin) const {
     const PlaceMode<double>& mode = modes_[n];
-    const Complex s = bare(mode);
-    Weak found{mode.shape * mode.shape / (mode.mass * Complex(0.0, 2.0 * s.imag())),
+    const Complex s = begin.s, apart = s - begin.partner;
+    Weak found{n, apart, mode.shape * mode.shape / (mode.mass * apart),
                passive_stiffness(absorber_, s), 1.0};
     // A product that is not small has no need of b, unless b is large.
     if (!(std::abs(found.own * found.pressed) < 1e-6 * std::abs(s))) return std::nullopt;
-    Complex others = -found.own / Complex(0.0, 2.0 * s.imag());
+    Complex others = -found.own / apart;
     for (const PlaceMode<double>& other : modes_)
       if (&other != &mode) others += receptance<double>({other}, s);
     found.held += others * found.pressed;
@@ -74,30 +86,64 @@ class PoleFinder {
     return found;
   }
 
-  /// What the n-th mode becomes; a weak one by its own residue, s = s_n − ρK/(1 + bK).
-  PlantPole of_mode(std::size_t n) const {
-    const Complex s = bare(modes_[n]);
-    const std::optional<Weak> mode = weak(n);
+  /// The mode that the k-th of `plant_poles` is, if it is weak.
+  std::optional<Weak> weak_of_pole(std::size_t k) const {
+    if (k < modes_.size()) return weak(k, bare(modes_[k]));
+    const std::size_t n = k - modes_.size();
+    if (n >= modes_.size() || modes_[n].damping_ratio < 1.0) return std::nullopt;
+    return weak(n, bare(modes_[n]).other());
+  }
+
+  /// Whether the k-th of `plant_poles` is of a weak mode, be it the conjugate of the one known so.
+  bool stays(std::size_t k) const {
+    const std::size_t n = k < modes_.size() ? k : k - modes_.size();
+    if (n >= modes_.size()) return false;
+    return weak_of_pole(modes_[n].damping_ratio < 1.0 ? n : k).has_value();
+  }
+
+  /// What one of the n-th mode's two natural motions becomes; of a weak mode by its own residue,
+  /// s = s_n − ρK/(1 + bK).
+  /// @param begin  one of `bare`
+  PlantPole of_mode(std::size_t n, const BarePair& begin) const {
+    const Complex s = begin.s;
+    const std::optional<Weak> mode = weak(n, begin);
     if (!mode) return from(s);
     return {s - mode->own * mode->pressed / mode->held,
             transmitted_share(absorber_, s) * mode->own / (mode->held * mode->held)};
   }
 
-  /// s of the bare mode, Im s > 0.
-  static Complex bare(const PlaceMode<double>& mode) {
+  /// The natural motions of a bare mode: the one with Im s > 0 first, of an overdamped mode the
+  /// slower one.
+  static BarePair bare(const PlaceMode<double>& mode) {
     const double omega = mode.angular_frequency, zeta = mode.damping_ratio;
-    return {-zeta * omega, omega * std::sqrt(1.0 - zeta * zeta)};
+    const double apart = std::sqrt(std::abs(1.0 - zeta * zeta));
+    if (zeta < 1.0) return {{-zeta * omega, apart * omega}, {-zeta * omega, -apart * omega}};
+    return {-omega / (zeta + apart), -omega * (zeta + apart)};
   }
 
   /// The pole near s, by Newton on 1/H + K.
   PlantPole near(Complex s) const {
     Complex slope;
-    for (int turn = 0; turn < 20; ++turn) {
+    bool settled = false;
+    for (int turn = 0; turn < 20 && !settled; ++turn) {
       const Complex bare = receptance(modes_, s);
       slope = passive_slope(absorber_, s) - receptance_slope(modes_, s) / (bare * bare);
-      s -= (1.0 / bare + passive_stiffness(absorber_, s)) / slope;
+      const Complex step = (1.0 / bare + passive_stiffness(absorber_, s)) / slope;
+      s -= step;
+      // Beside a mode that is nearly weak a step is small before the slope is right.
+      settled = turn >= 2 && std::abs(step) <= 1e-15 * std::abs(s);
     }
     return {s, transmitted_share(absorber_, s) / slope};
+  }
+
+  /// p′/p of the polynomial whose roots are the poles, p = Π (s − b_k) (1 + HK), b_k where the bare
+  /// modes and the absorber on a fixed conductor move by themselves.
+  Complex logarithmic_derivative(const std::vector<Complex>& bare_motions, const Complex& s) const {
+    const Complex h = receptance(modes_, s), k = passive_stiffness(absorber_, s);
+    Complex sum =
+        (receptance_slope(modes_, s) * k + h * passive_slope(absorber_, s)) / (1.0 + h * k);
+    for (const Complex& b : bare_motions) sum += 1.0 / (s - b);
+    return sum;
   }
 
   /// What begins at s, where the conductor alone or the absorber on a fixed one moves by itself.
@@ -129,24 +175,56 @@ inline bool are_all_poles(const std::vector<PlantPole>& poles, double accelerati
   return std::abs(sum) < 1e-7 * size && std::abs(moment - acceleration) < 1e-8 * moment_size;
 }
 
-/// s of the one pole that is missing, by the same sums.
-inline std::complex<double> missing_pole(const std::vector<PlantPole>& poles, double acceleration) {
-  std::complex<double> residue(0), moment(acceleration);
-  for (const PlantPole& pole : poles) {
-    residue -= pole.residue;
-    moment -= pole.s * pole.residue;
+/// Moves those apart that came to one pole or to none: each that is not apart from one before it
+/// begins anew beside where it began, and all are improved together, each by Newton's step for what
+/// is left of their polynomial when the others are divided out (Ehrlich 1967, Aberth 1973). Weak
+/// ones stay.
+/// @param begins  where each pole began
+inline void separate(std::vector<PlantPole>& poles, const std::vector<std::complex<double>>& begins,
+                     const PoleFinder& finder) {
+  using Complex = std::complex<double>;
+  std::vector<std::size_t> moving;
+  moving.reserve(poles.size());
+  for (std::size_t k = 0; k < poles.size(); ++k) {
+    if (finder.stays(k)) continue;
+    moving.push_back(k);
+    bool apart = std::isfinite(std::abs(poles[k].s));
+    for (std::size_t j = 0; j < k; ++j)
+      apart = apart && std::abs(poles[k].s - poles[j].s) > 1e-6 * std::abs(poles[k].s);
+    if (!apart) poles[k].s = 1.001 * begins[k];
   }
-  return moment / residue;
+  constexpr int most_sweeps = 60;
+  double largest = 1.0;
+  for (int sweep = 0; sweep < most_sweeps && largest > 1e-10; ++sweep) {
+    largest = 0.0;
+    for (const std::size_t k : moving) {
+      Complex& s = poles[k].s;
+      Complex slope = finder.logarithmic_derivative(begins, s);
+      for (std::size_t j = 0; j < poles.size(); ++j)
+        if (j != k) slope -= 1.0 / (s - poles[j].s);
+      const double share = 1.0 / (std::abs(slope) * std::abs(s));
+      if (!std::isfinite(share)) continue;
+      s -= std::min(1.0, 0.3 / share) / slope;
+      largest = std::max(largest, std::min(share, 0.3));
+    }
+  }
+  for (const std::size_t k : moving) poles[k] = finder.near(poles[k].s);
+  const std::size_t modes = poles.size() / 2 - 1;
+  for (std::size_t n = 0; n < modes; ++n)
+    if (poles[n].s.imag() < 0.0 && poles[n + modes].s.imag() > 0.0)
+      std::swap(poles[n], poles[n + modes]);
 }
 
 }  // namespace detail
 
 /// The poles of a conductor by its modes with the absorber, all 2N + 2 of them, by following each
 /// from where it is without the other (`root_from_pole`): first the one of each mode with Im s > 0,
-/// in order, then their conjugates and the absorber's two. N² operations where the eigenvalues of
-/// `modal_plant` take N³; that all were found is tested by two sums over them.
+/// of an overdamped one the slower, in order, then the other ones and the absorber's two. Where two
+/// were followed to one, all are improved together, and which of them is whose is a matter of name.
+/// N² operations where the eigenvalues of `modal_plant` take N³; that all were found is tested by
+/// two sums over them.
 /// @return nothing where they were not all found, as where a damper is critical or two coincide
-/// @throws InvalidParameter where modes or absorber are not admissible, or a mode has ζ ≥ 1
+/// @throws InvalidParameter where modes or absorber are not admissible
 inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& modes,
                                           const Absorber<double>& absorber) {
   using Complex = std::complex<double>;
@@ -160,25 +238,31 @@ inline std::vector<PlantPole> plant_poles(const std::vector<PlaceMode<double>>& 
   };
   std::vector<PlantPole> poles;
   poles.reserve(2 * modes.size() + 2);
+  std::vector<Complex> begins;
+  begins.reserve(2 * modes.size() + 2);
   double mobility = 0.0;
   for (std::size_t n = 0; n < modes.size(); ++n) {
-    require_within("damping ratio of a mode", modes[n].damping_ratio, "", 0.0, 1.0 - 1e-9);
     mobility += modes[n].shape * modes[n].shape / modes[n].mass;
-    poles.push_back(finder.of_mode(n));
+    const auto begin = detail::PoleFinder::bare(modes[n]);
+    begins.push_back(begin.s);
+    poles.push_back(finder.of_mode(n, begin));
   }
-  for (std::size_t n = 0; n < modes.size(); ++n)
-    poles.push_back(partner(poles[n], std::conj(detail::PoleFinder::bare(modes[n]))));
+  for (std::size_t n = 0; n < modes.size(); ++n) {
+    const auto begin = detail::PoleFinder::bare(modes[n]);
+    begins.push_back(begin.partner);
+    poles.push_back(modes[n].damping_ratio < 1.0 ? partner(poles[n], begin.partner)
+                                                 : finder.of_mode(n, begin.other()));
+  }
   const double decay = absorber.damping / (2.0 * absorber.mass);
   const Complex turn = std::sqrt(Complex(decay * decay - absorber.stiffness / absorber.mass));
+  begins.push_back(-decay + turn);
+  begins.push_back(-decay - turn);
   poles.push_back(finder.from(-decay + turn));
   poles.push_back(turn.imag() != 0.0 ? partner(poles.back(), -decay - turn)
                                      : finder.from(-decay - turn));
   const double acceleration = mobility / (1.0 + absorber.clamp_mass * mobility);
-  if (!detail::are_all_poles(poles, acceleration)) {
-    // Two of a real pair may have come to one of it: then the sums tell where the other is.
-    poles.pop_back();
-    poles.push_back(finder.near(detail::missing_pole(poles, acceleration)));
-  }
+  if (detail::are_all_poles(poles, acceleration)) return poles;
+  detail::separate(poles, begins, finder);
   if (!detail::are_all_poles(poles, acceleration)) return {};
   return poles;
 }

@@ -30,11 +30,20 @@ template <class System>
 struct HasMargin<System, std::void_t<decltype(std::declval<const System&>().margin(
                              std::declval<const double*>()))>> : std::true_type {};
 
+/// A system changes with time if its rate takes it: rate(t, y, rate).
+template <class System, class = void>
+struct TakesTime : std::false_type {};
+template <class System>
+struct TakesTime<System, std::void_t<decltype(std::declval<const System&>().rate(
+                             0.0, std::declval<const double*>(), std::declval<double*>()))>>
+    : std::true_type {};
+
 }  // namespace detail
 
-/// One integration of an autonomous system ẏ = rate(y) from a given state.
+/// One integration of a system ẏ = rate(y) from a given state.
 ///
-/// @tparam System  has `int states()`, `void rate(const double* y, double* rate)`; with also
+/// @tparam System  has `int states()`, `void rate(const double* y, double* rate)`, or with the time
+/// (s) before these `rate(t, y, rate)`; with also
 /// `int half_bandwidth()` and `jacobian(y, set)`, set(row, column, value), it is taken to be stiff:
 /// BDF and Newton's method with a banded matrix; without, Adams' method and a fixed point. With
 /// `double margin(const double* y)` the integration ends where that falls to zero.
@@ -69,12 +78,18 @@ class Integrator : public detail::Session {
     return outcome_;
   }
 
+  /// Begins anew at the instant last reached, where the system's rate has jumped.
+  void restart() {
+    if (outcome_ == IntegrationOutcome::completed)
+      check(CVodeReInit(memory_.get(), time_, state_.get()));
+  }
+
   /// The state (states() numbers) at the instant last reached.
   const double* state() const { return N_VGetArrayPointer(state_.get()); }
   /// That instant (s).
   double time() const { return time_; }
 
-  /// Of the whole integration so far.
+  /// Of the integration so far, since it last began anew.
   IntegrationCost cost() const {
     IntegrationCost cost;
     cost.steps = count(&CVodeGetNumSteps);
@@ -87,9 +102,12 @@ class Integrator : public detail::Session {
   static constexpr bool banded = detail::HasBandedJacobian<System>::value;
   static constexpr bool bounded = detail::HasMargin<System>::value;
 
-  static int rate(sunrealtype, N_Vector state, N_Vector rate_of_state, void* self) {
+  static int rate(sunrealtype time, N_Vector state, N_Vector rate_of_state, void* self) {
     const auto& system = static_cast<Integrator*>(self)->system_;
-    system.rate(N_VGetArrayPointer(state), N_VGetArrayPointer(rate_of_state));
+    if constexpr (detail::TakesTime<System>::value)
+      system.rate(time, N_VGetArrayPointer(state), N_VGetArrayPointer(rate_of_state));
+    else
+      system.rate(N_VGetArrayPointer(state), N_VGetArrayPointer(rate_of_state));
     // A rate that is not finite asks CVODE for a smaller step.
     const Eigen::Map<const Eigen::VectorXd> rates(N_VGetArrayPointer(rate_of_state),
                                                   system.states());

@@ -33,6 +33,43 @@ double drive_velocity(const PortReadings<Plant>& readings, const StateOf<Plant>&
   return velocity;
 }
 
+/// Whether the changes of contact of a motion accumulate, which those of sampled motions cannot.
+template <class Motion>
+bool accumulates(const Motion&) {
+  return false;
+}
+template <class Contact>
+bool accumulates(const EventMotion<Contact>& motion) {
+  return motion.counts().accumulates;
+}
+
+/// The metrics of one motion that stands at its first sample.
+template <class Motion>
+MotionMetrics metrics_of_motion(Motion& motion, const SampleSpan& span,
+                                const std::function<void()>& pause) {
+  constexpr std::int64_t samples_between_pauses = 1 << 14;
+  const auto readings = motion.readings();
+  MetricObserver<double> observer;
+  double velocity_before = 0.0;
+  for (std::int64_t taken = 0; taken < span.samples; ++taken) {
+    if (pause && taken % samples_between_pauses == 0) pause();
+    if (!std::isfinite(motion.state().sum())) return diverged_metrics(observer, taken);
+    const auto sample = motion.sense();
+    const double displacement = readings.displacement(sample.state);
+    const double velocity = drive_velocity(readings, sample.state);
+    const bool reverses = is_reversal(velocity_before, velocity);
+    velocity_before = velocity;
+    observer.observe_extremum(displacement);
+    observer.observe_load(sample.control_force, readings.relative_displacement(sample.state));
+    if (sample.index == span.first_steady) observer.begin_steady(true, reverses);
+    if (sample.index >= span.first_steady)
+      observer.observe_steady(displacement, sample.control_force, sample.engaged, reverses);
+    motion.advance();
+    if (accumulates(motion)) return {MotionEnd::accumulates, taken + 1};
+  }
+  return completed_metrics(observer, span);
+}
+
 }  // namespace detail
 
 /// The metrics of sweep/motion_metrics.hpp for one motion of an implemented loop.
@@ -57,32 +94,12 @@ template <class Plant>
 MotionMetrics event_metrics(const ImplementedLoopOf<Plant>& loop,
                             const StateOf<Plant>& initial_state, double duration,
                             const std::function<void()>& pause = {}) {
-  constexpr std::int64_t samples_between_pauses = 1 << 14;
   validate(loop);
   for (const double entry : initial_state) require_finite("initial state", entry, "SI");
   const detail::SampleSpan span = detail::sample_span(
       0, duration, SamplingClock(loop.digital.sampling.period, loop.digital.jitter));
   auto motion = event_motion(loop, initial_state);
-  const PortReadings<Plant> readings = motion.readings();
-  MetricObserver<double> observer;
-  double velocity_before = 0.0;
-  for (std::int64_t taken = 0; taken < span.samples; ++taken) {
-    if (pause && taken % samples_between_pauses == 0) pause();
-    if (!std::isfinite(motion.state().sum())) return detail::diverged_metrics(observer, taken);
-    const auto sample = motion.sense();
-    const double displacement = readings.displacement(sample.state);
-    const double velocity = detail::drive_velocity(readings, sample.state);
-    const bool reverses = is_reversal(velocity_before, velocity);
-    velocity_before = velocity;
-    observer.observe_extremum(displacement);
-    observer.observe_load(sample.control_force, readings.relative_displacement(sample.state));
-    if (sample.index == span.first_steady) observer.begin_steady(true, reverses);
-    if (sample.index >= span.first_steady)
-      observer.observe_steady(displacement, sample.control_force, sample.engaged, reverses);
-    motion.advance();
-    if (motion.counts().accumulates) return {MotionEnd::accumulates, taken + 1};
-  }
-  return detail::completed_metrics(observer, span);
+  return detail::metrics_of_motion(motion, span, pause);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

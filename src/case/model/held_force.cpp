@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {

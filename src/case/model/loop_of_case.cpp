@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
 #include "io/text/text.hpp"
 #include "jobs/motion/motion_run.hpp"

@@ -4,7 +4,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/reduction_of_case.hpp"
 #include "io/text/text.hpp"

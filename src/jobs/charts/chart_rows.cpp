@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"

@@ -1,19 +1,24 @@
 #include "jobs/motion/cell_motion.hpp"
 
 #include <algorithm>
+#include <complex>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
+#include "holdfast/sweep/modal_metrics.hpp"
 #include "jobs/motion/motion_run.hpp"
 #include "kernels/pack_kernels.hpp"
+#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -76,7 +81,26 @@ double period_that_shows(double frequency, double duration) {
   return (std::floor(longest * frequency) + golden_section) / frequency;
 }
 
+ConductorMotion conductor_motion_of(const Case& the_case, Switching switching) {
+  if (!is_of_the_paper(the_case, switching))
+    throw WrongInput("of plant.model = \"" + the_case.plant.model +
+                     "\" motions are swept in the paper's model alone: switching at samples, its "
+                     "law of the backlash, one harmonic, an ideal computer");
+  return {modal_loop_of(the_case), poles_of(the_case), modal_state_of(the_case)};
+}
+
+/// As `holdfast::divergence_bound`, with all that the force bends the conductor statically.
+double divergence_bound(const ConductorMotion& motion) {
+  const auto& excitation = motion.loop.excitation;
+  const double deflection =
+      excitation.amplitude * receptance(motion.loop.modes, std::complex<double>(0.0)).real();
+  const double scale = deflection * (1.0 + excitation.angular_frequency()) +
+                       motion.loop.backlash_width + motion.state.cwiseAbs().maxCoeff();
+  return 1e12 * std::max(scale, 1e-100);
+}
+
 double divergence_bound(const CellMotion& motion) {
+  if (motion.conductor) return divergence_bound(*motion.conductor);
   const auto& [loop, initial_state] = motion.of_paper;
   return holdfast::divergence_bound(motion.built ? *motion.built : implemented_loop(loop),
                                     initial_state);
@@ -85,9 +109,13 @@ double divergence_bound(const CellMotion& motion) {
 }  // namespace
 
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration) {
-  CellMotion motion{{ideal_loop_of(the_case), initial_state_of(the_case)}, std::nullopt};
+  CellMotion motion{{ideal_loop_of(the_case), initial_state_of(the_case)}, std::nullopt, nullptr};
   samples_of(the_case, duration);
   validate(motion.of_paper.loop);
+  if (is_modal(the_case)) {
+    motion.conductor = std::make_shared<ConductorMotion>(conductor_motion_of(the_case, switching));
+    return motion;
+  }
   if (is_of_the_paper(the_case, switching)) return motion;
   motion.built = implemented_loop_of(the_case, switching);
   event_motion(*motion.built, motion.of_paper.initial_state);  // refuses what is not admissible
@@ -105,6 +133,14 @@ CellMotion without_control(const CellMotion& motion, double duration) {
   loop = uncontrolled(loop);
   loop.hold = ForceHold::exact;
   loop.sampling = {period_that_shows(loop.excitation.frequency, duration)};
+  if (motion.conductor) {
+    ConductorMotion alone = *motion.conductor;
+    alone.loop = uncontrolled(alone.loop);
+    alone.loop.hold = loop.hold;
+    alone.loop.sampling = loop.sampling;
+    free.conductor = std::make_shared<ConductorMotion>(std::move(alone));
+    return free;
+  }
   if (!motion.built || has_one_harmonic(motion.built->digital)) {
     free.built = std::nullopt;
   } else {
@@ -123,7 +159,11 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const CellMotion& motion = motions[k];
-    if (motion.built) {
+    if (motion.conductor) {
+      const ConductorMotion& conductor = *motion.conductor;
+      all[k] = modal_metrics(conductor.loop, conductor.poles, conductor.state, duration,
+                             throw_if_interrupted);
+    } else if (motion.built) {
       all[k] = event_metrics(*motion.built, motion.of_paper.initial_state, duration,
                              throw_if_interrupted);
     } else {

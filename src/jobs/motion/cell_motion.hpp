@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "case/case.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/sweep/motion_metrics.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
@@ -14,18 +16,29 @@
 
 namespace holdfast::program {
 
+/// The motion of a conductor by its modes.
+struct ConductorMotion {
+  ModalLoop loop;
+  std::vector<PlantPole> poles;
+  ModalMotion::Full state;  ///< the initial one
+};
+
 /// The motion of one cell of a sweep.
 struct CellMotion {
   /// The motion of the paper's model; of another loop what that has of it: plant, sampling, gains
   /// and main harmonic, which the best gain depends on.
   SweepMotion of_paper;
   std::optional<ImplementedLoop> built;  ///< the loop, where it is another one
+  /// The conductor, where the absorber hangs on that: then `of_paper` has the loop's numbers.
+  std::shared_ptr<const ConductorMotion> conductor;
 };
 
 /// Throws InvalidParameter where the loop is not admissible, WrongInput where a recorded force ends
-/// before the duration.
+/// before the duration, or where the conductor's loop is not of the paper's model; NoAnswer where
+/// its natural motions cannot be told apart.
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration);
 
+/// Of two masses.
 void set_differential_gain(CellMotion& motion, double gain);
 
 /// The plant alone under the force that acts on it, which no computer holds: P = D = 0, a drive
@@ -43,7 +56,8 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
 /// The metrics of a motion that is known to diverge beyond the samples that were taken of it.
 MotionMetrics diverging(const MotionMetrics& metrics);
 
-/// Per sample, over the whole duration; NaN where the motion diverges or is a single sample.
+/// Per sample, over the whole duration; NaN where the motion diverges or is a single sample. This
+/// and the following are of two masses.
 double largest_exponent_of(const CellMotion& motion, double duration);
 
 /// Samples of the certified orbit; 0 where none is found.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/phase_space/deviation.hpp"

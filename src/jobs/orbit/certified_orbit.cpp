@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -56,6 +57,39 @@ auto certified(Result found, const Ratio& ratio, const OrbitLimits& limits, bool
   return std::move(*found.orbit);
 }
 
+/// An orbit of all states, as it is seen at the absorber's place.
+template <class Readings>
+EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& readings) {
+  EventOrbit seen{};
+  seen.ratio = orbit.ratio;
+  seen.sampling_period = orbit.sampling_period;
+  seen.states.reserve(orbit.states.size());
+  for (const auto& state : orbit.states) seen.states.push_back(readings.both_sides(state));
+  constexpr std::size_t most_multipliers = 10;
+  seen.multipliers = orbit.multipliers;
+  if (seen.multipliers.size() > most_multipliers) seen.multipliers.resize(most_multipliers);
+  seen.closure_error = orbit.closure_error;
+  seen.modes = orbit.modes;
+  seen.forces = orbit.forces;
+  seen.switches = orbit.switches;
+  seen.margins = orbit.margins;
+  seen.time_share = orbit.time_share;
+  seen.largest_displacement = orbit.largest_displacement;
+  seen.largest_sample = orbit.largest_sample;
+  seen.extent = orbit.extent;
+  return seen;
+}
+
+/// What an event-driven motion comes to.
+template <class Motion>
+auto certified_of(const JobContext& context, const Motion& motion, std::int64_t largest_period) {
+  const DigitalLoop& digital = motion.loop();
+  const Ratio ratio{forcing_ratio(digital),
+                    digital.force.harmonics.front().frequency * digital.sampling.period};
+  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
+  return certified(find_event_orbit(motion, limits), ratio, limits, context.quiet);
+}
+
 }  // namespace
 
 PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>& loop,
@@ -68,12 +102,15 @@ PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>
 
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period) {
-  const DigitalLoop& digital = loop.digital;
-  const Ratio ratio{forcing_ratio(digital),
-                    digital.force.harmonics.front().frequency * digital.sampling.period};
-  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  const auto motion = event_motion(loop, initial_state_of(context.case_data));
-  return certified(find_event_orbit(motion, limits), ratio, limits, context.quiet);
+  return certified_of(context, event_motion(loop, initial_state_of(context.case_data)),
+                      largest_period);
+}
+
+EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switching,
+                                    std::int64_t largest_period) {
+  const auto motion = event_motion(controlled_conductor_of(context.case_data, switching),
+                                   modal_state_of(context.case_data));
+  return as_seen(certified_of(context, motion, largest_period), motion.readings());
 }
 
 OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {

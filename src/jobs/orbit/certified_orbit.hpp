@@ -18,6 +18,11 @@ PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period);
 
+/// That of a modal case, as the conductor at the absorber and the absorber show it, with the ten
+/// largest of its multipliers.
+EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switching,
+                                    std::int64_t largest_period);
+
 /// What a certificate says beside the orbit itself.
 struct OrbitCertificate {
   double smallest_radius;          ///< of capture (m), 0 where none was found; ∞ without backlash

@@ -20,7 +20,7 @@
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"
-#include "report/page/string_answer.hpp"
+#include "report/page/cable_answer.hpp"
 #include "report/page/vibration.hpp"
 #include "report/switching/switching_study.hpp"
 
@@ -342,7 +342,7 @@ std::vector<Answer> answers_of(const JobContext& context) {
   throw_if_interrupted();
   answers.push_back(how_much_play(question));
   answers.push_back(what_motion(question.motion));
-  answers.push_back(does_it_hold_on_the_string(the_case));
+  answers.push_back(does_it_hold_on_the_cable(the_case));
   return answers;
 }
 

@@ -1,4 +1,4 @@
-#include "report/page/string_answer.hpp"
+#include "report/page/cable_answer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,21 +7,23 @@
 #include <vector>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/plausibility/words.hpp"
 #include "io/text/text.hpp"
+#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "report/page/html.hpp"
 
 namespace holdfast::program {
 namespace {
 
-std::string damping(double gain) { return rounded(gain, 4); }
+std::string gain_text(double gain) { return rounded(gain, 4); }
 
-Case on_string(const Case& the_case) {
+Case on_cable(const Case& the_case) {
   Case changed = the_case;
-  changed.plant.model = "string";
+  changed.plant.model = "cable";
   changed.plant.modes = std::numeric_limits<double>::quiet_NaN();
   return changed;
 }
@@ -40,13 +42,13 @@ double share_left(const Case& the_case, const PdGains<double>& gains) {
 /// A clamp mass (kg) about which the case's gains become stable, to a percent: before the first of
 /// some that double. Not above half the absorber's mass, nor what a blob of grease weighs; infinite
 /// where there is none, and where fewer modes call the gains stable as they are.
-double least_clamp_mass(const Case& string) {
+double least_clamp_mass(const Case& cable) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  const double largest = string.plant.absorber_mass / 2.0;
-  double failing = string.absorber.clamp_mass;
+  const double largest = cable.plant.absorber_mass / 2.0;
+  double failing = cable.absorber.clamp_mass;
   double serving = std::max(2.0 * failing, largest / 1024.0);
-  if (!(failing < largest) || is_stable_with_clamp(string, failing)) return none;
-  while (!is_stable_with_clamp(string, std::min(serving, largest))) {
+  if (!(failing < largest) || is_stable_with_clamp(cable, failing)) return none;
+  while (!is_stable_with_clamp(cable, std::min(serving, largest))) {
     throw_if_interrupted();
     if (serving >= largest) return none;
     failing = serving;
@@ -56,34 +58,45 @@ double least_clamp_mass(const Case& string) {
   while (serving > 1.01 * failing) {
     throw_if_interrupted();
     const double middle = failing > 0.0 ? std::sqrt(failing * serving) : serving / 2.0;
-    (is_stable_with_clamp(string, middle) ? serving : failing) = middle;
+    (is_stable_with_clamp(cable, middle) ? serving : failing) = middle;
     if (serving < 1e-3 * largest) return none;
   }
   return serving;
 }
 
 /// Why the loop grows: what the largest root does.
-std::string growth_text(const Case& string, const std::complex<double>& root) {
+std::string growth_text(const Case& cable, const std::complex<double>& root) {
   const double turn = std::abs(std::arg(root));
   if (turn > 0.9 * pi<double>) return page_text("grows from sample to sample");
   return page_text(
       "grows at a frequency",
-      {{"frequency", rounded(turn / (2.0 * pi<double> * string.control.sampling_period), 3)}});
+      {{"frequency", rounded(turn / (2.0 * pi<double> * cable.control.sampling_period), 3)}});
 }
 
-std::string clamp_text(const Case& string) {
-  const double clamp = least_clamp_mass(string);
+std::string clamp_text(const Case& cable) {
+  const double clamp = least_clamp_mass(cable);
   if (!std::isfinite(clamp)) return page_text("no clamp serves");
   return page_text("a clamp serves", {{"clamp", rounded(1e3 * clamp, 2)}});
 }
 
-std::string detail_text(const Case& string) {
-  const TautString<double> conductor = string_of(string);
-  const std::string doubt = modes_warning(string);
-  return page_text("string detail", {{"tension", rounded(conductor.tension, 4)},
-                                     {"waves", rounded(2.0 * conductor.wave_impedance(), 3)},
-                                     {"modes", std::to_string(modes_of(string))},
-                                     {"own clamp", rounded(1e3 * string.absorber.clamp_mass, 3)}}) +
+std::string damping_text(const Case& cable) {
+  const auto& conductor = cable.conductor;
+  const std::string ratio = rounded(100.0 * conductor.damping_ratio, 3);
+  if (conductor.damping == "ratio") return page_text("each mode damped", {{"ratio", ratio}});
+  const auto& [first, second] = conductor.rayleigh_frequencies;
+  return page_text(
+      "damped by Rayleigh",
+      {{"ratio", ratio}, {"first", format_number(first)}, {"second", format_number(second)}});
+}
+
+std::string detail_text(const Case& cable) {
+  const ConductorModes conductor = conductor_modes_of(cable);
+  const std::string doubt = modes_warning(cable);
+  return page_text("cable detail", {{"bars", std::to_string(conductor.bars)},
+                                    {"modes", std::to_string(conductor.apart)},
+                                    {"damping", damping_text(cable)},
+                                    {"waves", rounded(2.0 * string_of(cable).wave_impedance(), 3)},
+                                    {"own clamp", rounded(1e3 * cable.absorber.clamp_mass, 3)}}) +
          (doubt.empty() ? "" : page_text("modes doubted", {{"doubt", doubt}}));
 }
 
@@ -97,51 +110,82 @@ Interval<double> nearest_interval(const std::vector<Interval<double>>& intervals
       [&](const auto& one, const auto& other) { return away(one) < away(other); });
 }
 
-/// Gives the answer and what is to be added to its detail.
-void judge(const Case& the_case, const Case& string, Answer& answer) {
-  const PdGains<double> gains = gains_of(the_case);
-  const auto stable = circle_of(string).stable_gains(FreeGain::differential, gains);
-  throw_if_interrupted();
-  Values values = {{"D", damping(gains.differential)}};
+/// What the cable says of the case's gains.
+enum class Holding { stable, unstable, nowhere, undecided };
+
+Holding holding_of(const Case& cable, const std::vector<Interval<double>>& stable) {
+  const PdGains<double> gains = gains_of(cable);
   const bool is_stable = std::any_of(stable.begin(), stable.end(), [&](const auto& gap) {
     return gap.contains(gains.differential);
   });
-  const char* text = is_stable         ? "stable on the string"
-                     : !stable.empty() ? "unstable on the string"
-                                       : "no gain on the string";
-  if (is_stable != other_modes_of(string).is_stable(gains)) text = "undecided on the string";
+  if (is_stable != other_modes_of(cable).is_stable(gains)) return Holding::undecided;
+  if (is_stable) return Holding::stable;
+  return stable.empty() ? Holding::nowhere : Holding::unstable;
+}
+
+const char* name_of_answer(Holding holding) {
+  switch (holding) {
+    case Holding::stable:
+      return "stable on the cable";
+    case Holding::unstable:
+      return "unstable on the cable";
+    case Holding::nowhere:
+      return "no gain on the cable";
+    case Holding::undecided:
+      return "undecided on the cable";
+  }
+  return "";
+}
+
+/// How much vibration is left there, and of two masses.
+std::string share_text(const Case& the_case, const Case& cable) {
+  const PdGains<double> gains = gains_of(the_case);
+  const double there = share_left(cable, gains), here = share_left(the_case, gains);
+  if (!std::isfinite(there)) return "";
+  return page_text("left on the cable",
+                   {{"there", rounded(100.0 * there, 3)}, {"here", rounded(100.0 * here, 3)}});
+}
+
+/// Gives the answer and what is to be added to its detail.
+void judge(const Case& the_case, const Case& cable, Answer& answer) {
+  const PdGains<double> gains = gains_of(the_case);
+  const auto stable = circle_of(cable).stable_gains(FreeGain::differential, gains);
+  throw_if_interrupted();
+  const Holding holding = holding_of(cable, stable);
+  Values values = {{"D", gain_text(gains.differential)}};
   if (!stable.empty()) {
     const Interval<double> nearest = nearest_interval(stable, gains.differential);
-    values.emplace_back("lower", damping(nearest.lower));
-    values.emplace_back("upper", damping(nearest.upper));
+    values.emplace_back("lower", gain_text(nearest.lower));
+    values.emplace_back("upper", gain_text(nearest.upper));
   }
-  answer.answer = page_text(text, values);
-  if (text == std::string("unstable on the string")) {
-    answer.answer += clamp_text(string);
-    answer.detail += growth_text(string, largest_root_of(string, gains));
-  } else if (text == std::string("stable on the string")) {
-    throw_if_interrupted();
-    const double there = share_left(string, gains), here = share_left(the_case, gains);
-    if (std::isfinite(there))
-      answer.answer += page_text("left on the string", {{"there", rounded(100.0 * there, 3)},
-                                                        {"here", rounded(100.0 * here, 3)}});
+  answer.answer = page_text(name_of_answer(holding), values);
+  throw_if_interrupted();
+  if (holding == Holding::unstable) {
+    answer.answer += clamp_text(cable);
+    answer.detail += growth_text(cable, largest_root_of(cable, gains));
+  } else if (holding == Holding::stable) {
+    answer.answer += share_text(the_case, cable);
   }
 }
 
 }  // namespace
 
-Answer does_it_hold_on_the_string(const Case& the_case) {
-  Answer answer{page_text("string question"), "", "",
-                words_of(page_text("string command",
+Answer does_it_hold_on_the_cable(const Case& the_case) {
+  Answer answer{page_text("cable question"), "", "",
+                words_of(page_text("cable command",
                                    {{"P", format_number(gains_of(the_case).proportional)}}))};
   if (!plausibility::has_own_cable(the_case)) {
     answer.answer = page_text("no conductor");
     answer.arguments = {"case"};
     return answer;
   }
-  const Case string = on_string(the_case);
-  answer.detail = detail_text(string);
-  judge(the_case, string, answer);
+  const Case cable = on_cable(the_case);
+  try {
+    answer.detail = detail_text(cable);
+    judge(the_case, cable, answer);
+  } catch (const NoAnswer& reason) {
+    answer.answer = page_text("no answer on the cable", {{"reason", reason.what()}});
+  }
   return answer;
 }
 

@@ -88,6 +88,17 @@ TEST(ModalMotion, BearsRealPoles) {
   expect_same_motion(loop, random_state(9, 5), 800);
 }
 
+/// Of an overdamped mode, and of one besides that the place hardly sees, both motions are real.
+TEST(ModalMotion, BearsOverdampedModes) {
+  ModalLoop loop = papers_loop(7);
+  loop.modes[3].damping_ratio = 1.7;
+  loop.modes[5].damping_ratio = 4.0;
+  for (const double shape : {0.8, 1e-5, 1e-9, 0.0}) {
+    loop.modes[5].shape = shape;
+    expect_same_motion(loop, random_state(7, 11), 1500);
+  }
+}
+
 /// The shape of a kick: what a force at the place would bend. Without play, which the round-off of
 /// Δż = 0 would decide.
 TEST(ModalMotion, AKickBendsTheConductorAsAForceAtThePlace) {

@@ -67,8 +67,7 @@ class ModalMotion {
       const std::complex<double> s = poles[k].s;
       const bool real = !(std::abs(s.imag()) > 1e-9 * std::abs(s));
       if (!real && s.imag() < 0.0) continue;  // its conjugate stands for it
-      const Shape shape =
-          shape_of(poles[k], k < loop.modes.size() ? finder.weak(k) : std::nullopt, k);
+      const Shape shape = shape_of(poles[k], finder.weak_of_pole(k));
       if (count % lanes == 0) blocks_.emplace_back();
       blocks_.back().fill(static_cast<Eigen::Index>(count++ % lanes), numbers_of(shape, real),
                           amplitude(shape, state), amplitude(shape, unit));
@@ -192,14 +191,13 @@ class ModalMotion {
 
   /// f = 1, but of a weak mode, whose own part would be endless: there its own part is what f = 1
   /// gives times (s − s_n)/φ_n.
-  Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak,
-                 std::size_t n) const {
+  Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
     Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0};
     if (weak) {
-      const PlaceMode<double>& mode = loop_.modes[n];
+      const PlaceMode<double>& mode = loop_.modes[weak->mode];
       shape.weak = true;
-      shape.mode = n;
-      shape.own = 1.0 / (mode.mass * Complex(0.0, 2.0 * detail::PoleFinder::bare(mode).imag()));
+      shape.mode = weak->mode;
+      shape.own = 1.0 / (mode.mass * weak->apart);
       shape.place = mode.shape * shape.own / weak->held;
       shape.force = -weak->pressed * shape.place;
       shape.read = mode.shape / weak->held;

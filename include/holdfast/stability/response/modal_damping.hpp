@@ -66,7 +66,7 @@ inline double first_order_damping(const PlaceMode<double>& mode, const Absorber<
 /// matter of name, and where the steps become too small its damping is NaN. Work: some hundred
 /// values of the transfer functions a mode.
 /// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
-/// @param modes     of the bare conductor, as the absorber's place sees them, ζ_n < 1
+/// @param modes     of the bare conductor, as the absorber's place sees them
 /// @param absorber  with its clamp
 /// @param sampling  τ and δ
 /// @param gains     P and D; 0: without control
@@ -85,15 +85,17 @@ std::vector<ModeDamping> modal_damping(
     return gains.proportional * g.displacement + gains.differential * g.velocity;
   };
   const bool controlled = gains.proportional != 0.0 || gains.differential != 0.0;
-  const detail::PoleFinder finder(modes, absorber);
+  using Finder = detail::PoleFinder;
+  const Finder finder(modes, absorber);
   const auto eigenvalues = response.pole_increments();
   std::vector<ModeDamping> found;
   found.reserve(modes.size());
   for (std::size_t n = 0; n < modes.size(); ++n) {
     // Where not all poles were found those of the response are the plant's eigenvalues.
-    Complex root = poles.empty()
-                       ? detail::matched_pole(eigenvalues, finder.of_mode(n).s, sampling.period)
-                       : poles[n].s;
+    Complex root = poles.empty() ? detail::matched_pole(eigenvalues,
+                                                        finder.of_mode(n, Finder::bare(modes[n])).s,
+                                                        sampling.period)
+                                 : poles[n].s;
     if (controlled) root = root_from_pole(of_gains, root);
     found.push_back({modes[n].angular_frequency, modes[n].damping_ratio, root,
                      detail::first_order_damping(modes[n], absorber, sampling, gains)});

@@ -26,9 +26,10 @@ inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& mod
 }
 
 /// The steady response of the loop of a conductor by its modes, the force acting at the absorber's
-/// place: as `steady_response` of `modal_plant`, in N operations once its poles are known.
+/// place: as `steady_response` of `modal_plant`, in N operations.
 /// @param modes              as the absorber's place sees them
 /// @param absorber           with its clamp
+/// @param poles              `plant_poles` of the two
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               how the excitation enters a sample
 /// @param angular_frequency  ω (rad/s), > 0
@@ -38,11 +39,10 @@ inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& mod
 template <class Scalar = double>
 SteadyResponse<Scalar> steady_response(
     const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
-    const Absorber<detail::Undeduced<Scalar>>& absorber,
+    const Absorber<detail::Undeduced<Scalar>>& absorber, const std::vector<PlantPole>& poles,
     const Sampling<detail::Undeduced<Scalar>>& sampling, ForceHold hold, double angular_frequency) {
   using Complex = std::complex<double>;
   require_positive("angular frequency", angular_frequency, "rad/s");
-  const auto poles = plant_poles(modes, absorber);
   if (poles.empty())
     return steady_response(modal_plant<Scalar>(modes, absorber), sampling, hold, angular_frequency);
   const Complex turn = circle_increment(angular_frequency * sampling.period);
@@ -63,6 +63,23 @@ SteadyResponse<Scalar> steady_response(
   }
   return SteadyResponse<double>(
       {drive.displacement, drive.velocity, force, force_velocity, drive.displacement, force});
+}
+
+/// The same, whose poles are found here.
+/// @tparam Scalar            double, as above
+/// @param modes              as above
+/// @param absorber           as above
+/// @param sampling           as above
+/// @param hold               as above
+/// @param angular_frequency  as above
+/// @throws InvalidParameter as above
+template <class Scalar = double>
+SteadyResponse<Scalar> steady_response(
+    const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
+    const Absorber<detail::Undeduced<Scalar>>& absorber,
+    const Sampling<detail::Undeduced<Scalar>>& sampling, ForceHold hold, double angular_frequency) {
+  return steady_response<Scalar>(modes, absorber, plant_poles(modes, absorber), sampling, hold,
+                                 angular_frequency);
 }
 
 }  // namespace holdfast

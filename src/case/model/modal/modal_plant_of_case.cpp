@@ -1,7 +1,9 @@
-#include "case/model/modal_plant_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
@@ -9,84 +11,13 @@
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
-namespace {
-
-/// Of what is chosen.
-constexpr int fewest_modes = 60, most_modes = 300;
-
-/// Of mode n, Hz.
-double frequency(const TautString<double>& string, int n) {
-  return string.angular_frequency(n) / (2.0 * pi<double>);
-}
-
-/// The first mode above a frequency, Hz; at most one beyond `last`.
-int first_above(const TautString<double>& string, double limit, int last) {
-  int n = 1;
-  while (n <= last && frequency(string, n) <= limit) ++n;
-  return n;
-}
-
-/// Σ φ²/M (1/kg): the place with its clamp off starts under a newton as one over it would.
-double mobility_of(const std::vector<PlaceMode<double>>& modes) {
-  double sum = 0.0;
-  for (const PlaceMode<double>& mode : modes) sum += mode.shape * mode.shape / mode.mass;
-  return sum;
-}
-
-/// All modes of the string, `apart` of them on their own.
-std::vector<PlaceMode<double>> all_modes_of(const Case& the_case, int apart) {
-  const TautString<double> string = string_of(the_case);
-  // Beyond, what is left out is felt by no clamp: it passes many times within a sample.
-  const double highest =
-      std::max(100.0 / the_case.control.sampling_period, 10.0 * string.angular_frequency(apart));
-  return bundled_string_modes(string, the_case.absorber.position, apart, highest);
-}
-
-/// What is given that nothing of the two masses depends on.
-std::string idle_keys_warning(const Case& the_case) {
-  std::string names;
-  const auto add = [&](bool counts, const char* name) {
-    if (counts) names += (names.empty() ? "" : ", ") + std::string(name);
-  };
-  add(the_case.absorber.clamp_mass > 0.0, "absorber.clamp_mass");
-  add(the_case.conductor.bending_stiffness > 0.0, "conductor.bending_stiffness");
-  add(std::isfinite(the_case.plant.modes), "plant.modes");
-  if (names.empty()) return "";
-  return names + ": the two masses do not depend on it; plant.model = \"string\" does";
-}
-
-}  // namespace
-
 const char* const coinciding_motions =
     "two natural motions of conductor and absorber coincide too nearly to be told apart: change "
     "plant.absorber_damping or absorber.position by a thousandth";
-
-bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
-
-TautString<double> string_of(const Case& the_case) {
-  TautString<double> string = taut_string(conductor_of(the_case));
-  if (std::isfinite(the_case.conductor.tension)) string.tension = the_case.conductor.tension;
-  string.bending_stiffness = the_case.conductor.bending_stiffness;
-  return string;
-}
-
-int modes_of(const Case& the_case) {
-  if (std::isfinite(the_case.plant.modes)) return static_cast<int>(the_case.plant.modes);
-  const double seen = std::max(0.5 / the_case.control.sampling_period,
-                               2.0 * effective_excitation(the_case).frequency);
-  return std::clamp(first_above(string_of(the_case), seen, most_modes), fewest_modes, most_modes);
-}
-
-std::vector<PlaceMode<double>> place_modes_of(const Case& the_case) {
-  const int modes = modes_of(the_case);
-  if (!std::isfinite(the_case.plant.modes)) return all_modes_of(the_case, modes);
-  return string_modes(string_of(the_case), the_case.absorber.position, modes);
-}
 
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
@@ -98,23 +29,57 @@ LinearPlant<double> modal_plant_of(const Case& the_case) {
   return modal_plant(place_modes_of(the_case), absorber_of(the_case));
 }
 
-std::vector<PlantPole> poles_of(const Case& the_case) {
-  std::vector<PlantPole> poles = plant_poles(place_modes_of(the_case), absorber_of(the_case));
-  if (poles.empty()) throw NoAnswer(coinciding_motions);
-  return poles;
+namespace {
+
+/// All that the poles depend on.
+std::vector<double> numbers_of(const std::vector<PlaceMode<double>>& modes,
+                               const Absorber<double>& absorber) {
+  std::vector<double> numbers = {absorber.mass, absorber.stiffness, absorber.damping,
+                                 absorber.clamp_mass};
+  numbers.reserve(4 * modes.size() + 4);
+  for (const PlaceMode<double>& mode : modes)
+    numbers.insert(numbers.end(),
+                   {mode.angular_frequency, mode.damping_ratio, mode.shape, mode.mass});
+  return numbers;
 }
 
-namespace {
+/// As `plant_poles`. The cells of a sweep and the questions of a report ask for the same ones again
+/// and again.
+std::vector<PlantPole> remembered_poles(const std::vector<PlaceMode<double>>& modes,
+                                        const Absorber<double>& absorber) {
+  static std::mutex mutex;
+  static std::map<std::vector<double>, std::vector<PlantPole>> remembered;
+  const std::vector<double> numbers = numbers_of(modes, absorber);
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto known = remembered.find(numbers);
+    if (known != remembered.end()) return known->second;
+  }
+  std::vector<PlantPole> poles = plant_poles(modes, absorber);
+  const std::lock_guard<std::mutex> lock(mutex);
+  constexpr std::size_t enough = 64;
+  if (remembered.size() > enough) remembered.clear();
+  remembered[numbers] = poles;
+  return poles;
+}
 
 ModalResponse<double> response_of(const Case& the_case,
                                   const std::vector<PlaceMode<double>>& modes) {
   throw_if_interrupted();
-  auto response = modal_response(modes, absorber_of(the_case), sampling_of(the_case));
+  const Absorber<double> absorber = absorber_of(the_case);
+  auto response =
+      modal_response(modes, absorber, remembered_poles(modes, absorber), sampling_of(the_case));
   throw_if_interrupted();
   return response;
 }
 
 }  // namespace
+
+std::vector<PlantPole> poles_of(const Case& the_case) {
+  std::vector<PlantPole> poles = remembered_poles(place_modes_of(the_case), absorber_of(the_case));
+  if (poles.empty()) throw NoAnswer(coinciding_motions);
+  return poles;
+}
 
 ResolvedCircle<double> circle_of(const Case& the_case) {
   return ResolvedCircle<double>(response_of(the_case, place_modes_of(the_case)));
@@ -137,7 +102,8 @@ std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
   Case changed = the_case;
   changed.absorber.clamp_mass = clamp_mass;
-  const auto modes = all_modes_of(changed, std::min(60, modes_of(changed)));
+  constexpr int enough = 60;
+  const auto modes = all_conductor_modes_of(changed, enough).modes;
   const ModalResponse<double> response = response_of(changed, modes);
   const PdGains<double> gains = gains_of(changed);
   const double radius = std::abs(largest_loop_root(response, gains));
@@ -149,19 +115,25 @@ OtherModes other_modes_of(const Case& the_case) {
   const auto circle_by = [&](const std::vector<PlaceMode<double>>& modes) {
     return ResolvedCircle<double>(response_of(the_case, modes));
   };
-  const int modes = modes_of(the_case);
+  const ConductorModes kept = conductor_modes_of(the_case);
   if (std::isfinite(the_case.plant.modes))
-    return {circle_by(all_modes_of(the_case, modes)), "with all modes"};
-  const int half = (modes + 1) / 2;
-  return {circle_by(all_modes_of(the_case, half)),
-          "with " + std::to_string(half) + " modes kept apart instead of " + std::to_string(modes)};
+    return {circle_by(finer_modes_of(the_case, kept).modes), "with all modes"};
+  const ConductorModes other = coarser_modes_of(the_case, kept);
+  const std::string fewer_bars =
+      is_cable(the_case) ? " and " + std::to_string(other.bars) + " bars" : "";
+  return {circle_by(other.modes),
+          "with " + std::to_string(other.apart) + " modes kept apart" + fewer_bars +
+              " instead of " + std::to_string(kept.apart) +
+              (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
 }
 
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
                                           ForceHold hold, double angular_frequency) {
   if (!is_modal(the_case))
     return steady_response(plant_of(the_case), sampling, hold, angular_frequency);
-  return steady_response(place_modes_of(the_case), absorber_of(the_case), sampling, hold,
+  const auto modes = place_modes_of(the_case);
+  const Absorber<double> absorber = absorber_of(the_case);
+  return steady_response(modes, absorber, remembered_poles(modes, absorber), sampling, hold,
                          angular_frequency);
 }
 
@@ -183,6 +155,20 @@ ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the
   return {modal_plant_of(the_case), loop.digital, loop.backlash, loop.switching};
 }
 
+ImplementedLoopOf<ControlledPlant> controlled_conductor_of(const Case& the_case,
+                                                           Switching switching) {
+  const ImplementedLoop loop = implemented_loop_of(the_case, switching);
+  if (!is_ideal(loop.digital.limits))
+    throw WrongInput("of plant.model = \"" + the_case.plant.model +
+                     "\" orbits, exponents and verdicts are of a computer without quanta, limits "
+                     "of its force and differences");
+  ImplementedLoopOf<ControlledPlant> own{
+      with_controller(modal_plant_of(the_case), loop.digital.gains), loop.digital, loop.backlash,
+      loop.switching};
+  own.digital.gains = {0.0, 0.0};
+  return own;
+}
+
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
   const auto modes = place_modes_of(the_case);
   const auto& initial = the_case.initial;
@@ -198,39 +184,6 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
 void refuse_on_modes(const Case& the_case, bool given, const std::string& option) {
   if (given && is_modal(the_case))
     throw WrongInput(option + " goes with plant.model = \"two_masses\" alone");
-}
-
-std::string modes_warning(const Case& the_case) {
-  if (!is_modal(the_case)) return idle_keys_warning(the_case);
-  const TautString<double> string = string_of(the_case);
-  const int modes = modes_of(the_case);
-  const double end = frequency(string, modes), force = effective_excitation(the_case).frequency;
-  const std::string faster =
-      force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than they" : "";
-  const std::string kept =
-      std::to_string(modes) + " modes of the conductor, up to " + format_rounded(end) + " Hz, ";
-  if (!std::isfinite(the_case.plant.modes)) {
-    const double returned = std::exp(-2.0 * pi<double> * string.damping_ratio * modes);
-    if (returned < 0.05 && faster.empty()) return "";
-    return kept +
-           "are kept apart and the faster ones bundled, as if their waves did not come back" +
-           (returned < 0.05 ? ""
-                            : "; with the case's damping up to " +
-                                  format_rounded(100.0 * returned) + " % of such a wave does") +
-           faster;
-  }
-  const double cut_mass = 1.0 / mobility_of(place_modes_of(the_case));
-  const double felt_mass =
-      std::max(the_case.absorber.clamp_mass,
-               (the_case.plant.absorber_damping + 2.0 * string.wave_impedance()) *
-                   the_case.control.sampling_period / 2.0);
-  const double half_rate = 0.5 / the_case.control.sampling_period;
-  if (cut_mass < 0.02 * felt_mass && end > half_rate && faster.empty()) return "";
-  return kept + "are kept and the faster ones left out: the drive feels that as " +
-         format_rounded(1e3 * cut_mass) +
-         " g more at the clamp, and gains may look stable far beyond where they are; without "
-         "plant.modes all modes count" +
-         faster;
 }
 
 }  // namespace holdfast::program

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "case/model/modal/conductor_modes.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/control/controlled_plant.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
@@ -19,28 +20,14 @@
 
 namespace holdfast::program {
 
-/// Whether the absorber hangs on the conductor itself, by its modes, and not on one mass.
-bool is_modal(const Case& the_case);
-
-/// The conductor as a taut string, with the tension of the case or the one that its sag leaves.
-TautString<double> string_of(const Case& the_case);
-
-/// N: plant.modes, or as many as reach half the sampling rate and twice the force's frequency, 40
-/// to 300. They are all of the plant's where the case gives them; else faster ones are bundled
-/// behind.
-int modes_of(const Case& the_case);
-
-/// The modes of the conductor as the absorber's place sees them, N and where these are chosen the
-/// bundles of `bundled_string_modes`.
-std::vector<PlaceMode<double>> place_modes_of(const Case& the_case);
-
 /// The absorber with what of it moves with the conductor.
 Absorber<double> absorber_of(const Case& the_case);
 
 /// The plant of a modal case.
 LinearPlant<double> modal_plant_of(const Case& the_case);
 
-/// Its poles. Throws NoAnswer where two natural motions of it cannot be told apart.
+/// Its poles; those found last are remembered. Throws NoAnswer where two natural motions of it
+/// cannot be told apart.
 std::vector<PlantPole> poles_of(const Case& the_case);
 
 /// Its loop on the unit circle.
@@ -73,7 +60,8 @@ struct OtherModes {
   bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
 };
 
-/// With all modes where the case gives how many; else with half as many kept apart.
+/// With all modes where the case gives how many; else with half as many kept apart, and of a cable
+/// with fewer bars.
 OtherModes other_modes_of(const Case& the_case);
 
 /// The steady response of the loop of either kind of plant at ω (rad/s), and its amplitude without
@@ -87,6 +75,11 @@ ModalLoop modal_loop_of(const Case& the_case);
 ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the_case,
                                                                  Switching switching);
 
+/// The same loop with the gains as a controller of the plant's own, of which orbits, exponents and
+/// verdicts are compiled. Throws WrongInput for a computer that limits force or reading.
+ImplementedLoopOf<ControlledPlant> controlled_conductor_of(const Case& the_case,
+                                                           Switching switching);
+
 /// The initial state of a modal case: the conductor as a force at the absorber's place bends it to
 /// z1, with the velocities that a blow there gives it to have v1; the absorber at z2 and v2.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
@@ -96,9 +89,5 @@ void refuse_on_modes(const Case& the_case, bool given, const std::string& option
 
 /// What is said where two natural motions of a modal case cannot be told apart.
 extern const char* const coinciding_motions;
-
-/// What the user has to know of the modes that are kept, beside half the sampling rate; and of keys
-/// that do not count for the case's plant. Empty where there is nothing.
-std::string modes_warning(const Case& the_case);
 
 }  // namespace holdfast::program

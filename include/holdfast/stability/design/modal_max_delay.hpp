@@ -1,0 +1,149 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/design/delay_options.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
+#include "holdfast/stability/response/modal_steady_response.hpp"
+
+namespace holdfast {
+
+/// A conductor by its modes with the absorber, and the natural motions of the two.
+struct ConductorWithAbsorber {
+  std::vector<PlaceMode<double>> modes;  ///< as the absorber's place sees them
+  Absorber<double> absorber;             ///< with its clamp
+  std::vector<PlantPole> poles;          ///< `plant_poles` of the two, all of them
+};
+
+namespace detail {
+
+/// Walks the sampling period until no D serves.
+template <class Scalar>
+class ModalDelayWalk {
+ public:
+  ModalDelayWalk(const ConductorWithAbsorber& plant, const MaxDelayOptions& options, double ratio)
+      : plant_(plant), options_(options), ratio_(ratio) {}
+
+  MaxDelay answer() const {
+    double feasible = std::min(options_.shortest_period, 1e-3 / options_.frequency);
+    if (!gain_at(feasible)) return {MaxDelayOutcome::never, 0.0, none, lacking(feasible, none)};
+    const double end = longest();
+    while (feasible < end) {
+      if (options_.watch) options_.watch();
+      const double next = std::min(end, ratio_ * feasible);
+      if (!gain_at(next)) return found_between(feasible, next);
+      feasible = next;
+    }
+    const double gain = gain_at(end).value_or(none);
+    if (!shows_vibration(options_, end * (1.0 + 1e-9)))
+      return {MaxDelayOutcome::found, end, gain, MaxDelayLimit::nyquist};
+    return {MaxDelayOutcome::beyond_search, end, gain, MaxDelayLimit::none};
+  }
+
+ private:
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  DelayOffer<double> offer_at(double period) const {
+    const auto sampling = options_.sampling(period);
+    const ResolvedCircle<Scalar> circle(modal_response<Scalar>(plant_.poles, sampling));
+    DelayOffer<double> offer{
+        circle.stable_gains(FreeGain::differential, {options_.proportional_gain, 0.0}), {}};
+    if (options_.criterion == DelayCriterion::attenuates && !offer.stable.empty())
+      offer.response =
+          steady_response<Scalar>(plant_.modes, plant_.absorber, plant_.poles, sampling,
+                                  options_.hold, options_.angular_frequency());
+    return offer;
+  }
+
+  /// The D that serves best at a period, if one does.
+  std::optional<double> gain_at(double period) const {
+    if (!shows_vibration(options_, period)) return std::nullopt;
+    const auto offer = offer_at(period);
+    if (offer.stable.empty()) return std::nullopt;
+    if (!offer.response) return offer.stable.front().representative();
+    const auto best =
+        offer.response->best_differential_gain(options_.proportional_gain, offer.stable);
+    if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
+    return best.differential_gain;
+  }
+
+  double longest() const {
+    double limit = options_.longest_period;
+    if (options_.criterion == DelayCriterion::attenuates) {
+      double nyquist = 0.5 / options_.frequency;
+      while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+      return limit > 0.0 ? std::min(limit, nyquist) : nyquist;
+    }
+    const auto slowest = std::min_element(plant_.modes.begin(), plant_.modes.end(),
+                                          [](const auto& one, const auto& other) {
+                                            return one.angular_frequency < other.angular_frequency;
+                                          });
+    if (limit == 0.0) limit = 20.0 * 2.0 * pi<double> / slowest->angular_frequency;
+    return std::max(limit, options_.shortest_period);
+  }
+
+  MaxDelay found_between(double feasible, double infeasible) const {
+    constexpr double close = 1.0 + 1e-9;
+    while (infeasible > close * feasible) {
+      const double middle = std::sqrt(feasible * infeasible);
+      (gain_at(middle) ? feasible : infeasible) = middle;
+    }
+    return {MaxDelayOutcome::found, feasible, gain_at(feasible).value_or(none),
+            lacking(infeasible, least_ratio(offer_at(feasible)))};
+  }
+
+  /// What the best of the stabilising D leaves; NaN where that is not asked or there is none.
+  double least_ratio(const DelayOffer<double>& offer) const {
+    if (!offer.response) return none;
+    return offer.response->best_differential_gain(options_.proportional_gain, offer.stable)
+        .ratio_to_uncontrolled;
+  }
+
+  /// Where the amplitude jumps past that of no control, the interval of D that served has vanished.
+  /// @param before  the least ratio just below the period, NaN where there is none
+  MaxDelayLimit lacking(double period, double before) const {
+    if (!shows_vibration(options_, period)) return MaxDelayLimit::nyquist;
+    const auto offer = offer_at(period);
+    if (offer.stable.empty() || !offer.response) return MaxDelayLimit::stability;
+    return least_ratio(offer) - before > 1e-3 ? MaxDelayLimit::stability
+                                              : MaxDelayLimit::attenuation;
+  }
+
+  const ConductorWithAbsorber& plant_;
+  MaxDelayOptions options_;
+  double ratio_;
+};
+
+}  // namespace detail
+
+/// The largest sampling period of the computer on a conductor by its modes: as
+/// `max_sampling_period` of two masses asks, but walked, each period so many times the one before,
+/// with every interval of stable D at each and the amplitude in closed form; where none serves the
+/// edge is halved to 10⁻⁹. A stretch of periods narrower than a step is missed, and nothing is
+/// shown of what lies in between or beyond.
+/// @tparam Scalar  double; a parameter so that nothing is compiled where this is not called
+/// @param plant    kept outside while this runs, its poles not none
+/// @param options  within their ranges; search ratio and most steps do not count
+/// @param ratio    of two neighbouring periods, > 1
+/// @throws InvalidParameter outside these ranges
+template <class Scalar = double>
+MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,
+                                   const MaxDelayOptions& options, double ratio = 1.03) {
+  validate(plant.modes, plant.absorber);
+  validate(options);
+  require_positive("number of poles", static_cast<double>(plant.poles.size()), "");
+  require_positive("ratio of neighbouring periods minus one", ratio - 1.0, "");
+  return detail::ModalDelayWalk<Scalar>(plant, options, ratio).answer();
+}
+
+}  // namespace holdfast

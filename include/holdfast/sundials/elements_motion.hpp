@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "holdfast/cable/elements.hpp"
+#include "holdfast/contact/hysteresis.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/sundials/cvode.hpp"
+
+namespace holdfast::cvode {
+
+/// The computer, its drive and the excitation on the elements of a cable.
+struct ElementsLoop {
+  Sampling<double> sampling;              ///< τ and δ ≤ τ
+  PdGains<double> gains;                  ///< P and D
+  HarmonicExcitation<double> excitation;  ///< F_m and f, of the force at the absorber's place
+  double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
+  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
+};
+
+/// The motion of the nonlinear cable in elements, with the absorber on its spring and the sampled
+/// drive with its play between the two: large sag, large motion, waves and all. The judge of what
+/// is said of it by fewer states.
+///
+/// As `SampledMotion`, `sense()` decides contact and force at t_j and `advance()` moves to t_{j+1};
+/// CVODE integrates between the instants at which a force jumps, and begins anew at each. Work per
+/// sample: some tens of steps of BDF, each linear in the elements.
+class ElementsMotion {
+ public:
+  static constexpr int states = 4;                 ///< what is read
+  using State = Vector<double, 4>;                 ///< [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+  using Readings = PortReadings<TwoMass<double>>;  ///< how that is read
+
+  /// @param cable       with the absorber as a spring–mass; must outlive this
+  /// @param loop        of which τ, δ and r₀ are checked
+  /// @param start       a state of the cable, as of `held_by`
+  /// @param tolerances  local error per step, and the limit of steps in a sample
+  /// @throws InvalidParameter for another reading of the absorber, or outside these ranges
+  ElementsMotion(const CableElements& cable, const ElementsLoop& loop, const Eigen::VectorXd& start,
+                 const Tolerances& tolerances = {})
+      : loop_(loop),
+        law_(loop.backlash_width),
+        system_{cable, loop.excitation.angular_frequency()},
+        integrator_(system_, start, tolerances) {
+    require_positive("sampling period tau", loop.sampling.period, "s");
+    require_within("processing delay", loop.sampling.processing_delay, "s", 0.0,
+                   loop.sampling.period);
+    require_non_negative("backlash width r0", loop.backlash_width, "m");
+    if (!cable.is_sprung())
+      throw InvalidParameter("reading of the absorber", 0.0, "", "the spring-mass");
+    system_.amplitude = loop.hold == ForceHold::exact ? loop.excitation.amplitude : 0.0;
+  }
+
+  /// Takes sample j: whether the force is transmitted, and how large it is. Once per sample.
+  MotionSample<double> sense() {
+    const State seen = state();
+    const bool engaged = law_.step(seen[2] - seen[0], seen[3] - seen[1]);
+    present_force_ =
+        engaged ? loop_.gains.proportional * seen[0] + loop_.gains.differential * seen[1] : 0.0;
+    return {index_, time(), seen, present_force_, engaged};
+  }
+
+  /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided; not once
+  /// `outcome()` is another than completed.
+  void advance() {
+    const double begin = time(), late = loop_.sampling.processing_delay;
+    if (loop_.hold == ForceHold::sampled)
+      system_.held = loop_.excitation.amplitude * std::cos(system_.angular_frequency * begin);
+    if (late > 0.0) move(previous_force_, begin + late);
+    ++index_;
+    if (late < loop_.sampling.period) move(present_force_, time());
+    previous_force_ = present_force_;
+  }
+
+  /// j, the sample that `sense()` will take or has taken.
+  std::int64_t index() const { return index_; }
+  /// t_j (s).
+  double time() const { return static_cast<double>(index_) * loop_.sampling.period; }
+  /// [z, ż, z₂, ż₂] at the instant last reached.
+  State state() const { return system_.cable.at_absorber(integrator_.state()); }
+  /// How that is read.
+  Readings readings() const { return {}; }
+  /// Whether the cable is one still and CVODE does not give up; and its words.
+  IntegrationOutcome outcome() const { return integrator_.outcome(); }
+  /// CVODE's own words on a failure.
+  const std::string& words() const { return integrator_.words(); }
+  /// What the motion has cost so far, since the last jump of a force.
+  IntegrationCost cost() const { return integrator_.cost(); }
+
+ private:
+  /// The elements under the drive and the excitation.
+  struct System {
+    const CableElements& cable;
+    double angular_frequency;
+    double amplitude = 0.0, held = 0.0, drive = 0.0;
+
+    int states() const { return cable.states(); }
+    int half_bandwidth() const { return cable.half_bandwidth(); }
+    double margin(const double* state) const { return cable.margin(state); }
+    template <class Set>
+    void jacobian(const double* state, Set&& set) const {
+      cable.jacobian(state, set);
+    }
+    void rate(double time, const double* state, double* rate_of_state) const {
+      cable.rate(state, rate_of_state);
+      const double force = held + amplitude * std::cos(angular_frequency * time);
+      cable.push(rate_of_state, force + drive, -drive);
+    }
+  };
+
+  void move(double drive, double to) {
+    constexpr double unresolved = 8.0 * std::numeric_limits<double>::epsilon();
+    if (!(to - integrator_.time() > unresolved * to)) return;
+    system_.drive = drive;
+    integrator_.restart();
+    integrator_.advance_to(to);
+  }
+
+  ElementsLoop loop_;
+  Backlash<double> law_;
+  System system_;
+  Integrator<System> integrator_;
+  double present_force_ = 0.0, previous_force_ = 0.0;
+  std::int64_t index_ = 0;
+};
+
+}  // namespace holdfast::cvode

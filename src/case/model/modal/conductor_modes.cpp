@@ -1,0 +1,193 @@
+#include "case/model/modal/conductor_modes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+
+#include "case/model/cable_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "holdfast/cable/cable_place_modes.hpp"
+#include "holdfast/cable/elements.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Of what is chosen.
+constexpr int fewest_modes = 60, most_modes_of_string = 300, most_modes_of_cable = 200;
+constexpr double fewest_bars = 200.0, most_bars = 8000.0;
+
+/// The modes of a bar chain as the case's absorber sees them. Those found last are remembered: a
+/// job asks for the same ones again and again.
+CablePlaceModes chain_modes_of(const Case& the_case, int bars, int steps) {
+  static std::mutex mutex;
+  static std::map<std::array<double, 12>, CablePlaceModes> remembered;
+  const Conductor<double> conductor = conductor_of(the_case);
+  const double clamp = the_case.absorber.clamp_mass, hung = the_case.plant.absorber_mass;
+  const bool plane = the_case.absorber.motion == "plane";
+  const HungMass mass{hung, clamp + (plane ? hung : 0.0)};
+  const double place = the_case.absorber.position;
+  const std::array<double, 12> key = {conductor.mass_per_length,
+                                      conductor.span,
+                                      conductor.sag,
+                                      conductor.area,
+                                      conductor.youngs_modulus,
+                                      conductor.gravity,
+                                      place,
+                                      mass.weight,
+                                      mass.sideways,
+                                      static_cast<double>(bars),
+                                      static_cast<double>(steps),
+                                      0.0};
+  const std::lock_guard<std::mutex> lock(mutex);
+  constexpr std::size_t enough = 16;
+  if (remembered.size() > enough) remembered.clear();
+  const auto known = remembered.find(key);
+  if (known != remembered.end()) return known->second;
+  return remembered[key] = cable_place_modes(BarChain(conductor, place, bars), mass, steps);
+}
+
+/// Modes of the conductor alone, with the case's damping; bundles besides over their width.
+ConductorModes damped(const Case& the_case, std::vector<PlaceMode<double>> modes, int apart,
+                      int bars) {
+  for (PlaceMode<double>& mode : modes)
+    mode.damping_ratio =
+        std::hypot(mode.damping_ratio, bare_damping_of(the_case, mode.angular_frequency));
+  return {std::move(modes), apart, bars};
+}
+
+TautString<double> undamped_string_of(const Case& the_case) {
+  TautString<double> string = string_of(the_case);
+  string.damping_ratio = 0.0;
+  return string;
+}
+
+/// rad/s: what the sampling and twice the force reach.
+double seen_frequency(const Case& the_case) {
+  return 2.0 * pi<double> *
+         std::max(0.5 / the_case.control.sampling_period,
+                  2.0 * effective_excitation(the_case).frequency);
+}
+
+/// The share of a wave of mode n that the nearer end sends back to the absorber.
+double echo(const Case& the_case, const TautString<double>& string, int n) {
+  const double place = the_case.absorber.position;
+  const double near = std::min(place, string.span - place) / string.span;
+  return std::exp(-2.0 * pi<double> * n * near *
+                  bare_damping_of(the_case, string.angular_frequency(n)));
+}
+
+/// A force that jumps at samples sends out waves with an edge, far faster than the samples show.
+int chosen_modes(const Case& the_case) {
+  const TautString<double> string = string_of(the_case);
+  const int most = is_cable(the_case) ? most_modes_of_cable : most_modes_of_string;
+  constexpr double sharpness = 5.0, hardly = 0.1;
+  const double seen = sharpness * seen_frequency(the_case);
+  int n = fewest_modes;
+  while (n < most && string.angular_frequency(n) <= seen && echo(the_case, string, n) > hardly) ++n;
+  return n;
+}
+
+/// Radians in the span of the fastest wave that is to be seen, but for its being damped out: so
+/// many bars serve.
+double radians_of(const Case& the_case, int apart) {
+  const TautString<double> string = string_of(the_case);
+  const double omega = std::max(seen_frequency(the_case), string.angular_frequency(2.0 * apart));
+  const double damped = std::sqrt(std::hypot(1.0, 2.0 * bare_damping_of(the_case, omega)));
+  return omega / string.wave_speed() * string.span / damped;
+}
+
+int bars_of(const Case& the_case, int apart) {
+  return static_cast<int>(std::clamp(radians_of(the_case, apart), fewest_bars, most_bars));
+}
+
+ConductorModes all_modes_of_cable(const Case& the_case, int apart, int bars) {
+  // Of two steps one makes a mode, the other one a bundle.
+  CablePlaceModes found = chain_modes_of(the_case, bars, std::min(2 * apart, 2 * (bars - 1)));
+  if (found.outcome != EquilibriumOutcome::converged)
+    throw NoAnswer("no equilibrium was found of the cable with the absorber's weight");
+  return damped(the_case, std::move(found.modes), found.apart, bars);
+}
+
+ConductorModes all_modes_of_string(const Case& the_case, int apart) {
+  const TautString<double> string = undamped_string_of(the_case);
+  // Beyond, what is left out is felt by no clamp: it passes many times within a sample.
+  const double highest =
+      std::max(100.0 / the_case.control.sampling_period, 10.0 * string.angular_frequency(apart));
+  return damped(the_case, bundled_string_modes(string, the_case.absorber.position, apart, highest),
+                apart, 0);
+}
+
+}  // namespace
+
+double ConductorModes::highest_frequency() const {
+  return modes[static_cast<std::size_t>(apart) - 1].angular_frequency / (2.0 * pi<double>);
+}
+
+bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
+
+bool is_cable(const Case& the_case) { return the_case.plant.model == "cable"; }
+
+TautString<double> string_of(const Case& the_case) {
+  TautString<double> string = taut_string(conductor_of(the_case));
+  if (std::isfinite(the_case.conductor.tension)) string.tension = the_case.conductor.tension;
+  string.bending_stiffness = is_cable(the_case) ? 0.0 : the_case.conductor.bending_stiffness;
+  return string;
+}
+
+double bare_damping_of(const Case& the_case, double angular_frequency) {
+  const auto& conductor = the_case.conductor;
+  const bool rayleigh =
+      conductor.damping == "rayleigh" || (conductor.damping == "chosen" && is_cable(the_case));
+  if (!rayleigh) return conductor.damping_ratio;
+  const auto& [first, second] = conductor.rayleigh_frequencies;
+  return rayleigh_damping(conductor.damping_ratio, first, second).damping_ratio(angular_frequency);
+}
+
+ConductorModes all_conductor_modes_of(const Case& the_case, int apart) {
+  return is_cable(the_case) ? all_modes_of_cable(the_case, apart, bars_of(the_case, apart))
+                            : all_modes_of_string(the_case, apart);
+}
+
+ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& conductor) {
+  const int half = (conductor.apart + 1) / 2;
+  constexpr double coarser = 0.7;
+  return is_cable(the_case)
+             ? all_modes_of_cable(the_case, half, static_cast<int>(coarser * conductor.bars))
+             : all_modes_of_string(the_case, half);
+}
+
+ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conductor) {
+  return all_conductor_modes_of(
+      the_case, is_cable(the_case) ? std::max(conductor.apart, fewest_modes) : conductor.apart);
+}
+
+ConductorModes conductor_modes_of(const Case& the_case) {
+  if (!std::isfinite(the_case.plant.modes))
+    return all_conductor_modes_of(the_case, chosen_modes(the_case));
+  const int modes = static_cast<int>(the_case.plant.modes);
+  if (!is_cable(the_case)) {
+    const TautString<double> string = undamped_string_of(the_case);
+    return damped(the_case, string_modes(string, the_case.absorber.position, modes), modes, 0);
+  }
+  ConductorModes found = all_modes_of_cable(the_case, modes + 10, bars_of(the_case, modes + 10));
+  if (found.apart < modes)
+    throw NoAnswer(std::to_string(found.bars) + " bars of the cable have only " +
+                   std::to_string(found.apart) + " modes that move the absorber's place");
+  found.modes.resize(static_cast<std::size_t>(modes));
+  found.apart = modes;
+  return found;
+}
+
+bool lacks_bars(const Case& the_case) {
+  return is_cable(the_case) && radians_of(the_case, 0) > most_bars;
+}
+
+std::vector<PlaceMode<double>> place_modes_of(const Case& the_case) {
+  return conductor_modes_of(the_case).modes;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,123 @@
+#include "case/model/modal/modes_warning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "case/model/loop_of_case.hpp"
+#include "case/model/modal/conductor_modes.hpp"
+#include "io/text/text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Σ φ²/M (1/kg): the place with its clamp off starts under a newton as one over it would.
+double mobility_of(const std::vector<PlaceMode<double>>& modes) {
+  double sum = 0.0;
+  for (const PlaceMode<double>& mode : modes) sum += mode.shape * mode.shape / mode.mass;
+  return sum;
+}
+
+/// What is given that nothing of the case's plant depends on.
+std::string idle_keys_warning(const Case& the_case) {
+  const bool masses = !is_modal(the_case), cable = is_cable(the_case);
+  const bool string = !masses && !cable;
+  std::string names;
+  const auto add = [&](bool counts, const char* name) {
+    if (counts) names += (names.empty() ? "" : ", ") + std::string(name);
+  };
+  const bool plane = the_case.absorber.motion == "plane";
+  const bool bends = the_case.conductor.bending_stiffness > 0.0;
+  const bool of_modes = the_case.absorber.clamp_mass > 0.0 || std::isfinite(the_case.plant.modes) ||
+                        the_case.conductor.damping != "chosen";
+  add(masses && the_case.absorber.clamp_mass > 0.0, "absorber.clamp_mass");
+  add(!cable && plane, "absorber.motion");
+  add(!string && bends, "conductor.bending_stiffness");
+  add(masses && the_case.conductor.damping != "chosen", "conductor.damping");
+  add(masses && std::isfinite(the_case.plant.modes), "plant.modes");
+  if (names.empty()) return "";
+  const char* const who = masses   ? "the two masses do"
+                          : string ? "the string does"
+                                   : "the cable does";
+  const char* const other = plane && !cable && !of_modes && !bends ? "\"cable\"" : "\"string\"";
+  return names + ": " + who + " not depend on it; plant.model = " + other + " does";
+}
+
+/// What the modes are that are kept apart, and that the force is faster than they.
+struct KeptModes {
+  std::string words, faster;
+};
+
+KeptModes kept_modes(const Case& the_case, const ConductorModes& conductor) {
+  const double end = conductor.highest_frequency();
+  const double force = effective_excitation(the_case).frequency;
+  return {std::to_string(conductor.apart) + " modes of the conductor, up to " +
+              format_rounded(end) + " Hz, ",
+          force > end ? "; the force, " + format_rounded(force) + " Hz, is faster than they" : ""};
+}
+
+/// Of faster modes in bundles.
+std::string bundles_warning(const Case& the_case, const ConductorModes& conductor) {
+  const auto& last = conductor.modes[static_cast<std::size_t>(conductor.apart) - 1];
+  // A mode of the string of that frequency has so many half waves.
+  const double half_waves = last.angular_frequency / string_of(the_case).angular_frequency(1.0);
+  const double returned =
+      std::exp(-2.0 * pi<double> * bare_damping_of(the_case, last.angular_frequency) * half_waves);
+  const KeptModes kept = kept_modes(the_case, conductor);
+  if (returned < 0.05 && (kept.faster.empty() || is_cable(the_case))) return "";
+  return kept.words +
+         "are kept apart and the faster ones bundled, as if their waves did not come back" +
+         (returned < 0.05 ? ""
+                          : "; with the case's damping up to " + format_rounded(100.0 * returned) +
+                                " % of such a wave does") +
+         kept.faster;
+}
+
+/// Of faster modes left out.
+std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
+  const double cut_mass = 1.0 / mobility_of(conductor.modes);
+  const double felt_mass =
+      std::max(the_case.absorber.clamp_mass,
+               (the_case.plant.absorber_damping + 2.0 * string_of(the_case).wave_impedance()) *
+                   the_case.control.sampling_period / 2.0);
+  const double half_rate = 0.5 / the_case.control.sampling_period;
+  const KeptModes kept = kept_modes(the_case, conductor);
+  if (cut_mass < 0.02 * felt_mass && conductor.highest_frequency() > half_rate &&
+      kept.faster.empty())
+    return "";
+  return kept.words + "are kept and the faster ones left out: the drive feels that as " +
+         format_rounded(1e3 * cut_mass) +
+         " g more at the clamp, and gains may look stable far beyond where they are; without "
+         "plant.modes all modes count" +
+         kept.faster;
+}
+
+}  // namespace
+
+std::string modes_warning(const Case& the_case) {
+  std::string said = idle_keys_warning(the_case);
+  if (!is_modal(the_case)) return said;
+  const ConductorModes conductor = conductor_modes_of(the_case);
+  const auto warning = std::isfinite(the_case.plant.modes) ? cut_warning : bundles_warning;
+  for (const std::string& more :
+       {warning(the_case, conductor),
+        lacks_bars(the_case)
+            ? std::to_string(conductor.bars) +
+                  " bars are too few for the waves at half the sampling rate: what "
+                  "is said of gains is not converged"
+            : ""})
+    said += (said.empty() || more.empty() ? "" : "; ") + more;
+  return said;
+}
+
+std::string dense_work_warning(const Case& the_case) {
+  if (!is_modal(the_case)) return "";
+  const std::size_t modes = conductor_modes_of(the_case).modes.size();
+  constexpr std::size_t soon = 50;
+  if (modes <= soon) return "";
+  return std::to_string(modes) +
+         " modes and bundles take part, and the work grows with their third power: this takes "
+         "minutes; plant.modes = 40 takes seconds, but cuts the faster modes off";
+}
+
+}  // namespace holdfast::program

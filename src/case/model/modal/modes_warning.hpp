@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "case/case.hpp"
+
+namespace holdfast::program {
+
+/// What the user has to know of the modes that are kept, beside half the sampling rate; and of keys
+/// that do not count for the case's plant. Empty where there is nothing.
+std::string modes_warning(const Case& the_case);
+
+/// That an orbit, an exponent or a verdict takes minutes, its work growing with the third power of
+/// the modes; empty where it does not.
+std::string dense_work_warning(const Case& the_case);
+
+}  // namespace holdfast::program

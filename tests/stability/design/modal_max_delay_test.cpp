@@ -1,0 +1,78 @@
+// The slowest computer on a conductor by its modes, against the link by link search of two masses
+// and of a plant of any order.
+
+#include "holdfast/stability/design/modal_max_delay.hpp"
+
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
+#include "support/string_case.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::test {
+namespace {
+
+ConductorWithAbsorber string_with(int modes, double clamp_mass) {
+  ConductorWithAbsorber plant{string_modes(taut_string(kollar2022_conductor()), 0.64, modes),
+                              papers_absorber(clamp_mass),
+                              {}};
+  plant.poles = plant_poles(plant.modes, plant.absorber);
+  return plant;
+}
+
+MaxDelayOptions tuned_to(double frequency, const Absorber<double>& absorber) {
+  const double omega = 2.0 * pi<double> * frequency;
+  return {frequency, absorber.stiffness - absorber.mass * omega * omega};
+}
+
+void expect_same(const MaxDelay& found, const MaxDelay& expected, double tolerance) {
+  EXPECT_EQ(found.outcome, expected.outcome);
+  EXPECT_EQ(found.limit, expected.limit);
+  EXPECT_NEAR(found.sampling_period, expected.sampling_period,
+              tolerance * expected.sampling_period);
+}
+
+/// A string of one mode is two masses.
+TEST(ModalMaxDelay, OfOneModeIsThatOfTwoMasses) {
+  const ConductorWithAbsorber plant = string_with(1, 0.0);
+  const PlaceMode<double>& mode = plant.modes.front();
+  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
+  const Absorber<double>& absorber = plant.absorber;
+  const TwoMass<double> masses{
+      mass,          mass * omega * omega, 2.0 * mode.damping_ratio * omega * mass,
+      absorber.mass, absorber.stiffness,   absorber.damping};
+  for (const double frequency : {4.0, 10.0, 25.0, 50.0}) {
+    for (const double share : {0.0, 0.5}) {
+      MaxDelayOptions question = tuned_to(frequency, absorber);
+      question.delay_fraction = share;
+      question.shortest_period = 1e-4;
+      SCOPED_TRACE(testing::Message() << frequency << " Hz, " << share);
+      expect_same(modal_max_sampling_period(plant, question), max_sampling_period(masses, question),
+                  1e-7);
+    }
+  }
+}
+
+TEST(ModalMaxDelay, OfSomeModesIsThatOfTheirMatrices) {
+  const ConductorWithAbsorber plant = string_with(3, 0.01);
+  const LinearPlant<double> matrices = modal_plant(plant.modes, plant.absorber);
+  for (const double frequency : {6.0, 12.0}) {
+    MaxDelayOptions question = tuned_to(frequency, plant.absorber);
+    question.shortest_period = 1e-3;
+    question.search_ratio = 1.001;
+    SCOPED_TRACE(frequency);
+    expect_same(modal_max_sampling_period(plant, question, 1.01),
+                max_sampling_period(matrices, question), 1e-4);
+  }
+}
+
+TEST(ModalMaxDelay, RefusesWhatIsNotAdmissible) {
+  ConductorWithAbsorber plant = string_with(3, 0.0);
+  const MaxDelayOptions question = tuned_to(10.0, plant.absorber);
+  EXPECT_THROW(modal_max_sampling_period(plant, question, 1.0), InvalidParameter);
+  EXPECT_THROW(modal_max_sampling_period(plant, {-1.0, 0.0}), InvalidParameter);
+  plant.poles.clear();
+  EXPECT_THROW(modal_max_sampling_period(plant, question), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast::test
