@@ -18,9 +18,9 @@
 #include "jobs/design/gain_margins.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "report/page/cable_answer.hpp"
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"
-#include "report/page/cable_answer.hpp"
 #include "report/page/vibration.hpp"
 #include "report/switching/switching_study.hpp"
 
