@@ -7,6 +7,10 @@
 
 namespace holdfast::program {
 
+bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
+
+bool is_cable(const Case& the_case) { return the_case.plant.model == "cable"; }
+
 case_tables::Excitation effective_excitation(const Case& the_case) {
   case_tables::Excitation force = the_case.excitation;
   if (!the_case.wind) return force;

@@ -136,6 +136,12 @@ struct Case {
   bool second_frequency_computed = false;
 };
 
+/// Whether the absorber hangs on the conductor itself, by its modes, and not on one mass.
+bool is_modal(const Case& the_case);
+
+/// Whether that conductor is the hanging cable in elements, and not the taut string.
+bool is_cable(const Case& the_case);
+
 /// The force on the conductor: [excitation] as given, or with its amplitude and frequency made from
 /// [wind]: frequency = strouhal·speed/diameter (Hz), amplitude = ½·air_density·speed²·diameter·
 /// effective_length·lift_coefficient (N).

@@ -8,7 +8,6 @@
 
 #include "case/case_source.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 

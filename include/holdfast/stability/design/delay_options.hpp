@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -82,10 +83,28 @@ DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayOptions& option
   return offer;
 }
 
+/// The D of an offer that serves best: of minimum amplitude where that is asked, or inside the
+/// first stable interval; nothing where none serves.
+inline std::optional<double> serving_gain(const DelayOffer<double>& offer,
+                                          double proportional_gain) {
+  if (offer.stable.empty()) return std::nullopt;
+  if (!offer.response) return offer.stable.front().representative();
+  const auto best = offer.response->best_differential_gain(proportional_gain, offer.stable);
+  if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
+  return best.differential_gain;
+}
+
 /// False where the criterion asks for samples that show the vibration and they do not.
 inline bool shows_vibration(const MaxDelayOptions& options, double sampling_period) {
   return options.criterion == DelayCriterion::stable ||
          2.0 * options.frequency * sampling_period < 1.0;
+}
+
+/// The longest period (s) whose samples show the vibration, as `attenuates` asks.
+inline double longest_that_shows(const MaxDelayOptions& options) {
+  double nyquist = 0.5 / options.frequency;
+  while (!shows_vibration(options, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+  return nyquist;
 }
 
 }  // namespace detail
@@ -121,12 +140,8 @@ template <class Plant>
 std::optional<double> feasible_differential_gain(const Plant& plant, const MaxDelayOptions& options,
                                                  double sampling_period) {
   if (!detail::shows_vibration(options, sampling_period)) return std::nullopt;
-  const auto offer = detail::delay_offer(plant, options, sampling_period);
-  if (offer.stable.empty()) return std::nullopt;
-  if (!offer.response) return offer.stable.front().representative();
-  const auto best = offer.response->best_differential_gain(options.proportional_gain, offer.stable);
-  if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
-  return best.differential_gain;
+  return detail::serving_gain(detail::delay_offer(plant, options, sampling_period),
+                              options.proportional_gain);
 }
 
 }  // namespace holdfast

@@ -111,8 +111,7 @@ class DelaySearch {
   double longest(double certain) const {
     double limit = options_.longest_period;
     if (options_.criterion == DelayCriterion::attenuates) {
-      double nyquist = 0.5 / options_.frequency;
-      while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+      const double nyquist = longest_that_shows(options_);
       return limit > 0.0 ? std::min(limit, nyquist) : nyquist;
     }
     const double slowest = slowest_mode_period(plant_);

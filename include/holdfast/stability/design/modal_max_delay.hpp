@@ -68,20 +68,13 @@ class ModalDelayWalk {
   /// The D that serves best at a period, if one does.
   std::optional<double> gain_at(double period) const {
     if (!shows_vibration(options_, period)) return std::nullopt;
-    const auto offer = offer_at(period);
-    if (offer.stable.empty()) return std::nullopt;
-    if (!offer.response) return offer.stable.front().representative();
-    const auto best =
-        offer.response->best_differential_gain(options_.proportional_gain, offer.stable);
-    if (!(best.ratio_to_uncontrolled < 1.0)) return std::nullopt;
-    return best.differential_gain;
+    return serving_gain(offer_at(period), options_.proportional_gain);
   }
 
   double longest() const {
     double limit = options_.longest_period;
     if (options_.criterion == DelayCriterion::attenuates) {
-      double nyquist = 0.5 / options_.frequency;
-      while (!shows_vibration(options_, nyquist)) nyquist = std::nextafter(nyquist, 0.0);
+      const double nyquist = longest_that_shows(options_);
       return limit > 0.0 ? std::min(limit, nyquist) : nyquist;
     }
     const auto slowest = std::min_element(plant_.modes.begin(), plant_.modes.end(),

@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <mutex>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/cable/elements.hpp"
 #include "process/errors.hpp"
+#include "process/memo.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -20,17 +19,16 @@ namespace {
 constexpr int fewest_modes = 60, most_modes_of_string = 300, most_modes_of_cable = 200;
 constexpr double fewest_bars = 200.0, most_bars = 8000.0;
 
-/// The modes of a bar chain as the case's absorber sees them. Those found last are remembered: a
-/// job asks for the same ones again and again.
+/// The modes of a bar chain as the case's absorber sees them.
 CablePlaceModes chain_modes_of(const Case& the_case, int bars, int steps) {
-  static std::mutex mutex;
-  static std::map<std::array<double, 12>, CablePlaceModes> remembered;
+  constexpr std::size_t enough = 16;
+  static Memo<std::array<double, 11>, CablePlaceModes> memo(enough);
   const Conductor<double> conductor = conductor_of(the_case);
   const double clamp = the_case.absorber.clamp_mass, hung = the_case.plant.absorber_mass;
   const bool plane = the_case.absorber.motion == "plane";
   const HungMass mass{hung, clamp + (plane ? hung : 0.0)};
   const double place = the_case.absorber.position;
-  const std::array<double, 12> key = {conductor.mass_per_length,
+  const std::array<double, 11> all = {conductor.mass_per_length,
                                       conductor.span,
                                       conductor.sag,
                                       conductor.area,
@@ -40,14 +38,9 @@ CablePlaceModes chain_modes_of(const Case& the_case, int bars, int steps) {
                                       mass.weight,
                                       mass.sideways,
                                       static_cast<double>(bars),
-                                      static_cast<double>(steps),
-                                      0.0};
-  const std::lock_guard<std::mutex> lock(mutex);
-  constexpr std::size_t enough = 16;
-  if (remembered.size() > enough) remembered.clear();
-  const auto known = remembered.find(key);
-  if (known != remembered.end()) return known->second;
-  return remembered[key] = cable_place_modes(BarChain(conductor, place, bars), mass, steps);
+                                      static_cast<double>(steps)};
+  return memo.of(all,
+                 [&] { return cable_place_modes(BarChain(conductor, place, bars), mass, steps); });
 }
 
 /// Modes of the conductor alone, with the case's damping; bundles besides over their width.
@@ -126,10 +119,6 @@ ConductorModes all_modes_of_string(const Case& the_case, int apart) {
 double ConductorModes::highest_frequency() const {
   return modes[static_cast<std::size_t>(apart) - 1].angular_frequency / (2.0 * pi<double>);
 }
-
-bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
-
-bool is_cable(const Case& the_case) { return the_case.plant.model == "cable"; }
 
 TautString<double> string_of(const Case& the_case) {
   TautString<double> string = taut_string(conductor_of(the_case));

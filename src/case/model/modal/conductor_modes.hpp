@@ -8,12 +8,6 @@
 
 namespace holdfast::program {
 
-/// Whether the absorber hangs on the conductor itself, by its modes, and not on one mass.
-bool is_modal(const Case& the_case);
-
-/// Whether that conductor is the hanging cable in elements, and not the taut string.
-bool is_cable(const Case& the_case);
-
 /// The conductor as a taut string, with the tension of the case or the one that its sag leaves.
 TautString<double> string_of(const Case& the_case);
 

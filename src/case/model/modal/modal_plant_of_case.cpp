@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
@@ -13,8 +11,10 @@
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "process/memo.hpp"
 
 namespace holdfast::program {
+
 const char* const coinciding_motions =
     "two natural motions of conductor and absorber coincide too nearly to be told apart: change "
     "plant.absorber_damping or absorber.position by a thousandth";
@@ -43,24 +43,12 @@ std::vector<double> numbers_of(const std::vector<PlaceMode<double>>& modes,
   return numbers;
 }
 
-/// As `plant_poles`. The cells of a sweep and the questions of a report ask for the same ones again
-/// and again.
+/// As `plant_poles`.
 std::vector<PlantPole> remembered_poles(const std::vector<PlaceMode<double>>& modes,
                                         const Absorber<double>& absorber) {
-  static std::mutex mutex;
-  static std::map<std::vector<double>, std::vector<PlantPole>> remembered;
-  const std::vector<double> numbers = numbers_of(modes, absorber);
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    const auto known = remembered.find(numbers);
-    if (known != remembered.end()) return known->second;
-  }
-  std::vector<PlantPole> poles = plant_poles(modes, absorber);
-  const std::lock_guard<std::mutex> lock(mutex);
   constexpr std::size_t enough = 64;
-  if (remembered.size() > enough) remembered.clear();
-  remembered[numbers] = poles;
-  return poles;
+  static Memo<std::vector<double>, std::vector<PlantPole>> memo(enough);
+  return memo.of(numbers_of(modes, absorber), [&] { return plant_poles(modes, absorber); });
 }
 
 ModalResponse<double> response_of(const Case& the_case,
