@@ -4,6 +4,7 @@
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/chaos/zero_one_test.hpp"
@@ -31,6 +32,9 @@ template class LyapunovSpectrum<double, 5>;
 template class LyapunovSpectrum<double, 7>;
 
 template SampledClassification classify_motion(const IdealLoop<double>&, const Vector<double, 4>&,
+                                               const OrbitLimits&);
+
+template SampledClassification classify_motion(const ModalLoop&, const ModalMotion::Full&,
                                                const OrbitLimits&);
 
 template SwitchingComplexity switching_complexity(const std::vector<bool>&);

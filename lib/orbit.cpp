@@ -2,6 +2,7 @@
 
 #include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
@@ -18,13 +19,16 @@ template OrbitResult detail::orbit_of_motion(const IdealLoop<double>&, const Rat
 template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<double, 4>&,
                                          const OrbitLimits&);
 
+template OrbitResult find_periodic_orbit(const ModalLoop&, const ModalMotion::Full&,
+                                         const OrbitLimits&);
+
 template OrbitResult orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
                                         const ItineraryMaps<double>&, const Itinerary&,
                                         const Backlash<double>&);
 
 template class CyclicSystem<double>;
 template class CyclicSystem<double, Eigen::Dynamic>;
-template std::optional<PeriodicSolution<double>> periodic_solution(
+template std::optional<PeriodicSolution<ItineraryMaps<double>>> periodic_solution(
     const ItineraryMaps<double>&, const Itinerary&, const std::vector<Matrix<double, 5>>&);
 
 template std::vector<AttractionBall> attraction_balls(const IdealLoop<double>&,

@@ -3,6 +3,7 @@
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/chaos/modal_lyapunov.hpp"
 #include "job.hpp"
 #include "jobs/charts/conditioning.hpp"
 #include "jobs/motion/motion_run.hpp"
@@ -64,6 +65,15 @@ LyapunovResult exponents_of(EventMotion<Contact> motion, const JobContext& conte
   return result;
 }
 
+/// Of a conductor by its modes.
+LyapunovResult exponents_of(const ModalMotion& motion, const JobContext& context,
+                            const LyapunovQuestion&, const LyapunovRun& run) {
+  ModalLyapunov lyapunov(modal_loop_of(context.case_data), motion);
+  const LyapunovResult result = run_lyapunov(lyapunov, run, throw_if_interrupted);
+  if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(lyapunov.time());
+  return result;
+}
+
 void require_consistent(const Case& the_case, const LyapunovQuestion& options) {
   if (options.tangent != "printed" || is_of_the_paper(the_case, options.switching)) return;
   throw WrongInput(
@@ -71,13 +81,16 @@ void require_consistent(const Case& the_case, const LyapunovQuestion& options) {
       "ideal computer only");
 }
 
-/// Of hundreds of states all exponents would cost days.
-void require_largest_of_modes(const Case& the_case, const LyapunovQuestion& options) {
-  refuse_on_modes(the_case, options.history, "--history");
+/// Of hundreds of states all exponents would cost days where they are not those of natural motions.
+void require_bearable_modes(const Case& the_case, const LyapunovQuestion& options, bool quiet) {
   refuse_on_modes(the_case, options.tangent == "printed", "--tangent printed");
-  if (is_modal(the_case) && !options.largest)
+  if (!is_modal(the_case) || is_of_the_paper(the_case, options.switching)) return;
+  if (!options.largest)
     throw WrongInput("of plant.model = \"" + the_case.plant.model +
-                     "\" the largest exponent alone is computed: add --largest");
+                     "\" the largest exponent alone is computed beyond the paper's model "
+                     "(switching at samples, its law of the backlash, one harmonic, an ideal "
+                     "computer): add --largest");
+  report_warning(dense_work_warning(the_case), quiet);
 }
 
 /// A row of the exponents so far.
@@ -97,6 +110,16 @@ void write_history(SampledMotion<double> motion, const JobContext& context,
   });
 }
 
+void write_history(const ModalMotion& motion, const JobContext& context, const LyapunovQuestion&,
+                   std::int64_t steps, Table& table) {
+  ModalLyapunov lyapunov(modal_loop_of(context.case_data), motion);
+  for (std::int64_t step = 0; step < steps; ++step) {
+    look_for_interrupt(step);
+    run_to_completion(lyapunov, 1, {});
+    write_history_row(table, lyapunov.time(), lyapunov.spectrum().exponents());
+  }
+}
+
 template <class Contact>
 void write_history(EventMotion<Contact> motion, const JobContext& context, const LyapunovQuestion&,
                    std::int64_t steps, Table& table) {
@@ -109,6 +132,15 @@ void write_history(EventMotion<Contact> motion, const JobContext& context, const
   tell_of_end(context, motion);
 }
 
+/// Calls `visit` with a motion of the case that has tangents.
+template <class Visit>
+auto with_smooth_motion_of(const Case& the_case, Switching switching, const Visit& visit) {
+  if (!is_modal(the_case)) return with_two_mass_motion_of(the_case, {switching}, visit);
+  if (is_of_the_paper(the_case, switching)) return visit(modal_motion_of(the_case, true));
+  return visit(
+      event_motion(controlled_conductor_of(the_case, switching), modal_state_of(the_case)));
+}
+
 /// One row for each exponent: per sample, per second, standard error.
 void write_exponents(const JobContext& context, const LyapunovQuestion& options) {
   const double period = context.case_data.control.sampling_period;
@@ -119,14 +151,9 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& options)
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
   const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
-  const LyapunovResult result =
-      is_modal(context.case_data)
-          ? exponents_of(event_motion(controlled_conductor_of(context.case_data, options.switching),
-                                      modal_state_of(context.case_data)),
-                         context, options, run)
-          : with_two_mass_motion_of(
-                context.case_data, {options.switching},
-                [&](const auto& motion) { return exponents_of(motion, context, options, run); });
+  const LyapunovResult result = with_smooth_motion_of(
+      context.case_data, options.switching,
+      [&](const auto& motion) { return exponents_of(motion, context, options, run); });
   if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);
@@ -144,15 +171,14 @@ void write_exponent_history(const JobContext& context, const LyapunovQuestion& o
   const std::int64_t steps = steps_of(context, options);
   require_consistent(context.case_data, options);
   Table table(context, columns_of("exponent history"));
-  with_two_mass_motion_of(context.case_data, {options.switching}, [&](const auto& motion) {
+  with_smooth_motion_of(context.case_data, options.switching, [&](const auto& motion) {
     write_history(motion, context, options, steps, table);
   });
   table.commit();
 }
 
 void LyapunovQuestion::run(const JobContext& context) const {
-  require_largest_of_modes(context.case_data, *this);
-  report_warning(dense_work_warning(context.case_data), context.quiet);
+  require_bearable_modes(context.case_data, *this, context.quiet);
   history ? write_exponent_history(context, *this) : write_exponents(context, *this);
 }
 

@@ -48,6 +48,9 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
   const std::string& law = context.case_data.backlash.law;
   const bool at_samples =
       options.switching == Switching::sampled && (law == "immediate" || law == "play");
+  if (is_modal(context.case_data) && is_of_the_paper(context.case_data, options.switching))
+    return visit(
+        certified_orbit(context, modal_loop_of(context.case_data), options.largest_period));
   if (is_modal(context.case_data)) {
     report_warning(dense_work_warning(context.case_data), context.quiet);
     EventOrbit orbit = certified_orbit_of_modes(context, options.switching, options.largest_period);
@@ -111,15 +114,24 @@ void write_border(Table& table, const std::string& name, const Border& border, c
             there ? static_cast<double>(border.sample) * sampling_period : std::nan(""), "s");
 }
 
-/// Distances to the switching surfaces, radius of attraction, multipliers, and the same orbit in
-/// extended precision.
+void write_radii(Table& table, const CaptureRadii& radii) {
+  table.row("capture_radius_smallest", radii.smallest, "m");
+  table.row("capture_radius_largest", radii.largest, "m");
+}
+
+/// Distances to the switching surfaces, radius of attraction, multipliers, and of the two masses
+/// the same orbit in extended precision.
 void write_quantities(Table& table, const JobContext& context, const PeriodicOrbit& orbit) {
   write_size(table, orbit, orbit.amplitude());
   write_border(table, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
   write_border(table, "reversal_distance", orbit.borders.velocity, "m/s", orbit.sampling_period);
+  if (is_modal(context.case_data)) {
+    write_radii(table, capture_radii_of(modal_loop_of(context.case_data), orbit));
+    write_multipliers(table, orbit);
+    return;
+  }
   const OrbitCertificate certificate = certificate_of(ideal_loop_of(context.case_data), orbit);
-  table.row("capture_radius_smallest", certificate.smallest_radius, "m");
-  table.row("capture_radius_largest", certificate.largest_radius, "m");
+  write_radii(table, certificate.radii);
   write_multipliers(table, orbit);
   const OrbitVerification& wide = certificate.verification;
   table.row("extended_precision_same_contacts", wide.same_itinerary ? 1.0 : 0.0, "");

@@ -3,6 +3,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "job.hpp"
@@ -72,6 +73,12 @@ struct VerdictQuestion {
     Table table(context, columns_of("verdict"));
     const Case& the_case = context.case_data;
     const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
+    if (is_modal(the_case) && is_of_the_paper(the_case, switching)) {
+      const ModalLoop loop = modal_loop_of(the_case);
+      require_natural_motions(the_case);
+      write(context, table, classify_motion(loop, modal_state_of(the_case), limits));
+      return;
+    }
     if (is_modal(the_case)) {
       report_warning(dense_work_warning(the_case), context.quiet);
       write(context, table,

@@ -1,6 +1,7 @@
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/phase_space/orbit_diagram.hpp"
 #include "job.hpp"
 
@@ -45,11 +46,17 @@ struct DiagramQuestion {
       table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
                 point.state[2], point.state[3]);
     };
-    const auto path = [&, name = key](double value) {
-      return implemented_loop_of(case_with(context.case_data, name, value), switching);
+    const auto case_at = [&, name = key](double value) {
+      return case_with(context.case_data, name, value);
     };
     const std::size_t diverged =
-        run_orbit_diagram(path, values, initial_state_of(context.case_data), watched, write);
+        is_modal(context.case_data)
+            ? run_orbit_diagram(
+                  [&](double value) { return swept_loop_of(case_at(value), switching); }, values,
+                  modal_state_of(context.case_data), watched, write)
+            : run_orbit_diagram(
+                  [&](double value) { return implemented_loop_of(case_at(value), switching); },
+                  values, initial_state_of(context.case_data), watched, write);
     table.commit();
     if (diverged > 0) {
       report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +

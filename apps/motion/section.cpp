@@ -1,5 +1,7 @@
 #include "holdfast/phase_space/section.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "job.hpp"
@@ -25,17 +27,26 @@ struct SectionQuestion {
     Table table(context, columns_of("section"));
     const std::int64_t before = samples_of(context.case_data, from) - 1;
     const std::int64_t samples = samples_of(context.case_data, duration) - 1;
-    const auto write = [&](const SectionPoint& point) {
-      throw_if_interrupted();
-      if (!not_before(point.time, from)) return;
-      table.row(point.time, point.state[0], point.state[1], point.state[2], point.rising ? 1 : 0,
-                point.engaged ? 0 : 1);
+    const auto run_of = [&](auto motion) {
+      const auto write = [&](const auto& point) {
+        throw_if_interrupted();
+        if (!not_before(point.time, from)) return;
+        const Vector<double, 4> state = motion.readings().both_sides(point.state);
+        table.row(point.time, state[0], state[1], state[2], point.rising ? 1 : 0,
+                  point.engaged ? 0 : 1);
+      };
+      run_to_completion(motion, before, {});
+      require_completed(run_section(motion, samples - before, write), motion.time());
+      tell_of_end(context, motion);
     };
-    auto motion = event_motion(implemented_loop_of(context.case_data, switching),
-                               initial_state_of(context.case_data));
-    run_to_completion(motion, before, {});
-    require_completed(run_section(motion, samples - before, write), motion.time());
-    tell_of_end(context, motion);
+    if (is_modal(context.case_data)) {
+      report_warning(dense_work_warning(context.case_data), context.quiet);
+      run_of(event_motion(modal_implemented_loop_of(context.case_data, switching),
+                          modal_state_of(context.case_data)));
+    } else {
+      run_of(event_motion(implemented_loop_of(context.case_data, switching),
+                          initial_state_of(context.case_data)));
+    }
     tell_trust(context, table,
                trusted_digits_of_motion(context.case_data, switching, samples, from));
     table.commit();

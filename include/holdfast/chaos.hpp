@@ -9,6 +9,8 @@
 #include "holdfast/chaos/itinerary_blocks.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/chaos/modal_classification.hpp"
+#include "holdfast/chaos/modal_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/chaos/recurrence.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"

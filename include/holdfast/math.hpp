@@ -4,6 +4,7 @@
 
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/math/linalg/discrete_lyapunov.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"

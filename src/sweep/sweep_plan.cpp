@@ -99,14 +99,6 @@ void require_room_for_best_gain(const SweepOptions& options, const std::vector<G
   }
 }
 
-/// Of the conductor's motion by its modes nothing is asked that needs its map.
-void require_of_modes(const Case& the_case, const SweepPlan& plan) {
-  refuse_on_modes(the_case, plan.options().best_gain, "--best-gain");
-  for (const SweepMetric metric :
-       {SweepMetric::largest_exponent, SweepMetric::period_samples, SweepMetric::verdict})
-    refuse_on_modes(the_case, plan.wants(metric), "--metric " + metric_column(metric).column.name);
-}
-
 /// Of the numbers of a record, so that another record of the same name is noticed.
 std::string checksum_of(const RecordedForce& record) {
   const auto bytes_of = [](const std::vector<double>& numbers) {
@@ -131,7 +123,8 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
       layout_{sweep_axes(options.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
   require_room_for_best_gain(options_, layout_.axes);
-  require_of_modes(context_.case_data, *this);
+  refuse_on_modes(context_.case_data, options_.best_gain, "--best-gain");
+  require_sweepable(context_.case_data, options_.switching);
   for (const GridAxis& axis : layout_.axes)
     require_in_force(context_.case_data, *find_case_key(axis.column.name));
   shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);

@@ -1,6 +1,8 @@
 // The conductor itself by its modes (plant.model = "string"): a string of one mode against the two
 // masses that it is, longer ones against eigenvalues, and what is refused.
 
+#include <map>
+
 #include "cli/program.hpp"
 #include "holdfast/cable/taut_string.hpp"
 #include "io/text/csv.hpp"
@@ -186,18 +188,21 @@ TEST(String, ModalDampingTellsWhichRootGrows) {
 
 TEST(String, JobsOfTwoMassesRefuseIt) {
   for (const std::string job :
-       {"decay", "peaks", "fit", "sensitivity", "basins", "diagram --axis backlash.width=0:0.001:2",
-        "section", "answers", "report --output never"})
+       {"decay", "peaks", "fit", "sensitivity", "basins", "answers", "report --output never"})
     expect_refused(job + " --set plant.model=string", {"plant.model", "two_masses", "boundary"});
   for (const std::string options :
        {"stability --continuous",
         "stability --axis control.sampling_period=0.001:0.01:2"
         " --axis control.differential_gain=-9:0:2",
         "design --both-gains", "design --band 8:12", "boundary --regions", "boundary --features",
-        "boundary --continuous", "orbit --follow backlash.width=0:0.001", "lyapunov --history",
-        "sweep --axis backlash.width=0:0.001:2 --best-gain",
-        "sweep --axis backlash.width=0:0.001:2 --metric verdict"})
+        "boundary --continuous", "orbit --follow backlash.width=0:0.001",
+        "lyapunov --tangent printed", "sweep --axis backlash.width=0:0.001:2 --best-gain"})
     expect_refused(options + " --quiet --set plant.model=string", {"two_masses"});
+  for (const std::string options :
+       {"lyapunov", "lyapunov --largest --history", "diagram --axis backlash.width=0:0.001:2",
+        "sweep --axis backlash.width=0:0.001:2"})
+    expect_refused(options + " --switching exact --quiet --set plant.model=string",
+                   {"the paper's model"});
   expect_refused("modal-damping", {"plant.model=cable"});
   expect_refused("simulate --switching exact --kick 0.1:0.001 --quiet --set plant.model=string",
                  {"--kick", "the paper's model alone"});
@@ -262,7 +267,10 @@ TEST(String, OrbitVerdictAndSweepOfOneModeAreThoseOfTwoMasses) {
   compare("orbit", {"period_samples", "period_s", "forcing_periods", "largest_multiplier"}, 1e-8);
   compare("orbit --trace", {"z1_m", "v1_m_per_s", "z2_m", "control_force_N"}, 1e-7);
   compare("verdict", {"period_samples", "certified"}, 0.0);
-  compare("lyapunov --largest --duration 200 --discard 60", {"per_sample"}, 1e-2);
+  compare("lyapunov --duration 200 --discard 60", {"per_sample"}, 1e-2);
+  compare("diagram --axis backlash.width=0.0004:0.0006:3 --transient 20 --strobes 6",
+          {"z1_m", "v1_m_per_s", "z2_m", "v2_m_per_s"}, 1e-6);
+  compare("section --duration 12 --from 11", {"time_s", "z1_m", "v1_m_per_s", "z2_m"}, 1e-7);
   compare(
       "sweep --axis backlash.width=0.0001:0.001:4 --metric steady_peak"
       " --metric ratio_to_uncontrolled --metric force_peak --metric engaged_fraction"
@@ -270,6 +278,36 @@ TEST(String, OrbitVerdictAndSweepOfOneModeAreThoseOfTwoMasses) {
       {"steady_peak", "ratio_to_uncontrolled", "force_peak", "engaged_fraction", "absorber_stroke"},
       1e-7);
   compare("max-delay --frequency 6:12:2", {"max_sampling_period_s"}, 1e-6);
+}
+
+TEST(String, HistoryOfExponentsEndsAtTheExponents) {
+  const std::string settings = " --duration 2 --quiet --set plant.model=string";
+  const CsvTable history = table_of("lyapunov --history" + settings),
+                 exponents = table_of("lyapunov" + settings);
+  ASSERT_EQ(exponents.rows(), 5U);
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_EQ(history.number(history.rows() - 1, "lambda" + std::to_string(k + 1)),
+              exponents.number(k, "per_sample"));
+}
+
+/// The certificate tells how far from the orbit all motions come to it; and of the cable, with a
+/// hundred modes and more, it takes no longer than of a few.
+TEST(String, OrbitsOfManyModesAreCertified) {
+  for (const std::string plant : {"string", "cable"}) {
+    const CsvTable table =
+        table_of("orbit --certificate --quiet --set plant.model=" + plant +
+                 " --set control.sampling_period=0.005 --set control.differential_gain=-4"
+                 " --set backlash.width=0.0001");
+    std::map<std::string, double> told;
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      told[table.text(row, "quantity")] = table.number(row, "value");
+    EXPECT_GT(told["capture_radius_smallest"], 0.0) << plant;
+    EXPECT_GE(told["capture_radius_largest"], told["capture_radius_smallest"]) << plant;
+    EXPECT_LT(told["multiplier_1_modulus"], 1.0) << plant;
+    EXPECT_LE(told["closure_error"], 1e-12 * told["amplitude"]) << plant;
+    EXPECT_EQ(told.count("multiplier_10_modulus"), 1U) << plant;
+    EXPECT_EQ(told.count("multiplier_11_modulus"), 0U) << plant;
+  }
 }
 
 /// The roots of the modes at once make the radii, against the eigenvalues of the map.

@@ -122,7 +122,8 @@ ContactSequence random_sequence(test::Random& random) {
 }
 
 template <class Scalar>
-std::optional<PeriodicSolution<Scalar>> solve_sequence(const ContactSequence& sequence) {
+std::optional<PeriodicSolution<ItineraryMaps<Scalar>>> solve_sequence(
+    const ContactSequence& sequence) {
   const ItineraryMaps<Scalar> maps(converted<Scalar>(sequence.loop), sequence.ratio);
   return periodic_solution(maps, sequence.itinerary, maps_of_blocks(maps, sequence.itinerary));
 }

@@ -1,9 +1,12 @@
 #include "holdfast/phase_space/orbit_diagram.hpp"
 
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
 #include "support/kollar_case.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/message_of.hpp"
 #include "support/reference/state_between_samples.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -201,6 +204,48 @@ TEST(OrbitDiagram, RefusesALoopWithoutAHarmonic) {
 TEST(OrbitDiagram, RefusesWhatIsNotAdmissible) {
   EXPECT_THROW(validate(DiagramOptions{-1.0, 5}), InvalidParameter);
   EXPECT_THROW(validate(DiagramOptions{1.0, 0}), InvalidParameter);
+}
+
+/// Most strobes fall between the samples; the modes are more at one of the values.
+TEST(OrbitDiagram, OfAConductorByItsModesIsThatOfTheDensePlant) {
+  const auto string = taut_string(kollar2022_conductor());
+  const auto loop_at = [&](double width) {
+    return ModalLoop{string_modes(string, 0.64, width > 4e-4 ? 6 : 5),
+                     test::papers_absorber(0.01),
+                     {0.009, 0.004},
+                     {-557.0, -2.0},
+                     {0.5, 10.0},
+                     width,
+                     ForceHold::exact};
+  };
+  const auto dense_at = [&](double width) {
+    const ModalLoop loop = loop_at(width);
+    return implemented_loop(IdealLoop<double, LinearPlant<double>>{
+        modal_plant(loop.modes, loop.absorber), loop.sampling, loop.gains, loop.excitation,
+        loop.backlash_width, loop.hold});
+  };
+  std::vector<StrobePoint> found;
+  const DiagramOptions options{3.0, 7};
+  const std::vector<double> widths{1e-4, 3e-4};
+  const ModalMotion::Full rest = ModalMotion::Full::Zero(12);
+  EXPECT_EQ(run_orbit_diagram(loop_at, widths, rest, options,
+                              [&](const StrobePoint& point) { found.push_back(point); }),
+            0U);
+  std::size_t next = 0;
+  const PortReadings<LinearPlant<double>> readings(dense_at(1e-4).plant);
+  run_orbit_diagram(dense_at, widths, rest, options, [&](const auto& point) {
+    ASSERT_LT(next, found.size());
+    EXPECT_EQ(found[next].index, point.index);
+    EXPECT_EQ(found[next].upward, point.upward);
+    const Vector<double, 4> state = readings.both_sides(point.state);
+    EXPECT_LE((found[next++].state - state).cwiseAbs().maxCoeff(), 1e-10);
+  });
+  EXPECT_EQ(next, found.size());
+  // Of a value with a mode more the motion goes on with the slower ones.
+  found.clear();
+  run_orbit_diagram(loop_at, {3e-4, 5e-4}, rest, options,
+                    [&](const StrobePoint& point) { found.push_back(point); });
+  EXPECT_EQ(found.size(), 28U);
 }
 
 }  // namespace

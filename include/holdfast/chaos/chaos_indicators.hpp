@@ -42,11 +42,10 @@ inline void validate(const IndicatorOptions& options) {
                  1.0, samples / 500.0);
 }
 
-/// The largest Lyapunov exponent of a sequence of tangent maps, with a 95 % interval that holds
-/// also where the sums are bounded.
-///
-/// First `settle` turns the basis into the directions of the exponents, and nothing is summed; then
-/// `push` sums s_n = Σ ln |R_jj|. Two things bound the error of s_n/n, the larger of which counts
+namespace detail {
+
+/// The largest exponent of a spectrum with a 95 % interval that holds also where the sums s_n =
+/// Σ ln |R_jj| are bounded. Two things bound the error of s_n/n, the larger of which counts
 /// (`exponent_estimate`):
 ///
 ///  - the scatter of batch means, which a chaotic motion has;
@@ -55,42 +54,30 @@ inline void validate(const IndicatorOptions& options) {
 ///    most the width of those bounds over n. The width is read off the last 1/32 of the steps,
 ///    where a wandering sum moves by much less than its standard error.
 template <int Size>
-class LeadingExponent {
+class ExponentWatch {
  public:
-  /// Begins without a map. The first argument is how many maps will be pushed after settling, ≥ 64;
-  /// the second their size, where that is known at run time alone.
-  /// @throws InvalidParameter for fewer
-  explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
-      : basis_(Matrix<double, Size>::Identity(size, size)),
-        spectrum_(basis_),
-        watched_from_(expected_steps - expected_steps / 32) {
+  /// @throws InvalidParameter for fewer than 64 steps
+  explicit ExponentWatch(std::int64_t expected_steps)
+      : watched_from_(expected_steps - expected_steps / 32) {
     require_within("number of steps", static_cast<double>(expected_steps), "", 64.0, 1e15);
     sums_.reserve(static_cast<std::size_t>(std::min<std::int64_t>(expected_steps / 32, most_sums)));
   }
 
-  /// Turns the basis by one map of the transient; call before the first push.
-  void settle(const Matrix<double, Size>& tangent) {
-    const Matrix<double, Size> stretched = tangent * basis_;
-    basis_ = Eigen::HouseholderQR<Matrix<double, Size>>(stretched).householderQ();
+  /// Whether the steps have come to those that are watched.
+  bool watches(std::int64_t steps) const {
+    return steps >= watched_from_ && sums_.size() < most_sums;
+  }
+  /// Looks at a spectrum after a step that is watched.
+  void look_at(const LyapunovSpectrum<double, Size>& spectrum) {
+    sums_.push_back(spectrum.exponents() * static_cast<double>(spectrum.steps()));
   }
 
-  /// Takes in one map.
-  void push(const Matrix<double, Size>& tangent) {
-    if (spectrum_.steps() == 0) spectrum_ = LyapunovSpectrum<double, Size>(basis_);
-    spectrum_.push(tangent);
-    if (spectrum_.steps() < watched_from_ || sums_.size() >= most_sums) return;
-    sums_.push_back(spectrum_.exponents() * static_cast<double>(spectrum_.steps()));
-  }
-
-  /// All exponents over the maps pushed, with standard errors by batch means alone.
-  const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
-
-  /// The largest exponent; only after at least 64 maps.
-  ExponentEstimate indicators() const {
+  /// The largest exponent; only after at least 64 steps.
+  ExponentEstimate largest(const LyapunovSpectrum<double, Size>& spectrum) const {
     Eigen::Index which = 0;
-    const double value = spectrum_.exponents().maxCoeff(&which);
-    const double steps = static_cast<double>(spectrum_.steps());
-    return exponent_estimate(value, spectrum_.standard_errors()[which],
+    const double value = spectrum.exponents().maxCoeff(&which);
+    const double steps = static_cast<double>(spectrum.steps());
+    return exponent_estimate(value, spectrum.standard_errors()[which],
                              bounds_width(which, value) / steps);
   }
 
@@ -108,10 +95,51 @@ class LeadingExponent {
     return std::isfinite(high - low) ? high - low : 0.0;
   }
 
-  Matrix<double, Size> basis_;
-  LyapunovSpectrum<double, Size> spectrum_;
   std::int64_t watched_from_;
   std::vector<Vector<double, Size>> sums_;
+};
+
+}  // namespace detail
+
+/// The largest Lyapunov exponent of a sequence of tangent maps, with a 95 % interval that holds
+/// also where the sums are bounded.
+///
+/// First `settle` turns the basis into the directions of the exponents, and nothing is summed; then
+/// `push` sums ln |R_jj|.
+template <int Size>
+class LeadingExponent {
+ public:
+  /// Begins without a map. The first argument is how many maps will be pushed after settling, ≥ 64;
+  /// the second their size, where that is known at run time alone.
+  /// @throws InvalidParameter for fewer
+  explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
+      : basis_(Matrix<double, Size>::Identity(size, size)),
+        spectrum_(basis_),
+        watch_(expected_steps) {}
+
+  /// Turns the basis by one map of the transient; call before the first push.
+  void settle(const Matrix<double, Size>& tangent) {
+    const Matrix<double, Size> stretched = tangent * basis_;
+    basis_ = Eigen::HouseholderQR<Matrix<double, Size>>(stretched).householderQ();
+  }
+
+  /// Takes in one map.
+  void push(const Matrix<double, Size>& tangent) {
+    if (spectrum_.steps() == 0) spectrum_ = LyapunovSpectrum<double, Size>(basis_);
+    spectrum_.push(tangent);
+    if (watch_.watches(spectrum_.steps())) watch_.look_at(spectrum_);
+  }
+
+  /// All exponents over the maps pushed, with standard errors by batch means alone.
+  const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
+
+  /// The largest exponent; only after at least 64 maps.
+  ExponentEstimate indicators() const { return watch_.largest(spectrum_); }
+
+ private:
+  Matrix<double, Size> basis_;
+  LyapunovSpectrum<double, Size> spectrum_;
+  detail::ExponentWatch<Size> watch_;
 };
 
 namespace detail {
@@ -189,6 +217,46 @@ void weigh_returns(const std::vector<Vector<double, Size>>& states,
   indicators.recurrence = recurrence_shares<Size>(last, recurrence_radius);
 }
 
+/// chaos_indicators() with exponents of any kind.
+/// @param take_tangent  called after each step with the state before it and whether the step is one
+///                      that counts
+template <int Size, class TakeTangent>
+ChaosIndicators indicators_of_system(
+    const Vector<double, Size>& initial, const std::function<void(Vector<double, Size>&)>& advance,
+    const std::function<double(const Vector<double, Size>&)>& observable,
+    const IndicatorOptions& options, const TakeTangent& take_tangent,
+    const std::function<bool()>& contact) {
+  validate(options);
+  for (const double entry : initial) require_finite("initial state", entry, "");
+  ChaosIndicators indicators;
+  indicators.forcing_incommensurate = options.forcing_incommensurate;
+  DivergenceGuard<Size> guard(initial);
+  std::vector<Vector<double, Size>> states;
+  std::vector<double> observed;
+  std::vector<bool> itinerary;
+  Vector<double, Size> state = initial;
+  for (std::int64_t index = 0; index < options.transient + options.samples; ++index) {
+    const bool is_looked_at = index >= options.transient;
+    const Vector<double, Size> before = state;
+    advance(state);
+    if (guard.leaves(state)) {
+      indicators.diverged_at = index + 1;
+      return indicators;
+    }
+    take_tangent(before, is_looked_at);
+    if (!is_looked_at) continue;
+    states.push_back(before);
+    observed.push_back(observable(before));
+    if (contact) itinerary.push_back(contact());
+  }
+  weigh_returns<Size>(states, guard.largest(), indicators);
+  indicators.zero_one = zero_one_test(every(observed, options.zero_one_stride)).median;
+  indicators.lines = spectral_indicators(observed, options.base_frequency);
+  indicators.extent_growth = extent_growth(observed);
+  if (contact) indicators.switching = switching_complexity(itinerary);
+  return indicators;
+}
+
 }  // namespace detail
 
 /// Runs a discrete system and computes the indicators that `classify` weighs.
@@ -225,35 +293,14 @@ ChaosIndicators chaos_indicators(
     const std::function<Matrix<double, Size>(const Vector<double, Size>&)>& tangent = {},
     const std::function<bool()>& contact = {}) {
   validate(options);
-  for (const double entry : initial) require_finite("initial state", entry, "");
-  ChaosIndicators indicators;
-  indicators.forcing_incommensurate = options.forcing_incommensurate;
-  detail::DivergenceGuard<Size> guard(initial);
   LeadingExponent<Size> exponent(options.samples, initial.size());
-  std::vector<Vector<double, Size>> states;
-  std::vector<double> observed;
-  std::vector<bool> itinerary;
-  Vector<double, Size> state = initial;
-  for (std::int64_t index = 0; index < options.transient + options.samples; ++index) {
-    const bool is_looked_at = index >= options.transient;
-    const Vector<double, Size> before = state;
-    advance(state);
-    if (guard.leaves(state)) {
-      indicators.diverged_at = index + 1;
-      return indicators;
-    }
-    if (tangent) is_looked_at ? exponent.push(tangent(before)) : exponent.settle(tangent(before));
-    if (!is_looked_at) continue;
-    states.push_back(before);
-    observed.push_back(observable(before));
-    if (contact) itinerary.push_back(contact());
-  }
-  if (tangent) indicators.largest_exponent = exponent.indicators();
-  detail::weigh_returns<Size>(states, guard.largest(), indicators);
-  indicators.zero_one = zero_one_test(detail::every(observed, options.zero_one_stride)).median;
-  indicators.lines = detail::spectral_indicators(observed, options.base_frequency);
-  indicators.extent_growth = detail::extent_growth(observed);
-  if (contact) indicators.switching = switching_complexity(itinerary);
+  ChaosIndicators indicators = detail::indicators_of_system<Size>(
+      initial, advance, observable, options,
+      [&](const Vector<double, Size>& before, bool counts) {
+        if (tangent) counts ? exponent.push(tangent(before)) : exponent.settle(tangent(before));
+      },
+      contact);
+  if (tangent && !indicators.diverged_at) indicators.largest_exponent = exponent.indicators();
   return indicators;
 }
 

@@ -13,6 +13,21 @@
 
 namespace holdfast {
 
+namespace detail {
+
+/// An orthogonal basis in which no map of a loop has an invariant or a null direction along
+/// an axis: the reflection I − 2 v vᵀ / ‖v‖², v_i = √(i + 1).
+/// @param size  of the maps
+template <class Scalar = double, int Size = 7>
+Matrix<Scalar, Size> oblique_basis(Eigen::Index size = Size) {
+  Vector<Scalar, Size> normal(size);
+  for (Eigen::Index i = 0; i < size; ++i) normal[i] = std::sqrt(static_cast<double>(i) + 1.0);
+  return Matrix<Scalar, Size>::Identity(size, size) -
+         normal * normal.transpose() * (2.0 / normal.squaredNorm());
+}
+
+}  // namespace detail
+
 /// Lyapunov spectrum of a sequence of tangent maps, by QR at every step.
 ///
 ///     M_j Q_j = Q_{j+1} R_{j+1},   λ_i = (1/n) Σ_j ln |(R_j)_ii|   (natural logarithm per step)

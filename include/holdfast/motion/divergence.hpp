@@ -3,9 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
+#include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 
 namespace holdfast {
@@ -38,6 +41,16 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
   const double deflection = detail::static_deflection(loop.plant, largest);
   const double scale = deflection * (1.0 + force.highest_angular_frequency()) +
                        loop.backlash.width + state.cwiseAbs().maxCoeff();
+  return 1e12 * std::max(scale, 1e-100);
+}
+
+/// The same of a conductor by its modes: all that the force bends it statically counts.
+/// @param state  the initial one, of `modal_plant`
+inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {
+  const double bend = receptance(loop.modes, std::complex<double>(0.0)).real();
+  const double deflection = loop.excitation.amplitude * bend;
+  const double scale = deflection * (1.0 + loop.excitation.angular_frequency()) +
+                       loop.backlash_width + state.cwiseAbs().maxCoeff();
   return 1e12 * std::max(scale, 1e-100);
 }
 

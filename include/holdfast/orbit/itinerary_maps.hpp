@@ -27,6 +27,10 @@ using Itinerary = std::vector<std::uint8_t>;
 template <class Scalar>
 class ItineraryMaps {
  public:
+  using State = Vector<Scalar, 5>;      ///< z̃
+  using Map = Matrix<Scalar, 5>;        ///< of deviations
+  using System = CyclicSystem<Scalar>;  ///< what is solved for a periodic motion
+
   /// @param loop   its backlash width is not looked at
   /// @param ratio  f τ = p/q, of forcing_ratio()
   ItineraryMaps(const IdealLoop<Scalar>& loop, const Rational& ratio)
@@ -57,6 +61,24 @@ class ItineraryMaps {
     next.template head<4>() += forcing_.additions()[phase];
     return next;
   }
+
+  /// All states of an itinerary from a given first one, and the state after its last sample.
+  /// @param itinerary  its first sample at phase 0 of the forcing
+  /// @param states     takes z̃_j, one a sample
+  State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {
+    states.front() = first;
+    std::size_t phase = 0;
+    for (std::size_t j = 0; j + 1 < itinerary.size(); ++j) {
+      states[j + 1] = step(states[j], itinerary[j] != 0, phase);
+      if (++phase == samples_of_forcing()) phase = 0;
+    }
+    return step(states.back(), itinerary.back() != 0, phase);
+  }
+
+  /// At rest.
+  State rest() const { return State::Zero(); }
+  /// [z; u_{j−1}] of a state: all of it.
+  const State& seen(const State& state) const { return state; }
 
  private:
   ItineraryMaps(const SampledLoop<Scalar>& sampled, const IdealLoop<Scalar>& loop,

@@ -18,32 +18,31 @@ namespace holdfast {
 
 namespace detail {
 
-/// A motion of an IdealLoop as ReturnSearch asks for it: a return whose contacts have repeated is
+/// A motion of a sampled loop as ReturnSearch asks for it: a return whose contacts have repeated is
 /// solved for their exact orbit, and the motion has come to an orbit once it lies within the
-/// orbit's radius of attraction.
-/// @tparam Scalar  `double`; a template so that only who uses it compiles it
-template <class Scalar>
+/// orbit's region of attraction.
+/// @tparam Loop        IdealLoop or ModalLoop
+/// @tparam MotionOf    its motion
+/// @tparam Attraction  its Maps, `maps()`; samples_per_solved; `surround(orbit)` looks for the
+///                     region, `holds(motion)` tells whether a motion lies in it
+template <class Loop, class MotionOf, class Attraction>
 class SampledSearchModel {
  public:
-  using Motion = PeriodicallyForcedMotion<Scalar>;
-  using Plant = TwoMass<Scalar>;
+  using Motion = MotionOf;
+  using Plant = TwoMass<double>;
   using State = typename Motion::State;
   using Memory = decltype(std::declval<Motion>().memory());
   using Symbol = Itinerary::value_type;
   using Result = OrbitResult;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  /// A sample solved for costs some ten to fifty samples taken.
-  static constexpr std::int64_t samples_per_solved = 16;
+  static constexpr std::int64_t samples_per_solved = Attraction::samples_per_solved;
 
-  SampledSearchModel(const IdealLoop<Scalar>& loop, const Rational& ratio, const Motion& motion)
-      : loop_(loop),
-        ratio_(ratio),
-        maps_(loop, ratio),
-        motion_(motion),
-        weights_(deviation_weights(loop)) {}
+  SampledSearchModel(const Loop& loop, const Rational& ratio, const Motion& motion,
+                     const Attraction& attraction)
+      : loop_(loop), ratio_(ratio), motion_(motion), attraction_(attraction) {}
 
-  const PortReadings<Plant>& readings() const { return motion_.readings(); }
+  auto readings() const { return motion_.readings(); }
   const State& state() const { return motion_.state(); }
   Memory memory() const { return motion_.memory(); }
   bool is_followed() const { return true; }
@@ -55,7 +54,7 @@ class SampledSearchModel {
   }
 
   bool has_contact_of(const Memory& other) const {
-    return motion_.law().inside() == other.backlash.inside;
+    return memory().backlash.inside == other.backlash.inside;
   }
 
   /// Whether the contacts since the reference are those of as many samples before it.
@@ -80,14 +79,11 @@ class SampledSearchModel {
   }
 
   void approach(const Result& found, const Seen&) {
-    if (found.outcome == OrbitOutcome::certified) balls_ = attraction_balls(loop_, *found.orbit);
+    if (found.outcome == OrbitOutcome::certified) attraction_.surround(*found.orbit);
   }
 
   bool has_come(const Result& found, const Seen&) const {
-    return found.outcome == OrbitOutcome::on_surface ||
-           std::any_of(balls_.begin(), balls_.end(), [this](const AttractionBall& ball) {
-             return attracts(ball, motion_.memory(), weights_);
-           });
+    return found.outcome == OrbitOutcome::on_surface || attraction_.holds(motion_);
   }
 
   /// The same orbit with its shortest period.
@@ -117,29 +113,60 @@ class SampledSearchModel {
     return same_itinerary && seen.came_nearer(first, before, seen.extent.share_of(state() - first));
   }
 
-  Result solved(const Itinerary& itinerary, const BacklashMemory<Scalar>& memory) const {
-    const Backlash<Scalar> law(loop_.backlash_width, memory);
-    return orbit_of_itinerary(loop_, ratio_, maps_, itinerary, law);
+  Result solved(const Itinerary& itinerary, const BacklashMemory<double>& memory) const {
+    const Backlash<double> law(loop_.backlash_width, memory);
+    return orbit_of_itinerary(loop_, ratio_, attraction_.maps(), itinerary, law);
   }
 
-  IdealLoop<Scalar> loop_;
+  Loop loop_;
   Rational ratio_;
-  ItineraryMaps<Scalar> maps_;
   Motion motion_;
+  Attraction attraction_;
+};
+
+/// The region of attraction of an orbit of an IdealLoop, from attraction_balls().
+/// @tparam Scalar  `double`; a template so that only who uses it compiles it
+template <class Scalar>
+class SampledAttraction {
+ public:
+  /// A sample solved for costs some ten to fifty samples taken.
+  static constexpr std::int64_t samples_per_solved = 16;
+
+  SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
+      : loop_(loop), maps_(loop, ratio), weights_(deviation_weights(loop)) {}
+
+  const ItineraryMaps<Scalar>& maps() const { return maps_; }
+  void surround(const PeriodicOrbit& orbit) { balls_ = attraction_balls(loop_, orbit); }
+  bool holds(const PeriodicallyForcedMotion<Scalar>& motion) const {
+    return std::any_of(balls_.begin(), balls_.end(), [&](const AttractionBall& ball) {
+      return attracts(ball, motion.memory(), weights_);
+    });
+  }
+
+ private:
+  IdealLoop<Scalar> loop_;
+  ItineraryMaps<Scalar> maps_;
   Vector<Scalar, 6> weights_;
   std::vector<AttractionBall> balls_;  // of the proposed orbit
 };
 
 /// The orbit of a motion that stands at a stroboscopic instant.
-template <class Scalar>
-OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
-                            const OrbitLimits& limits,
-                            const PeriodicallyForcedMotion<Scalar>& motion) {
-  const SampledSearchModel<Scalar> model(loop, ratio, motion);
+template <class Loop, class Motion, class Attraction>
+OrbitResult orbit_by_returns(const Loop& loop, const Rational& ratio, const OrbitLimits& limits,
+                             const Motion& motion, const Attraction& attraction) {
+  const SampledSearchModel<Loop, Motion, Attraction> model(loop, ratio, motion, attraction);
   OrbitResult found = ReturnSearch(model, ratio, limits).run();
   if (found.orbit && found.outcome != OrbitOutcome::not_reproduced)
     found.orbit = model.shortened(*found.orbit);
   return found;
+}
+
+/// The same of an IdealLoop.
+template <class Scalar>
+OrbitResult orbit_of_motion(const IdealLoop<Scalar>& loop, const Rational& ratio,
+                            const OrbitLimits& limits,
+                            const PeriodicallyForcedMotion<Scalar>& motion) {
+  return orbit_by_returns(loop, ratio, limits, motion, SampledAttraction<Scalar>(loop, ratio));
 }
 
 }  // namespace detail

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -45,53 +46,42 @@ struct PeriodicOrbit : LoopOrbit<5> {
 using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 
 /// The states of a motion that repeats a given itinerary for ever.
-template <class Scalar>
+/// @tparam Maps  ItineraryMaps or ModalItineraryMaps
+template <class Maps>
 struct PeriodicSolution {
-  std::vector<Vector<Scalar, 5>> states;  ///< z̃_j = [z_j; u_{j−1}], one for each sample
-  Scalar closure_error;  ///< ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀
+  using Seen = std::decay_t<decltype(std::declval<Maps>().seen(std::declval<Maps>().rest()))>;
+
+  typename Maps::State first;  ///< the first state
+  std::vector<Seen> states;    ///< z̃_j = [z_j; u_{j−1}], one for each sample
+  /// ‖z_N − z₀‖ (SI numbers of m and m/s) after one period from z₀.
+  typename Seen::Scalar closure_error;
   /// What that means for z₀ itself, (I − M)⁻¹ (z̃_N − z̃₀), as a share of the states' extent.
   double state_error;
 };
 
-namespace detail {
-
-/// All states of the sequence from a given first one, and the state after its last sample.
-template <class Scalar>
-Vector<Scalar, 5> follow_itinerary(const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
-                                   std::vector<Vector<Scalar, 5>>& states) {
-  std::size_t phase = 0;
-  for (std::size_t j = 0; j + 1 < itinerary.size(); ++j) {
-    states[j + 1] = maps.step(states[j], itinerary[j] != 0, phase);
-    if (++phase == maps.samples_of_forcing()) phase = 0;
-  }
-  return maps.step(states.back(), itinerary.back() != 0, phase);
-}
-
-}  // namespace detail
-
-/// Solves z̃_N = z̃₀ for an itinerary, (I − M) z̃₀ = g without forming M or g: what a motion from rest
+/// Solves z̃_N = z̃₀ for an itinerary, (I − M) z̃₀ = g without forming g: what a motion from rest
 /// leaves open after one period is divided out, three times for the last digits.
 /// @param maps       of the loop
 /// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
 /// @param blocks     maps_of_blocks() of the sequence
 /// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
 ///         periodic solution, or a continuum of them
-template <class Scalar>
-std::optional<PeriodicSolution<Scalar>> periodic_solution(
-    const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
-    const std::vector<Matrix<Scalar, 5>>& blocks) {
-  const CyclicSystem<Scalar> system(blocks);
+template <class Maps>
+std::optional<PeriodicSolution<Maps>> periodic_solution(
+    const Maps& maps, const Itinerary& itinerary, const std::vector<typename Maps::Map>& blocks) {
+  const typename Maps::System system(blocks);
   if (system.is_singular()) return std::nullopt;
-  PeriodicSolution<Scalar> solution;
-  solution.states.assign(itinerary.size(), Vector<Scalar, 5>::Zero());
-  Vector<Scalar, 5> open, correction = Vector<Scalar, 5>::Zero();
+  PeriodicSolution<Maps> solution;
+  solution.first = maps.rest();
+  solution.states.resize(itinerary.size());
+  typename Maps::State open = maps.rest(), correction = open;
   for (int turn = 0; turn < 4; ++turn) {
-    solution.states.front() += correction;
-    open = detail::follow_itinerary(maps, itinerary, solution.states) - solution.states.front();
+    solution.first += correction;
+    open = maps.follow(solution.first, itinerary, solution.states) - solution.first;
     correction = maps.units().cwiseProduct(system.correction(open.cwiseQuotient(maps.units())));
   }
-  solution.closure_error = open.template head<4>().norm();
-  solution.state_error = StateScale(solution.states).share_of(correction);
+  solution.closure_error = maps.seen(open).template head<4>().norm();
+  solution.state_error = StateScale(solution.states).share_of(maps.seen(correction));
   return solution;
 }
 
@@ -103,13 +93,13 @@ std::optional<PeriodicSolution<Scalar>> periodic_solution(
 /// @param itinerary  N samples, N ≥ 1 a multiple of q, the first one at phase 0 of the forcing
 /// @param law        the backlash before the first sample, as the motion that led here left it
 /// @return `certified` where the solution has this itinerary, attracting or not
-/// Work: about 500 multiply-adds a sample; memory about 70 bytes a sample.
-/// @tparam Scalar  `double`; a template so that only who calls it compiles it
-template <class Scalar>
-OrbitResult orbit_of_itinerary(const IdealLoop<Scalar>& loop, const Rational& ratio,
-                               const ItineraryMaps<Scalar>& maps, const Itinerary& itinerary,
-                               const Backlash<Scalar>& law) {
-  const std::vector<Matrix<Scalar, 5>> blocks = maps_of_blocks(maps, itinerary);
+/// Work: about 500 multiply-adds a sample of the two masses; memory about 70 bytes a sample.
+/// @tparam Loop  IdealLoop or ModalLoop, with its Maps; a template so that only who calls it
+///               compiles it
+template <class Loop, class Maps, class Scalar>
+OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Maps& maps,
+                               const Itinerary& itinerary, const Backlash<Scalar>& law) {
+  const std::vector<typename Maps::Map> blocks = maps_of_blocks(maps, itinerary);
   auto solution = periodic_solution(maps, itinerary, blocks);
   if (!solution) return {};
   const SwitchingPattern pattern = switching_pattern(solution->states, law);
@@ -160,7 +150,7 @@ OrbitVerification verify_orbit(const IdealLoop<double>& loop, const PeriodicOrbi
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
-extern template std::optional<PeriodicSolution<double>> periodic_solution(
+extern template std::optional<PeriodicSolution<ItineraryMaps<double>>> periodic_solution(
     const ItineraryMaps<double>&, const Itinerary&, const std::vector<Matrix<double, 5>>&);
 extern template OrbitResult orbit_of_itinerary(const IdealLoop<double>&, const Rational&,
                                                const ItineraryMaps<double>&, const Itinerary&,

@@ -81,26 +81,53 @@ struct DeviationSegment {
   double growth = 1.0;                                      // Frobenius norm
 };
 
-/// Follows deviations e = [e_z; e_u; e_gap], scaled to metres, along an orbit.
+/// Deviations of a motion of an IdealLoop side by side, one a column: z̃ in metres, by its two maps.
 template <class Scalar>
+class SampledDeviations {
+ public:
+  using Columns = Matrix<Scalar, 6>;               ///< six deviations e
+  using Row = RowVector<Scalar, 6>;                ///< of each a number
+  using Deviations = Eigen::Matrix<Scalar, 5, 6>;  ///< without their gaps
+
+  SampledDeviations(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps) {
+    const Vector<Scalar, 5> weights = deviation_weights(loop).template head<5>();
+    for (const bool engaged : {false, true})
+      maps_[engaged ? 1 : 0] =
+          weights.asDiagonal() * maps.map(engaged) * weights.cwiseInverse().asDiagonal();
+    relative_ = {Read::Unit(2) / weights[2] - Read::Unit(0) / weights[0],
+                 Read::Unit(3) / weights[3] - Read::Unit(1) / weights[1]};
+  }
+
+  Eigen::Index order() const { return 5; }
+  void begin(const Deviations& deviations) { deviations_ = deviations; }
+  const Deviations& columns() const { return deviations_; }
+  Row relative_displacement() const { return relative_[0] * deviations_; }
+  Row relative_velocity() const { return relative_[1] * deviations_; }
+  void advance(bool engaged) { deviations_ = maps_[engaged ? 1 : 0] * deviations_; }
+
+ private:
+  using Read = RowVector<Scalar, 5>;
+
+  std::array<Matrix<Scalar, 5>, 2> maps_;
+  std::array<Read, 2> relative_;  // Δz and Δż
+  Deviations deviations_;
+};
+
+/// Follows deviations e = [e_x; e_gap], in metres, along an orbit.
+/// @tparam Deviations  SampledDeviations or ModalDeviations: order(), begin(columns), columns(),
+///                     relative_displacement(), relative_velocity(), advance(engaged)
+template <class Deviations>
 class DeviationFlow {
  public:
-  DeviationFlow(const IdealLoop<Scalar>& loop, const ItineraryMaps<Scalar>& maps,
-                const PeriodicOrbit& orbit)
-      : pattern_(
-            switching_pattern(orbit.states, Backlash<Scalar>(loop.backlash_width, orbit.memory))),
+  using Columns = typename Deviations::Columns;
+  using Row = typename Deviations::Row;
+
+  DeviationFlow(const Deviations& deviations, double width, const PeriodicOrbit& orbit)
+      : deviations_(deviations),
+        pattern_(switching_pattern(orbit.states, Backlash<double>(width, orbit.memory))),
         stays_inside_(pattern_.stays_inside()),
         distances_(orbit.states.size()) {
-    const Vector<Scalar, 6> weights = deviation_weights(loop);
-    for (const bool engaged : {false, true}) {
-      Matrix<Scalar, 6>& map = maps_[engaged ? 1 : 0];
-      map.setZero();
-      map.template topLeftCorner<5, 5>() = maps.map(engaged);
-      map = weights.asDiagonal() * map * weights.cwiseInverse().asDiagonal();
-    }
-    relative_ = {Row::Unit(2) / weights[2] - Row::Unit(0) / weights[0],
-                 Row::Unit(3) / weights[3] - Row::Unit(1) / weights[1]};
-    for_each_border(pattern_, orbit.states, loop.backlash_width,
+    for_each_border(pattern_, orbit.states, width,
                     [this](std::size_t j, SwitchingSurface surface, double distance) {
                       Distances& here = distances_[j];
                       const bool reverses = surface == SwitchingSurface::reversal;
@@ -109,22 +136,37 @@ class DeviationFlow {
                     });
   }
 
+  /// Of e.
+  Eigen::Index order() const { return deviations_.order() + 1; }
+
   /// The segment of the next `samples` samples.
   DeviationSegment next(std::int64_t samples) {
     DeviationSegment segment;
-    segment.growth = follow(samples, segment).norm();
+    segment.growth = follow(unit(), samples, segment).norm();
     return segment;
   }
 
   /// Φ over the next `samples` samples.
-  Matrix<Scalar, 6> over(std::int64_t samples) {
+  Columns over(std::int64_t samples) {
     DeviationSegment segment;
-    return follow(samples, segment);
+    return follow(unit(), samples, segment);
+  }
+
+  /// What becomes of some deviations over the next `samples` samples.
+  /// @param segment  takes the largest norm for which no combination of them changes a decision
+  Columns follow(const Columns& deviations, std::int64_t samples, DeviationSegment& segment) {
+    deviations_.begin(deviations.topRows(deviations.rows() - 1));
+    gap_ = deviations.row(deviations.rows() - 1);
+    for (std::int64_t k = 0; k < samples; ++k) {
+      take_sample(segment);
+      if (++sample_ == distances_.size()) sample_ = 0;
+    }
+    Columns all(order(), gap_.size());
+    all << deviations_.columns(), gap_;
+    return all;
   }
 
  private:
-  using Row = RowVector<Scalar, 6>;
-
   /// Of a sample from the surfaces that its decision rests on (m, m/s); of an orbit that stays
   /// inside 1, for a metre of clearance.
   struct Distances {
@@ -132,37 +174,32 @@ class DeviationFlow {
     double velocity = std::numeric_limits<double>::infinity();
   };
 
-  Matrix<Scalar, 6> follow(std::int64_t samples, DeviationSegment& segment) {
-    Matrix<Scalar, 6> flow = Matrix<Scalar, 6>::Identity();
-    for (std::int64_t k = 0; k < samples; ++k) {
-      take_sample(flow, segment);
-      if (++sample_ == distances_.size()) sample_ = 0;
-    }
-    return flow;
-  }
+  Columns unit() const { return Columns::Identity(order(), order()); }
 
-  void take_sample(Matrix<Scalar, 6>& flow, DeviationSegment& segment) {
+  void take_sample(DeviationSegment& segment) {
     const ContactDecision& decision = pattern_.decisions[sample_];
     const auto limit = [&](const Row& row, double distance) {
-      segment.radius = std::min(segment.radius, distance / (row * flow).norm());
+      segment.radius = std::min(segment.radius, distance / row.norm());
     };
-    if (decision.velocity_sign != 0) limit(relative_[1], distances_[sample_].velocity);
-    if (decision.was_inside) {
-      Row from_gap = relative_[0];
-      if (!stays_inside_) from_gap[5] = -1.0;
-      limit(from_gap, distances_[sample_].displacement);
+    if (decision.velocity_sign != 0)
+      limit(deviations_.relative_velocity(), distances_[sample_].velocity);
+    const Row displacement = deviations_.relative_displacement();
+    if (decision.was_inside)
+      limit(stays_inside_ ? displacement : Row(displacement - gap_),
+            distances_[sample_].displacement);
+    if (!decision.was_inside && !decision.engaged) {
+      gap_ = displacement;
+    } else if (decision.engaged || stays_inside_) {
+      gap_.setZero();
     }
-    Matrix<Scalar, 6> map = maps_[decision.engaged ? 1 : 0];
-    if (!decision.was_inside && !decision.engaged) map.row(5) = relative_[0];
-    if (decision.was_inside && !decision.engaged && !stays_inside_) map(5, 5) = 1.0;
-    flow = map * flow;
+    deviations_.advance(decision.engaged);
   }
 
+  Deviations deviations_;
+  Row gap_;
   SwitchingPattern pattern_;
   bool stays_inside_;
   std::vector<Distances> distances_;
-  std::array<Matrix<Scalar, 6>, 2> maps_;
-  std::array<Row, 2> relative_;  // Δz and Δż of scaled deviations
   std::size_t sample_ = 0;
 };
 
@@ -193,8 +230,8 @@ inline std::vector<double> attraction_radii(const std::vector<DeviationSegment>&
 /// The segments of one period, each of `length` common periods of q samples but perhaps a shorter
 /// last one; or one segment of several whole periods.
 /// @param flow  from the first sample on
-template <class Scalar>
-std::vector<DeviationSegment> deviation_segments(DeviationFlow<Scalar> flow,
+template <class Deviations>
+std::vector<DeviationSegment> deviation_segments(DeviationFlow<Deviations> flow,
                                                  const PeriodicOrbit& orbit, std::int64_t length) {
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t whole = std::max(orbit.period_samples() / step, length);
@@ -249,7 +286,9 @@ std::vector<AttractionBall> balls_with_radii(const IdealLoop<Scalar>& loop,
 template <class Scalar>
 std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
                                              const PeriodicOrbit& orbit) {
-  const detail::DeviationFlow<Scalar> flow(loop, ItineraryMaps<Scalar>(loop, orbit.ratio), orbit);
+  using Deviations = detail::SampledDeviations<Scalar>;
+  const detail::DeviationFlow<Deviations> flow(
+      Deviations(loop, ItineraryMaps<Scalar>(loop, orbit.ratio)), loop.backlash_width, orbit);
   const std::int64_t step = orbit.ratio.denominator;
   const std::int64_t common_periods = orbit.period_samples() / step;
   // Segments of more than one period hold whole ones, to begin where they are used again; Φ over
@@ -259,7 +298,7 @@ std::vector<AttractionBall> attraction_balls(const IdealLoop<Scalar>& loop,
   const std::int64_t longest = std::max(64 * common_periods, 1'000'000 / step);
   while (length <= longest) {
     if (length == common_periods) {
-      whole = detail::DeviationFlow<Scalar>(flow).over(step * length);
+      whole = detail::DeviationFlow<Deviations>(flow).over(step * length);
     } else if (length > common_periods) {
       whole = whole * whole;
     }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -12,12 +13,16 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/harmonic.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
 
@@ -50,9 +55,18 @@ using StrobePoint = StrobePointOf<4>;
 
 namespace detail {
 
-/// The plant of the loops on a path.
+/// The state of the loops on a path.
+template <class Loop>
+struct StateOfLoop {
+  using Type = StateOf<std::decay_t<decltype(std::declval<const Loop&>().plant)>>;
+};
+template <>
+struct StateOfLoop<ModalLoop> {
+  using Type = ModalMotion::Full;
+};
 template <class Family>
-using PlantOfFamily = std::decay_t<decltype(std::declval<const Family&>()(0.0).plant)>;
+using StateOfFamily =
+    typename StateOfLoop<std::decay_t<decltype(std::declval<const Family&>()(0.0))>>::Type;
 
 /// Shows the states of a motion once every forcing period after the transient; leaves the last of
 /// them in `state`. @return false where it leaves the range of numbers
@@ -95,6 +109,63 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
   return true;
 }
 
+/// ξ of a motion some time after its present sample, which it has taken.
+/// @param after  s, < τ
+/// @param force  what it has decided at that sample (N)
+inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const ModalMotion& motion,
+                                         const HarmonicExcitation<double>& excitation, double after,
+                                         double force) {
+  const double phase = excitation.angular_frequency() * motion.time();
+  const double cosine = excitation.amplitude * std::cos(phase),
+               sine = excitation.amplitude * std::sin(phase);
+  Eigen::VectorXcd amplitudes = motion.amplitudes();
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const NaturalMotion of = motions.over(k, after);
+    auto& amplitude = amplitudes[static_cast<Eigen::Index>(k)];
+    amplitude = of.decay * amplitude + of.present * force +
+                of.past * motion.memory().previous_force + of.cosine * cosine + of.sine * sine;
+  }
+  return amplitudes;
+}
+
+/// The same of a conductor by its modes; shown is [z, ż, z₂, ż₂] (m, m/s, m, m/s) at the absorber.
+/// @throws InvalidParameter where its natural motions are not all found
+template <class Observer>
+bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMotion::Full& state,
+                  Observer&& observer) {
+  // The loop before may have kept other modes apart: the slow ones are the same.
+  const auto modes = 2 * static_cast<Eigen::Index>(loop.modes.size());
+  const Eigen::Index kept = std::min(modes, state.size() - 2);
+  ModalMotion::Full begin = ModalMotion::Full::Zero(modes + 2);
+  begin << state.head(kept), ModalMotion::Full::Zero(modes - kept), state.tail(2);
+  std::optional<ModalMotion> motion = modal_motion(loop, begin);
+  if (!motion)
+    throw InvalidParameter("natural motions that coincide", 0.0, "", "none: change the plant");
+  const NaturalMotions motions(loop, plant_poles(loop.modes, loop.absorber));
+  const double period = loop.sampling.period, forcing_period = 1.0 / loop.excitation.frequency;
+  const double bound = divergence_bound(loop, begin);
+  constexpr std::int64_t samples_between_looks = 1 << 14;
+  auto strobe = std::ceil(options.transient / forcing_period);
+  for (int shown = 0; shown < options.strobes;) {
+    const MotionSample<double> sample = motion->sense();
+    if (!(sample.state.cwiseAbs().maxCoeff() < bound)) return false;
+    if (options.watch && sample.index % samples_between_looks == 0) options.watch();
+    double after = strobe * forcing_period - sample.time;
+    for (; shown < options.strobes && after < period * (1.0 - 1e-9); after += forcing_period) {
+      const bool at_sample = after < 1e-9 * period;
+      const Eigen::VectorXcd amplitudes =
+          at_sample
+              ? motion->amplitudes()
+              : amplitudes_after(motions, *motion, loop.excitation, after, sample.control_force);
+      observer(at_sample ? sample.state : motions.seen(amplitudes));
+      if (++shown == options.strobes) state = motions.state_of(amplitudes);
+      strobe += 1.0;
+    }
+    motion->advance();
+  }
+  return true;
+}
+
 }  // namespace detail
 
 /// An orbit diagram (bifurcation diagram): stroboscopic states against a parameter, the parameter
@@ -109,7 +180,7 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
 /// The drive begins outside its backlash at each value (a dead zone where the state is), the
 /// computer without a memory of the past. A motion that diverges shows no more of itself, and
 /// the next one begins at the initial state.
-/// @param family         parameter ↦ ImplementedLoopOf<Plant>
+/// @param family         parameter ↦ ImplementedLoopOf<Plant>, or ModalLoop
 /// @param values         of the parameter, in their order
 /// @param initial_state  of the first motion
 /// @param options        how much is left out and shown at each value
@@ -119,18 +190,18 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
 /// harmonic
 template <class Family, class Observer>
 std::size_t run_orbit_diagram(const Family& family, const std::vector<double>& values,
-                              const StateOf<detail::PlantOfFamily<Family>>& initial_state,
+                              const detail::StateOfFamily<Family>& initial_state,
                               const DiagramOptions& options, Observer&& observer) {
-  using State = StateOf<detail::PlantOfFamily<Family>>;
   validate(options);
-  State state = initial_state;
+  detail::StateOfFamily<Family> state = initial_state;
   std::size_t diverged = 0;
   for (const bool upward : {true, false}) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::size_t index = upward ? k : values.size() - 1 - k;
       const auto loop = family(values[index]);
-      const bool bounded = detail::show_strobes(loop, options, state, [&](const State& strobe) {
-        observer(StrobePointOf<State::RowsAtCompileTime>{index, upward, strobe});
+      const bool bounded = detail::show_strobes(loop, options, state, [&](const auto& strobe) {
+        constexpr int states = std::decay_t<decltype(strobe)>::RowsAtCompileTime;
+        observer(StrobePointOf<states>{index, upward, strobe});
       });
       if (bounded) continue;
       state = initial_state;

@@ -68,10 +68,8 @@ class MotionAtAbsorber {
 /// Throws NoAnswer where two natural motions of it cannot be told apart.
 inline ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
   const ModalLoop loop = modal_loop_of(the_case);
-  const auto motion =
-      modal_motion(controlled ? loop : uncontrolled(loop), modal_state_of(the_case));
-  if (motion) return *motion;
-  throw NoAnswer(coinciding_motions);
+  require_natural_motions(the_case);
+  return *modal_motion(controlled ? loop : uncontrolled(loop), modal_state_of(the_case));
 }
 
 /// The same of any plant: of a modal case a ModalMotion, else a MotionAtAbsorber. What it visits

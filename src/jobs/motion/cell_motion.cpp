@@ -1,7 +1,6 @@
 #include "jobs/motion/cell_motion.hpp"
 
 #include <algorithm>
-#include <complex>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -11,6 +10,8 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/chaos/modal_classification.hpp"
+#include "holdfast/chaos/modal_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
@@ -82,25 +83,12 @@ double period_that_shows(double frequency, double duration) {
 }
 
 ConductorMotion conductor_motion_of(const Case& the_case, Switching switching) {
-  if (!is_of_the_paper(the_case, switching))
-    throw WrongInput("of plant.model = \"" + the_case.plant.model +
-                     "\" motions are swept in the paper's model alone: switching at samples, its "
-                     "law of the backlash, one harmonic, an ideal computer");
-  return {modal_loop_of(the_case), poles_of(the_case), modal_state_of(the_case)};
-}
-
-/// As `holdfast::divergence_bound`, with all that the force bends the conductor statically.
-double divergence_bound(const ConductorMotion& motion) {
-  const auto& excitation = motion.loop.excitation;
-  const double deflection =
-      excitation.amplitude * receptance(motion.loop.modes, std::complex<double>(0.0)).real();
-  const double scale = deflection * (1.0 + excitation.angular_frequency()) +
-                       motion.loop.backlash_width + motion.state.cwiseAbs().maxCoeff();
-  return 1e12 * std::max(scale, 1e-100);
+  return {swept_loop_of(the_case, switching), poles_of(the_case), modal_state_of(the_case)};
 }
 
 double divergence_bound(const CellMotion& motion) {
-  if (motion.conductor) return divergence_bound(*motion.conductor);
+  if (motion.conductor)
+    return holdfast::divergence_bound(motion.conductor->loop, motion.conductor->state);
   const auto& [loop, initial_state] = motion.of_paper;
   return holdfast::divergence_bound(motion.built ? *motion.built : implemented_loop(loop),
                                     initial_state);
@@ -189,17 +177,27 @@ double largest_exponent_of(const CellMotion& motion, double duration) {
   const std::int64_t steps = samples_within(duration, cell.loop.sampling.period) - 1;
   if (steps < 1) return unknown;
   const LyapunovRun run{steps, 0, 0.0, LyapunovScope::largest};
+  const auto exponents_of_modes = [&] {
+    const ConductorMotion& conductor = *motion.conductor;
+    ModalLyapunov modes(conductor.loop,
+                        ModalMotion(conductor.loop, conductor.poles, conductor.state));
+    return run_lyapunov(modes, run, throw_if_interrupted);
+  };
   const auto exponents_between_samples = [&] {
     auto built = event_motion(*motion.built, cell.initial_state);
     return run_event_lyapunov(built, run, throw_if_interrupted);
   };
-  const LyapunovResult result =
-      motion.built ? exponents_between_samples() : exponents_of_paper(cell, run);
+  const LyapunovResult result = motion.conductor ? exponents_of_modes()
+                                : motion.built   ? exponents_between_samples()
+                                                 : exponents_of_paper(cell, run);
   return result.outcome == LyapunovOutcome::diverged ? unknown : result.exponents[0];
 }
 
 std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {
   const SweepMotion& cell = motion.of_paper;
+  if (motion.conductor)
+    return certified_period(
+        find_periodic_orbit(motion.conductor->loop, motion.conductor->state, limits));
   if (!motion.built)
     return certified_period(find_periodic_orbit(cell.loop, cell.initial_state, limits));
   return certified_period(
@@ -211,6 +209,8 @@ CellVerdict verdict_of(const CellMotion& motion, const OrbitLimits& limits) {
     return {found.classification.kind, found.indicators.certified_period.value_or(0)};
   };
   const SweepMotion& cell = motion.of_paper;
+  if (motion.conductor)
+    return verdict(classify_motion(motion.conductor->loop, motion.conductor->state, limits));
   return motion.built ? verdict(classify_motion(*motion.built, cell.initial_state, limits))
                       : verdict(classify_motion(cell.loop, cell.initial_state, limits));
 }

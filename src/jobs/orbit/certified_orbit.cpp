@@ -10,8 +10,12 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/modal/modal_attraction.hpp"
+#include "holdfast/orbit/modal/modal_itinerary_maps.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 #include "io/text/names.hpp"
 #include "io/text/text.hpp"
 #include "jobs/charts/conditioning.hpp"
@@ -57,6 +61,12 @@ auto certified(Result found, const Ratio& ratio, const OrbitLimits& limits, bool
   return std::move(*found.orbit);
 }
 
+/// The ten largest of the multipliers of a plant of any order.
+void keep_largest(std::vector<Multiplier>& multipliers) {
+  constexpr std::size_t most = 10;
+  if (multipliers.size() > most) multipliers.resize(most);
+}
+
 /// An orbit of all states, as it is seen at the absorber's place.
 template <class Readings>
 EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& readings) {
@@ -65,9 +75,8 @@ EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& re
   seen.sampling_period = orbit.sampling_period;
   seen.states.reserve(orbit.states.size());
   for (const auto& state : orbit.states) seen.states.push_back(readings.both_sides(state));
-  constexpr std::size_t most_multipliers = 10;
   seen.multipliers = orbit.multipliers;
-  if (seen.multipliers.size() > most_multipliers) seen.multipliers.resize(most_multipliers);
+  keep_largest(seen.multipliers);
   seen.closure_error = orbit.closure_error;
   seen.modes = orbit.modes;
   seen.forces = orbit.forces;
@@ -106,11 +115,34 @@ EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loo
                       largest_period);
 }
 
+PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
+                              std::int64_t largest_period) {
+  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
+  require_natural_motions(context.case_data);
+  PeriodicOrbit orbit =
+      certified(find_periodic_orbit(loop, modal_state_of(context.case_data), limits),
+                {forcing_ratio(loop), loop.excitation.frequency * loop.sampling.period}, limits,
+                context.quiet);
+  keep_largest(orbit.multipliers);
+  return orbit;
+}
+
 EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switching,
                                     std::int64_t largest_period) {
   const auto motion = event_motion(controlled_conductor_of(context.case_data, switching),
                                    modal_state_of(context.case_data));
   return as_seen(certified_of(context, motion, largest_period), motion.readings());
+}
+
+CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit) {
+  const ModalItineraryMaps maps(loop, plant_poles(loop.modes, loop.absorber), orbit.ratio);
+  const auto region = modal_attraction(loop, maps, orbit);
+  if (!region) return {0.0, 0.0};
+  const double clearance = region->stays_inside ? std::min(region->lowest - orbit.memory.lower,
+                                                           orbit.memory.upper - region->highest)
+                                                : 1.0;
+  const double radius = region->radius * clearance;
+  return {radius * region->inscribed_share, radius};
 }
 
 OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
@@ -121,7 +153,7 @@ OrbitCertificate certificate_of(const IdealLoop<double>& loop, const PeriodicOrb
     smallest = std::min(smallest, radius);
     largest = std::max(largest, radius);
   }
-  return {points.empty() ? 0.0 : smallest, largest, verify_orbit<long double>(loop, orbit)};
+  return {{points.empty() ? 0.0 : smallest, largest}, verify_orbit<long double>(loop, orbit)};
 }
 
 }  // namespace holdfast::program

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "process/job_context.hpp"
@@ -18,15 +19,27 @@ PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period);
 
-/// That of a modal case, as the conductor at the absorber and the absorber show it, with the ten
-/// largest of its multipliers.
+/// That of a conductor by its modes in the paper's model, with the ten largest of its multipliers.
+PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
+                              std::int64_t largest_period);
+
+/// That of a modal case in any other, as the conductor at the absorber and the absorber show it,
+/// with the ten largest of its multipliers.
 EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switching,
                                     std::int64_t largest_period);
 
+/// How far from the orbit every motion is sure to come to it.
+struct CaptureRadii {
+  double smallest;  ///< m, 0 where none was found; ∞ without backlash
+  double largest;   ///< m
+};
+
+/// Of a conductor by its modes: of a ball of all deviations, and of the ellipsoid that it lies in.
+CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit);
+
 /// What a certificate says beside the orbit itself.
 struct OrbitCertificate {
-  double smallest_radius;          ///< of capture (m), 0 where none was found; ∞ without backlash
-  double largest_radius;           ///< m
+  CaptureRadii radii;
   OrbitVerification verification;  ///< in extended precision
 };
 

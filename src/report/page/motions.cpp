@@ -63,10 +63,10 @@ std::string border_text(const Borders& borders) {
 }
 
 std::string capture_text(const OrbitCertificate& certificate) {
-  if (!(certificate.largest_radius > 0.0)) return "none found";
-  if (std::isinf(certificate.smallest_radius)) return "everywhere";
-  const std::string from = rounded(1e3 * certificate.smallest_radius, 2);
-  const std::string to = rounded(1e3 * certificate.largest_radius, 2);
+  if (!(certificate.radii.largest > 0.0)) return "none found";
+  if (std::isinf(certificate.radii.smallest)) return "everywhere";
+  const std::string from = rounded(1e3 * certificate.radii.smallest, 2);
+  const std::string to = rounded(1e3 * certificate.radii.largest, 2);
   return (from == to ? from : from + " … " + to) + " mm";
 }
 

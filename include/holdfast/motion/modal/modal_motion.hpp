@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -8,38 +7,19 @@
 #include <vector>
 
 #include "holdfast/contact/hysteresis.hpp"
-#include "holdfast/control/gains.hpp"
-#include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
-#include "holdfast/excitation/harmonic_excitation.hpp"
-#include "holdfast/excitation/harmonic_input.hpp"
-#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
-#include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/plant/port_readings.hpp"
 
 namespace holdfast {
 
-/// The sampled loop of a conductor by its modes, with its excitation and backlash.
-struct ModalLoop {
-  std::vector<PlaceMode<double>> modes;   ///< as the absorber's place sees them
-  Absorber<double> absorber;              ///< with its clamp
-  Sampling<double> sampling;              ///< τ and δ ≤ τ
-  PdGains<double> gains;                  ///< P and D
-  HarmonicExcitation<double> excitation;  ///< F_m and f, of the force at the absorber's place
-  double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
-  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
-};
-
 /// The motion of the sampled loop of a conductor by N of its modes, one sample at a time, in O(N).
 ///
-/// Each natural motion e^{st} of conductor and absorber together goes by itself,
-///
-///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j
-///
+/// Each natural motion e^{st} of conductor and absorber together goes by itself (NaturalMotion),
 /// and the conductor at the absorber and the absorber are sums over them: z = Σ r ξ with the
 /// residues of `plant_poles`, ż = Σ s r ξ, z₂ = Σ θ r ξ, θ = (k₂ + c₂ s)/(m₂ s² + c₂ s + k₂). The
 /// computer and the gap are those of `SampledMotion`. Work per sample: 20 multiply-adds a natural
@@ -49,7 +29,9 @@ class ModalMotion {
   static constexpr int states = 4;                 ///< what is read
   using State = Vector<double, 4>;                 ///< [z, ż, z₂, ż₂] (m, m/s, m, m/s)
   using Readings = PortReadings<TwoMass<double>>;  ///< how that is read
-  using Full = Vector<double, Eigen::Dynamic>;     ///< [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
+  using Full = NaturalMotions::Full;               ///< [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂]
+
+  using Memory = MotionMemory<double, BacklashMemory<double>>;  ///< before a sample
 
   /// @param loop   of which nothing is checked
   /// @param poles  all of `plant_poles` of its modes and absorber
@@ -59,19 +41,15 @@ class ModalMotion {
         law_(loop.backlash_width),
         phases_({Vector<double, 2>::Unit(0), Vector<double, 2>::Unit(1)}, loop.excitation,
                 loop.sampling.period) {
-    const detail::PoleFinder finder(loop.modes, loop.absorber);
+    const NaturalMotions natural(loop, poles);
     Full unit = Full::Zero(state.size());
     unit.head(state.size() - 2)(Eigen::seq(0, Eigen::last, 2)) = bent_conductor(loop.modes);
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < poles.size(); ++k) {
-      const std::complex<double> s = poles[k].s;
-      const bool real = !(std::abs(s.imag()) > 1e-9 * std::abs(s));
-      if (!real && s.imag() < 0.0) continue;  // its conjugate stands for it
-      const Shape shape = shape_of(poles[k], finder.weak_of_pole(k));
-      if (count % lanes == 0) blocks_.emplace_back();
-      blocks_.back().fill(static_cast<Eigen::Index>(count++ % lanes), numbers_of(shape, real),
-                          amplitude(shape, state), amplitude(shape, unit));
+    for (std::size_t k = 0; k < natural.size(); ++k) {
+      if (k % lanes == 0) blocks_.emplace_back();
+      blocks_.back().fill(static_cast<Eigen::Index>(k % lanes), natural[k],
+                          natural.amplitude(k, state), natural.amplitude(k, unit));
     }
+    motions_ = natural.size();
     read();
   }
 
@@ -119,6 +97,18 @@ class ModalMotion {
   const State& state() const { return seen_; }
   /// How that is read.
   const Readings& readings() const { return readings_; }
+  /// All that the coming samples depend on, but for what of the natural motions is not read.
+  Memory memory() const { return {seen_, previous_force_, law_.memory()}; }
+  /// ξ of every natural motion, in the order of NaturalMotions.
+  Eigen::VectorXcd amplitudes() const {
+    Eigen::VectorXcd all(static_cast<Eigen::Index>(motions_));
+    for (std::size_t k = 0; k < motions_; ++k) {
+      const Part& state = blocks_[k / lanes].state;
+      const auto lane = static_cast<Eigen::Index>(k % lanes);
+      all[static_cast<Eigen::Index>(k)] = {state.re[lane], state.im[lane]};
+    }
+    return all;
+  }
 
  private:
   // Natural motions that one turn of the loop takes care of: a vector of the processor's.
@@ -137,19 +127,14 @@ class ModalMotion {
     }
   };
 
-  /// What a natural motion does over a sampling period, and what is read of it.
-  struct Numbers {
-    Complex decay, present, past, cosine, sine;  // e^{sτ}, γ₀, γ₁, g_c, g_s
-    Complex z, v, z2, v2;
-  };
-
   /// Some natural motions.
   struct Block {
     Part state, decay, present, past, cosine, sine;
     Part z, v, z2, v2;  // conjugates: Re(w ξ) = Re w̄ Re ξ + Im w̄ Im ξ
     Part bent;
 
-    void fill(Eigen::Index k, const Numbers& of, const Complex& amplitude, const Complex& bend) {
+    void fill(Eigen::Index k, const NaturalMotion& of, const Complex& amplitude,
+              const Complex& bend) {
       state.set(k, amplitude);
       bent.set(k, bend);
       decay.set(k, of.decay);
@@ -178,86 +163,6 @@ class ModalMotion {
     State sums() const { return {z.sum(), v.sum(), z2.sum(), v2.sum()}; }
   };
 
-  /// The shape ψ of a natural motion under a force f on the bare conductor.
-  struct Shape {
-    Complex s;
-    Complex force;         // f
-    Complex place;         // ψ at the absorber
-    Complex read;          // what z takes of ξ
-    std::size_t mode = 0;  // the one that it is nearly, where `weak`
-    Complex own = 0.0;     // ψ of that mode, where `weak`
-    bool weak = false;
-  };
-
-  /// f = 1, but of a weak mode, whose own part would be endless: there its own part is what f = 1
-  /// gives times (s − s_n)/φ_n.
-  Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
-    Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0};
-    if (weak) {
-      const PlaceMode<double>& mode = loop_.modes[weak->mode];
-      shape.weak = true;
-      shape.mode = weak->mode;
-      shape.own = 1.0 / (mode.mass * weak->apart);
-      shape.place = mode.shape * shape.own / weak->held;
-      shape.force = -weak->pressed * shape.place;
-      shape.read = mode.shape / weak->held;
-    } else {
-      shape.read = pole.residue / (shape.place * detail::transmitted_share(loop_.absorber, pole.s));
-    }
-    return shape;
-  }
-
-  Numbers numbers_of(const Shape& shape, bool real) const {
-    const double period = loop_.sampling.period, late = loop_.sampling.processing_delay;
-    const Complex s = shape.s, transmitted = detail::transmitted_share(loop_.absorber, s);
-    const Complex driven = shape.place * transmitted, forced = shape.place;
-    const Complex whole = std::exp(s * period);
-    Numbers of;
-    of.decay = whole;
-    of.present = driven * exponential_integral(s, period - late);
-    of.past = driven * std::exp(s * (period - late)) * exponential_integral(s, late);
-    of.cosine = forced * exponential_integral(s, period);
-    of.sine = 0.0;
-    if (loop_.hold == ForceHold::exact) {
-      const Complex i(0.0, 1.0), turn = i * loop_.excitation.angular_frequency();
-      const Complex ahead =
-          forced * std::exp(turn * period) * exponential_integral(s - turn, period);
-      const Complex behind =
-          forced * std::exp(-turn * period) * exponential_integral(s + turn, period);
-      of.cosine = 0.5 * (ahead + behind);
-      of.sine = 0.5 * i * (ahead - behind);
-    }
-    of.z = (real ? 1.0 : 2.0) * shape.read;  // one of a pair stands for both
-    of.v = s * of.z;
-    of.z2 = (1.0 - transmitted) * of.z;
-    of.v2 = s * of.z2;
-    return of;
-  }
-
-  /// ξ of a natural motion in a state, ψᵀ((sM + C) q + M q̇), M and C being those of the equations
-  /// of motion; b enters by ψᵀb.
-  Complex amplitude(const Shape& natural, const Full& state) const {
-    const Absorber<double>& absorber = loop_.absorber;
-    const Complex s = natural.s, place = natural.place;
-    const Complex theta = 1.0 - detail::transmitted_share(absorber, s);
-    Complex sum(0.0);
-    double z = 0.0, v = 0.0;
-    Eigen::Index q = 0;
-    for (std::size_t n = 0; n < loop_.modes.size(); ++n, q += 2) {
-      const PlaceMode<double>& mode = loop_.modes[n];
-      const double damping = 2.0 * mode.damping_ratio * mode.angular_frequency;
-      const bool own = natural.weak && n == natural.mode;
-      const Complex shape =
-          own ? natural.own : natural.force * mode.shape / (mode.mass * mode.divisor(s));
-      z += mode.shape * state[q];
-      v += mode.shape * state[q + 1];
-      sum += shape * mode.mass * ((s + damping) * state[q] + state[q + 1]);
-    }
-    return sum + absorber.clamp_mass * place * (s * z + v) +
-           absorber.damping * (theta - 1.0) * place * (state[q] - z) +
-           absorber.mass * theta * place * (s * state[q] + state[q + 1]);
-  }
-
   void read() {
     Seen seen;
     for (const Block& block : blocks_) seen.add(block);
@@ -269,6 +174,7 @@ class ModalMotion {
   Backlash<double> law_;
   HarmonicForcing<double, 2> phases_;
   std::vector<Block> blocks_;  // of natural motions, the last filled up with nothing
+  std::size_t motions_ = 0;
   State seen_;
   double previous_force_ = 0.0, present_force_ = 0.0;
   std::int64_t index_ = 0;

@@ -15,10 +15,6 @@
 
 namespace holdfast::program {
 
-const char* const coinciding_motions =
-    "two natural motions of conductor and absorber coincide too nearly to be told apart: change "
-    "plant.absorber_damping or absorber.position by a thousandth";
-
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,
@@ -65,9 +61,14 @@ ModalResponse<double> response_of(const Case& the_case,
 
 std::vector<PlantPole> poles_of(const Case& the_case) {
   std::vector<PlantPole> poles = remembered_poles(place_modes_of(the_case), absorber_of(the_case));
-  if (poles.empty()) throw NoAnswer(coinciding_motions);
+  if (poles.empty())
+    throw NoAnswer(
+        "two natural motions of conductor and absorber coincide too nearly to be told apart: "
+        "change plant.absorber_damping or absorber.position by a thousandth");
   return poles;
 }
+
+void require_natural_motions(const Case& the_case) { static_cast<void>(poles_of(the_case)); }
 
 ResolvedCircle<double> circle_of(const Case& the_case) {
   return ResolvedCircle<double>(response_of(the_case, place_modes_of(the_case)));
@@ -135,6 +136,19 @@ ModalLoop modal_loop_of(const Case& the_case) {
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   return {place_modes_of(the_case), absorber_of(the_case), loop.sampling, loop.gains,
           loop.excitation,          loop.backlash_width,   loop.hold};
+}
+
+void require_sweepable(const Case& the_case, Switching switching) {
+  if (is_modal(the_case) && !is_of_the_paper(the_case, switching))
+    throw WrongInput("of plant.model = \"" + the_case.plant.model +
+                     "\" motions are swept in the paper's model alone: switching at samples, its "
+                     "law of the backlash, one harmonic, an ideal computer");
+}
+
+ModalLoop swept_loop_of(const Case& the_case, Switching switching) {
+  require_sweepable(the_case, switching);
+  require_natural_motions(the_case);
+  return modal_loop_of(the_case);
 }
 
 ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the_case,

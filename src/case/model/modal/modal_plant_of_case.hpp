@@ -72,6 +72,13 @@ double true_amplitude_of(const Case& the_case, double angular_frequency);
 
 /// The loops of a modal case, as those of two masses (loop_of_case.hpp).
 ModalLoop modal_loop_of(const Case& the_case);
+/// Throws WrongInput where many motions are asked for of a modal case that is not of the paper's
+/// model.
+void require_sweepable(const Case& the_case, Switching switching);
+
+/// The first one where many motions are asked for: throws as `require_sweepable`, and NoAnswer
+/// where its natural motions cannot be told apart.
+ModalLoop swept_loop_of(const Case& the_case, Switching switching);
 ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the_case,
                                                                  Switching switching);
 
@@ -87,7 +94,7 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
 /// Throws WrongInput where an option of two masses is given for a modal case.
 void refuse_on_modes(const Case& the_case, bool given, const std::string& option);
 
-/// What is said where two natural motions of a modal case cannot be told apart.
-extern const char* const coinciding_motions;
+/// Throws NoAnswer where two natural motions of conductor and absorber cannot be told apart.
+void require_natural_motions(const Case& the_case);
 
 }  // namespace holdfast::program

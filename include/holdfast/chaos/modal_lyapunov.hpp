@@ -1,0 +1,144 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "holdfast/chaos/lyapunov_run.hpp"
+#include "holdfast/chaos/lyapunov_spectrum.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/stats/batch_sums.hpp"
+#include "holdfast/motion/modal/modal_deviations.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+
+namespace holdfast {
+
+/// The five leading Lyapunov exponents of a conductor by its modes along a sequence of contacts, as
+/// LyapunovSpectrum has them of maps, by five deviations that are orthonormalised at every sample.
+///
+/// Those that are exactly −∞ are not among them, but of a single mode without processing delay,
+/// which has four. Work per sample: 130 multiply-adds a natural motion.
+class ModalSpectrum {
+ public:
+  /// @param gains  P and D while the drive transmits
+  /// @param late   whether a force acts beyond the sample that decides it, δ > 0
+  ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
+      : deviations_(motions, gains) {
+    const Eigen::Index order = deviations_.order();
+    finite_ = std::min<Eigen::Index>(leading, late ? order : order - 1);
+    deviations_.begin(detail::oblique_basis<double, Eigen::Dynamic>(order).leftCols(finite_));
+  }
+
+  /// Takes one sample, at which the drive transmits or not.
+  void push(bool engaged) {
+    deviations_.advance(engaged);
+    Eigen::MatrixXd basis = deviations_.columns();
+    Vector<double, leading> logarithms = Vector<double, leading>::Zero();
+    for (Eigen::Index i = 0; i < finite_; ++i) {
+      const double stretch = orthonormalise(basis, i);
+      if (stretch == 0.0) {
+        finite_ = i;
+        break;
+      }
+      logarithms[i] = std::log(stretch);
+    }
+    deviations_.begin(basis.leftCols(finite_));
+    sums_.add(logarithms, 1);
+  }
+
+  /// Forgets all but the directions of the deviations.
+  void restart() { sums_ = BatchSums<double, leading>(1); }
+
+  /// Over the samples since the last restart.
+  LyapunovSpectrum<double, 5> spectrum() const {
+    return LyapunovSpectrum<double, 5>({Matrix<double, leading>::Identity(), sums_,
+                                        Vector<double, leading>::Zero(),
+                                        static_cast<int>(finite_)});
+  }
+  /// Samples since then.
+  std::int64_t steps() const { return sums_.steps(); }
+  /// Number of batches complete, for the standard errors.
+  std::size_t complete_batches() const { return sums_.complete_batches(); }
+
+ private:
+  static constexpr int leading = 5;
+
+  /// Column i to length 1, across those before it, twice for the last digits.
+  /// @return its length across them
+  static double orthonormalise(Eigen::MatrixXd& basis, Eigen::Index i) {
+    auto column = basis.col(i);
+    for (int turn = 0; turn < 2; ++turn) {
+      const Eigen::VectorXd along = basis.leftCols(i).transpose() * column;
+      column -= basis.leftCols(i) * along;
+    }
+    const double length = column.norm();
+    if (length > 0.0) column /= length;
+    return length;
+  }
+
+  ModalDeviations deviations_;
+  Eigen::Index finite_;
+  BatchSums<double, leading> sums_{1};
+};
+
+/// A motion of a conductor by its modes and the leading Lyapunov exponents that it has had so far.
+/// It stands in for the motion in run_trajectory.
+class ModalLyapunov {
+ public:
+  /// @param loop    that of the motion
+  /// @param motion  goes on from where it stands
+  ModalLyapunov(const ModalLoop& loop, const ModalMotion& motion)
+      : motion_(motion),
+        spectrum_(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
+                  loop.sampling.processing_delay > 0.0) {}
+
+  /// Takes the sample; once before each `advance()`.
+  MotionSample<double> sense() {
+    const MotionSample<double> sample = motion_.sense();
+    engaged_ = sample.engaged;
+    return sample;
+  }
+  /// Moves on to the next sample, and the deviations with it.
+  void advance() {
+    motion_.advance();
+    spectrum_.push(engaged_);
+  }
+
+  /// Adds a displacement (m) to the conductor, which leaves the deviations as they are; call before
+  /// `sense()`.
+  void displace_conductor(double by) { motion_.displace_conductor(by); }
+  /// t_j (s) of the present sample.
+  double time() const { return motion_.time(); }
+  /// [z, ż, z₂, ż₂] at t_j.
+  const ModalMotion::State& state() const { return motion_.state(); }
+  /// Natural logarithm per sample, over the samples since the last restart.
+  LyapunovSpectrum<double, 5> spectrum() const { return spectrum_.spectrum(); }
+  /// Number of batches complete, for the standard errors.
+  std::size_t complete_batches() const { return spectrum_.complete_batches(); }
+  /// Forgets all but the directions of the deviations.
+  void restart() { spectrum_.restart(); }
+
+ private:
+  ModalMotion motion_;
+  ModalSpectrum spectrum_;
+  bool engaged_ = true;
+};
+
+/// The five leading Lyapunov exponents of a motion, from where `lyapunov` stands, natural logarithm
+/// per sample.
+/// @param lyapunov  left after the last sample taken
+/// @param run       how long, and with what accuracy, is averaged
+/// @param pause     called every 2¹² samples; may throw to end the run
+/// @throws InvalidParameter where `run` is not admissible
+inline LyapunovResult run_lyapunov(ModalLyapunov& lyapunov, const LyapunovRun& run,
+                                   const std::function<void()>& pause = {}) {
+  validate(run);
+  detail::SingleLane lane(lyapunov, pause);
+  return detail::run_average(lane, run)[0];
+}
+
+}  // namespace holdfast

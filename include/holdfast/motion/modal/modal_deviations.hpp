@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
+
+namespace holdfast {
+
+/// Deviations of a ModalMotion side by side, one a column, as long as they change no contact:
+///
+///     δξ_{j+1} = e^{sτ} δξ_j + γ₁ δu_{j−1} + γ₀ δu_j,   δu_j = P δz_j + D δż_j or 0 in the
+///     backlash.
+///
+/// Their coordinates are [Re ξ; Im ξ of the pairs; u_{j−1}] in metres: of a natural motion what the
+/// conductor at the absorber shows of it, of a force how far it pushes that within a sampling
+/// period. Work per sample: 16 multiply-adds for each natural motion and column.
+class ModalDeviations {
+ public:
+  using Columns = Eigen::MatrixXd;  ///< order() × the number of deviations
+  using Row = Eigen::RowVectorXd;   ///< of each deviation a number
+
+  /// Begins with the unit vectors.
+  /// @param gains  P and D while the drive transmits
+  ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)
+      : count_(static_cast<Eigen::Index>(motions.size())),
+        pairs_(static_cast<Eigen::Index>(motions.pairs())),
+        units_(count_ + pairs_ + 1) {
+    for (Part* part : {&decay_, &present_, &past_, &command_, &relative_z_, &relative_v_})
+      part->resize(count_);
+    double push = 0.0, largest = 0.0;
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      const NaturalMotion& of = motions[static_cast<std::size_t>(k)];
+      largest = std::max(largest, std::abs(of.z));
+      push += std::abs(of.z) * (std::abs(of.present) + std::abs(of.past));
+      decay_.set(k, of.decay);
+      present_.set(k, of.present);
+      past_.set(k, of.past);
+      command_.set(k, gains.proportional * of.z + gains.differential * of.v);
+      relative_z_.set(k, of.z2 - of.z);
+      relative_v_.set(k, of.v2 - of.v);
+    }
+    // A motion with a node at the absorber counts for next to nothing, but for something.
+    const double least = largest > 0.0 ? 1e-12 * largest : 1.0;
+    for (Eigen::Index k = 0; k < count_; ++k) {
+      const double shown = std::abs(motions[static_cast<std::size_t>(k)].z);
+      units_[k] = 1.0 / std::max(shown, least);
+    }
+    units_.segment(count_, pairs_) = units_.head(pairs_);
+    units_[count_ + pairs_] = push > 0.0 ? 1.0 / push : 1.0;
+    begin(Columns::Identity(order(), order()));
+  }
+
+  /// One more than the order of the plant.
+  Eigen::Index order() const { return units_.size(); }
+  /// [Re ξ; Im ξ; u_{j−1}] of a metre of each coordinate.
+  const Eigen::VectorXd& units() const { return units_; }
+
+  /// Begins anew with these deviations, in metres.
+  void begin(const Columns& deviations) {
+    const Columns raw = units_.asDiagonal() * deviations;
+    re_ = raw.topRows(count_);
+    im_ = Columns::Zero(count_, raw.cols());
+    im_.topRows(pairs_) = raw.middleRows(count_, pairs_);
+    force_ = raw.row(count_ + pairs_);
+  }
+
+  /// The deviations, in metres.
+  Columns columns() const {
+    Columns all(order(), force_.size());
+    all << re_, im_.topRows(pairs_), force_;
+    return units_.cwiseInverse().asDiagonal() * all;
+  }
+
+  /// Of Δz (m), each in its column.
+  Row relative_displacement() const { return read(relative_z_); }
+  /// Of Δż (m/s).
+  Row relative_velocity() const { return read(relative_v_); }
+
+  /// Over one sampling period, in which the drive transmits or not.
+  void advance(bool engaged) {
+    const Row force = engaged ? read(command_) : Row(Row::Zero(force_.size()));
+    Columns re = decay_.re.asDiagonal() * re_;
+    re.noalias() -= decay_.im.asDiagonal() * im_;
+    Columns im = decay_.re.asDiagonal() * im_;
+    im.noalias() += decay_.im.asDiagonal() * re_;
+    if (engaged) {
+      re.noalias() += present_.re * force;
+      im.noalias() += present_.im * force;
+    }
+    re.noalias() += past_.re * force_;
+    im.noalias() += past_.im * force_;
+    re_.swap(re);
+    im_.swap(im);
+    force_ = force;
+  }
+
+ private:
+  /// A complex number of each natural motion.
+  struct Part {
+    Eigen::VectorXd re, im;
+    void resize(Eigen::Index count) {
+      re.resize(count);
+      im.resize(count);
+    }
+    void set(Eigen::Index k, const std::complex<double>& value) {
+      re[k] = value.real();
+      im[k] = value.imag();
+    }
+  };
+
+  /// Re(w ξ).
+  Row read(const Part& w) const { return w.re.transpose() * re_ - w.im.transpose() * im_; }
+
+  Eigen::Index count_, pairs_;
+  Eigen::VectorXd units_;
+  Part decay_, present_, past_, command_, relative_z_, relative_v_;
+  Columns re_, im_;
+  Row force_;
+};
+
+}  // namespace holdfast

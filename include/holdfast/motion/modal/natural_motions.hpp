@@ -1,0 +1,211 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+
+namespace holdfast {
+
+/// The sampled loop of a conductor by its modes, with its excitation and backlash.
+struct ModalLoop {
+  std::vector<PlaceMode<double>> modes;   ///< as the absorber's place sees them
+  Absorber<double> absorber;              ///< with its clamp
+  Sampling<double> sampling;              ///< τ and δ ≤ τ
+  PdGains<double> gains;                  ///< P and D
+  HarmonicExcitation<double> excitation;  ///< F_m and f, of the force at the absorber's place
+  double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
+  ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
+};
+
+/// What a natural motion e^{st} of conductor and absorber does over one sampling period,
+///
+///     ξ_{j+1} = e^{sτ} ξ_j + γ₁ u_{j−1} + γ₀ u_j + g_c F_m cos ωt_j + g_s F_m sin ωt_j ,
+///
+/// and what is read of it: z = Re Σ w_z ξ, and so on. One of a pair stands for both.
+struct NaturalMotion {
+  std::complex<double> decay;         ///< e^{sτ}
+  std::complex<double> present;       ///< γ₀, of the force that this sample decides
+  std::complex<double> past;          ///< γ₁, of the one before
+  std::complex<double> cosine, sine;  ///< g_c, g_s
+  std::complex<double> z, v;          ///< w of the conductor's displacement and velocity
+  std::complex<double> z2, v2;        ///< w of the absorber's
+};
+
+/// All natural motions of conductor and absorber, each by itself: what every motion of a ModalLoop
+/// is a sum of.
+class NaturalMotions {
+ public:
+  /// [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂], a state of `modal_plant`.
+  using Full = Vector<double, Eigen::Dynamic>;
+
+  /// @param loop   of which nothing is checked
+  /// @param poles  all of `plant_poles` of its modes and absorber
+  NaturalMotions(const ModalLoop& loop, const std::vector<PlantPole>& poles) : loop_(loop) {
+    const detail::PoleFinder finder(loop.modes, loop.absorber);
+    for (const bool real : {false, true}) {
+      for (std::size_t k = 0; k < poles.size(); ++k) {
+        const std::complex<double> s = poles[k].s;
+        const bool is_real = !(std::abs(s.imag()) > 1e-9 * std::abs(s));
+        // The conjugate of a pair stands for it.
+        if (is_real != real || (!real && s.imag() < 0.0)) continue;
+        shapes_.push_back(shape_of(poles[k], finder.weak_of_pole(k)));
+        motions_.push_back(numbers_of(shapes_.back(), real, loop.sampling));
+      }
+      if (!real) pairs_ = motions_.size();
+    }
+  }
+
+  /// How many, pairs counted once.
+  std::size_t size() const { return motions_.size(); }
+  /// How many of them are pairs, which come first; the others are real.
+  std::size_t pairs() const { return pairs_; }
+  /// The k-th.
+  const NaturalMotion& operator[](std::size_t k) const { return motions_[k]; }
+
+  /// The k-th over the beginning of a sampling period, `length` s of it.
+  NaturalMotion over(std::size_t k, double length) const {
+    return numbers_of(shapes_[k], k >= pairs_,
+                      {length, std::min(loop_.sampling.processing_delay, length)});
+  }
+
+  /// [z, ż, z₂, ż₂] of some ξ.
+  Vector<double, 4> seen(const Eigen::VectorXcd& amplitudes) const {
+    Vector<double, 4> sum = Vector<double, 4>::Zero();
+    for (std::size_t k = 0; k < size(); ++k) {
+      const NaturalMotion& of = motions_[k];
+      const Complex amplitude = amplitudes[static_cast<Eigen::Index>(k)];
+      sum += Vector<double, 4>((of.z * amplitude).real(), (of.v * amplitude).real(),
+                               (of.z2 * amplitude).real(), (of.v2 * amplitude).real());
+    }
+    return sum;
+  }
+
+  /// The state of `modal_plant` that some ξ make.
+  Full state_of(const Eigen::VectorXcd& amplitudes) const {
+    Full state = Full::Zero(2 * static_cast<Eigen::Index>(loop_.modes.size()) + 2);
+    for (std::size_t k = 0; k < size(); ++k) {
+      const Shape& natural = shapes_[k];
+      const Complex amplitude = amplitudes[static_cast<Eigen::Index>(k)];
+      const Complex moving = (k < pairs_ ? 2.0 : 1.0) * natural.scale * amplitude;
+      for (std::size_t n = 0; n < loop_.modes.size(); ++n)
+        add(state, 2 * static_cast<Eigen::Index>(n), natural.s, moving * shape_in_mode(natural, n));
+      add(state, state.size() - 2, natural.s, motions_[k].z2 * amplitude);
+    }
+    return state;
+  }
+
+  /// ξ of the k-th in a state, ψᵀ((sM + C) q + M q̇), M and C being those of the equations of
+  /// motion; b enters by ψᵀb.
+  std::complex<double> amplitude(std::size_t k, const Full& state) const {
+    const Shape& natural = shapes_[k];
+    const Absorber<double>& absorber = loop_.absorber;
+    const Complex s = natural.s, place = natural.place;
+    const Complex theta = 1.0 - detail::transmitted_share(absorber, s);
+    Complex sum(0.0);
+    double z = 0.0, v = 0.0;
+    Eigen::Index q = 0;
+    for (std::size_t n = 0; n < loop_.modes.size(); ++n, q += 2) {
+      const PlaceMode<double>& mode = loop_.modes[n];
+      const double damping = 2.0 * mode.damping_ratio * mode.angular_frequency;
+      z += mode.shape * state[q];
+      v += mode.shape * state[q + 1];
+      sum += shape_in_mode(natural, n) * mode.mass * ((s + damping) * state[q] + state[q + 1]);
+    }
+    return sum + absorber.clamp_mass * place * (s * z + v) +
+           absorber.damping * (theta - 1.0) * place * (state[q] - z) +
+           absorber.mass * theta * place * (s * state[q] + state[q + 1]);
+  }
+
+ private:
+  using Complex = std::complex<double>;
+
+  /// The shape ψ of a natural motion under a force f on the bare conductor.
+  struct Shape {
+    Complex s;
+    Complex force;         // f
+    Complex place;         // ψ at the absorber
+    Complex read;          // what z takes of ξ
+    Complex scale;         // what the state takes of ψ ξ
+    std::size_t mode = 0;  // the one that it is nearly, where `weak`
+    Complex own = 0.0;     // ψ of that mode, where `weak`
+    bool weak = false;
+  };
+
+  /// f = 1, but of a weak mode, whose own part would be endless: there its own part is what f = 1
+  /// gives times (s − s_n)/φ_n.
+  Shape shape_of(const PlantPole& pole, const std::optional<detail::PoleFinder::Weak>& weak) const {
+    Shape shape{pole.s, 1.0, receptance(loop_.modes, pole.s), 0.0, 0.0};
+    if (weak) {
+      const PlaceMode<double>& mode = loop_.modes[weak->mode];
+      shape.weak = true;
+      shape.mode = weak->mode;
+      shape.own = 1.0 / (mode.mass * weak->apart);
+      shape.place = mode.shape * shape.own / weak->held;
+      shape.force = -weak->pressed * shape.place;
+      shape.scale = 1.0 / shape.own;
+      shape.read = mode.shape / weak->held;
+    } else {
+      shape.read = pole.residue / (shape.place * detail::transmitted_share(loop_.absorber, pole.s));
+      shape.scale = shape.read / shape.place;
+    }
+    return shape;
+  }
+
+  /// ψ of the n-th mode.
+  Complex shape_in_mode(const Shape& natural, std::size_t n) const {
+    const PlaceMode<double>& mode = loop_.modes[n];
+    if (natural.weak && n == natural.mode) return natural.own;
+    return natural.force * mode.shape / (mode.mass * mode.divisor(natural.s));
+  }
+
+  static void add(Full& state, Eigen::Index at, const Complex& s, const Complex& part) {
+    state[at] += part.real();
+    state[at + 1] += (s * part).real();
+  }
+
+  NaturalMotion numbers_of(const Shape& shape, bool real, const Sampling<double>& sampling) const {
+    const double period = sampling.period, late = sampling.processing_delay;
+    const Complex s = shape.s, transmitted = detail::transmitted_share(loop_.absorber, s);
+    const Complex driven = shape.place * transmitted, forced = shape.place;
+    const Complex whole = std::exp(s * period);
+    NaturalMotion of;
+    of.decay = whole;
+    of.present = driven * exponential_integral(s, period - late);
+    of.past = driven * std::exp(s * (period - late)) * exponential_integral(s, late);
+    of.cosine = forced * exponential_integral(s, period);
+    of.sine = 0.0;
+    if (loop_.hold == ForceHold::exact) {
+      const Complex i(0.0, 1.0), turn = i * loop_.excitation.angular_frequency();
+      const Complex ahead =
+          forced * std::exp(turn * period) * exponential_integral(s - turn, period);
+      const Complex behind =
+          forced * std::exp(-turn * period) * exponential_integral(s + turn, period);
+      of.cosine = 0.5 * (ahead + behind);
+      of.sine = 0.5 * i * (ahead - behind);
+    }
+    of.z = (real ? 1.0 : 2.0) * shape.read;  // one of a pair stands for both
+    of.v = s * of.z;
+    of.z2 = (1.0 - transmitted) * of.z;
+    of.v2 = s * of.z2;
+    return of;
+  }
+
+  ModalLoop loop_;
+  std::vector<Shape> shapes_;
+  std::vector<NaturalMotion> motions_;
+  std::size_t pairs_ = 0;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/modal/modal_deviations.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
+#include "holdfast/orbit/cyclic_system.hpp"
+#include "holdfast/orbit/itinerary_maps.hpp"
+
+namespace holdfast {
+
+/// ItineraryMaps of a conductor by its modes: what moves [Re ξ; Im ξ of the pairs; u_{j−1}] of its
+/// natural motions over one sampling period, while the drive transmits and in the backlash.
+class ModalItineraryMaps {
+ public:
+  using State = Eigen::VectorXd;                        ///< [Re ξ; Im ξ of the pairs; u_{j−1}]
+  using Map = Eigen::MatrixXd;                          ///< of deviations
+  using System = CyclicSystem<double, Eigen::Dynamic>;  ///< what is solved for a periodic motion
+
+  /// @param loop   its backlash width is not looked at
+  /// @param poles  all of `plant_poles` of its modes and absorber
+  /// @param ratio  f τ = p/q, of forcing_ratio()
+  /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
+  ModalItineraryMaps(const ModalLoop& loop, const std::vector<PlantPole>& poles,
+                     const Rational& ratio)
+      : ModalItineraryMaps(loop, NaturalMotions(loop, poles), ratio) {}
+
+  /// Of the units, at no deviation.
+  const ModalDeviations& deviations() const { return deviations_; }
+  /// Those of `deviations`.
+  const Eigen::VectorXd& units() const { return deviations_.units(); }
+  /// q.
+  std::size_t samples_of_forcing() const { return phases_.size(); }
+
+  /// At rest.
+  State rest() const { return State::Zero(units().size()); }
+
+  /// [z, ż, z₂, ż₂; u_{j−1}] of a state.
+  Vector<double, 5> seen(const State& state) const {
+    const Eigen::Index count = decay_.size();
+    Vector<double, 5> read;
+    read << read_.real() * state.head(count) -
+                read_.leftCols(pairs_).imag() * state.segment(count, pairs_),
+        state[count + pairs_];
+    return read;
+  }
+
+  /// What is seen at all samples of an itinerary from a given first state, and the state after its
+  /// last sample.
+  /// @param itinerary  its first sample at phase 0 of the forcing
+  /// @param states     takes [z_j; u_{j−1}], one a sample
+  State follow(const State& first, const Itinerary& itinerary,
+               std::vector<Vector<double, 5>>& states) const {
+    State state = first;
+    for (std::size_t j = 0; j < itinerary.size(); ++j) {
+      states[j] = seen(state);
+      step(state, states[j], itinerary[j] != 0, phases_[j % phases_.size()]);
+    }
+    return state;
+  }
+
+ private:
+  ModalItineraryMaps(const ModalLoop& loop, const NaturalMotions& motions, const Rational& ratio)
+      : gains_(loop.gains),
+        deviations_(motions, loop.gains),
+        pairs_(static_cast<Eigen::Index>(motions.pairs())) {
+    require_within("denominator of f tau", static_cast<double>(ratio.denominator), "", 1.0, 1e9);
+    const auto count = static_cast<Eigen::Index>(motions.size());
+    for (Eigen::VectorXcd* part : {&decay_, &present_, &past_, &cosine_, &sine_})
+      part->resize(count);
+    read_.resize(4, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const NaturalMotion& of = motions[static_cast<std::size_t>(k)];
+      decay_[k] = of.decay;
+      present_[k] = of.present;
+      past_[k] = of.past;
+      cosine_[k] = of.cosine;
+      sine_[k] = of.sine;
+      read_.col(k) << of.z, of.v, of.z2, of.v2;
+    }
+    phases_.resize(static_cast<std::size_t>(ratio.denominator));
+    std::int64_t turned = 0;  // p k modulo q
+    for (std::complex<double>& force : phases_) {
+      force = std::polar(loop.excitation.amplitude, 2.0 * pi<double> * static_cast<double>(turned) /
+                                                        static_cast<double>(ratio.denominator));
+      turned = (turned + ratio.numerator) % ratio.denominator;
+    }
+  }
+
+  /// @param seen   of the state
+  /// @param force  F_m e^{iωt_j}
+  void step(State& state, const Vector<double, 5>& seen, bool engaged,
+            const std::complex<double>& force) const {
+    const Eigen::Index count = decay_.size();
+    const double u = engaged ? gains_.proportional * seen[0] + gains_.differential * seen[1] : 0.0;
+    Eigen::VectorXcd natural = Eigen::VectorXcd::Zero(count);
+    natural.real() = state.head(count);
+    natural.head(pairs_).imag() = state.segment(count, pairs_);
+    natural = decay_.cwiseProduct(natural) + present_ * u + past_ * seen[4] +
+              cosine_ * force.real() + sine_ * force.imag();
+    state << natural.real(), natural.head(pairs_).imag(), u;
+  }
+
+  PdGains<double> gains_;
+  ModalDeviations deviations_;
+  Eigen::Index pairs_;
+  Eigen::VectorXcd decay_, present_, past_, cosine_, sine_;
+  Eigen::Matrix<std::complex<double>, 4, Eigen::Dynamic> read_;
+  std::vector<std::complex<double>> phases_;
+};
+
+/// The maps of some samples of an itinerary, in the units of `maps`: as few as may be multiplied
+/// without growing a thousandfold.
+/// Work: 32 m² multiply-adds a sample, of m natural motions.
+inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
+                                                   const Itinerary& itinerary) {
+  ModalDeviations flow = maps.deviations();
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(flow.order(), flow.order());
+  std::vector<Eigen::MatrixXd> blocks;
+  flow.begin(unit);
+  for (std::size_t j = 0; j < itinerary.size(); ++j) {
+    flow.advance(itinerary[j] != 0);
+    const bool last = j + 1 == itinerary.size();
+    if (!last && (j % 16 != 0 || flow.columns().cwiseAbs().maxCoeff() < 1e3)) continue;
+    blocks.push_back(flow.columns());
+    flow.begin(unit);
+  }
+  return blocks;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,232 @@
+// Periodic orbits of a conductor by its modes, against the motion itself and against the dense way.
+
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/control/controlled_plant.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/modal/modal_attraction.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
+#include "support/random.hpp"
+#include "support/string_case.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::test {
+namespace {
+
+ModalLoop loop_of(int modes, const Sampling<double>& sampling, double differential_gain,
+                  double play, ForceHold hold) {
+  return {string_modes(taut_string(kollar2022_conductor()), 0.64, modes),
+          papers_absorber(0.01),
+          sampling,
+          {-557.0, differential_gain},
+          {0.5, 10.0},
+          play,
+          hold};
+}
+
+/// Loops of a string whose motion comes to an orbit with play.
+std::vector<ModalLoop> loops_with_orbits() {
+  return {loop_of(6, {0.001, 0.0}, -2.0, 5e-4, ForceHold::sampled),
+          loop_of(3, {0.005, 0.0025}, -4.0, 5e-4, ForceHold::exact),
+          loop_of(6, {0.005, 0.005}, -2.0, 1e-4, ForceHold::sampled),
+          loop_of(6, {0.005, 0.0}, -4.0, 1e-4, ForceHold::sampled)};
+}
+
+ModalMotion::Full at_rest(const ModalLoop& loop) {
+  return ModalMotion::Full::Zero(2 * static_cast<Eigen::Index>(loop.modes.size()) + 2);
+}
+
+PeriodicOrbit certified_orbit(const ModalLoop& loop, const ModalMotion::Full& state) {
+  const OrbitResult found = find_periodic_orbit(loop, state, {20000, 0, {}});
+  EXPECT_EQ(found.outcome, OrbitOutcome::certified);
+  return *found.orbit;
+}
+
+PeriodicOrbit certified_orbit(const ModalLoop& loop) {
+  return certified_orbit(loop, at_rest(loop));
+}
+
+ModalItineraryMaps maps_of(const ModalLoop& loop, const PeriodicOrbit& orbit) {
+  return {loop, plant_poles(loop.modes, loop.absorber), orbit.ratio};
+}
+
+TEST(ModalOrbit, IsWhereTheMotionComesTo) {
+  for (const ModalLoop& loop : loops_with_orbits()) {
+    const PeriodicOrbit orbit = certified_orbit(loop);
+    EXPECT_GT(orbit.engaged_fraction(), 0.0);
+    EXPECT_LT(orbit.engaged_fraction(), 1.0);
+    ModalMotion motion = *modal_motion(loop, at_rest(loop));
+    const std::int64_t samples = orbit.period_samples();
+    // What it takes to be drawn in, and then to fall by 10¹².
+    const auto periods =
+        20000 / samples + static_cast<std::int64_t>(-28.0 / orbit.multipliers[0].log_modulus);
+    for (std::int64_t j = 0; j < periods * samples; ++j) {
+      motion.sense();
+      motion.advance();
+    }
+    // The motion comes to one of the copies of the orbit, each q samples later.
+    const std::int64_t step = orbit.ratio.denominator;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::int64_t first = 0; first < samples; first += step) {
+      const Vector<double, 4> state = orbit.states[static_cast<std::size_t>(first)].head<4>();
+      nearest = std::min(
+          nearest, StateScale(orbit.states).share_of(Vector<double, 4>(motion.state() - state)));
+    }
+    EXPECT_LE(nearest, 1e-9) << samples;
+  }
+}
+
+TEST(ModalOrbit, IsThatOfTheDensePlant) {
+  for (const ModalLoop& loop : loops_with_orbits()) {
+    const PeriodicOrbit orbit = certified_orbit(loop);
+    const DigitalLoop digital{
+        loop.sampling, {0.0, 0.0}, multi_harmonic_force(loop.excitation), loop.hold};
+    const ImplementedLoopOf<ControlledPlant> dense{
+        with_controller(modal_plant(loop.modes, loop.absorber), loop.gains),
+        digital,
+        {ContactLaw::kollar, loop.backlash_width},
+        Switching::sampled};
+    const auto found = find_event_orbit(event_motion(dense, at_rest(loop)), {20000, 0, {}});
+    ASSERT_EQ(found.outcome, OrbitOutcome::certified);
+    ASSERT_EQ(found.orbit->period_samples(), orbit.period_samples());
+    EXPECT_NEAR(found.orbit->amplitude(), orbit.amplitude(), 1e-9 * orbit.amplitude());
+    EXPECT_EQ(found.orbit->engaged_fraction(), orbit.engaged_fraction());
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(found.orbit->multipliers[i].log_modulus, orbit.multipliers[i].log_modulus, 1e-8)
+          << i;
+  }
+}
+
+/// What decides the contacts of a motion that follows an orbit's itinerary, sample by sample: Δż
+/// where it counts, and Δz over the lower end of the gap where the drive was inside.
+struct Decisions {
+  bool same = true;
+  std::vector<double> velocity, height;
+};
+
+Decisions decisions_of(const ModalLoop& loop, const ModalItineraryMaps& maps,
+                       const PeriodicOrbit& orbit, const Eigen::VectorXd& first, double gap) {
+  std::vector<Vector<double, 5>> states(orbit.states.size());
+  maps.follow(first, orbit.itinerary, states);
+  BacklashMemory<double> memory = orbit.memory;
+  memory.lower += gap;
+  memory.upper += gap;
+  Backlash<double> law(loop.backlash_width, memory);
+  Decisions decisions;
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    const double displacement = relative_displacement(states[j]),
+                 velocity = relative_velocity(states[j]);
+    const bool inside = law.inside();
+    decisions.height.push_back(inside ? displacement - law.lower() : NAN);
+    const bool engaged = law.step(displacement, velocity);
+    decisions.velocity.push_back(inside && !engaged ? NAN : velocity);
+    decisions.same = decisions.same && engaged == (orbit.itinerary[j] != 0);
+  }
+  return decisions;
+}
+
+/// The largest ‖R e‖ for which no decision of one period changes: deviations along the axes of R e
+/// give the gradient of what decides.
+double largest_radius(const ModalLoop& loop, const ModalItineraryMaps& maps,
+                      const PeriodicOrbit& orbit, const ModalAttraction& region) {
+  const Eigen::Index n = region.root.rows();
+  const Eigen::MatrixXd axes = region.root.inverse();
+  const double small = 1e-3 * region.radius;
+  const auto deviating = [&](const Eigen::VectorXd& e) {
+    const Eigen::VectorXd first =
+        region.first + Eigen::VectorXd(maps.units().cwiseProduct(e.head(n - 1)));
+    return decisions_of(loop, maps, orbit, first, e[n - 1]);
+  };
+  const Decisions here = deviating(Eigen::VectorXd::Zero(n));
+  std::vector<double> velocity(here.velocity.size()), height(here.height.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Decisions moved = deviating(small * axes.col(k));
+    EXPECT_TRUE(moved.same);
+    for (std::size_t j = 0; j < velocity.size(); ++j) {
+      velocity[j] += std::pow((moved.velocity[j] - here.velocity[j]) / small, 2);
+      height[j] += std::pow((moved.height[j] - here.height[j]) / small, 2);
+    }
+  }
+  double largest = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < velocity.size(); ++j) {
+    if (std::isfinite(here.velocity[j]))
+      largest = std::min(largest, std::abs(here.velocity[j]) / std::sqrt(velocity[j]));
+    if (std::isfinite(here.height[j]))
+      largest = std::min(largest, std::min(std::abs(here.height[j]),
+                                           std::abs(loop.backlash_width - here.height[j])) /
+                                      std::sqrt(height[j]));
+  }
+  return largest;
+}
+
+TEST(ModalAttraction, NoDecisionInItEverChangesAndItReachesToTheFirstThatDoes) {
+  for (const ModalLoop& loop : loops_with_orbits()) {
+    const PeriodicOrbit orbit = certified_orbit(loop);
+    const ModalItineraryMaps maps = maps_of(loop, orbit);
+    const auto region = modal_attraction(loop, maps, orbit);
+    ASSERT_TRUE(region.has_value());
+    const double truth = largest_radius(loop, maps, orbit, *region);
+    EXPECT_LE(region->radius, truth * (1.0 + 1e-5));
+    EXPECT_GE(region->radius, truth * (1.0 - 1e-5));
+    EXPECT_LE(region->inscribed_share, 1.0);
+  }
+}
+
+TEST(ModalAttraction, EveryPeriodComesNearer) {
+  Random random(4211);
+  for (const ModalLoop& loop : loops_with_orbits()) {
+    const PeriodicOrbit orbit = certified_orbit(loop);
+    const ModalItineraryMaps maps = maps_of(loop, orbit);
+    const auto region = modal_attraction(loop, maps, orbit);
+    ASSERT_TRUE(region.has_value());
+    const Eigen::Index n = region->root.rows();
+    std::vector<Vector<double, 5>> states(orbit.states.size());
+    for (int trial = 0; trial < 20; ++trial) {
+      Eigen::VectorXd e(n - 1);
+      for (double& part : e) part = random.uniform(-1.0, 1.0);
+      const auto root = region->root.topLeftCorner(n - 1, n - 1);
+      const Eigen::VectorXd first = region->first + Eigen::VectorXd(maps.units().cwiseProduct(e));
+      const Eigen::VectorXd end = maps.follow(first, orbit.itinerary, states);
+      const Eigen::VectorXd after = (end - region->first).cwiseQuotient(maps.units());
+      EXPECT_LT((root * after).norm(), (root * e).norm());
+    }
+  }
+}
+
+TEST(ModalAttraction, OfADriveThatNeverLeavesItsGapCountsClearance) {
+  ModalLoop loop = loops_with_orbits().front();
+  loop.backlash_width = 0.1;
+  loop.excitation.amplitude = 0.01;
+  // A swing that has made a wide gap and then dies down leaves the drive in it.
+  ModalMotion::Full swinging = at_rest(loop);
+  swinging.head(swinging.size() - 2)(Eigen::seq(0, Eigen::last, 2)) =
+      1e-2 * bent_conductor(loop.modes);
+  const PeriodicOrbit orbit = certified_orbit(loop, swinging);
+  EXPECT_EQ(orbit.engaged_fraction(), 0.0);
+  const auto region = modal_attraction(loop, maps_of(loop, orbit), orbit);
+  ASSERT_TRUE(region.has_value());
+  EXPECT_TRUE(region->stays_inside);
+  EXPECT_TRUE(std::isfinite(region->radius));
+}
+
+TEST(ModalOrbit, WithoutBacklashEveryMotionComesToIt) {
+  ModalLoop loop = loops_with_orbits().front();
+  loop.backlash_width = 0.0;
+  const PeriodicOrbit orbit = certified_orbit(loop);
+  EXPECT_EQ(orbit.engaged_fraction(), 1.0);
+  EXPECT_EQ(modal_attraction(loop, maps_of(loop, orbit), orbit)->radius,
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(ModalOrbit, SaysWhatItDoesNotFind) {
+  ModalLoop loop = loops_with_orbits().front();
+  loop.gains = {-557.0, 40.0};
+  loop.backlash_width = 0.0;
+  EXPECT_EQ(find_periodic_orbit(loop, at_rest(loop)).outcome, OrbitOutcome::diverges);
+  loop = loops_with_orbits().front();
+  loop.excitation.frequency = 3.14159265358979;
+  EXPECT_EQ(find_periodic_orbit(loop, at_rest(loop)).outcome, OrbitOutcome::incommensurate);
+  EXPECT_THROW(find_periodic_orbit(loop, at_rest(loop), {0, 0, {}}), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast::test
