@@ -21,5 +21,7 @@ template Matrix<double, 6> exponential(const Matrix<double, 6>&);
 template Matrix<double, 8> exponential(const Matrix<double, 8>&);
 template std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<double, 5>>&);
 template std::vector<Multiplier> multipliers_of_product(const std::vector<Eigen::MatrixXd>&);
+template std::vector<Multiplier> detail::multipliers_of_turn(
+    const Eigen::MatrixXd&, const detail::ScaledTriangle<double, Eigen::Dynamic>&);
 
 }  // namespace holdfast

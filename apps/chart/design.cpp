@@ -8,9 +8,9 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
-#include "holdfast/stability/design/modal_design.hpp"
 #include "io/text/names.hpp"
 #include "job.hpp"
+#include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
 
 namespace holdfast::program {
@@ -60,36 +60,6 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
         "not show the vibration",
         quiet);
 }
-
-/// What is best for a loop of the case's plant, one frequency and P after another.
-class BestForPlant {
- public:
-  BestForPlant(const Case& the_case, const AmplitudeOptions& options)
-      : case_(the_case), options_(options) {
-    if (is_modal(the_case)) {
-      modal_.emplace(modal_response(poles_of(the_case), options.sampling));
-    } else {
-      loop_.emplace(sampled_loop(plant_of(the_case), options.sampling));
-    }
-  }
-
-  MinimumAmplitude quietest(double frequency, double p) const {
-    if (loop_) return minimum_amplitude(plant_of(case_), options_, frequency, p);
-    const double omega = 2.0 * pi<double> * frequency;
-    return minimum_amplitude(*modal_, options_, frequency, p,
-                             steady_response_of(case_, options_.sampling, options_.hold, omega)
-                                 .relative_to(true_amplitude_of(case_, omega)));
-  }
-  MinimumRadius fastest(double p) const {
-    return loop_ ? minimum_radius(*loop_, p) : minimum_radius(*modal_, p);
-  }
-
- private:
-  const Case& case_;
-  AmplitudeOptions options_;
-  std::optional<SampledLoop<double>> loop_;
-  std::optional<ModalResponse<double>> modal_;
-};
 
 /// The best D at each frequency, P tuned to each by Eq. 6; without frequencies at the case's own
 /// frequency and P.

@@ -1,10 +1,9 @@
 #include "holdfast/stability/margins/margins.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/stability/margins/modal_margins.hpp"
 #include "job.hpp"
 #include "jobs/charts/names.hpp"
+#include "jobs/design/gain_margins.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -31,11 +30,7 @@ void tell_margins(const JobContext& context) {
   const Case& the_case = context.case_data;
   const Sampling<double> sampling = sampling_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
-  MarginSearch search;
-  search.longest_period_ratio = 100.0;  // of a modal case, whose periods are walked
-  const StabilityMargins margins =
-      is_modal(the_case) ? modal_stability_margins(poles_of(the_case), sampling, gains, search)
-                         : stability_margins(plant_of(the_case), sampling, gains);
+  const StabilityMargins margins = stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(spectral_radius_of(the_case)));

@@ -89,6 +89,20 @@ TEST(ModalLyapunov, OfASingleModeHasNoMoreExponentsThanItsMap) {
   EXPECT_EQ(result.exponents[4], -std::numeric_limits<double>::infinity());
 }
 
+/// However late the force acts, the gap loses one direction; without play all five are finite.
+TEST(ModalLyapunov, ABacklashLosesADirectionAtOnce) {
+  for (const double late : {0.0025, 0.005}) {
+    ModalLoop loop = loop_of(1, late);
+    for (const double width : {5e-4, 0.0}) {
+      loop.backlash_width = width;
+      ModalLyapunov lyapunov(loop, *modal_motion(loop, at_rest(loop)));
+      const LyapunovResult result = run_lyapunov(lyapunov, {60, 0});
+      EXPECT_EQ(std::isfinite(result.exponents[4]), width == 0.0) << late;
+      EXPECT_GT(result.exponents[3], -1.0);
+    }
+  }
+}
+
 TEST(ModalLyapunov, StopsWhereTheMotionDiverges) {
   ModalLoop loop = loop_of(2);
   loop.gains = {-557.0, 400.0};

@@ -107,6 +107,29 @@ TEST(Answers, AreThoseOfTheJobsThatTheyName) {
   EXPECT_TRUE(holds(answers.text(motion, "answer"), "periodic(100)"));
 }
 
+/// On the conductor itself, where they are five.
+TEST(Answers, OnTheCableAreThoseOfTheJobsThatTheyName) {
+  const std::string there =
+      " --quiet --set plant.model=cable --set control.sampling_period=0.005"
+      " --set control.differential_gain=-4 --set backlash.width=0.0001";
+  const auto answers = table_of("answers --details" + there);
+  ASSERT_EQ(answers.rows(), 5U);
+  const auto vibration = table_of(
+      "sweep --axis backlash.width=0.0001:0.0001:1 --metric ratio_to_uncontrolled --duration 20" +
+      there);
+  EXPECT_NEAR(number_behind(answers.text(help, "answer"), "Yes: "),
+              100.0 * vibration.number(0, "ratio_to_uncontrolled"), 0.06);
+  const auto design = table_of("design" + there);
+  EXPECT_NEAR(number_behind(answers.text(gain, "answer"), "D = "),
+              design.number(0, "least_amplitude_gain"), 1e-3);
+  const auto delay = table_of("max-delay --frequency 10:10:1" + there);
+  EXPECT_NEAR(number_behind(answers.text(slow, "answer"), "Up to "),
+              1e3 * delay.number(0, "max_sampling_period_s"), 0.06);
+  EXPECT_TRUE(holds(answers.text(play, "answer"), "the case has 0.1 mm"));
+  const auto verdict = table_of("verdict" + there);
+  EXPECT_TRUE(holds(answers.text(motion, "answer"), verdict.text(0, "verdict")));
+}
+
 TEST(Answers, AloneAreTwoColumns) {
   const auto lines = lines_of(run_holdfast("answers").output);
   ASSERT_EQ(lines.size(), 7U);

@@ -9,6 +9,7 @@
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/lyapunov_spectrum.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/gram_schmidt.hpp"
 #include "holdfast/math/stats/batch_sums.hpp"
 #include "holdfast/motion/modal/modal_deviations.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
@@ -20,8 +21,9 @@ namespace holdfast {
 /// The five leading Lyapunov exponents of a conductor by its modes along a sequence of contacts, as
 /// LyapunovSpectrum has them of maps, by five deviations that are orthonormalised at every sample.
 ///
-/// Those that are exactly −∞ are not among them, but of a single mode without processing delay,
-/// which has four. Work per sample: 130 multiply-adds a natural motion.
+/// Those that are exactly −∞ are not among them, but of a single mode, which has four where there
+/// is no processing delay, and once the drive has been in its backlash. Work per sample: 130
+/// multiply-adds a natural motion.
 class ModalSpectrum {
  public:
   /// @param gains  P and D while the drive transmits
@@ -37,14 +39,16 @@ class ModalSpectrum {
   void push(bool engaged) {
     deviations_.advance(engaged);
     Eigen::MatrixXd basis = deviations_.columns();
+    // In the backlash no force is decided: one direction is lost, whatever the delay.
+    if (!engaged) finite_ = std::min(finite_, deviations_.order() - 1);
+    const Eigen::MatrixXd upper = orthonormalise(basis);
     Vector<double, leading> logarithms = Vector<double, leading>::Zero();
     for (Eigen::Index i = 0; i < finite_; ++i) {
-      const double stretch = orthonormalise(basis, i);
-      if (stretch == 0.0) {
+      if (upper(i, i) == 0.0) {
         finite_ = i;
         break;
       }
-      logarithms[i] = std::log(stretch);
+      logarithms[i] = std::log(upper(i, i));
     }
     deviations_.begin(basis.leftCols(finite_));
     sums_.add(logarithms, 1);
@@ -66,19 +70,6 @@ class ModalSpectrum {
 
  private:
   static constexpr int leading = 5;
-
-  /// Column i to length 1, across those before it, twice for the last digits.
-  /// @return its length across them
-  static double orthonormalise(Eigen::MatrixXd& basis, Eigen::Index i) {
-    auto column = basis.col(i);
-    for (int turn = 0; turn < 2; ++turn) {
-      const Eigen::VectorXd along = basis.leftCols(i).transpose() * column;
-      column -= basis.leftCols(i) * along;
-    }
-    const double length = column.norm();
-    if (length > 0.0) column /= length;
-    return length;
-  }
 
   ModalDeviations deviations_;
   Eigen::Index finite_;

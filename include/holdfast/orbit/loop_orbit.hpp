@@ -26,7 +26,7 @@ struct LoopOrbit {
   Rational ratio;                            ///< f τ = p/q
   double sampling_period;                    ///< τ (s)
   std::vector<Vector<double, Size>> states;  ///< N of them, the first one at phase 0 of the force
-  /// Of one period, five, largest first; −∞ for a null direction.
+  /// Of one period, largest first, five, or of many modes ten; −∞ for a null direction.
   std::vector<Multiplier> multipliers;
   double closure_error;  ///< ‖z_N − z₀‖, SI numbers of m and m/s
 

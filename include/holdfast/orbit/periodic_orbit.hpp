@@ -65,10 +65,11 @@ struct PeriodicSolution {
 /// @param itinerary  N samples, N a multiple of the forcing's q, the first one at phase 0
 /// @param blocks     maps_of_blocks() of the sequence
 /// @return nothing where 1 is a multiplier of the sequence to working precision: then it has no
-///         periodic solution, or a continuum of them
+///         periodic solution, or a continuum of them; or where there are no blocks
 template <class Maps>
 std::optional<PeriodicSolution<Maps>> periodic_solution(
     const Maps& maps, const Itinerary& itinerary, const std::vector<typename Maps::Map>& blocks) {
+  if (blocks.empty()) return std::nullopt;
   const typename Maps::System system(blocks);
   if (system.is_singular()) return std::nullopt;
   PeriodicSolution<Maps> solution;
@@ -83,6 +84,13 @@ std::optional<PeriodicSolution<Maps>> periodic_solution(
   solution.closure_error = maps.seen(open).template head<4>().norm();
   solution.state_error = StateScale(solution.states).share_of(maps.seen(correction));
   return solution;
+}
+
+/// Of one period, five.
+template <class Scalar>
+std::vector<Multiplier> multipliers_of(const ItineraryMaps<Scalar>&, const Itinerary&,
+                                       const std::vector<Matrix<Scalar, 5>>& blocks) {
+  return multipliers_of_product(blocks);
 }
 
 /// Solves for the orbit of an itinerary and verifies it.
@@ -104,7 +112,7 @@ OrbitResult orbit_of_itinerary(const Loop& loop, const Rational& ratio, const Ma
   if (!solution) return {};
   const SwitchingPattern pattern = switching_pattern(solution->states, law);
   PeriodicOrbit orbit{{ratio, loop.sampling.period, std::move(solution->states),
-                       multipliers_of_product(blocks), solution->closure_error},
+                       multipliers_of(maps, itinerary, blocks), solution->closure_error},
                       itinerary,
                       pattern.memory,
                       {}};

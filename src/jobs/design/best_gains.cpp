@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
+#include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "jobs/design/gain_margins.hpp"
 #include "process/interrupt.hpp"
@@ -18,29 +21,67 @@ bool have_one_answer(const IdealLoop<double>& one, const IdealLoop<double>& othe
          one.excitation.frequency == other.excitation.frequency && one.hold == other.hold;
 }
 
+AmplitudeOptions settling_within(double duration, const Sampling<double>& sampling,
+                                 ForceHold hold) {
+  return {sampling, hold, std::exp(-10.0 * sampling.period / duration), usual_margin, true};
+}
+
 }  // namespace
+
+BestForPlant::BestForPlant(const Case& the_case, const AmplitudeOptions& options)
+    : case_(the_case), options_(options) {
+  if (is_modal(the_case)) {
+    modal_.emplace(modal_response(poles_of(the_case), options.sampling));
+  } else {
+    loop_.emplace(sampled_loop(plant_of(the_case), options.sampling));
+  }
+}
+
+MinimumAmplitude BestForPlant::quietest(double frequency, double p) const {
+  if (loop_) return minimum_amplitude(plant_of(case_), options_, frequency, p);
+  const double omega = 2.0 * pi<double> * frequency;
+  return minimum_amplitude(*modal_, options_, frequency, p,
+                           steady_response_of(case_, options_.sampling, options_.hold, omega)
+                               .relative_to(true_amplitude_of(case_, omega)));
+}
+
+MinimumRadius BestForPlant::fastest(double p) const {
+  return loop_ ? minimum_radius(*loop_, p) : minimum_radius(*modal_, p);
+}
 
 const MinimumAmplitude& BestGains::of(const IdealLoop<double>& loop) {
   // Neighbours in a sweep often differ in nothing that the gain depends on.
   if (!known_ || !have_one_answer(*known_, loop)) {
-    const double radius = std::exp(-10.0 * loop.sampling.period / duration_);
-    answer_ = minimum_amplitude(loop.plant, {loop.sampling, loop.hold, radius, usual_margin, true},
+    answer_ = minimum_amplitude(loop.plant, settling_within(duration_, loop.sampling, loop.hold),
                                 loop.excitation.frequency, loop.gains.proportional);
     known_ = loop;
   }
   return answer_;
 }
 
+MinimumAmplitude BestGains::of(const Case& the_case) const {
+  AmplitudeOptions options =
+      settling_within(duration_, sampling_of(the_case), force_hold_of(the_case));
+  if (is_modal(the_case)) options.largest_radius = 1.0;
+  return BestForPlant(the_case, options)
+      .quietest(excitation_of(the_case).frequency, gains_of(the_case).proportional);
+}
+
+MaxDelay longest_period_of(const Case& the_case, const MaxDelayOptions& question) {
+  if (!is_modal(the_case)) return max_sampling_period(plant_of(the_case), question);
+  return modal_max_sampling_period(
+      {place_modes_of(the_case), absorber_of(the_case), poles_of(the_case)}, question);
+}
+
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {
-  const TwoMass<double> plant = plant_of(the_case);
   MaxDelayOptions question;
   question.watch = throw_if_interrupted;
   question.criterion = DelayCriterion::attenuates;
   question.hold = force_hold_of(the_case);
   question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
   question.frequency = frequency;
-  question.proportional_gain =
-      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
+  question.proportional_gain = tuned_proportional_gain(the_case.plant.absorber_stiffness,
+                                                       the_case.plant.absorber_mass, frequency);
   return question;
 }
 

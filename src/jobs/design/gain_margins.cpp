@@ -23,4 +23,12 @@ GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
           margins.delay.outcome == MarginEndOutcome::beyond_search};
 }
 
+StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
+  const Sampling<double> sampling = sampling_of(the_case);
+  if (!is_modal(the_case)) return stability_margins(plant_of(the_case), sampling, gains);
+  MarginSearch search;
+  search.longest_period_ratio = 100.0;
+  return modal_stability_margins(poles_of(the_case), sampling, gains, search);
+}
+
 }  // namespace holdfast::program

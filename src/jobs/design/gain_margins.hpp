@@ -2,6 +2,7 @@
 
 #include "case/case.hpp"
 #include "holdfast/control/gains.hpp"
+#include "holdfast/stability/margins/margins.hpp"
 
 namespace holdfast::program {
 
@@ -21,5 +22,9 @@ struct GainMargins {
 
 /// @param gains  not finite: all is NaN
 GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains);
+
+/// How far P, D, τ and δ may go from a case's. Of a modal case the periods are walked, up to a
+/// hundred of its own.
+StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
 }  // namespace holdfast::program

@@ -85,7 +85,9 @@ std::string force_text(const Vibration& vibration) {
 
 /// What is left where the drive switches when it happens and not at samples.
 std::string exact_switching_text(const Question& question) {
-  if (!(question.the_case.backlash.width > 0.0)) return "";
+  // Between the samples a conductor by its modes is followed state by state: too slow for an
+  // answer.
+  if (!(question.the_case.backlash.width > 0.0) || is_modal(question.the_case)) return "";
   const Vibration exact = vibrations_of({question.the_case}, question, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
   return page_text("left by exact switching", {{"ratio", percent(exact.ratio())}});
@@ -135,8 +137,7 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
 }
 
 std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
-  const StabilityMargins margins =
-      stability_margins(plant_of(the_case), sampling_of(the_case), gains);
+  const StabilityMargins margins = stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable) return page_text("not stable with it");
   return page_text("stable with it",
                    {{"D", stretch_text(margins.differential_gain, 1.0, "N s/m")},
@@ -188,11 +189,10 @@ void add_play(Answer& answer, const Question& question, double differential_gain
 
 Answer which_gain(const Question& question) {
   const Case& the_case = question.the_case;
-  const IdealLoop<double> loop = ideal_loop_of(the_case);
   const double duration = duration_of(the_case);
-  const MinimumAmplitude best = BestGains(duration).of(loop);
-  const double largest_radius = std::exp(-10.0 * loop.sampling.period / duration);
-  const PdGains<double> gains{loop.gains.proportional, best.differential_gain};
+  const MinimumAmplitude best = BestGains(duration).of(the_case);
+  const double largest_radius = std::exp(-10.0 * the_case.control.sampling_period / duration);
+  const PdGains<double> gains{gains_of(the_case).proportional, best.differential_gain};
   const bool is_found = std::isfinite(best.differential_gain);
   const Values values = {{"settled", rounded(0.5 * duration, 3)},
                          {"margins", is_found ? gain_margins_text(the_case, gains) : ""},
@@ -200,15 +200,17 @@ Answer which_gain(const Question& question) {
                          {"ratio", percent(best.ratio_to_uncontrolled)},
                          {"radius", format_number(largest_radius)},
                          {"margin", format_number(usual_margin)}};
-  Answer answer = asked("gain", values);
+  const bool must_settle = !is_modal(the_case);
+  Answer answer = asked(must_settle ? "gain" : "gain of modes", values);
   if (best.outcome == MinimumAmplitudeOutcome::none) {
-    answer.answer = page_text("no gain settles", values);
+    answer.answer = page_text(must_settle ? "no gain settles" : "no stable gain", values);
   } else if (best.outcome == MinimumAmplitudeOutcome::aliased) {
     answer.answer = page_text("aliased");
   } else {
     const bool is_worthwhile = best.ratio_to_uncontrolled < worthwhile;
     answer.answer = page_text(is_worthwhile ? "best gain" : "no gain worth it", values);
-    answer.detail = page_text("best of settling", values) + margins_text(the_case, gains);
+    answer.detail = page_text(must_settle ? "best of settling" : "best of stable", values) +
+                    margins_text(the_case, gains);
     add_play(answer, question, best.differential_gain, best.ratio_to_uncontrolled);
   }
   answer.detail += gain_of_case_text(the_case);
@@ -217,8 +219,7 @@ Answer which_gain(const Question& question) {
 
 /// "; with the gains of the case up to 12 ms; the case has 1 ms."
 std::string own_period_text(const Case& the_case) {
-  const StabilityMargins margins =
-      stability_margins(plant_of(the_case), sampling_of(the_case), gains_of(the_case));
+  const StabilityMargins margins = stability_margins_of(the_case, gains_of(the_case));
   const MarginEnd& longest = margins.sampling_period.above;
   const char* limit = "no limit";
   if (margins.outcome == MarginOutcome::not_stable)
@@ -233,7 +234,7 @@ std::string own_period_text(const Case& the_case) {
 Answer how_slow(const Case& the_case) {
   const MaxDelayOptions question =
       tuned_delay_question(the_case, excitation_of(the_case).frequency);
-  const MaxDelay longest = max_sampling_period(plant_of(the_case), question);
+  const MaxDelay longest = longest_period_of(the_case, question);
   Answer answer = asked("slow", {{"range", range_of(question.frequency)}});
   if (longest.sampling_period > 0.0 && std::isfinite(longest.sampling_period)) {
     const std::string held =
@@ -279,12 +280,17 @@ double limit_between(const Question& question, double serving, double failing) {
   return widths[static_cast<std::size_t>(std::max<std::ptrdiff_t>(first - 1, 0))];
 }
 
-/// What is said of the first stretch of widths that serve; it begins without play but where the
-/// loop needs its play.
+/// What is said of the stretch of widths that serve about the case's own, or else of the first one,
+/// which begins without play but where the loop needs its play.
 std::string play_text(const Question& question, const std::vector<double>& widths) {
   const std::vector<char> serve = widths_that_serve(question, widths);
-  const auto begin = std::find(serve.begin(), serve.end(), 1);
-  const auto end = std::find(begin, serve.end(), 0);
+  const auto next =
+      std::lower_bound(widths.begin(), widths.end(), question.the_case.backlash.width);
+  auto own = serve.begin() + std::min(next - widths.begin(), std::ptrdiff_t(widths.size()) - 1);
+  if (*own == 0) own = std::find(serve.begin(), serve.end(), 1);
+  auto begin = own;
+  while (begin != serve.begin() && *(begin - 1) != 0) --begin;
+  const auto end = std::find(own, serve.end(), 0);
   const auto width = [&](auto place) {
     return widths[static_cast<std::size_t>(place - serve.begin())];
   };
@@ -298,7 +304,9 @@ std::string play_text(const Question& question, const std::vector<double>& width
   if (begin == serve.begin())
     return page_text(end == serve.end() ? "every play" : "up to a play", values);
   values.emplace_back("least", limit(begin, begin - 1));
-  values.emplace_back("why", question.is_unstable_without_play() ? page_text("needs play") : "");
+  const bool is_first = std::find(serve.begin(), begin, 1) == begin;
+  values.emplace_back(
+      "why", is_first && question.is_unstable_without_play() ? page_text("needs play") : "");
   return page_text(end == serve.end() ? "from a play on" : "between two plays", values);
 }
 
@@ -317,8 +325,11 @@ Answer how_much_play(const Question& question) {
                                  {"widest", millimetres(widest)},
                                  {"end", format_number(widest)},
                                  {"count", std::to_string(parts + 1)}});
-  answer.answer =
-      question.free > 0.0 ? play_text(question, evenly(0.0, widest, parts)) : page_text("any play");
+  std::vector<double> widths = evenly(0.0, widest, parts);
+  const double own = question.the_case.backlash.width;
+  const auto place = std::lower_bound(widths.begin(), widths.end(), own);
+  if (place != widths.end() && *place != own) widths.insert(place, own);
+  answer.answer = question.free > 0.0 ? play_text(question, widths) : page_text("any play");
   return answer;
 }
 
@@ -342,7 +353,7 @@ std::vector<Answer> answers_of(const JobContext& context) {
   throw_if_interrupted();
   answers.push_back(how_much_play(question));
   answers.push_back(what_motion(question.motion));
-  answers.push_back(does_it_hold_on_the_cable(the_case));
+  if (!is_cable(the_case)) answers.push_back(does_it_hold_on_the_cable(the_case));
   return answers;
 }
 

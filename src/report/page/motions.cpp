@@ -9,11 +9,14 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "io/text/compiled_texts.hpp"
 #include "io/text/text.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "jobs/orbit/neighbours.hpp"
+#include "process/interrupt.hpp"
 #include "report/figures/figure.hpp"
 #include "report/page/html.hpp"
 
@@ -27,10 +30,6 @@ struct KnownMotion {
   IdealLoop<double> loop;
   Vector<double, 4> initial_state;
   SampledClassification found;
-
-  const PeriodicOrbit* orbit() const {
-    return found.search.outcome == OrbitOutcome::certified ? &*found.search.orbit : nullptr;
-  }
 };
 
 KnownMotion known_motion(const Case& the_case) {
@@ -43,13 +42,17 @@ std::string counted(std::int64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string period_text(const KnownMotion& motion) {
-  const std::int64_t samples = motion.found.classification.period;
+const PeriodicOrbit* certified(const SampledClassification& found) {
+  return found.search.outcome == OrbitOutcome::certified ? &*found.search.orbit : nullptr;
+}
+
+/// @param sampling_period  s
+std::string period_text(const SampledClassification& found, double sampling_period) {
+  const std::int64_t samples = found.classification.period;
   if (samples == 0) return no_value;
-  const double tau = motion.loop.sampling.period;
-  std::string text =
-      rounded(static_cast<double>(samples) * tau, 6) + " s; " + counted(samples, "sample");
-  const PeriodicOrbit* orbit = motion.orbit();
+  std::string text = rounded(static_cast<double>(samples) * sampling_period, 6) + " s; " +
+                     counted(samples, "sample");
+  const PeriodicOrbit* orbit = certified(found);
   if (orbit != nullptr && orbit->forcing_periods() > 0)
     text += "; " + counted(orbit->forcing_periods(), "forcing period");
   return text;
@@ -62,11 +65,11 @@ std::string border_text(const Borders& borders) {
   return distance(borders.displacement, " mm") + "; " + distance(borders.velocity, " mm/s");
 }
 
-std::string capture_text(const OrbitCertificate& certificate) {
-  if (!(certificate.radii.largest > 0.0)) return "none found";
-  if (std::isinf(certificate.radii.smallest)) return "everywhere";
-  const std::string from = rounded(1e3 * certificate.radii.smallest, 2);
-  const std::string to = rounded(1e3 * certificate.radii.largest, 2);
+std::string capture_text(const CaptureRadii& radii) {
+  if (!(radii.largest > 0.0)) return "none found";
+  if (std::isinf(radii.smallest)) return "everywhere";
+  const std::string from = rounded(1e3 * radii.smallest, 2);
+  const std::string to = rounded(1e3 * radii.largest, 2);
   return (from == to ? from : from + " … " + to) + " mm";
 }
 
@@ -75,12 +78,15 @@ std::string precision_text(const OrbitVerification& verification) {
   return "same contacts; " + rounded(verification.displacement_difference, 2) + " m";
 }
 
-/// @param settings  of the command that shows all that is known of the motion
-MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
+/// @param sampling_period  s
+/// @param settings         of the command that shows all that is known of the motion
+MotionRow row_of(const std::string& place, const std::string& text,
+                 const SampledClassification& found, double sampling_period,
                  const std::string& settings) {
-  const Classification& classification = motion.found.classification;
-  const PeriodicOrbit* orbit = motion.orbit();
-  MotionRow row{place, text, attractor_type_text(classification), period_text(motion)};
+  const Classification& classification = found.classification;
+  const PeriodicOrbit* orbit = certified(found);
+  MotionRow row{place, text, attractor_type_text(classification),
+                period_text(found, sampling_period)};
   row.rests_on = classification.rests_on;
   row.arguments = words_of((orbit != nullptr ? "orbit --certificate " : "verdict ") + settings);
   row.diverges = classification.kind == AttractorType::diverges;
@@ -88,10 +94,26 @@ MotionRow row_of(const std::string& place, const std::string& text, const KnownM
   row.stays_in_play = orbit->engaged_fraction() == 0.0;
   row.multiplier = rounded(orbit->largest_multiplier(), 3);
   row.border = border_text(orbit->borders);
+  return row;
+}
+
+/// With what the certificate of two masses says beside.
+MotionRow row_of(const std::string& place, const std::string& text, const KnownMotion& motion,
+                 const std::string& settings) {
+  MotionRow row = row_of(place, text, motion.found, motion.loop.sampling.period, settings);
+  const PeriodicOrbit* orbit = certified(motion.found);
+  if (orbit == nullptr) return row;
   const OrbitCertificate certificate = certificate_of(motion.loop, *orbit);
-  row.capture = capture_text(certificate);
+  row.capture = capture_text(certificate.radii);
   row.precision = precision_text(certificate.verification);
   return row;
+}
+
+/// Of a conductor by its modes.
+SampledClassification modal_classification_of(const Case& the_case) {
+  require_natural_motions(the_case);
+  const OrbitLimits limits{OrbitLimits{}.largest_period, 0, throw_if_interrupted};
+  return classify_motion(modal_loop_of(the_case), modal_state_of(the_case), limits);
 }
 
 }  // namespace
@@ -133,6 +155,9 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
 
 MotionRow motion_of_the_case(const Case& the_case) {
   const std::string text = loop_text(the_case) + ", from its initial state";
+  if (is_modal(the_case))
+    return row_of("this case", text, modal_classification_of(the_case),
+                  the_case.control.sampling_period, "");
   return row_of("this case", text, known_motion(the_case), "");
 }
 

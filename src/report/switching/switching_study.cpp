@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/motion_of_case.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/instant.hpp"
@@ -233,16 +234,19 @@ MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int
 }
 
 double swing_without_control(const Case& the_case, double duration) {
+  const auto swing_of = [&](auto motion) {
+    double largest = 0.0;
+    while (motion.time() < duration) {
+      const auto sample = motion.sense();
+      if (not_before(sample.time, 0.5 * duration))
+        largest = std::max(largest, std::abs(relative_displacement(sample.state)));
+      motion.advance();
+    }
+    return 2.0 * largest;
+  };
+  if (is_modal(the_case)) return swing_of(modal_motion_of(the_case, false));
   const StudiedLoop studied = without_control(the_case, duration);
-  EventMotion<> motion = motion_of(studied);
-  double largest = 0.0;
-  while (motion.time() < duration) {
-    const EventSample sample = motion.sense();
-    if (not_before(sample.time, 0.5 * duration))
-      largest = std::max(largest, std::abs(relative_displacement(sample.state)));
-    motion.advance();
-  }
-  return 2.0 * largest;
+  return swing_of(motion_of(studied));
 }
 
 double amplitude_without_control(const Case& the_case, double duration) {

@@ -167,11 +167,11 @@ TEST(ModalAttraction, NoDecisionInItEverChangesAndItReachesToTheFirstThatDoes) {
     const double truth = largest_radius(loop, maps, orbit, *region);
     EXPECT_LE(region->radius, truth * (1.0 + 1e-5));
     EXPECT_GE(region->radius, truth * (1.0 - 1e-5));
-    EXPECT_LE(region->inscribed_share, 1.0);
   }
 }
 
-TEST(ModalAttraction, EveryPeriodComesNearer) {
+/// The gap of a drive that is inside is one of the coordinates.
+TEST(ModalAttraction, MotionsInItKeepTheContactsAndComeNearer) {
   Random random(4211);
   for (const ModalLoop& loop : loops_with_orbits()) {
     const PeriodicOrbit orbit = certified_orbit(loop);
@@ -181,13 +181,48 @@ TEST(ModalAttraction, EveryPeriodComesNearer) {
     const Eigen::Index n = region->root.rows();
     std::vector<Vector<double, 5>> states(orbit.states.size());
     for (int trial = 0; trial < 20; ++trial) {
-      Eigen::VectorXd e(n - 1);
+      Eigen::VectorXd e(n);
       for (double& part : e) part = random.uniform(-1.0, 1.0);
-      const auto root = region->root.topLeftCorner(n - 1, n - 1);
-      const Eigen::VectorXd first = region->first + Eigen::VectorXd(maps.units().cwiseProduct(e));
+      EXPECT_LE((region->root * e).norm() * region->inscribed_share, e.norm());
+      if (!orbit.memory.inside) e[n - 1] = 0.0;
+      e *= 0.999 * region->radius / (region->root * e).norm();
+      const Eigen::VectorXd first =
+          region->first + Eigen::VectorXd(maps.units().cwiseProduct(e.head(n - 1)));
+      EXPECT_TRUE(decisions_of(loop, maps, orbit, first, e[n - 1]).same);
+      if (orbit.memory.inside) continue;
       const Eigen::VectorXd end = maps.follow(first, orbit.itinerary, states);
-      const Eigen::VectorXd after = (end - region->first).cwiseQuotient(maps.units());
-      EXPECT_LT((root * after).norm(), (root * e).norm());
+      Eigen::VectorXd after = Eigen::VectorXd::Zero(n);
+      after.head(n - 1) = (end - region->first).cwiseQuotient(maps.units());
+      EXPECT_LT((region->root * after).norm(), (region->root * e).norm());
+    }
+  }
+}
+
+/// Of a period that contracts to nothing, against blocks of eight samples of all deviations.
+TEST(ModalOrbit, LongPeriodsKeepTheDigitsOfTheirMultipliers) {
+  for (const double frequency : {10.0, 10.01, 10.001}) {
+    ModalLoop loop = loop_of(3, {0.005, 0.001}, -4.0, 5e-4, ForceHold::sampled);
+    loop.excitation.frequency = frequency;
+    const OrbitResult found = find_periodic_orbit(loop, at_rest(loop), {1'000'000, 0, {}});
+    ASSERT_EQ(found.outcome, OrbitOutcome::certified) << frequency;
+    const PeriodicOrbit& orbit = *found.orbit;
+    ModalDeviations flow = maps_of(loop, orbit).deviations();
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(flow.order(), flow.order());
+    std::vector<Eigen::MatrixXd> blocks;
+    flow.begin(unit);
+    for (std::size_t j = 0; j < orbit.itinerary.size(); ++j) {
+      flow.advance(orbit.itinerary[j] != 0);
+      if ((j + 1) % 8 != 0 && j + 1 != orbit.itinerary.size()) continue;
+      blocks.push_back(flow.columns());
+      flow.begin(unit);
+    }
+    const std::vector<Multiplier> expected = multipliers_of_product(blocks);
+    ASSERT_EQ(orbit.multipliers.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const double here = orbit.multipliers[i].log_modulus, there = expected[i].log_modulus;
+      if (std::isfinite(there) || std::isfinite(here)) {
+        EXPECT_NEAR(here, there, 1e-6 * (1.0 + std::abs(there))) << frequency << ' ' << i;
+      }
     }
   }
 }

@@ -80,4 +80,22 @@ Stretches<Number, Columns> orthonormalise(TangentBasis<Number, Columns>& basis,
   return result;
 }
 
+/// The same of columns of any length, by the classical process, twice for the last digits.
+/// @param basis  B, replaced by Q; a column that vanishes stays 0
+/// @return R
+inline Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& basis) {
+  Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(basis.cols(), basis.cols());
+  for (Eigen::Index i = 0; i < basis.cols(); ++i) {
+    auto column = basis.col(i);
+    for (int turn = 0; turn < 2; ++turn) {
+      const Eigen::VectorXd along = basis.leftCols(i).transpose() * column;
+      column -= basis.leftCols(i) * along;
+      upper.col(i).head(i) += along;
+    }
+    upper(i, i) = column.norm();
+    if (upper(i, i) > 0.0) column /= upper(i, i);
+  }
+  return upper;
+}
+
 }  // namespace holdfast

@@ -10,6 +10,7 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
+#include "holdfast/math/linalg/gram_schmidt.hpp"
 
 namespace holdfast {
 
@@ -73,6 +74,18 @@ Matrix<Scalar, Size> generic_basis(int order) {
   return Eigen::HouseholderQR<Matrix<Scalar, Size>>(dense).householderQ();
 }
 
+/// Some columns in no special position, orthonormal.
+inline Eigen::MatrixXd generic_columns(Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd basis(rows, columns);
+  for (Eigen::Index j = 0; j < columns; ++j)
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const auto row = static_cast<double>(i), column = static_cast<double>(j);
+      basis(i, j) = std::cos(1.0 + 3.0 * row + 7.0 * column + 1.3 * row * column);
+    }
+  orthonormalise(basis);
+  return basis;
+}
+
 /// One turn of orthogonal iteration around the period: Q ← the orthogonal factor after the last
 /// map.
 template <class Scalar, int Size>
@@ -124,6 +137,25 @@ void append_multipliers(const Matrix<Scalar, Size>& turn,
                            static_cast<double>(std::arg(value))});
 }
 
+/// The eigenvalues of W D U, largest first.
+/// @param turn  W = Q₀ᵀQ_K
+template <class Scalar, int Size>
+std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
+                                            const ScaledTriangle<Scalar, Size>& triangle) {
+  std::vector<Multiplier> multipliers;
+  Eigen::Index first = 0;
+  for (Eigen::Index last = 1; last <= triangle.rank; ++last) {
+    if (last < triangle.rank && !decoupled(turn, last)) continue;
+    append_multipliers(turn, triangle, first, last, multipliers);
+    first = last;
+  }
+  multipliers.resize(static_cast<std::size_t>(turn.rows()),
+                     {-std::numeric_limits<double>::infinity(), 0.0});
+  std::stable_sort(multipliers.begin(), multipliers.end(),
+                   [](const auto& a, const auto& b) { return a.log_modulus > b.log_modulus; });
+  return multipliers;
+}
+
 }  // namespace detail
 
 /// The eigenvalues of M = M_K … M₁, largest first, without forming it.
@@ -145,24 +177,15 @@ std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, 
     turn = before.transpose() * basis;
     if (count > 1 && detail::settled(turn, triangle.rank)) break;
   }
-  std::vector<Multiplier> multipliers;
-  Eigen::Index first = 0;
-  for (Eigen::Index last = 1; last <= triangle.rank; ++last) {
-    if (last < triangle.rank && !detail::decoupled(turn, last)) continue;
-    detail::append_multipliers(turn, triangle, first, last, multipliers);
-    first = last;
-  }
-  multipliers.resize(static_cast<std::size_t>(order),
-                     {-std::numeric_limits<double>::infinity(), 0.0});
-  std::stable_sort(multipliers.begin(), multipliers.end(),
-                   [](const auto& a, const auto& b) { return a.log_modulus > b.log_modulus; });
-  return multipliers;
+  return detail::multipliers_of_turn(turn, triangle);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template std::vector<Multiplier> multipliers_of_product(
     const std::vector<Matrix<double, 5>>&);
 extern template std::vector<Multiplier> multipliers_of_product(const std::vector<Eigen::MatrixXd>&);
+extern template std::vector<Multiplier> detail::multipliers_of_turn(
+    const Eigen::MatrixXd&, const detail::ScaledTriangle<double, Eigen::Dynamic>&);
 #endif
 
 }  // namespace holdfast

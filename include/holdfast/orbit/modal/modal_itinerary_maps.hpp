@@ -1,14 +1,18 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/gram_schmidt.hpp"
+#include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/motion/modal/modal_deviations.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/cyclic_system.hpp"
@@ -27,10 +31,18 @@ class ModalItineraryMaps {
   /// @param loop   its backlash width is not looked at
   /// @param poles  all of `plant_poles` of its modes and absorber
   /// @param ratio  f τ = p/q, of forcing_ratio()
+  /// @param watch  called now and then in what takes long; may throw to end it
   /// @throws InvalidParameter unless 1 ≤ q ≤ 10⁹
   ModalItineraryMaps(const ModalLoop& loop, const std::vector<PlantPole>& poles,
-                     const Rational& ratio)
-      : ModalItineraryMaps(loop, NaturalMotions(loop, poles), ratio) {}
+                     const Rational& ratio, const std::function<void()>& watch = {})
+      : ModalItineraryMaps(loop, NaturalMotions(loop, poles), ratio) {
+    watch_ = watch;
+  }
+
+  /// Calls the watch.
+  void look() const {
+    if (watch_) watch_();
+  }
 
   /// Of the units, at no deviation.
   const ModalDeviations& deviations() const { return deviations_; }
@@ -60,6 +72,7 @@ class ModalItineraryMaps {
                std::vector<Vector<double, 5>>& states) const {
     State state = first;
     for (std::size_t j = 0; j < itinerary.size(); ++j) {
+      if (j % 4096 == 0) look();
       states[j] = seen(state);
       step(state, states[j], itinerary[j] != 0, phases_[j % phases_.size()]);
     }
@@ -114,25 +127,76 @@ class ModalItineraryMaps {
   Eigen::VectorXcd decay_, present_, past_, cosine_, sine_;
   Eigen::Matrix<std::complex<double>, 4, Eigen::Dynamic> read_;
   std::vector<std::complex<double>> phases_;
+  std::function<void()> watch_;
 };
 
-/// The maps of some samples of an itinerary, in the units of `maps`: as few as may be multiplied
-/// without growing a thousandfold.
+/// The maps of stretches of an itinerary, in the units of `maps`, each cut within sixteen samples
+/// of where it has grown a thousandfold.
+/// @return empty where that happens more than 64 times: nothing that grows so often is an orbit to
+///         be told from rounding
 /// Work: 32 m² multiply-adds a sample, of m natural motions.
 inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& maps,
                                                    const Itinerary& itinerary) {
+  constexpr std::size_t between_looks = 16, most = 64;
   ModalDeviations flow = maps.deviations();
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(flow.order(), flow.order());
   std::vector<Eigen::MatrixXd> blocks;
   flow.begin(unit);
   for (std::size_t j = 0; j < itinerary.size(); ++j) {
     flow.advance(itinerary[j] != 0);
-    const bool last = j + 1 == itinerary.size();
-    if (!last && (j % 16 != 0 || flow.columns().cwiseAbs().maxCoeff() < 1e3)) continue;
+    const bool last = j + 1 == itinerary.size(), looks = j % between_looks == 0;
+    if (looks) maps.look();
+    if (!last && (!looks || flow.columns().cwiseAbs().maxCoeff() < 1e3)) continue;
+    if (blocks.size() == most) return {};
     blocks.push_back(flow.columns());
     flow.begin(unit);
   }
   return blocks;
+}
+
+/// The ten largest multipliers of one period, or all where there are fewer.
+///
+/// Some deviations more than ten are followed and orthonormalised around the period, turn after
+/// turn, until they span what the period makes of them (orthogonal iteration); periods of any
+/// length and contraction keep their digits. Where that takes too long, the period being short, the
+/// whole map tells.
+/// @param blocks  maps_of_blocks() of the sequence
+inline std::vector<Multiplier> multipliers_of(const ModalItineraryMaps& maps,
+                                              const Itinerary& itinerary,
+                                              const std::vector<Eigen::MatrixXd>& blocks) {
+  constexpr Eigen::Index leading = 10, beside = 6;
+  constexpr std::size_t between = 8, most_samples = 40000, fewest_turns = 3, most_turns = 20;
+  ModalDeviations flow = maps.deviations();
+  const Eigen::Index order = flow.order(), count = std::min(order, leading + beside);
+  const auto most =
+      std::max(most_turns * itinerary.size(), std::max(most_samples, itinerary.size()));
+  Eigen::MatrixXd basis = detail::generic_columns(order, count), turn;
+  detail::ScaledTriangle<double, Eigen::Dynamic> triangle(count);
+  bool spans = false;
+  std::size_t taken = 0;
+  for (std::size_t turns = 0; taken < most && !(spans && turns >= fewest_turns); ++turns) {
+    const Eigen::MatrixXd before = basis;
+    triangle = detail::ScaledTriangle<double, Eigen::Dynamic>(count);
+    flow.begin(basis);
+    for (std::size_t j = 0; j < itinerary.size(); ++j) {
+      flow.advance(itinerary[j] != 0);
+      if ((j + 1) % between != 0 && j + 1 != itinerary.size()) continue;
+      if (j % 4096 == 0) maps.look();
+      basis = flow.columns();
+      const double size = basis.norm();
+      triangle.multiply_from_left(orthonormalise(basis), size);
+      flow.begin(basis);
+    }
+    taken += itinerary.size();
+    turn = before.transpose() * basis;
+    const Eigen::Index shown = std::min(count, leading);
+    spans = (basis.leftCols(shown) - before * turn.leftCols(shown)).norm() < 1e-9;
+  }
+  std::vector<Multiplier> found = spans || blocks.size() != 1
+                                      ? detail::multipliers_of_turn(turn, triangle)
+                                      : multipliers_of_product(blocks);
+  found.resize(std::min(found.size(), static_cast<std::size_t>(leading)));
+  return found;
 }
 
 }  // namespace holdfast

@@ -41,7 +41,6 @@ inline bool attracts(const ModalAttraction& region, const ModalMotion& motion,
   deviation << amplitudes.real(), amplitudes.head(pairs).imag(), memory.previous_force, 0.0;
   deviation.head(order) = (deviation.head(order) - region.first).cwiseQuotient(units);
   if (gap_counts) deviation[order] = drive.lower - region.memory.lower;
-  if (!(deviation.norm() < radius)) return false;  // ‖R e‖ is larger still
   return (region.root.triangularView<Eigen::Upper>() * deviation).norm() < radius;
 }
 
@@ -73,8 +72,7 @@ class ModalRegion {
 
 /// The periodic orbit that the motion of a conductor by its modes comes to, with its certificate:
 /// that of find_periodic_orbit() of the two masses, the states of the orbit being what conductor
-/// and absorber show, z̃_j = [z, ż, z₂, ż₂; u_{j−1}], and its multipliers those of all natural
-/// motions. Multipliers that are smaller than the largest one by more than 10¹⁴ are rounding.
+/// and absorber show, z̃_j = [z, ż, z₂, ż₂; u_{j−1}], and its multipliers the ten largest of all.
 ///
 /// `none_found` is also the answer where `plant_poles` are not all found.
 ///
@@ -94,7 +92,7 @@ OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initi
   const std::optional<Rational> ratio = forcing_ratio(loop);
   if (!ratio) return {OrbitOutcome::incommensurate, {}};
   if (ratio->denominator > limits.largest_period) return {};
-  const ModalItineraryMaps maps(loop, plant_poles(loop.modes, loop.absorber), *ratio);
+  const ModalItineraryMaps maps(loop, plant_poles(loop.modes, loop.absorber), *ratio, limits.watch);
   return detail::orbit_by_returns(loop, *ratio, limits, *motion,
                                   detail::ModalRegion<Loop>(loop, maps));
 }
