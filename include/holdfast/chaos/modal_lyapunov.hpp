@@ -26,8 +26,9 @@ namespace holdfast {
 /// multiply-adds a natural motion.
 class ModalSpectrum {
  public:
-  /// @param gains  P and D while the drive transmits
-  /// @param late   whether a force acts beyond the sample that decides it, δ > 0
+  /// @param motions  of the loop
+  /// @param gains    P and D while the drive transmits
+  /// @param late     whether a force acts beyond the sample that decides it, δ > 0
   ModalSpectrum(const NaturalMotions& motions, const PdGains<double>& gains, bool late)
       : deviations_(motions, gains) {
     const Eigen::Index order = deviations_.order();

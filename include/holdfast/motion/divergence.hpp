@@ -45,6 +45,7 @@ double divergence_bound(const ImplementedLoopOf<Plant>& loop, const StateOf<Plan
 }
 
 /// The same of a conductor by its modes: all that the force bends it statically counts.
+/// @param loop   admissible
 /// @param state  the initial one, of `modal_plant`
 inline double divergence_bound(const ModalLoop& loop, const NaturalMotions::Full& state) {
   const double bend = receptance(loop.modes, std::complex<double>(0.0)).real();

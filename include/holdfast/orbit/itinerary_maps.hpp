@@ -63,6 +63,7 @@ class ItineraryMaps {
   }
 
   /// All states of an itinerary from a given first one, and the state after its last sample.
+  /// @param first      z̃₀
   /// @param itinerary  its first sample at phase 0 of the forcing
   /// @param states     takes z̃_j, one a sample
   State follow(const State& first, const Itinerary& itinerary, std::vector<State>& states) const {

@@ -49,6 +49,7 @@ using OrbitResult = OrbitResultOf<PeriodicOrbit>;
 /// @tparam Maps  ItineraryMaps or ModalItineraryMaps
 template <class Maps>
 struct PeriodicSolution {
+  /// z̃.
   using Seen = std::decay_t<decltype(std::declval<Maps>().seen(std::declval<Maps>().rest()))>;
 
   typename Maps::State first;  ///< the first state

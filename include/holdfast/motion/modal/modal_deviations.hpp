@@ -24,7 +24,8 @@ class ModalDeviations {
   using Row = Eigen::RowVectorXd;   ///< of each deviation a number
 
   /// Begins with the unit vectors.
-  /// @param gains  P and D while the drive transmits
+  /// @param motions  of the loop
+  /// @param gains    P and D while the drive transmits
   ModalDeviations(const NaturalMotions& motions, const PdGains<double>& gains)
       : count_(static_cast<Eigen::Index>(motions.size())),
         pairs_(static_cast<Eigen::Index>(motions.pairs())),

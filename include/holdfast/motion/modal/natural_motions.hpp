@@ -35,12 +35,15 @@ struct ModalLoop {
 ///
 /// and what is read of it: z = Re Σ w_z ξ, and so on. One of a pair stands for both.
 struct NaturalMotion {
-  std::complex<double> decay;         ///< e^{sτ}
-  std::complex<double> present;       ///< γ₀, of the force that this sample decides
-  std::complex<double> past;          ///< γ₁, of the one before
-  std::complex<double> cosine, sine;  ///< g_c, g_s
-  std::complex<double> z, v;          ///< w of the conductor's displacement and velocity
-  std::complex<double> z2, v2;        ///< w of the absorber's
+  std::complex<double> decay;    ///< e^{sτ}
+  std::complex<double> present;  ///< γ₀, of the force that this sample decides
+  std::complex<double> past;     ///< γ₁, of the one before
+  std::complex<double> cosine;   ///< g_c
+  std::complex<double> sine;     ///< g_s
+  std::complex<double> z;        ///< w of the conductor's displacement
+  std::complex<double> v;        ///< w of its velocity
+  std::complex<double> z2;       ///< w of the absorber's displacement
+  std::complex<double> v2;       ///< w of its velocity
 };
 
 /// All natural motions of conductor and absorber, each by itself: what every motion of a ModalLoop

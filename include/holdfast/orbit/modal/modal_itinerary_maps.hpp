@@ -66,6 +66,7 @@ class ModalItineraryMaps {
 
   /// What is seen at all samples of an itinerary from a given first state, and the state after its
   /// last sample.
+  /// @param first      the state
   /// @param itinerary  its first sample at phase 0 of the forcing
   /// @param states     takes [z_j; u_{j−1}], one a sample
   State follow(const State& first, const Itinerary& itinerary,
@@ -160,7 +161,9 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 /// turn, until they span what the period makes of them (orthogonal iteration); periods of any
 /// length and contraction keep their digits. Where that takes too long, the period being short, the
 /// whole map tells.
-/// @param blocks  maps_of_blocks() of the sequence
+/// @param maps       of the loop
+/// @param itinerary  of one period
+/// @param blocks     maps_of_blocks() of the sequence
 inline std::vector<Multiplier> multipliers_of(const ModalItineraryMaps& maps,
                                               const Itinerary& itinerary,
                                               const std::vector<Eigen::MatrixXd>& blocks) {

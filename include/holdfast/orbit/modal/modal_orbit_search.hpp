@@ -24,6 +24,7 @@ inline std::optional<Rational> forcing_ratio(const ModalLoop& loop) {
 
 /// Whether a motion at a stroboscopic instant lies in a neighbourhood.
 /// @param region  at the same phase of the forcing
+/// @param motion  before a sample
 /// @param units   of the deviations
 inline bool attracts(const ModalAttraction& region, const ModalMotion& motion,
                      const Eigen::VectorXd& units) {
