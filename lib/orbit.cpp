@@ -2,6 +2,7 @@
 
 #include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/itinerary_maps.hpp"
+#include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
@@ -19,6 +20,9 @@ template OrbitResult detail::orbit_of_motion(const IdealLoop<double>&, const Rat
 template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<double, 4>&,
                                          const OrbitLimits&);
 
+template std::optional<ModalAttraction> modal_attraction(const ModalLoop&,
+                                                         const ModalItineraryMaps&,
+                                                         const PeriodicOrbit&);
 template OrbitResult find_periodic_orbit(const ModalLoop&, const ModalMotion::Full&,
                                          const OrbitLimits&);
 

@@ -89,4 +89,10 @@ std::optional<ModalAttraction> modal_attraction(const Loop& loop, const ModalIti
   return std::nullopt;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::optional<ModalAttraction> modal_attraction(const ModalLoop&,
+                                                                const ModalItineraryMaps&,
+                                                                const PeriodicOrbit&);
+#endif
+
 }  // namespace holdfast

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
@@ -164,9 +165,10 @@ inline std::vector<Eigen::MatrixXd> maps_of_blocks(const ModalItineraryMaps& map
 /// @param maps       of the loop
 /// @param itinerary  of one period
 /// @param blocks     maps_of_blocks() of the sequence
-inline std::vector<Multiplier> multipliers_of(const ModalItineraryMaps& maps,
-                                              const Itinerary& itinerary,
-                                              const std::vector<Eigen::MatrixXd>& blocks) {
+/// @tparam Maps  ModalItineraryMaps; a template so that only who calls it compiles it
+template <class Maps, std::enable_if_t<std::is_same_v<Maps, ModalItineraryMaps>, int> = 0>
+std::vector<Multiplier> multipliers_of(const Maps& maps, const Itinerary& itinerary,
+                                       const std::vector<typename Maps::Map>& blocks) {
   constexpr Eigen::Index leading = 10, beside = 6;
   constexpr std::size_t between = 8, most_samples = 40000, fewest_turns = 3, most_turns = 20;
   ModalDeviations flow = maps.deviations();
