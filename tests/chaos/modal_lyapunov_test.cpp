@@ -23,11 +23,7 @@ ModalLoop loop_of(int modes, double late = 0.001) {
 }
 
 IdealLoop<double> two_masses_of(const ModalLoop& loop) {
-  const PlaceMode<double>& mode = loop.modes.front();
-  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
-  const Absorber<double>& absorber = loop.absorber;
-  return {{mass, mass * omega * omega, 2.0 * mode.damping_ratio * omega * mass, absorber.mass,
-           absorber.stiffness, absorber.damping},
+  return {test::two_masses_of(loop.modes.front(), loop.absorber),
           loop.sampling,
           loop.gains,
           loop.excitation,

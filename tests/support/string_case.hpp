@@ -14,6 +14,14 @@ inline Absorber<double> papers_absorber(double clamp_mass) {
   return {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping, clamp_mass};
 }
 
+/// The two masses that a conductor of one mode is, with an absorber without a clamp mass.
+inline TwoMass<double> two_masses_of(const PlaceMode<double>& mode,
+                                     const Absorber<double>& absorber) {
+  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
+  return {mass,          mass * omega * omega, 2.0 * mode.damping_ratio * omega * mass,
+          absorber.mass, absorber.stiffness,   absorber.damping};
+}
+
 /// Up to twelve modes at any distances, every fourth with a node at the absorber.
 inline std::vector<PlaceMode<double>> random_modes(Random& random, double largest_damping) {
   std::vector<PlaceMode<double>> modes;

@@ -20,16 +20,10 @@ ModalLoop loop_of_one_mode() {
 }
 
 MotionMetrics metrics_of_two_masses(const ModalLoop& loop, double duration) {
-  const PlaceMode<double>& mode = loop.modes.front();
-  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
-  const Absorber<double>& absorber = loop.absorber;
-  const TwoMass<double> masses{
-      mass,          mass * omega * omega, 2.0 * mode.damping_ratio * omega * mass,
-      absorber.mass, absorber.stiffness,   absorber.damping};
-  return event_metrics(
-      implemented_loop(IdealLoop<double>{masses, loop.sampling, loop.gains, loop.excitation,
-                                         loop.backlash_width, loop.hold}),
-      Vector<double, 4>::Zero(), duration);
+  return event_metrics(implemented_loop(IdealLoop<double>{
+                           two_masses_of(loop.modes.front(), loop.absorber), loop.sampling,
+                           loop.gains, loop.excitation, loop.backlash_width, loop.hold}),
+                       Vector<double, 4>::Zero(), duration);
 }
 
 TEST(ModalMetrics, OfOneModeAreThoseOfTwoMasses) {

@@ -34,12 +34,8 @@ void expect_same(const MaxDelay& found, const MaxDelay& expected, double toleran
 /// A string of one mode is two masses.
 TEST(ModalMaxDelay, OfOneModeIsThatOfTwoMasses) {
   const ConductorWithAbsorber plant = string_with(1, 0.0);
-  const PlaceMode<double>& mode = plant.modes.front();
-  const double mass = mode.mass / (mode.shape * mode.shape), omega = mode.angular_frequency;
   const Absorber<double>& absorber = plant.absorber;
-  const TwoMass<double> masses{
-      mass,          mass * omega * omega, 2.0 * mode.damping_ratio * omega * mass,
-      absorber.mass, absorber.stiffness,   absorber.damping};
+  const TwoMass<double> masses = two_masses_of(plant.modes.front(), absorber);
   for (const double frequency : {4.0, 10.0, 25.0, 50.0}) {
     for (const double share : {0.0, 0.5}) {
       MaxDelayOptions question = tuned_to(frequency, absorber);
