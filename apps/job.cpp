@@ -86,8 +86,9 @@ void require_two_masses(const Case& the_case, const std::string& job) {
   if (!is_modal(the_case)) return;
   const auto place = the_case.places.find("plant.model");
   throw WrongInput((place == the_case.places.end() ? "" : place->second + ": ") +
-                   "plant.model = \"" + the_case.plant.model + "\": " + job +
-                   " answers for two_masses alone; those that answer on the conductor itself are " +
+                   modal_words(the_case) + ": " + job +
+                   " answers for two_masses under an ideal drive alone; those that answer on the "
+                   "conductor itself and for filters, lags and delays are " +
                    jobs_on_any_plant());
 }
 

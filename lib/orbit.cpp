@@ -23,6 +23,9 @@ template OrbitResult find_periodic_orbit(const IdealLoop<double>&, const Vector<
 template std::optional<ModalAttraction> modal_attraction(const ModalLoop&,
                                                          const ModalItineraryMaps&,
                                                          const PeriodicOrbit&);
+template OrbitResult detail::orbit_by_returns(const ModalLoop&, const Rational&, const OrbitLimits&,
+                                              const ModalMotion&,
+                                              const detail::ModalRegion<ModalLoop>&);
 template OrbitResult find_periodic_orbit(const ModalLoop&, const ModalMotion::Full&,
                                          const OrbitLimits&);
 

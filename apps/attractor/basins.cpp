@@ -4,10 +4,12 @@
 #include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/event_basins.hpp"
+#include "holdfast/phase_space/modal_basins.hpp"
 #include "io/file/output.hpp"
 #include "io/grid/grid_output.hpp"
 #include "job.hpp"
@@ -188,7 +190,11 @@ struct BasinsQuestion {
     const auto write = [&](const auto& map) {
       fractions ? write_fractions(context, map) : write_states(context, grid, map);
     };
-    if (is_of_the_paper(context.case_data, switching)) {
+    if (is_modal(context.case_data)) {
+      const ModalLoop loop = paper_loop_of(context.case_data, switching);
+      require_attractors(forcing_ratio(loop), largest_period);
+      write(find_basins(loop, states, limits, tiles));
+    } else if (is_of_the_paper(context.case_data, switching)) {
       const IdealLoop<double> loop = ideal_loop_of(context.case_data);
       require_attractors(forcing_ratio(loop), largest_period);
       const auto travel = [&](const auto& motion) {

@@ -32,7 +32,7 @@ void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>
   if (given.noise_rms > 0.0)
     derived.emplace_back("noise_period",
                          given.noise_lines / (given.noise_highest - given.noise_lowest));
-  if (!is_modal(the_case))
+  if (is_two_masses(the_case))
     derived.emplace_back("static_displacement", excitation.amplitude / plant.conductor_stiffness);
 }
 
@@ -91,7 +91,7 @@ Derivations derivations_of(const Case& the_case) {
   Derivations derived;
   add_force(derived, the_case, plant);
   add_gains(derived, the_case, plant);
-  if (!is_modal(the_case)) add_modes(derived, plant);
+  if (is_two_masses(the_case)) add_modes(derived, plant);
   add_clock(derived, the_case);
   add_stability(derived, the_case);
   return derived;

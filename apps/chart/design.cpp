@@ -8,6 +8,7 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
 #include "io/text/names.hpp"
 #include "job.hpp"
 #include "jobs/design/best_gains.hpp"
@@ -103,7 +104,11 @@ void write_band_gain(const JobContext& context, const Range& band, const Admissi
   const Case& the_case = context.case_data;
   const double p = gains_of(the_case).proportional;
   const AmplitudeOptions options = options_of(the_case, admissible);
-  const auto answer = minimax_amplitude(plant_of(the_case), options, p, {band.min, band.max});
+  const FrequencyBand frequencies{band.min, band.max};
+  const auto answer =
+      is_modal(the_case)
+          ? modal_minimax_amplitude(conductor_with_absorber_of(the_case), options, p, frequencies)
+          : minimax_amplitude(plant_of(the_case), options, p, frequencies);
   if (answer.outcome == MinimaxOutcome::none)
     throw NoAnswer(no_gain_text(p, options.largest_radius));
   report_warning(held_force_warning(the_case, options.sampling.period, band.max, ratios_shown),
@@ -150,7 +155,6 @@ struct DesignQuestion {
 
   void run(const JobContext& context) const {
     refuse_on_modes(context.case_data, both_gains, "--both-gains");
-    refuse_on_modes(context.case_data, !band.empty(), "--band");
     if (both_gains) return write_best_pair(context);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), admissible);
     std::optional<Axis> frequencies;

@@ -36,7 +36,7 @@ void tell_margins(const JobContext& context) {
                    format_rounded(spectral_radius_of(the_case)));
   if (is_modal(the_case))
     report_warning(
-        "on its modes, those of the case's period, sampling_period was walked in steps of 5 % and "
+        "with the plant of the case's period sampling_period was walked in steps of 5 % and "
         "processing_delay in eighths of a sample: a gap of instability narrower than that is not "
         "seen",
         context.quiet);

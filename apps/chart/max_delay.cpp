@@ -22,11 +22,10 @@ struct MaxDelayQuestion {
   void run(const JobContext& context) {
     const Case& the_case = context.case_data;
     if (is_modal(the_case)) {
-      const ConductorWithAbsorber conductor{place_modes_of(the_case), absorber_of(the_case),
-                                            poles_of(the_case)};
+      const ConductorWithAbsorber conductor = conductor_with_absorber_of(the_case);
       answer(context, conductor);
       report_warning(
-          "of the conductor the period is walked by 3 %, with the modes of the case's own: a "
+          "the period is walked by 3 %, with the plant of the case's own: a "
           "stretch of instability narrower than a step is missed",
           context.quiet);
     } else {
@@ -50,7 +49,7 @@ struct MaxDelayQuestion {
   }
   static double excess_of(const ConductorWithAbsorber& plant, const Sampling<double>& sampling,
                           const PdGains<double>& gains) {
-    return loop_excess(modal_response(plant.poles, sampling), gains);
+    return loop_excess(modal_response(plant, sampling), gains);
   }
 
   template <class Plant>

@@ -39,15 +39,15 @@ struct ModalDampingQuestion {
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    if (!is_modal(the_case))
+    if (is_two_masses(the_case) || is_infinite(the_case))
       throw WrongInput(
-          "modal-damping is of the conductor's modes, and the case's plant is two masses: add "
-          "--set plant.model=cable");
+          std::string("modal-damping is of the conductor's modes, and the case's plant ") +
+          (is_infinite(the_case) ? "has none" : "is two masses") + ": add --set plant.model=cable");
     const PdGains<double> gains = no_control ? PdGains<double>{0.0, 0.0} : gains_of(the_case);
     Table table(context, columns_of("modal-damping"));
     const ConductorModes conductor = conductor_modes_of(the_case);
-    const auto modes =
-        modal_damping(conductor.modes, absorber_of(the_case), sampling_of(the_case), gains);
+    const auto modes = modal_damping(conductor.modes, absorber_of(the_case), sampling_of(the_case),
+                                     gains, hardware_of(the_case));
     std::int64_t number = 0, lost = 0, not_light = 0;
     for (const ModeDamping& mode : modes) {
       lost += std::isnan(mode.damping()) ? 1 : 0;

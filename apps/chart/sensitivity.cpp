@@ -1,4 +1,7 @@
 #include "holdfast/stability/sensitivity/sensitivity.hpp"
+
+#include <cmath>
+
 #include "case/case_keys.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -10,6 +13,7 @@
 #include "holdfast/stability/sensitivity/minimum_radius_sensitivity.hpp"
 #include "job.hpp"
 #include "jobs/charts/names.hpp"
+#include "jobs/design/case_sensitivity.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -119,6 +123,19 @@ void write(Table& table, const Question& q, const Sensitivities& answer, bool tu
   }
 }
 
+/// The same of a modal case, by differences.
+void write_of_modes(const JobContext& context, bool follows) {
+  Table table(context, columns_of("sensitivity"));
+  for (const CaseSensitivity& answer : case_sensitivities(context.case_data, follows)) {
+    if (!std::isfinite(answer.value)) continue;
+    for (const auto& [key, derivative] : answer.keys)
+      table.row(answer.name, answer.value, answer.unit, key, find_case_key(key)->unit,
+                derivative + 0.0,
+                derivative * case_value(context.case_data, key) / answer.value + 0.0);
+  }
+  table.commit();
+}
+
 /// One row for every answer and parameter, ∂answer/∂parameter and ∂ ln|answer|/∂ ln|parameter|.
 /// Answers that the case does not have (no stable gain, no largest period) have no rows.
 struct SensitivityQuestion {
@@ -128,10 +145,11 @@ struct SensitivityQuestion {
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
+    const bool follows = tuned || the_case.control.proportional_gain_tuned;
+    if (is_modal(the_case)) return write_of_modes(context, follows);
     const Question question{plant_of(the_case), sampling_of(the_case), gains_of(the_case),
                             excitation_of(the_case).frequency, force_hold_of(the_case)};
     Table table(context, columns_of("sensitivity"));
-    const bool follows = tuned || the_case.control.proportional_gain_tuned;
     for (const Sensitivities& answer : answers_of(question))
       write(table, question, answer, follows);
     table.commit();

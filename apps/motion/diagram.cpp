@@ -49,10 +49,16 @@ struct DiagramQuestion {
     const auto case_at = [&, name = key](double value) {
       return case_with(context.case_data, name, value);
     };
+    for (const double value : values)
+      if (is_modal(case_at(value)) != is_modal(context.case_data))
+        throw WrongInput(
+            "--axis " + axis + ": with " +
+            modal_words(is_modal(context.case_data) ? context.case_data : case_at(value)) +
+            " another loop is meant than without; a diagram is of one of them");
     const std::size_t diverged =
         is_modal(context.case_data)
             ? run_orbit_diagram(
-                  [&](double value) { return swept_loop_of(case_at(value), switching); }, values,
+                  [&](double value) { return paper_loop_of(case_at(value), switching); }, values,
                   modal_state_of(context.case_data), watched, write)
             : run_orbit_diagram(
                   [&](double value) { return implemented_loop_of(case_at(value), switching); },

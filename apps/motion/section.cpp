@@ -41,7 +41,7 @@ struct SectionQuestion {
     };
     if (is_modal(context.case_data)) {
       report_warning(dense_work_warning(context.case_data), context.quiet);
-      run_of(event_motion(modal_implemented_loop_of(context.case_data, switching),
+      run_of(event_motion(conductor_loop_of(context.case_data, {switching, true}),
                           modal_state_of(context.case_data)));
     } else {
       run_of(event_motion(implemented_loop_of(context.case_data, switching),

@@ -1,5 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
@@ -53,6 +54,8 @@ struct SimulateQuestion {
       return;
     }
     const MotionChoice choice{switching, !no_control};
+    if (is_modal(context.case_data) && !is_of_the_paper(context.case_data, switching))
+      report_warning(dense_work_warning(context.case_data), context.quiet);
     auto digits = digits_beside(context.case_data, choice, kicked, from);
     with_motion_of(context.case_data, choice, [&](auto motion) {
       run_to_completion(motion, samples, kicked, [&](const auto& sample) {

@@ -1,6 +1,9 @@
 #include "report/page/answers.hpp"
 
+#include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "job.hpp"
+#include "process/exit.hpp"
 #include "report/page/command_line.hpp"
 
 namespace holdfast::program {
@@ -13,6 +16,9 @@ struct AnswersQuestion {
 
   void run(const Job& job) const {
     const JobContext context = job.context();
+    report_warning(drift_warning(context.case_data), context.quiet);
+    if (is_modal(context.case_data) && !is_of_the_paper(context.case_data, Switching::sampled))
+      report_warning(dense_work_warning(context.case_data), context.quiet);
     Table table(context, columns_of(detailed ? "detailed answers" : "answers"));
     for (const Answer& answer : answers_of(context)) {
       if (detailed)

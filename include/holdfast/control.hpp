@@ -6,6 +6,7 @@
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/gains.hpp"
+#include "holdfast/control/late_controller.hpp"
 #include "holdfast/control/loop_input.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/control/quantiser.hpp"

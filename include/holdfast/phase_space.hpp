@@ -7,6 +7,7 @@
 #include "holdfast/phase_space/coverage.hpp"
 #include "holdfast/phase_space/deviation.hpp"
 #include "holdfast/phase_space/event_basins.hpp"
+#include "holdfast/phase_space/modal_basins.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/phase_space/orbit_diagram.hpp"
 #include "holdfast/phase_space/section.hpp"

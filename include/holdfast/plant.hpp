@@ -3,10 +3,12 @@
 /// Linear plants and what is told of them without control.
 
 #include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/decaying_norm.hpp"
 #include "holdfast/plant/energy.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/plant_poles.hpp"

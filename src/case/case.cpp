@@ -7,7 +7,32 @@
 
 namespace holdfast::program {
 
-bool is_modal(const Case& the_case) { return the_case.plant.model != "two_masses"; }
+bool is_two_masses(const Case& the_case) { return the_case.plant.model == "two_masses"; }
+
+bool has_hardware(const Case& the_case) {
+  return std::isfinite(the_case.control.measurement_filter) ||
+         std::isfinite(the_case.control.drive_bandwidth);
+}
+
+bool is_modal(const Case& the_case) {
+  return !is_two_masses(the_case) || has_hardware(the_case) ||
+         the_case.control.processing_delay > the_case.control.sampling_period;
+}
+
+std::string modal_words(const Case& the_case) {
+  if (!is_two_masses(the_case)) return "plant.model = \"" + the_case.plant.model + "\"";
+  const bool late = the_case.control.processing_delay > the_case.control.sampling_period;
+  std::string names;
+  const auto add = [&](bool given, const char* name) {
+    if (given) names += (names.empty() ? "" : ", ") + std::string(name);
+  };
+  add(std::isfinite(the_case.control.measurement_filter), "control.measurement_filter");
+  add(std::isfinite(the_case.control.drive_bandwidth), "control.drive_bandwidth");
+  add(late, "control.processing_delay beyond control.sampling_period");
+  return names;
+}
+
+bool is_infinite(const Case& the_case) { return the_case.plant.model == "infinite_string"; }
 
 bool is_cable(const Case& the_case) { return the_case.plant.model == "cable"; }
 

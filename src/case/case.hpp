@@ -67,9 +67,12 @@ struct Control {
   double displacement_quantum = 0.0;
   double velocity_quantum = 0.0;
   std::string velocity = "measured";
-  double largest_force = std::numeric_limits<double>::infinity();  // infinity: "none"
-  double jitter = 0.0;                                             // half width
-  double jitter_seed = 1.0;                                        // whole
+  double largest_force = std::numeric_limits<double>::infinity();       // infinity: "none"
+  double measurement_filter = std::numeric_limits<double>::infinity();  // Hz; infinity: "none"
+  double drive_bandwidth = std::numeric_limits<double>::infinity();     // Hz; infinity: "none"
+  double drive_damping = std::numeric_limits<double>::infinity();       // infinity: "first_order"
+  double jitter = 0.0;                                                  // half width
+  double jitter_seed = 1.0;                                             // whole
 };
 
 struct Backlash {
@@ -136,8 +139,22 @@ struct Case {
   bool second_frequency_computed = false;
 };
 
-/// Whether the absorber hangs on the conductor itself, by its modes, and not on one mass.
+/// Whether the conductor is one mass.
+bool is_two_masses(const Case& the_case);
+
+/// Whether the readings are filtered or the drive lags.
+bool has_hardware(const Case& the_case);
+
+/// Whether the loop is computed by its natural motions: where the absorber hangs on the conductor
+/// itself; and on one mass, as a conductor of one mode, where the readings are filtered, the drive
+/// lags or the force comes more than a sample late.
 bool is_modal(const Case& the_case);
+
+/// What of a modal case it is that makes it one, for a message.
+std::string modal_words(const Case& the_case);
+
+/// Whether the conductor is a string without ends.
+bool is_infinite(const Case& the_case);
 
 /// Whether that conductor is the hanging cable in elements, and not the taut string.
 bool is_cable(const Case& the_case);

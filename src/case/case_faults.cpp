@@ -5,6 +5,7 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
+#include "holdfast/control/late_controller.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -20,10 +21,11 @@ std::string quantity(const char* key, double value, const char* unit) {
 }
 
 CaseFault control_fault(const Case& c) {
-  if (c.control.processing_delay <= c.control.sampling_period) return {};
+  constexpr double most = 100.0;
+  if (c.control.processing_delay <= most * c.control.sampling_period) return {};
   return {{"control.processing_delay", "control.sampling_period"},
           quantity("control.processing_delay", c.control.processing_delay, "s") +
-              " must not exceed " +
+              " must not exceed 100 times " +
               quantity("control.sampling_period", c.control.sampling_period, "s")};
 }
 
@@ -36,9 +38,11 @@ CaseFault jitter_fault(const Case& c) {
                 quantity("control.sampling_period", period, "s")};
   }
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-  if (2.0 * jitter + c.control.processing_delay <= period * (1.0 + rounding)) return {};
+  const double late = within_sample({period, c.control.processing_delay}).processing_delay;
+  if (2.0 * jitter + late <= period * (1.0 + rounding)) return {};
   return {{"control.jitter", "control.processing_delay", "control.sampling_period"},
           "twice " + half_width + " and " +
+              (late < c.control.processing_delay ? "what is no whole sample of " : "") +
               quantity("control.processing_delay", c.control.processing_delay, "s") +
               " together must not exceed " + quantity("control.sampling_period", period, "s")};
 }

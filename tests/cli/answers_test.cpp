@@ -120,7 +120,7 @@ TEST(Answers, OnTheCableAreThoseOfTheJobsThatTheyName) {
   EXPECT_NEAR(number_behind(answers.text(help, "answer"), "Yes: "),
               100.0 * vibration.number(0, "ratio_to_uncontrolled"), 0.06);
   const auto design = table_of("design" + there);
-  EXPECT_NEAR(number_behind(answers.text(gain, "answer"), "D = "),
+  EXPECT_NEAR(-number_behind(answers.text(gain, "answer"), "D = −"),
               design.number(0, "least_amplitude_gain"), 1e-3);
   const auto delay = table_of("max-delay --frequency 10:10:1" + there);
   EXPECT_NEAR(number_behind(answers.text(slow, "answer"), "Up to "),

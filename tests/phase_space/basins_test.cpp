@@ -1,6 +1,7 @@
 #include "holdfast/phase_space/basins.hpp"
 
 #include "holdfast/phase_space/event_basins.hpp"
+#include "holdfast/phase_space/modal_basins.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
 #include "support/testing.hpp"
@@ -83,6 +84,35 @@ struct EventModel {
   static constexpr double widest_growing = switching == Switching::sampled ? 0.002 : 0.0;
 };
 
+/// The two masses as a conductor of one mode.
+struct ModalModel {
+  using Orbit = PeriodicOrbit;
+  static ModalLoop loop(double period, double width, double delay_fraction = 0.0) {
+    const IdealLoop<double> of = basin_loop(period, width, delay_fraction);
+    const TwoMass<double>& plant = of.plant;
+    const double omega = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
+    return {{{omega, plant.conductor_damping / (2.0 * omega * plant.conductor_mass), 1.0,
+              plant.conductor_mass}},
+            {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping, 0.0},
+            of.sampling,
+            of.gains,
+            of.excitation,
+            of.backlash_width,
+            of.hold};
+  }
+  template <class Tiles>
+  static BasinMap basins(const ModalLoop& loop, const std::vector<Vector<double, 4>>& states,
+                         const OrbitLimits& limits, const Tiles& tiles) {
+    return find_basins(loop, states, limits, tiles);
+  }
+  static AloneFound<Orbit> alone(const ModalLoop& loop, const Vector<double, 4>& state) {
+    OrbitResult found = find_periodic_orbit(loop, modal_state(loop.modes, state), basin_limits);
+    return {found.outcome, std::move(found.orbit)};
+  }
+  static HarmonicExcitation<double>& harmonic(ModalLoop& loop) { return loop.excitation; }
+  static constexpr double widest_growing = 0.002;
+};
+
 template <class Model>
 class Basins : public testing::Test {
  protected:
@@ -93,8 +123,8 @@ class Basins : public testing::Test {
   }
 };
 
-using BasinModels =
-    testing::Types<PaperModel, EventModel<Switching::sampled>, EventModel<Switching::exact>>;
+using BasinModels = testing::Types<PaperModel, ModalModel, EventModel<Switching::sampled>,
+                                   EventModel<Switching::exact>>;
 TYPED_TEST_SUITE(Basins, BasinModels, );
 
 TYPED_TEST(Basins, EveryStateHasTheLabelThatItHasAlone) {
@@ -159,7 +189,7 @@ TYPED_TEST(Basins, OfAGrowingLoopAreEmpty) {
 TYPED_TEST(Basins, WithoutACommonPeriodThereAreNone) {
   auto loops = std::vector{TypeParam::loop(0.01, 0.002)};
   TypeParam::harmonic(loops[0]).frequency = 10.0 * std::sqrt(0.5);
-  if constexpr (!std::is_same_v<TypeParam, PaperModel>) {
+  if constexpr (std::is_same_v<typename TypeParam::Orbit, EventOrbit>) {
     loops.push_back(TypeParam::loop(0.01, 0.002));
     loops[1].digital.jitter = {1e-4, 3};
   }
@@ -265,6 +295,23 @@ TEST(BasinMap, OfSampledSwitchingIsThatOfTheModelOfThePaper) {
     EXPECT_EQ(map.attractors[k].fraction, paper.attractors[k].fraction);
     EXPECT_EQ(map.attractors[k].standard_error, paper.attractors[k].standard_error);
     EXPECT_EQ(map.attractors[k].mirror_image, paper.attractors[k].mirror_image);
+  }
+}
+
+TEST(BasinMap, OfOneModeIsThatOfItsTwoMasses) {
+  const auto states = basin_states(60);
+  const BasinMap masses = paper_basins(basin_loop(0.003, 0.002), states);
+  const BasinMap mode =
+      ModalModel::basins(ModalModel::loop(0.003, 0.002), states, basin_limits, one_after_the_other);
+  ASSERT_GE(masses.attractors.size(), 2U);
+  ASSERT_EQ(mode.attractors.size(), masses.attractors.size());
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_EQ(mode.labels[k].outcome, masses.labels[k].outcome) << k;
+    EXPECT_EQ(mode.labels[k].attractor, masses.labels[k].attractor) << k;
+  }
+  for (std::size_t k = 0; k < masses.attractors.size(); ++k) {
+    EXPECT_EQ(mode.attractors[k].mirror_image, masses.attractors[k].mirror_image);
+    EXPECT_NEAR(mode.attractors[k].orbit.amplitude(), masses.attractors[k].orbit.amplitude(), 1e-9);
   }
 }
 

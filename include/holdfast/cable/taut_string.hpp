@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <type_traits>
@@ -93,6 +94,28 @@ std::vector<PlaceMode<Scalar>> string_modes(const TautString<Scalar>& string, co
     modes.push_back({string.angular_frequency(Scalar(n)), string.damping_ratio,
                      sin(Scalar(n) * pi<Scalar> * place / string.span), string.modal_mass()});
   return modes;
+}
+
+/// A string without ends as a conductor of one mode: 1/H = 2 Z_c s + M s² + k, Z_c = √(T μ), whose
+/// waves do not come back, with what moves there.
+///
+/// What is not of a string keeps it within the range of modes and is felt in the thirteenth digit:
+/// a bed k = 10⁻¹³ · 2 Z_c/τ that brings it back after 10¹³ samples, and where nothing is clamped
+/// to it M = 10⁻¹³ · 2 Z_c τ, which is at rest again long before the next sample: the computer then
+/// reads the velocity just before its own force changes.
+/// @param wave_impedance   Z_c (N s/m), > 0
+/// @param clamp_mass       M (kg), ≥ 0
+/// @param sampling_period  τ (s), > 0
+/// @throws InvalidParameter outside these ranges
+inline PlaceMode<double> infinite_string_mode(double wave_impedance, double clamp_mass,
+                                              double sampling_period) {
+  require_positive("wave impedance", wave_impedance, "N s/m");
+  require_non_negative("clamp mass", clamp_mass, "kg");
+  require_positive("sampling period tau", sampling_period, "s");
+  const double impedance = 2.0 * wave_impedance;
+  const double mass = std::max(clamp_mass, 1e-13 * impedance * sampling_period);
+  const double omega = std::sqrt(1e-13 * impedance / sampling_period / mass);
+  return {omega, impedance / (2.0 * mass * omega), 1.0, mass};
 }
 
 /// All modes of the string at once, for what is asked at frequencies below mode `count`: the modes

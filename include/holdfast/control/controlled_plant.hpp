@@ -16,7 +16,7 @@ namespace holdfast {
 /// The derivatives of a controller of M states at one sample, (M + 1) × (M + 2): of [u_j; x_c,j+1]
 /// by [z₁; ż₁; x_c,j].
 template <int States>
-using ControllerDerivative = Matrix<double, States + 1, States + 2>;
+using ControllerDerivative = Matrix<double, larger_size(States, 1), larger_size(States, 2)>;
 
 namespace detail {
 
@@ -36,6 +36,16 @@ struct HasDerivative<Law, std::void_t<decltype(std::declval<const Law&>().deriva
                               std::declval<const Vector<double, Law::states>&>()))>>
     : std::true_type {};
 
+/// M of a controller.
+template <class Law>
+Eigen::Index memory_size([[maybe_unused]] const Law& law) {
+  if constexpr (Law::states == Eigen::Dynamic) {
+    return law.order();
+  } else {
+    return Law::states;
+  }
+}
+
 }  // namespace detail
 
 /// A controller of the user's own, in the place of u = P z₁ + D ż₁: any type that takes a sample in
@@ -50,8 +60,9 @@ struct HasDerivative<Law, std::void_t<decltype(std::declval<const Law&>().deriva
 ///                                          const Vector<double, 1>& x_c) const;
 ///     };
 ///
-/// PdGains is one of M = 0, LinearController one of any M. This class hides the type, so that loops
-/// under all of them are one type, compiled once.
+/// Where M is known at run time alone, `states` is Eigen::Dynamic and `order()` says it. PdGains is
+/// one of M = 0, LinearController one of any M, LateController one of dynamic M. This class hides
+/// the type, so that loops under all of them are one type, compiled once.
 class OwnController {
  public:
   using Column = Vector<double, Eigen::Dynamic>;      ///< [z₁; ż₁; x_c] or [u; x_c]
@@ -64,20 +75,20 @@ class OwnController {
   template <class Law>
   explicit OwnController(const Law& law)
       : value_([law](const Column& at, double elapsed) {
-          Vector<double, Law::states> state = at.tail(Law::states);
-          Column result(Law::states + 1);
+          Vector<double, Law::states> state = at.tail(at.size() - 2);
+          Column result(at.size() - 1);
           result[0] = law.command({at[0], at[1], elapsed}, state);
-          result.tail(Law::states) = state;
+          result.tail(at.size() - 2) = state;
           return result;
         }) {
     static_assert(detail::IsController<Law>::value,
                   "a controller has `static constexpr int states` and "
                   "`double command(const ControlSample&, Vector<double, states>&) const`");
-    at_ = largest_ = Column::Zero(Law::states + 2);
+    at_ = largest_ = Column::Zero(detail::memory_size(law) + 2);
     if constexpr (detail::HasDerivative<Law>::value) {
       derivative_ = [law](const Column& at, double elapsed) -> Derivative {
         return law.derivative({at[0], at[1], elapsed},
-                              Vector<double, Law::states>(at.tail(Law::states)));
+                              Vector<double, Law::states>(at.tail(at.size() - 2)));
       };
     }
   }
@@ -150,7 +161,8 @@ std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& p
 /// The plant under a controller. Filters and lags of the plant come first.
 template <class Law, int States>
 ControlledPlant with_controller(const LinearPlant<double, States>& plant, const Law& law) {
-  const auto [a, b, command, force, row, direct, ports] = detail::enlarged<Law::states>(plant);
+  const auto [a, b, command, force, row, direct, ports] =
+      detail::enlarged<Law::states>(plant, detail::memory_size(law));
   return {{a,
            b,
            command,

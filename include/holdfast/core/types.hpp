@@ -17,9 +17,9 @@ using RowVector = Eigen::Matrix<Scalar, 1, Size>;
 template <class Scalar, int Rows, int Columns = Rows>
 using Matrix = Eigen::Matrix<Scalar, Rows, Columns>;
 
-/// A size of a matrix that is `more` larger than another; dynamic where that is.
+/// A size of a matrix that is `more` larger than another; dynamic where one of them is.
 constexpr int larger_size(int size, int more) {
-  return size == Eigen::Dynamic ? Eigen::Dynamic : size + more;
+  return size == Eigen::Dynamic || more == Eigen::Dynamic ? Eigen::Dynamic : size + more;
 }
 
 /// π to the precision of the number type (30 digits are given).

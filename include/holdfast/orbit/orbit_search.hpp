@@ -23,7 +23,7 @@ namespace detail {
 /// orbit's region of attraction.
 /// @tparam Loop        IdealLoop or ModalLoop
 /// @tparam MotionOf    its motion
-/// @tparam Attraction  its Maps, `maps()`; samples_per_solved; `surround(orbit)` looks for the
+/// @tparam Attraction  its Maps, `maps()`; `samples_per_solved()`; `surround(orbit)` looks for the
 ///                     region, `holds(motion)` tells whether a motion lies in it
 template <class Loop, class MotionOf, class Attraction>
 class SampledSearchModel {
@@ -36,7 +36,7 @@ class SampledSearchModel {
   using Result = OrbitResult;
   using Seen = SeenMotion<Symbol, Plant>;
 
-  static constexpr std::int64_t samples_per_solved = Attraction::samples_per_solved;
+  std::int64_t samples_per_solved() const { return attraction_.samples_per_solved(); }
 
   SampledSearchModel(const Loop& loop, const Rational& ratio, const Motion& motion,
                      const Attraction& attraction)
@@ -130,7 +130,7 @@ template <class Scalar>
 class SampledAttraction {
  public:
   /// A sample solved for costs some ten to fifty samples taken.
-  static constexpr std::int64_t samples_per_solved = 16;
+  static std::int64_t samples_per_solved() { return 16; }
 
   SampledAttraction(const IdealLoop<Scalar>& loop, const Rational& ratio)
       : loop_(loop), maps_(loop, ratio), weights_(deviation_weights(loop)) {}

@@ -60,7 +60,7 @@ struct SeenMotion {
 /// @tparam Model  a motion (Plant, readings(), state(), memory(), is_followed(), has_contact_of(),
 ///                take_sample()) with what is particular to it:
 ///
-///     Result, samples_per_solved        an OrbitResultOf; samples taken before one is solved for
+///     Result, samples_per_solved()      an OrbitResultOf; samples taken before one is solved for
 ///     may_repeat(seen, period)          a near return is worth solving for
 ///     solve(seen, period, reference)    the orbit that it may have come to; where it took samples
 ///                                       to see that, they are added to `seen`
@@ -131,7 +131,7 @@ class ReturnSearch {
     const std::int64_t period = seen_.taken() - seen_.reference;
     if (period > limits_.largest_period || !near_reference() || !model_.may_repeat(seen_, period))
       return false;
-    if (candidates_ > 0 && Model::samples_per_solved * (solved_samples_ + period) > seen_.taken())
+    if (candidates_ > 0 && model_.samples_per_solved() * (solved_samples_ + period) > seen_.taken())
       return false;
     solved_samples_ += period;
     ++candidates_;

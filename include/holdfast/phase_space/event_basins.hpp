@@ -124,6 +124,21 @@ class ApproachingMotion {
   std::int64_t taken_ = 0;
 };
 
+/// Within so many samples most motions that come to one of the orbits are near it: those in which a
+/// deviation shrinks by 10⁸, and a few periods.
+template <class Orbit>
+std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limits) {
+  double samples = 0.0;
+  for (const Orbit& orbit : orbits) {
+    const double periods = std::log(1e8) / -orbit.multipliers.front().log_modulus;
+    samples =
+        std::max(samples, static_cast<double>(orbit.period_samples()) * (8.0 + std::ceil(periods)));
+  }
+  const std::int64_t most =
+      limits.most_samples > 0 ? limits.most_samples : 8 * limits.largest_period;
+  return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
+}
+
 /// Motions of an ImplementedLoop: each goes past the orbits that the rounds before have found, and
 /// is searched for its own where it comes to none of them.
 template <class LoopModel>
@@ -140,7 +155,7 @@ struct SingleMotions {
                                 const AttractorSet<Loop>& known) const {
     const auto motion = event_motion(loop, from.memory.state);
     const int number =
-        ApproachingMotion(motion, ratio).run(known, limits, patience(known.orbits()));
+        ApproachingMotion(motion, ratio).run(known, limits, patience(known.orbits(), limits));
     if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
     auto found = find_event_orbit(motion, limits);
     if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
@@ -150,20 +165,6 @@ struct SingleMotions {
   /// They move on in their searches alone.
   template <class Tiles>
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
-
-  /// Within so many samples most motions that come to one of the orbits are near it: those in which
-  /// a deviation shrinks by 10⁸, and a few periods.
-  std::int64_t patience(const std::vector<EventOrbit>& orbits) const {
-    double samples = 0.0;
-    for (const EventOrbit& orbit : orbits) {
-      const double periods = std::log(1e8) / -orbit.multipliers.front().log_modulus;
-      samples = std::max(samples,
-                         static_cast<double>(orbit.period_samples()) * (8.0 + std::ceil(periods)));
-    }
-    const std::int64_t most =
-        limits.most_samples > 0 ? limits.most_samples : 8 * limits.largest_period;
-    return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
-  }
 };
 
 }  // namespace detail

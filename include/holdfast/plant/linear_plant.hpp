@@ -61,20 +61,22 @@ const LinearPlant<Scalar, States>& linear_plant(const LinearPlant<Scalar, States
 
 namespace detail {
 
-/// The plant with `More` further states that nothing moves yet, behind its own.
+/// The plant with `more` further states that nothing moves yet, behind its own.
+/// @tparam More  the same, or Eigen::Dynamic
 template <int More, class Scalar, int States>
-LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant) {
+LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant,
+                                                        Eigen::Index more = More) {
   constexpr int size = larger_size(States, More);
   const Eigen::Index n = plant.order();
   const auto column = [&](const Vector<Scalar, States>& of) {
-    Vector<Scalar, size> result = Vector<Scalar, size>::Zero(n + More);
+    Vector<Scalar, size> result = Vector<Scalar, size>::Zero(n + more);
     result.template head<States>(n) = of;
     return result;
   };
   const auto row = [&](const RowVector<Scalar, States>& of) {
     return RowVector<Scalar, size>(column(of.transpose()).transpose());
   };
-  Matrix<Scalar, size> matrix = Matrix<Scalar, size>::Zero(n + More, n + More);
+  Matrix<Scalar, size> matrix = Matrix<Scalar, size>::Zero(n + more, n + more);
   matrix.template topLeftCorner<States, States>(n, n) = plant.released_matrix;
   const Ports<Scalar, States>& ports = plant.connections;
   return {

@@ -152,6 +152,22 @@ Vector<Scalar, Eigen::Dynamic> struck_conductor(const std::vector<PlaceMode<Scal
       modes, [](const PlaceMode<Scalar>& mode) { return mode.shape / mode.mass; });
 }
 
+/// A state of `modal_plant`, [q₁, q̇₁, …, q_N, q̇_N, z₂, ż₂], that shows [z, ż, z₂, ż₂]: the
+/// conductor as a force at the place bends it to z, with the speeds that a blow there gives it
+/// (unchecked).
+/// @param modes  as above
+/// @param seen   [z, ż, z₂, ż₂] (m, m/s, m, m/s)
+template <class Scalar>
+Vector<Scalar, Eigen::Dynamic> modal_state(const std::vector<PlaceMode<Scalar>>& modes,
+                                           const Vector<Scalar, 4>& seen) {
+  const auto absorber = static_cast<Eigen::Index>(2 * modes.size());
+  Vector<Scalar, Eigen::Dynamic> state(absorber + 2);
+  state(Eigen::seq(0, absorber - 2, 2)) = seen[0] * bent_conductor(modes);
+  state(Eigen::seq(1, absorber - 1, 2)) = seen[1] * struck_conductor(modes);
+  state.tail(2) = seen.template tail<2>();
+  return state;
+}
+
 namespace detail {
 
 /// How the modes of a conductor move by themselves, and by what its place moves and is moved.

@@ -63,10 +63,11 @@ SampledMotion<double> motion_of(const Case& the_case) {
 bool is_of_the_paper(const Case& the_case, Switching switching) {
   const auto excitation = effective_excitation(the_case);
   const ContactLaw law = law_of(the_case.backlash.law);
-  return switching == Switching::sampled && is_ideal(limits_of(the_case)) &&
-         the_case.control.jitter == 0.0 && the_case.force_record == nullptr &&
-         excitation.harmonics.empty() && !(excitation.noise_rms > 0.0) &&
-         (law == ContactLaw::none || law == ContactLaw::kollar);
+  const bool late = the_case.control.processing_delay > the_case.control.sampling_period;
+  return switching == Switching::sampled && !has_hardware(the_case) && !late &&
+         is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0 &&
+         the_case.force_record == nullptr && excitation.harmonics.empty() &&
+         !(excitation.noise_rms > 0.0) && (law == ContactLaw::none || law == ContactLaw::kollar);
 }
 
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
@@ -88,8 +89,10 @@ double spectral_radius_of(const Case& the_case) {
 }
 
 double divergence_bound(const Case& the_case, double kick) {
+  if (is_modal(the_case) && is_of_the_paper(the_case, Switching::sampled))
+    return holdfast::divergence_bound(modal_loop_of(the_case), modal_state_of(the_case));
   if (is_modal(the_case))
-    return holdfast::divergence_bound(modal_implemented_loop_of(the_case, Switching::sampled),
+    return holdfast::divergence_bound(conductor_loop_of(the_case, {Switching::sampled, true}),
                                       modal_state_of(the_case));
   Vector<double, 4> state = initial_state_of(the_case);
   state[0] = std::abs(state[0]) + std::abs(kick);

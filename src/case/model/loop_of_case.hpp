@@ -10,6 +10,12 @@
 
 namespace holdfast::program {
 
+/// A case as the motion sees it, with the switching that was asked for and with or without control.
+struct MotionChoice {
+  Switching switching = Switching::sampled;
+  bool controlled = true;
+};
+
 /// All that a motion depends on beside its initial state.
 IdealLoop<double> ideal_loop_of(const Case& the_case);
 
@@ -22,7 +28,8 @@ Loop uncontrolled(Loop loop) {
 }
 
 /// Whether the motion is one of the paper's model, which IdealLoop describes: switching at
-/// samples, the paper's backlash or none, one harmonic, an ideal computer.
+/// samples, the paper's backlash or none, one harmonic, an ideal computer and drive whose force
+/// comes within the sample.
 bool is_of_the_paper(const Case& the_case, Switching switching);
 
 /// The motion of the paper's model from the case's initial state.

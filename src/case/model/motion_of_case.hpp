@@ -13,12 +13,6 @@
 
 namespace holdfast::program {
 
-/// A case as the motion sees it, with the switching that was asked for and with or without control.
-struct MotionChoice {
-  Switching switching = Switching::sampled;
-  bool controlled = true;
-};
-
 /// Calls `visit` with the motion of a case of two masses from its initial state: the stepper of the
 /// paper's model where that is all there is to the case, else an EventMotion.
 template <class Visit>
@@ -36,7 +30,7 @@ auto with_two_mass_motion_of(const Case& the_case, const MotionChoice& choice, c
 /// are [z1, v1, z2, v2].
 class MotionAtAbsorber {
  public:
-  using Motion = EventMotion<DriveContact<LinearPlant<double>>>;
+  using Motion = EventMotion<DriveContact<ControlledPlant>>;
 
   explicit MotionAtAbsorber(const Motion& motion) : motion_(motion) {}
 
@@ -64,12 +58,15 @@ class MotionAtAbsorber {
   Motion motion_;
 };
 
-/// The motion of a modal case in the paper's model, of which alone a kick has a shape.
+/// The motion of a modal case in the paper's model, of which alone a kick has a shape; without
+/// control of any.
 /// Throws NoAnswer where two natural motions of it cannot be told apart.
 inline ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
-  const ModalLoop loop = modal_loop_of(the_case);
-  require_natural_motions(the_case);
-  return *modal_motion(controlled ? loop : uncontrolled(loop), modal_state_of(the_case));
+  ModalLoop loop = modal_loop_of(the_case);
+  if (!controlled) loop.sampling.processing_delay = 0.0;
+  static_cast<void>(conductor_with_absorber_of(the_case));
+  return *modal_motion(controlled ? loop : uncontrolled(loop),
+                       modal_state(loop.modes, initial_state_of(the_case)));
 }
 
 /// The same of any plant: of a modal case a ModalMotion, else a MotionAtAbsorber. What it visits
@@ -79,9 +76,8 @@ auto with_motion_of(const Case& the_case, const MotionChoice& choice, const Visi
   if (!is_modal(the_case)) return with_two_mass_motion_of(the_case, choice, visit);
   if (is_of_the_paper(the_case, choice.switching))
     return visit(modal_motion_of(the_case, choice.controlled));
-  const auto loop = modal_implemented_loop_of(the_case, choice.switching);
   return visit(MotionAtAbsorber(
-      event_motion(choice.controlled ? loop : uncontrolled(loop), modal_state_of(the_case))));
+      event_motion(conductor_loop_of(the_case, choice), modal_state_of(the_case))));
 }
 
 /// Throws WrongInput where the conductor itself is to be displaced in its motion and the motion is
@@ -89,9 +85,9 @@ auto with_motion_of(const Case& the_case, const MotionChoice& choice, const Visi
 inline void require_displaceable(const Case& the_case, Switching switching,
                                  const std::string& option) {
   if (!is_modal(the_case) || is_of_the_paper(the_case, switching)) return;
-  throw WrongInput(option + " goes with plant.model = \"" + the_case.plant.model +
-                   "\" in the paper's model alone: switching at samples, its law of the backlash, "
-                   "one harmonic, an ideal computer");
+  throw WrongInput(option + " goes with " + modal_words(the_case) +
+                   " in the paper's model alone: switching at samples, its law of the backlash, "
+                   "one harmonic, an ideal computer and drive");
 }
 
 /// Throws NoAnswer where a motion's changes of contact accumulate, so that it is not to be trusted;

@@ -78,7 +78,7 @@ std::string settle_absorber(Case& the_case) {
 
 std::string settle_plant(Case& the_case) {
   if (!plant_is_reduced(the_case)) return "";
-  if (is_modal(the_case)) return settle_absorber(the_case);
+  if (!is_two_masses(the_case)) return settle_absorber(the_case);
   const std::vector<const CaseKey*> given = given_of_plant(the_case);
   Case as_given = the_case;
   take_plant(the_case, plant_without_absorber_damping(the_case));

@@ -200,7 +200,7 @@ std::vector<std::string> doubts_about(const Case& the_case, const Quantities& qu
 
 std::string contradicted_conductor_text(const Case& the_case) {
   if (!the_case.conductor_given || !the_case.plant_given || plant_is_reduced(the_case) ||
-      is_modal(the_case))
+      !is_two_masses(the_case))
     return "";
   constexpr double tolerance = 0.05;
   double stiffness = the_case.plant.conductor_stiffness;

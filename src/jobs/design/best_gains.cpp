@@ -31,7 +31,7 @@ AmplitudeOptions settling_within(double duration, const Sampling<double>& sampli
 BestForPlant::BestForPlant(const Case& the_case, const AmplitudeOptions& options)
     : case_(the_case), options_(options) {
   if (is_modal(the_case)) {
-    modal_.emplace(modal_response(poles_of(the_case), options.sampling));
+    modal_.emplace(modal_response(loop_poles_of(the_case), options.sampling));
   } else {
     loop_.emplace(sampled_loop(plant_of(the_case), options.sampling));
   }
@@ -69,8 +69,7 @@ MinimumAmplitude BestGains::of(const Case& the_case) const {
 
 MaxDelay longest_period_of(const Case& the_case, const MaxDelayOptions& question) {
   if (!is_modal(the_case)) return max_sampling_period(plant_of(the_case), question);
-  return modal_max_sampling_period(
-      {place_modes_of(the_case), absorber_of(the_case), poles_of(the_case)}, question);
+  return modal_max_sampling_period(conductor_with_absorber_of(the_case), question);
 }
 
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {

@@ -16,7 +16,7 @@ GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
     return {none, none, none, none, false};
   const Sampling<double> sampling = sampling_of(the_case);
   const LoopMargins margins = is_modal(the_case)
-                                  ? modal_loop_margins(poles_of(the_case), sampling, gains)
+                                  ? modal_loop_margins(loop_poles_of(the_case), sampling, gains)
                                   : loop_margins(plant_of(the_case), sampling, gains);
   return {1.0 - margins.unit_circle, 20.0 * std::log10(margins.largest_factor),
           margins.phase * 180.0 / pi<double>, margins.delay.distance,
@@ -28,7 +28,7 @@ StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double
   if (!is_modal(the_case)) return stability_margins(plant_of(the_case), sampling, gains);
   MarginSearch search;
   search.longest_period_ratio = 100.0;
-  return modal_stability_margins(poles_of(the_case), sampling, gains, search);
+  return modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
 }
 
 }  // namespace holdfast::program

@@ -13,6 +13,7 @@
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/modal_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
+#include "holdfast/control/late_controller.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
@@ -82,11 +83,17 @@ double period_that_shows(double frequency, double duration) {
   return (std::floor(longest * frequency) + golden_section) / frequency;
 }
 
-ConductorMotion conductor_motion_of(const Case& the_case, Switching switching) {
-  return {swept_loop_of(the_case, switching), poles_of(the_case), modal_state_of(the_case)};
+ConductorMotion conductor_motion_of(const Case& the_case) {
+  ModalLoop loop = modal_loop_of(the_case);
+  loop.sampling = within_sample(loop.sampling);
+  const auto modes = loop.modes;
+  return {std::move(loop), conductor_with_absorber_of(the_case).poles,
+          modal_state(modes, initial_state_of(the_case))};
 }
 
 double divergence_bound(const CellMotion& motion) {
+  if (motion.built_conductor)
+    return holdfast::divergence_bound(motion.built_conductor->loop, motion.built_conductor->state);
   if (motion.conductor)
     return holdfast::divergence_bound(motion.conductor->loop, motion.conductor->state);
   const auto& [loop, initial_state] = motion.of_paper;
@@ -97,11 +104,19 @@ double divergence_bound(const CellMotion& motion) {
 }  // namespace
 
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration) {
-  CellMotion motion{{ideal_loop_of(the_case), initial_state_of(the_case)}, std::nullopt, nullptr};
+  CellMotion motion{
+      {ideal_loop_of(the_case), initial_state_of(the_case)}, std::nullopt, nullptr, nullptr};
   samples_of(the_case, duration);
-  validate(motion.of_paper.loop);
+  IdealLoop<double>& loop = motion.of_paper.loop;
+  if (loop.sampling.processing_delay > loop.sampling.period)
+    loop.sampling = within_sample(loop.sampling);
+  validate(loop);
   if (is_modal(the_case)) {
-    motion.conductor = std::make_shared<ConductorMotion>(conductor_motion_of(the_case, switching));
+    require_sweepable(the_case, switching);
+    motion.conductor = std::make_shared<ConductorMotion>(conductor_motion_of(the_case));
+    if (!is_of_the_paper(the_case, switching))
+      motion.built_conductor = std::make_shared<BuiltConductor>(
+          BuiltConductor{conductor_loop_of(the_case, {switching, true}), modal_state_of(the_case)});
     return motion;
   }
   if (is_of_the_paper(the_case, switching)) return motion;
@@ -111,6 +126,8 @@ CellMotion cell_motion(const Case& the_case, Switching switching, double duratio
 }
 
 void set_differential_gain(CellMotion& motion, double gain) {
+  if (motion.conductor)
+    throw WrongInput("--best-gain is of the two masses under an ideal drive alone");
   motion.of_paper.loop.gains.differential = gain;
   if (motion.built) motion.built->digital.gains.differential = gain;
 }
@@ -127,6 +144,17 @@ CellMotion without_control(const CellMotion& motion, double duration) {
     alone.loop.hold = loop.hold;
     alone.loop.sampling = loop.sampling;
     free.conductor = std::make_shared<ConductorMotion>(std::move(alone));
+    free.built_conductor = nullptr;
+    if (!motion.built_conductor || has_one_harmonic(motion.built_conductor->loop.digital))
+      return free;
+    BuiltConductor idle = *motion.built_conductor;
+    const LateController nothing{{0.0, 0.0}, {}, idle.loop.plant.controller.states()};
+    idle.loop.plant.controller = OwnController(nothing);
+    idle.loop.backlash = {ContactLaw::none};
+    idle.loop.digital.hold = loop.hold;
+    idle.loop.digital.sampling = loop.sampling;
+    idle.loop.digital.jitter = {};
+    free.built_conductor = std::make_shared<BuiltConductor>(std::move(idle));
     return free;
   }
   if (!motion.built || has_one_harmonic(motion.built->digital)) {
@@ -147,7 +175,10 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const CellMotion& motion = motions[k];
-    if (motion.conductor) {
+    if (motion.built_conductor) {
+      const BuiltConductor& conductor = *motion.built_conductor;
+      all[k] = event_metrics(conductor.loop, conductor.state, duration, throw_if_interrupted);
+    } else if (motion.conductor) {
       const ConductorMotion& conductor = *motion.conductor;
       all[k] = modal_metrics(conductor.loop, conductor.poles, conductor.state, duration,
                              throw_if_interrupted);
@@ -183,18 +214,24 @@ double largest_exponent_of(const CellMotion& motion, double duration) {
                         ModalMotion(conductor.loop, conductor.poles, conductor.state));
     return run_lyapunov(modes, run, throw_if_interrupted);
   };
-  const auto exponents_between_samples = [&] {
-    auto built = event_motion(*motion.built, cell.initial_state);
+  const auto exponents_between_samples = [&](const auto& loop, const auto& state) {
+    auto built = event_motion(loop, state);
     return run_event_lyapunov(built, run, throw_if_interrupted);
   };
-  const LyapunovResult result = motion.conductor ? exponents_of_modes()
-                                : motion.built   ? exponents_between_samples()
-                                                 : exponents_of_paper(cell, run);
+  const BuiltConductor* const own = motion.built_conductor.get();
+  const LyapunovResult result = own != nullptr ? exponents_between_samples(own->loop, own->state)
+                                : motion.conductor ? exponents_of_modes()
+                                : motion.built
+                                    ? exponents_between_samples(*motion.built, cell.initial_state)
+                                    : exponents_of_paper(cell, run);
   return result.outcome == LyapunovOutcome::diverged ? unknown : result.exponents[0];
 }
 
 std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {
   const SweepMotion& cell = motion.of_paper;
+  if (motion.built_conductor)
+    return certified_period(find_event_orbit(
+        event_motion(motion.built_conductor->loop, motion.built_conductor->state), limits));
   if (motion.conductor)
     return certified_period(
         find_periodic_orbit(motion.conductor->loop, motion.conductor->state, limits));
@@ -209,6 +246,9 @@ CellVerdict verdict_of(const CellMotion& motion, const OrbitLimits& limits) {
     return {found.classification.kind, found.indicators.certified_period.value_or(0)};
   };
   const SweepMotion& cell = motion.of_paper;
+  if (motion.built_conductor)
+    return verdict(
+        classify_motion(motion.built_conductor->loop, motion.built_conductor->state, limits));
   if (motion.conductor)
     return verdict(classify_motion(motion.conductor->loop, motion.conductor->state, limits));
   return motion.built ? verdict(classify_motion(*motion.built, cell.initial_state, limits))

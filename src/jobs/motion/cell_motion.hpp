@@ -23,6 +23,12 @@ struct ConductorMotion {
   ModalMotion::Full state;  ///< the initial one
 };
 
+/// The motion of such a conductor, or of one mass, under a computer and a drive as they are built.
+struct BuiltConductor {
+  ImplementedLoopOf<ControlledPlant> loop;
+  Vector<double, Eigen::Dynamic> state;  ///< the initial one
+};
+
 /// The motion of one cell of a sweep.
 struct CellMotion {
   /// The motion of the paper's model; of another loop what that has of it: plant, sampling, gains
@@ -31,14 +37,16 @@ struct CellMotion {
   std::optional<ImplementedLoop> built;  ///< the loop, where it is another one
   /// The conductor, where the absorber hangs on that: then `of_paper` has the loop's numbers.
   std::shared_ptr<const ConductorMotion> conductor;
+  /// The same with all that is built, where that is another loop: then `conductor` is of the plant.
+  std::shared_ptr<const BuiltConductor> built_conductor;
 };
 
 /// Throws InvalidParameter where the loop is not admissible, WrongInput where a recorded force ends
-/// before the duration, or where the conductor's loop is not of the paper's model; NoAnswer where
-/// its natural motions cannot be told apart.
+/// before the duration, or where hundreds of modes would switch between their samples; NoAnswer
+/// where natural motions cannot be told apart.
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration);
 
-/// Of two masses.
+/// Of the two masses of the paper; throws WrongInput of other plants.
 void set_differential_gain(CellMotion& motion, double gain);
 
 /// The plant alone under the force that acts on it, which no computer holds: P = D = 0, a drive

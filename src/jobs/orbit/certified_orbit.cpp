@@ -118,7 +118,7 @@ EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loo
 PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
                               std::int64_t largest_period) {
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  require_natural_motions(context.case_data);
+  static_cast<void>(conductor_with_absorber_of(context.case_data));
   PeriodicOrbit orbit =
       certified(find_periodic_orbit(loop, modal_state_of(context.case_data), limits),
                 {forcing_ratio(loop), loop.excitation.frequency * loop.sampling.period}, limits,
@@ -129,7 +129,7 @@ PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
 
 EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switching,
                                     std::int64_t largest_period) {
-  const auto motion = event_motion(controlled_conductor_of(context.case_data, switching),
+  const auto motion = event_motion(smooth_conductor_loop_of(context.case_data, switching),
                                    modal_state_of(context.case_data));
   return as_seen(certified_of(context, motion, largest_period), motion.readings());
 }

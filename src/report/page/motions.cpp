@@ -42,17 +42,20 @@ std::string counted(std::int64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-const PeriodicOrbit* certified(const SampledClassification& found) {
+/// @tparam Found  of either model
+template <class Found>
+auto certified(const Found& found) {
   return found.search.outcome == OrbitOutcome::certified ? &*found.search.orbit : nullptr;
 }
 
 /// @param sampling_period  s
-std::string period_text(const SampledClassification& found, double sampling_period) {
+template <class Found>
+std::string period_text(const Found& found, double sampling_period) {
   const std::int64_t samples = found.classification.period;
   if (samples == 0) return no_value;
   std::string text = rounded(static_cast<double>(samples) * sampling_period, 6) + " s; " +
                      counted(samples, "sample");
-  const PeriodicOrbit* orbit = certified(found);
+  const auto* const orbit = certified(found);
   if (orbit != nullptr && orbit->forcing_periods() > 0)
     text += "; " + counted(orbit->forcing_periods(), "forcing period");
   return text;
@@ -63,6 +66,17 @@ std::string border_text(const Borders& borders) {
     return border.sample < 0 ? std::string("none") : rounded(1e3 * border.distance, 2) + unit;
   };
   return distance(borders.displacement, " mm") + "; " + distance(borders.velocity, " mm/s");
+}
+
+/// Of a loop as it is built, the nearest alone.
+std::string border_text(const SwitchingMargins& margins) {
+  return rounded(1e3 * margins.border_distance, 2) + " mm";
+}
+
+const Borders& borders_of(const PeriodicOrbit& orbit) { return orbit.borders; }
+template <class Orbit>
+const SwitchingMargins& borders_of(const Orbit& orbit) {
+  return orbit.margins;
 }
 
 std::string capture_text(const CaptureRadii& radii) {
@@ -80,11 +94,12 @@ std::string precision_text(const OrbitVerification& verification) {
 
 /// @param sampling_period  s
 /// @param settings         of the command that shows all that is known of the motion
-MotionRow row_of(const std::string& place, const std::string& text,
-                 const SampledClassification& found, double sampling_period,
-                 const std::string& settings) {
+/// @tparam Found           of either model
+template <class Found>
+MotionRow row_of(const std::string& place, const std::string& text, const Found& found,
+                 double sampling_period, const std::string& settings) {
   const Classification& classification = found.classification;
-  const PeriodicOrbit* orbit = certified(found);
+  const auto* const orbit = certified(found);
   MotionRow row{place, text, attractor_type_text(classification),
                 period_text(found, sampling_period)};
   row.rests_on = classification.rests_on;
@@ -93,7 +108,7 @@ MotionRow row_of(const std::string& place, const std::string& text,
   if (orbit == nullptr) return row;
   row.stays_in_play = orbit->engaged_fraction() == 0.0;
   row.multiplier = rounded(orbit->largest_multiplier(), 3);
-  row.border = border_text(orbit->borders);
+  row.border = border_text(borders_of(*orbit));
   return row;
 }
 
@@ -110,10 +125,16 @@ MotionRow row_of(const std::string& place, const std::string& text, const KnownM
 }
 
 /// Of a conductor by its modes.
-SampledClassification modal_classification_of(const Case& the_case) {
-  require_natural_motions(the_case);
+MotionRow modal_row_of(const std::string& place, const std::string& text, const Case& the_case) {
   const OrbitLimits limits{OrbitLimits{}.largest_period, 0, throw_if_interrupted};
-  return classify_motion(modal_loop_of(the_case), modal_state_of(the_case), limits);
+  const auto row = [&](const auto& found) {
+    return row_of(place, text, found, the_case.control.sampling_period, "");
+  };
+  if (!is_of_the_paper(the_case, Switching::sampled))
+    return row(classify_motion(smooth_conductor_loop_of(the_case, Switching::sampled),
+                               modal_state_of(the_case), limits));
+  static_cast<void>(conductor_with_absorber_of(the_case));
+  return row(classify_motion(modal_loop_of(the_case), modal_state_of(the_case), limits));
 }
 
 }  // namespace
@@ -155,9 +176,7 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
 
 MotionRow motion_of_the_case(const Case& the_case) {
   const std::string text = loop_text(the_case) + ", from its initial state";
-  if (is_modal(the_case))
-    return row_of("this case", text, modal_classification_of(the_case),
-                  the_case.control.sampling_period, "");
+  if (is_modal(the_case)) return modal_row_of("this case", text, the_case);
   return row_of("this case", text, known_motion(the_case), "");
 }
 

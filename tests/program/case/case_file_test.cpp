@@ -397,9 +397,9 @@ TEST(CaseFile, AbsentAndUnreadableFilesAreNamed) {
 TEST(CaseFile, FaultsBetweenKeysPointAtTheValueGivenLast) {
   const std::string text = "[control]\nprocessing_delay = 0.005\nsampling_period = 0.01\n";
   EXPECT_EQ(from_text(text).control.processing_delay, 0.005);
-  EXPECT_TRUE(holds(refusal(text, {"control.sampling_period=0.001"}),
-                    "--set control.sampling_period=0.001: control.processing_delay"));
-  EXPECT_TRUE(holds(refusal("[control]\nprocessing_delay = 0.005\n"), "case.toml:2: "));
+  EXPECT_TRUE(holds(refusal(text, {"control.sampling_period=0.00001"}),
+                    "--set control.sampling_period=0.00001: control.processing_delay"));
+  EXPECT_TRUE(holds(refusal("[control]\nprocessing_delay = 0.5\n"), "case.toml:2: "));
 }
 
 TEST(CaseFile, FaultsBetweenKeysOfAFileAreLaidToTheKeyThatExplainsThem) {

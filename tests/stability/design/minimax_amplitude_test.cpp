@@ -35,7 +35,9 @@ double ratio_of(const SampledLoop<double>& loop, const BandCase& c, double frequ
 TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
   for (const BandCase& c : band_cases) {
     const auto loop = sampled_loop(kollar2022_plant(), c.options.sampling);
-    const AmplitudeBand band(kollar2022_plant(), loop, c.options.hold, c.proportional_gain, c.band);
+    const AmplitudeBand band(
+        PlantOverBand<TwoMass<double>>{kollar2022_plant(), loop, c.options.hold, false},
+        c.proportional_gain, c.band);
     for (const double d : {-13.0, -5.0, 1.0}) {
       const WorstFrequency worst = band.worst(d);
       double scanned = 0.0;
@@ -54,7 +56,8 @@ TEST(AmplitudeBand, FindsTheWorstFrequencyOfADenseScan) {
 TEST(AmplitudeBand, FindsANarrowPeak) {
   const auto plant = light_plant();
   const auto loop = sampled_loop(plant, Sampling<double>{0.02});
-  const AmplitudeBand band(plant, loop, ForceHold::exact, -20.0, {1.0, 20.0});
+  const AmplitudeBand band(PlantOverBand<TwoMass<double>>{plant, loop, ForceHold::exact, false},
+                           -20.0, {1.0, 20.0});
   for (const double d : {-1.0, 0.3, 1.0, 2.0}) {
     const WorstFrequency worst = band.worst(d);
     double scanned = 0.0;

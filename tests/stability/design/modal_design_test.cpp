@@ -47,15 +47,14 @@ TEST(ModalDesign, BestGainsAreThoseOfTheMatrices) {
   const auto absorber = papers_absorber(0.01);
   const auto plant = modal_plant(modes, absorber);
   for (const Sampling<double>& sampling : samplings) {
-    if (sampling.processing_delay > sampling.period) continue;  // which AmplitudeOptions refuse
     const auto response = modal_response(modes, absorber, sampling);
     for (const double p : {-557.0, -100.0}) {
       const MinimumRadius radius = minimum_radius(response, p);
       const MinimumRadius by_map = minimum_radius(loop_map(plant, sampling), p);
       EXPECT_NEAR(radius.margin, by_map.margin, 2e-6 * std::abs(by_map.margin) + 1e-9);
-      for (const double margin : {0.0, 0.5}) {
+      for (const double largest : {1.0, 0.9999}) {
         for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-          const AmplitudeOptions options{sampling, hold, 1.0, margin, true};
+          const AmplitudeOptions options{sampling, hold, largest, 0.0, true};
           const double omega = 2.0 * pi<double> * 10.0;
           const auto steady = steady_response(modes, absorber, sampling, hold, omega)
                                   .relative_to(true_amplitude_per_force(modes, absorber, omega));
@@ -70,6 +69,91 @@ TEST(ModalDesign, BestGainsAreThoseOfTheMatrices) {
       }
     }
   }
+}
+
+/// min |1 − P G_z − D G_v| over the circle, of the map.
+double modulus(const LoopMap<double>& map, const PdGains<double>& gains) {
+  const LoopResponse<double> response(map);
+  double least = 1e300;
+  for (int i = 1; i <= 8000; ++i) {
+    // Close together where the modes are.
+    const double share = i / 8000.0;
+    const auto g = response.at_angle(pi<double> * share * share * share);
+    least = std::min(least, std::abs(1.0 - gains.proportional * g.displacement -
+                                     gains.differential * g.velocity));
+  }
+  return least;
+}
+
+/// The admissible gains end where the modulus margin is the share of the largest that was asked, or
+/// so far from the gain that has that as was asked.
+TEST(ModalDesign, AMarginIsAShareOfTheLargestModulus) {
+  const auto modes = some_modes();
+  const auto absorber = papers_absorber(0.01);
+  int by_modulus = 0, by_way = 0;
+  for (const Sampling<double>& sampling :
+       {Sampling<double>{1e-3, 3e-4}, Sampling<double>{0.01, 0.016}}) {
+    const auto response = modal_response(modes, absorber, sampling);
+    const auto map = loop_map(modal_plant(modes, absorber), sampling);
+    const double p = -100.0;
+    const auto stable = differential_gains_within_radius(response, p, 1.0);
+    ASSERT_EQ(stable.size(), 1U);
+    const double width = stable[0].upper - stable[0].lower;
+    double largest = 0.0, best = 0.0;
+    for (int i = 1; i < 100; ++i) {
+      const double d = stable[0].lower + width * i / 100.0, there = modulus(map, {p, d});
+      if (there > largest) best = d;
+      largest = std::max(largest, there);
+    }
+    for (const double margin : {0.3, 0.5, 0.9}) {
+      const auto admissible =
+          admissible_differential_gains(response, p, {sampling, ForceHold::sampled, 1.0, margin});
+      ASSERT_EQ(admissible.size(), 1U);
+      for (const auto& [end, edge] : {std::pair{admissible[0].lower, stable[0].lower},
+                                      std::pair{admissible[0].upper, stable[0].upper}}) {
+        const double way = best + (1.0 - margin) * (edge - best);
+        const bool at_modulus = std::abs(modulus(map, {p, end}) - margin * largest) < 0.01;
+        const bool at_way = std::abs(end - way) < 0.015 * width;
+        EXPECT_TRUE(at_modulus || at_way) << sampling.period << ' ' << margin << ' ' << end;
+        EXPECT_GT(modulus(map, {p, end}), margin * largest - 0.01);
+        EXPECT_LT(std::abs(end - best), std::abs(way - best) + 0.015 * width);
+        by_modulus += at_modulus ? 1 : 0;
+        by_way += at_way ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(by_modulus, 1);
+  EXPECT_GT(by_way, 1);
+}
+
+/// One D for a band, against a scan of the band and of D by the matrices.
+TEST(ModalDesign, OneGainForABandIsThatOfAScan) {
+  const auto modes = some_modes();
+  const Absorber<double> absorber = papers_absorber(0.01);
+  const Sampling<double> sampling{1e-3, 3e-4};
+  const ConductorWithAbsorber conductor{modes, absorber, plant_poles(modes, absorber), {}};
+  const AmplitudeOptions options{sampling, ForceHold::exact, 1.0, 0.5, true};
+  const auto found = modal_minimax_amplitude(conductor, options, -100.0, {8.0, 14.0});
+  ASSERT_EQ(found.outcome, MinimaxOutcome::found);
+  const auto plant = modal_plant(modes, absorber);
+  std::vector<RatioOfQuadratics<double>> ratios;
+  for (double frequency = 8.0; frequency <= 14.0; frequency += 0.005) {
+    const double omega = 2.0 * pi<double> * frequency;
+    ratios.push_back(steady_response(plant, sampling, ForceHold::exact, omega)
+                         .relative_to(true_amplitude_per_force(plant, omega))
+                         .squared_ratio(-100.0));
+  }
+  const auto worst = [&](double d) {
+    double most = 0.0;
+    for (const auto& ratio : ratios) most = std::max(most, ratio.at(d));
+    return std::sqrt(most);
+  };
+  EXPECT_NEAR(worst(found.differential_gain), found.worst_ratio, 1e-4);
+  for (const auto& interval :
+       admissible_differential_gains(modal_response(conductor, sampling), -100.0, options))
+    for (int i = 1; i < 200; ++i)
+      EXPECT_GT(worst(interval.lower + (interval.upper - interval.lower) * i / 200.0),
+                found.worst_ratio - 1e-4);
 }
 
 void expect_same(const MarginEnd& found, const MarginEnd& expected, double period) {

@@ -187,10 +187,7 @@ class ModalMotion {
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
                                                const ModalMotion::Full& state) {
-  validate(loop.sampling);
-  validate(loop.gains);
-  validate(loop.excitation);
-  validate_backlash_width(loop.backlash_width);
+  validate(loop);
   const auto poles = plant_poles(loop.modes, loop.absorber);
   require_finite("initial state", state.sum(), "");
   const double size = static_cast<double>(2 * loop.modes.size() + 2);

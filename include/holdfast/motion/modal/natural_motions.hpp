@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
@@ -28,6 +29,15 @@ struct ModalLoop {
   double backlash_width = 0.0;            ///< r₀ (m), ≥ 0
   ForceHold hold = ForceHold::sampled;    ///< how the harmonic force is taken over a sample
 };
+
+/// @throws InvalidParameter where the loop is not admissible
+inline void validate(const ModalLoop& loop) {
+  validate(loop.modes, loop.absorber);
+  validate(loop.sampling);
+  validate(loop.gains);
+  validate(loop.excitation);
+  validate_backlash_width(loop.backlash_width);
+}
 
 /// What a natural motion e^{st} of conductor and absorber does over one sampling period,
 ///

@@ -225,7 +225,7 @@ class EventSearchModel {
   using Seen = SeenMotion<Symbol, Plant>;
 
   /// A sample solved for costs some sixteen to sixty samples taken.
-  static constexpr std::int64_t samples_per_solved = 32;
+  static std::int64_t samples_per_solved() { return 32; }
 
   /// @param start  at a stroboscopic instant
   EventSearchModel(const Motion& start, const Rational& ratio)

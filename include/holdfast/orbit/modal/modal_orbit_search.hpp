@@ -52,8 +52,10 @@ namespace detail {
 template <class Loop>
 class ModalRegion {
  public:
-  /// A sample solved for costs as much as some hundred samples taken.
-  static constexpr std::int64_t samples_per_solved = 256;
+  /// A sample solved for costs N² operations where one taken costs N.
+  std::int64_t samples_per_solved() const {
+    return std::max<std::int64_t>(16, maps_.units().size());
+  }
 
   ModalRegion(const Loop& loop, const ModalItineraryMaps& maps) : loop_(loop), maps_(maps) {}
 
@@ -99,6 +101,9 @@ OrbitResult find_periodic_orbit(const Loop& loop, const ModalMotion::Full& initi
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitResult detail::orbit_by_returns(const ModalLoop&, const Rational&,
+                                                     const OrbitLimits&, const ModalMotion&,
+                                                     const detail::ModalRegion<ModalLoop>&);
 extern template OrbitResult find_periodic_orbit(const ModalLoop&, const ModalMotion::Full&,
                                                 const OrbitLimits&);
 #endif

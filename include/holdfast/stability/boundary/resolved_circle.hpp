@@ -15,6 +15,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
+#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
@@ -86,6 +87,29 @@ class ResolvedCircle {
     const Scalar half_turns = turned / pi<Scalar>;
     if (!(std::abs(half_turns - std::round(half_turns)) < Scalar(0.05))) return -1;
     return response_.unstable_poles() - static_cast<int>(std::lround(half_turns));
+  }
+
+  /// λ − 1 of the loop's roots near the unit circle, one step of Newton from where |p| has a
+  /// minimum on it: what is to be had where `loop_roots` does not settle. The nearest first.
+  std::vector<std::complex<Scalar>> roots_nearby(const PdGains<Scalar>& gains) const {
+    std::vector<std::pair<Scalar, std::complex<Scalar>>> found;
+    const auto size = [&](std::size_t i) { return std::abs(characteristic(places_[i].g, gains)); };
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, places_.size() - 1);
+      if (size(i) > size(before) || size(i) > size(after)) continue;
+      const Place &left = places_[before], &right = places_[after];
+      const std::complex<Scalar> lambda = Scalar(1) + circle_increment(places_[i].angle);
+      const std::complex<Scalar> slope =
+          (characteristic(right.g, gains) - characteristic(left.g, gains)) /
+          (std::complex<Scalar>(0, 1) * lambda * (right.angle - left.angle));
+      const std::complex<Scalar> step = characteristic(places_[i].g, gains) / slope;
+      found.emplace_back(std::abs(step), circle_increment(places_[i].angle) - step);
+    }
+    std::sort(found.begin(), found.end(),
+              [](const auto& one, const auto& other) { return one.first < other.first; });
+    std::vector<std::complex<Scalar>> roots;
+    for (const auto& [distance, root] : found) roots.push_back(root);
+    return roots;
   }
 
   /// All passages of one gain, the other being held; ascending.
@@ -289,6 +313,34 @@ class ResolvedCircle {
   std::vector<Place> places_;           // ascending, from about 0 to π
   Scalar size_of_z_{0}, size_of_v_{0};  // max |G_z| and |G_v| over them
 };
+
+/// ρ − 1, ρ being the largest modulus of the loop's roots: of `loop_roots`, or where these do not
+/// settle by the turn of p on circles of other radii, halved to ten digits.
+/// @param response  of the plant by its poles
+/// @param gains     P and D
+/// @return NaN where the response has no sum over poles
+template <class Scalar>
+Scalar loop_excess_or_turn(const ModalResponse<Scalar>& response, const PdGains<Scalar>& gains) {
+  const Scalar excess = loop_excess(response, gains);
+  if (std::isfinite(excess)) return excess;
+  if (!response.at_radius(Scalar(0))) return std::numeric_limits<Scalar>::quiet_NaN();
+  const auto holds_all = [&](const Scalar& offset) {
+    return ResolvedCircle<Scalar>(*response.at_radius(offset)).roots_outside(gains) == 0;
+  };
+  const Scalar sign(holds_all(Scalar(0)) ? -1 : 1);
+  const auto is_beyond = [&](const Scalar& size) { return holds_all(sign * size) == (sign > 0); };
+  Scalar within(1e-13), beyond = within;
+  while (!is_beyond(beyond)) {
+    if (beyond > Scalar(sign < 0 ? 0.2 : 1e6)) return sign * beyond;
+    within = beyond;
+    beyond *= Scalar(4);
+  }
+  while (beyond - within > Scalar(1e-10) * beyond) {
+    const Scalar middle = (within + beyond) / Scalar(2);
+    (is_beyond(middle) ? beyond : within) = middle;
+  }
+  return sign * beyond;
+}
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class ResolvedCircle<double>;

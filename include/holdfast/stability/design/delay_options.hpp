@@ -32,8 +32,8 @@ struct MaxDelayOptions {
   double proportional_gain;  ///< P (N/m), finite; Eq. (6) tunes it to f
   DelayCriterion criterion = DelayCriterion::attenuates;  ///< what counts as feasible
   ForceHold hold = ForceHold::sampled;  ///< how the excitation enters; of `attenuates` only
-  double delay_fraction = 0.0;          ///< δ/τ, 0 … 1, kept while τ varies
-  double shortest_period = 1e-5;        ///< s; the search starts there, or at 1/(1000 f) if less
+  double delay_fraction = 0.0;    ///< δ/τ, 0 … 1000, kept while τ varies; by matrices ≤ 1
+  double shortest_period = 1e-5;  ///< s; the search starts there, or at 1/(1000 f) if less
   /// s; where it gives up, > `shortest_period`; 0: where every longer period is shown to be stable
   /// if that is within 200 periods of the plant's slowest mode, else at 20 of them.
   double longest_period = 0.0;
@@ -54,7 +54,7 @@ struct MaxDelayOptions {
 inline void validate(const MaxDelayOptions& options) {
   require_positive("frequency", options.frequency, "Hz");
   require_finite("proportional gain", options.proportional_gain, "N/m");
-  require_within("delay fraction", options.delay_fraction, "", 0.0, 1.0);
+  require_within("delay fraction", options.delay_fraction, "", 0.0, 1000.0);
   require_positive("shortest sampling period", options.shortest_period, "s");
   require_finite("longest sampling period", options.longest_period, "s");
   if (options.longest_period != 0.0)

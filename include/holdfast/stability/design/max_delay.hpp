@@ -284,6 +284,7 @@ template <class Plant>
 MaxDelay max_sampling_period(const Plant& plant, const MaxDelayOptions& options) {
   validate(plant);
   validate(options);
+  require_within("delay fraction", options.delay_fraction, "", 0.0, 1.0);
   return detail::DelaySearch(plant, options).answer();
 }
 

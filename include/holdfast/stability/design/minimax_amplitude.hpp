@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -48,46 +49,61 @@ struct WorstFrequency {
   double ratio;  ///< |Z₁| over that without control; ∞ where a root of the loop is e^{2πifτ}
 };
 
+/// The loop of a plant as AmplitudeBand asks for it.
+/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
+template <class Plant>
+struct PlantOverBand {
+  Plant plant;                  ///< that of the loop
+  SampledLoop<double> loop;     ///< of `sampled_loop`
+  ForceHold hold;               ///< how the excitation enters a sample
+  bool relative_to_true_force;  ///< as in `AmplitudeOptions`
+  AffinePolynomial<double, 5> polynomial = characteristic_polynomial(loop);  ///< of the loop
+
+  /// τ (s).
+  double period() const { return loop.sampling.period; }
+  /// The steady response at ω (rad/s).
+  SteadyResponse<double> response(double angular_frequency) const {
+    return detail::response_of_loop(plant, loop, hold, angular_frequency, relative_to_true_force);
+  }
+  /// λ − 1 of the loop's roots.
+  std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
+    return roots(polynomial.at(gains));
+  }
+  /// λ − 1 of the zeros of the uncontrolled amplitude to the held force.
+  std::vector<std::complex<double>> uncontrolled_zeros() const {
+    const auto open_loop = resolvent<double, 4>(loop.increment);
+    return roots(open_loop.between(RowVector<double, 4>::Unit(0), loop.held_excitation), 1e-14);
+  }
+};
+
 /// The amplitude ratio to no control over a band of frequencies at a fixed P.
 ///
 /// Peaks belong to roots of the loop close to the unit circle, where the controlled amplitude is
 /// large, and to zeros of the uncontrolled amplitude close to it. Both are known with their widths:
 /// the grid over the band is uniform, refined about the zeros, and for each D about the loop's
 /// roots. Its highest points are then refined by golden-section search.
-/// @tparam Plant  anything with `state_matrix()`, `control_input()` and `excitation_input()`
-template <class Plant>
+/// @tparam Model  PlantOverBand, or ConductorOverBand of modal_design.hpp
+template <class Model>
 class AmplitudeBand {
  public:
   /// Solves for the steady response at each frequency of the grid, 401 and those about the zeros.
-  /// @param plant              that of the loop
-  /// @param loop               of `sampled_loop`
-  /// @param hold               how the excitation enters a sample
+  /// @param model              the loop
   /// @param proportional_gain  P (N/m), finite
   /// @param band               within its range (`validate`), which is not checked here
-  /// @param relative_to_true_force  as in `AmplitudeOptions`
-  AmplitudeBand(const Plant& plant, const SampledLoop<double>& loop, ForceHold hold,
-                double proportional_gain, const FrequencyBand& band,
-                bool relative_to_true_force = false)
-      : plant_(plant),
-        loop_(loop),
-        hold_(hold),
-        proportional_gain_(proportional_gain),
-        band_(band),
-        relative_to_true_force_(relative_to_true_force),
-        polynomial_(characteristic_polynomial(loop)) {
+  AmplitudeBand(Model model, double proportional_gain, const FrequencyBand& band)
+      : model_(std::move(model)), proportional_gain_(proportional_gain), band_(band) {
     constexpr int uniform = 400;
     std::vector<double> frequencies;
     for (int k = 0; k <= uniform; ++k)
       frequencies.push_back(band.lower + (band.upper - band.lower) * k / uniform);
-    append_about(uncontrolled_zeros(), frequencies);
+    append_about(model_.uncontrolled_zeros(), frequencies);
     std::sort(frequencies.begin(), frequencies.end());
     for (const double frequency : frequencies) grid_.push_back(at(frequency));
   }
 
   /// The squared ratio at one frequency of the band.
   RatioAtFrequency at(double frequency) const {
-    const auto response = detail::response_of_loop(
-        plant_, loop_, hold_, 2.0 * pi<double> * frequency, relative_to_true_force_);
+    const auto response = model_.response(2.0 * pi<double> * frequency);
     return {frequency, response.squared_ratio(proportional_gain_)};
   }
 
@@ -118,17 +134,11 @@ class AmplitudeBand {
     return value >= 0.0 ? value : std::numeric_limits<double>::infinity();
   }
 
-  /// Zeros of the uncontrolled amplitude to the held force, in powers of λ − 1.
-  std::vector<std::complex<double>> uncontrolled_zeros() const {
-    const auto open_loop = resolvent<double, 4>(loop_.increment);
-    return roots(open_loop.between(RowVector<double, 4>::Unit(0), loop_.held_excitation), 1e-14);
-  }
-
   /// The grid, refined about the loop's roots at one D.
   std::vector<RatioAtFrequency> points_for(double differential_gain) const {
     std::vector<RatioAtFrequency> points = grid_;
     std::vector<double> near_roots;
-    append_about(roots(polynomial_.at({proportional_gain_, differential_gain})), near_roots);
+    append_about(model_.loop_roots({proportional_gain_, differential_gain}), near_roots);
     for (const double frequency : near_roots) points.push_back(at(frequency));
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
@@ -143,7 +153,7 @@ class AmplitudeBand {
   /// Frequencies about those of roots near the unit circle, spaced by their distance from it.
   void append_about(const std::vector<std::complex<double>>& from_one,
                     std::vector<double>& frequencies) const {
-    const double unit = 2.0 * pi<double> * loop_.sampling.period;
+    const double unit = 2.0 * pi<double> * model_.period();
     for (const std::complex<double>& mu : from_one) {
       if (mu.imag() < 0.0) continue;  // its conjugate has the same frequency
       const double centre = std::abs(std::arg(1.0 + mu)) / unit;
@@ -172,13 +182,9 @@ class AmplitudeBand {
     return best;
   }
 
-  Plant plant_;
-  SampledLoop<double> loop_;
-  ForceHold hold_;
+  Model model_;
   double proportional_gain_;
   FrequencyBand band_;
-  bool relative_to_true_force_;
-  AffinePolynomial<double, 5> polynomial_;
   std::vector<RatioAtFrequency> grid_;
 };
 
@@ -260,6 +266,42 @@ class WorstOfFrequencies {
 
 }  // namespace detail
 
+namespace detail {
+
+/// The exchange of frequencies over a band, among some D, of which there is one.
+template <class Model>
+MinimaxAmplitude exchanged(const AmplitudeBand<Model>& amplitudes, const FrequencyBand& band,
+                           const std::vector<Interval<double>>& admissible) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  WorstOfFrequencies chosen(admissible);
+  for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
+  MinimaxAmplitude result{MinimaxOutcome::not_converged,
+                          none,
+                          std::numeric_limits<double>::infinity(),
+                          none,
+                          0.0,
+                          none};
+  for (int exchange = 0; exchange < 60; ++exchange) {
+    const auto model = chosen.least();
+    const WorstFrequency worst = amplitudes.worst(model.differential_gain);
+    result.lower_bound = std::max(result.lower_bound, model.ratio);
+    if (worst.ratio < result.worst_ratio) {
+      result.differential_gain = model.differential_gain;
+      result.worst_ratio = worst.ratio;
+      result.worst_frequency = worst.frequency;
+    }
+    if (std::abs(result.worst_ratio - result.lower_bound) <= 1e-8 * result.lower_bound) {
+      result.outcome = MinimaxOutcome::found;
+      break;
+    }
+    chosen.add(amplitudes.at(worst.frequency));
+  }
+  result.attenuation = holdfast::attenuation(result.worst_ratio);
+  return result;
+}
+
+}  // namespace detail
+
 /// The D that minimises the largest amplitude ratio to no control over a band, at a fixed P.
 ///
 /// Exchange of frequencies: the minimax over the frequencies collected so far bounds the answer
@@ -284,33 +326,8 @@ MinimaxAmplitude minimax_amplitude(const Plant& plant, const AmplitudeOptions& o
   const auto loop = sampled_loop(plant, options.sampling);
   const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
   if (admissible.empty()) return {MinimaxOutcome::none, none, none, none, none, none};
-  const AmplitudeBand amplitudes(plant, loop, options.hold, proportional_gain, band,
-                                 options.relative_to_true_force);
-  detail::WorstOfFrequencies chosen(admissible);
-  for (const double frequency : {band.lower, band.upper}) chosen.add(amplitudes.at(frequency));
-  MinimaxAmplitude result{MinimaxOutcome::not_converged,
-                          none,
-                          std::numeric_limits<double>::infinity(),
-                          none,
-                          0.0,
-                          none};
-  for (int exchange = 0; exchange < 60; ++exchange) {
-    const auto model = chosen.least();
-    const WorstFrequency worst = amplitudes.worst(model.differential_gain);
-    result.lower_bound = std::max(result.lower_bound, model.ratio);
-    if (worst.ratio < result.worst_ratio) {
-      result.differential_gain = model.differential_gain;
-      result.worst_ratio = worst.ratio;
-      result.worst_frequency = worst.frequency;
-    }
-    if (std::abs(result.worst_ratio - result.lower_bound) <= 1e-8 * result.lower_bound) {
-      result.outcome = MinimaxOutcome::found;
-      break;
-    }
-    chosen.add(amplitudes.at(worst.frequency));
-  }
-  result.attenuation = attenuation(result.worst_ratio);
-  return result;
+  const PlantOverBand<Plant> model{plant, loop, options.hold, options.relative_to_true_force};
+  return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -32,14 +32,15 @@ enum class MinimumAmplitudeOutcome {
 
 /// The sampled loop in which an amplitude is to be least.
 struct AmplitudeOptions {
-  Sampling<double> sampling;            ///< τ (s) > 0, δ (s) 0 … τ
+  Sampling<double> sampling;  ///< τ (s) > 0, δ (s) 0 … 1000 τ, of two masses up to τ
   ForceHold hold = ForceHold::sampled;  ///< how the excitation enters a sample
   /// A D is admissible if the spectral radius stays below this, 0 < … ≤ 1; 1 asks for stability,
   /// less for a transient that decays at least like largest_radiusʲ.
   double largest_radius = 1.0;
   /// 0 … < 1; what of the way from the boundary of stability to the D of minimum radius a D must
   /// keep away from it, measured along D and in the rate of decay, −ln ρ. 0 admits the boundary
-  /// itself as a limit; 1/2 is what the program recommends by.
+  /// itself as a limit; 1/2 is what the program recommends by. Of a ModalResponse it is measured
+  /// about the D of largest modulus margin, and in that (modal_design.hpp).
   double margin = 0.0;
   /// Whether ratios are relative to the plant without control under the true force
   /// (`true_amplitude_per_force`); else to the same with the force held as with control, as in
@@ -57,7 +58,9 @@ struct MinimumAmplitude {
 
 /// @throws InvalidParameter outside the ranges that the members of `AmplitudeOptions` state
 inline void validate(const AmplitudeOptions& options) {
-  validate(options.sampling);
+  const Sampling<double>& sampling = options.sampling;
+  require_positive("sampling period tau", sampling.period, "s");
+  require_within("processing delay", sampling.processing_delay, "s", 0.0, 1000.0 * sampling.period);
   require_positive("largest spectral radius", options.largest_radius, "");
   require_within("largest spectral radius", options.largest_radius, "", 0.0, 1.0);
   require_within("margin", options.margin, "", 0.0, 1.0 - 1e-3);

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
 #include <vector>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
+#include "holdfast/core/interval_sets.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
+#include "holdfast/stability/response/modal_steady_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
@@ -32,8 +41,41 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
                                                       {proportional_gain, Scalar(0)});
 }
 
+namespace detail {
+
+/// The least ρ(P, D) − 1 over some D in an interval and that D, each of which the roots are asked,
+/// and about the best of them, where it is less than what is known, by golden section.
+template <class Scalar>
+std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, const Scalar& p,
+                                       const Interval<Scalar>& gains, const Scalar& known) {
+  constexpr int count = 24;
+  const auto excess = [&](const Scalar& d) {
+    return loop_excess_or_turn(response, PdGains<Scalar>{p, d});
+  };
+  const Scalar step = (gains.upper - gains.lower) / Scalar(count);
+  std::pair<Scalar, Scalar> best{std::numeric_limits<Scalar>::infinity(), Scalar(0)};
+  for (int k = 0; k <= count; ++k) {
+    const Scalar d = gains.lower + Scalar(k) * step;
+    best = std::min(best, {excess(d), d});
+  }
+  if (best.first > known) return best;
+  const Scalar golden(0.3819660112501051);
+  Scalar lower = best.second - step, upper = best.second + step;
+  for (int k = 0; k < 30; ++k) {
+    const Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
+    const Scalar at_left = excess(left), at_right = excess(right);
+    best = std::min({best, {at_left, left}, {at_right, right}});
+    (at_left < at_right ? upper : lower) = at_left < at_right ? right : left;
+  }
+  return best;
+}
+
+}  // namespace detail
+
 /// min over D of ρ(P, D) of a loop by its poles: as of a `LoopMap`, from the D within each radius,
-/// the margin to a millionth of itself.
+/// the margin to a millionth of itself; and since a circle of some radius may pass so near to a
+/// pole that the turn of p on it says nothing, the roots themselves are asked at some D of the
+/// stable ones, and about the best of them where that is better.
 /// @param response           of the plant by its poles, which it has
 /// @param proportional_gain  P (N/m), finite
 /// @param start              a D (N s/m) to begin from, finite
@@ -44,10 +86,135 @@ MinimumRadius minimum_radius(const ModalResponse<Scalar>& response, double propo
   require_finite("proportional gain P", proportional_gain, "N/m");
   require_finite("differential gain D", start, "N s/m");
   const detail::RadiusLevels<ModalResponse<Scalar>> levels{response};
-  return detail::MinimumRadiusSearch(levels, proportional_gain, 1e-6).from(start);
+  MinimumRadius found = detail::MinimumRadiusSearch(levels, proportional_gain, 1e-6).from(start);
+  for (const Interval<Scalar>& stable :
+       differential_gains_within_radius(response, proportional_gain, Scalar(1))) {
+    if (!std::isfinite(stable.upper - stable.lower)) continue;
+    const auto [excess, d] =
+        detail::least_excess(response, Scalar(proportional_gain), stable, Scalar(-found.margin));
+    // Its bound from below was of circles that said nothing.
+    if (!(-excess <= found.margin))
+      found = {MinimumRadiusOutcome::point, d, 1.0 + excess, -excess, 0.0, {d, d}};
+  }
+  return found;
 }
 
-/// The D of least steady amplitude of a loop by its poles, as `minimum_amplitude` of a plant.
+namespace detail {
+
+/// The distance of a loop's p(e^{iθ}) = 1 − P G_z − D G_v from 0, as D moves it.
+template <class Scalar>
+class ModulusLevels {
+ public:
+  ModulusLevels(const ResolvedCircle<Scalar>& circle, const Scalar& proportional_gain)
+      : stable_(circle.stable_gains(FreeGain::differential, {proportional_gain, Scalar(0)})) {
+    for (const Scalar& angle : circle.angles()) {
+      const CommandResponse<Scalar> g = circle.response().at_angle(angle);
+      const std::complex<Scalar> rest = Scalar(1) - proportional_gain * g.displacement;
+      places_.push_back(
+          {std::norm(g.velocity), (rest * std::conj(g.velocity)).real(), std::norm(rest)});
+    }
+  }
+
+  /// The stable D with |p| > modulus at all angles: |p|² is a quadratic of D at each.
+  std::vector<Interval<Scalar>> beyond(const Scalar& modulus) const {
+    std::vector<Interval<Scalar>> nearer;
+    for (const Place& at : places_) {
+      const Scalar excess = at.rest - modulus * modulus;
+      const Scalar root = at.along * at.along - at.slope * excess;
+      if (!(root > Scalar(0))) continue;
+      const Scalar half = std::sqrt(root);
+      nearer.push_back({(at.along - half) / at.slope, (at.along + half) / at.slope});
+    }
+    std::sort(nearer.begin(), nearer.end(),
+              [](const auto& one, const auto& other) { return one.lower < other.lower; });
+    std::vector<Interval<Scalar>> kept;
+    for (const Interval<Scalar>& interval : stable_) {
+      Scalar from = interval.lower;
+      for (const Interval<Scalar>& gap : nearer) {
+        if (gap.lower >= interval.upper) break;
+        if (gap.lower > from) kept.push_back({from, gap.lower});
+        from = std::max(from, gap.upper);
+      }
+      if (from < interval.upper) kept.push_back({from, interval.upper});
+    }
+    return kept;
+  }
+
+  /// A modulus and the D that has it.
+  struct Largest {
+    Scalar modulus, gain;
+  };
+
+  /// The largest modulus that some D has, to ten digits; 0 where no D is stable.
+  Largest largest() const {
+    Largest found{Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()};
+    if (stable_.empty()) return found;
+    Scalar none(4);
+    while (none - found.modulus > Scalar(1e-10) * none) {
+      const Scalar middle = (found.modulus + none) / Scalar(2);
+      const auto left = beyond(middle);
+      if (left.empty())
+        none = middle;
+      else
+        found = {middle, left.front().representative()};
+    }
+    return found;
+  }
+
+  /// The stable D about one that lie no farther from it than `share` of the way to the boundary.
+  std::vector<Interval<Scalar>> within_share(const Scalar& from, const Scalar& share) const {
+    for (const Interval<Scalar>& interval : stable_)
+      if (interval.contains(from))
+        return {{from + share * (interval.lower - from), from + share * (interval.upper - from)}};
+    return {};
+  }
+
+ private:
+  struct Place {
+    Scalar slope, along, rest;  // |p|² = rest − 2 along D + slope D²
+  };
+
+  std::vector<Interval<Scalar>> stable_;
+  std::vector<Place> places_;
+};
+
+}  // namespace detail
+
+/// The open intervals of D (N s/m) that the options admit at one P, of a loop by its poles: with a
+/// margin m > 0 those with
+///
+///     min |1 − P G_z − D G_v| > m max_D min |1 − P G_z − D G_v|  and  D = D* + (1 − m)(D_s − D*)
+///
+/// about the D* of the largest modulus margin, the minima being over the unit circle and D_s
+/// stable.
+///
+/// The D of least radius, about which two masses measure a margin, is none to go by on a conductor:
+/// its slowest mode decides that radius, whatever the others do.
+/// Source of the modulus margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
+/// @tparam Scalar            double
+/// @param response           of the plant by its poles
+/// @param proportional_gain  P (N/m), finite
+/// @param options            within their ranges, which are not checked here
+template <class Scalar>
+std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<Scalar>& response,
+                                                            double proportional_gain,
+                                                            const AmplitudeOptions& options) {
+  if (!(options.margin > 0.0))
+    return differential_gains_within_radius(response, proportional_gain,
+                                            Scalar(options.largest_radius));
+  const detail::ModulusLevels<Scalar> levels(ResolvedCircle<Scalar>(response), proportional_gain);
+  const auto best = levels.largest();
+  if (!(best.modulus > Scalar(0))) return {};
+  const Scalar margin(options.margin);
+  const auto away = intersection(levels.beyond(margin * best.modulus),
+                                 levels.within_share(best.gain, Scalar(1) - margin));
+  if (!(options.largest_radius < 1.0)) return away;
+  return intersection(away, differential_gains_within_radius(response, proportional_gain,
+                                                             Scalar(options.largest_radius)));
+}
+
+/// The D of least steady amplitude of a loop by its poles among the admissible ones, as
+/// `minimum_amplitude` of a plant.
 /// @param loop               of the plant by its poles, at the sampling of the options
 /// @param options            within their ranges
 /// @param frequency          f (Hz), > 0
@@ -65,6 +232,75 @@ MinimumAmplitude minimum_amplitude(const ModalResponse<Scalar>& loop,
   require_finite("proportional gain P", proportional_gain, "N/m");
   return detail::minimum_amplitude_of(loop, options, frequency, proportional_gain,
                                       [&] { return response; });
+}
+
+/// The loop of a conductor by its modes as AmplitudeBand asks for it, ratios being to the plant
+/// without control under the true force.
+template <class Scalar>
+struct ConductorOverBand {
+  ConductorWithAbsorber conductor;  ///< with all its poles
+  Sampling<Scalar> sampling;        ///< τ and δ
+  ForceHold hold;                   ///< how the excitation enters a sample
+  ModalResponse<Scalar> loop = modal_response(conductor, sampling);  ///< of the same
+
+  /// τ (s).
+  double period() const { return sampling.period; }
+  /// The steady response at ω (rad/s).
+  SteadyResponse<Scalar> response(double angular_frequency) const {
+    return steady_response(conductor, sampling, hold, angular_frequency)
+        .relative_to(
+            true_amplitude_per_force(conductor.modes, conductor.absorber, angular_frequency));
+  }
+  /// λ − 1 of the loop's roots.
+  std::vector<std::complex<double>> loop_roots(const PdGains<double>& gains) const {
+    auto found = holdfast::loop_roots(loop, gains);
+    if (found.empty()) return ResolvedCircle<Scalar>(loop).roots_nearby(gains);
+    for (std::complex<double>& root : found) root -= 1.0;
+    return found;
+  }
+  /// λ − 1 of the zeros of the receptance, one between every two modes, by Newton's steps from the
+  /// middle, and of the absorber's own motion on a conductor that stands still.
+  std::vector<std::complex<double>> uncontrolled_zeros() const {
+    const auto& [modes, absorber, poles, hardware] = conductor;
+    std::vector<std::complex<double>> found;
+    for (std::size_t n = 0; n + 1 < modes.size(); ++n) {
+      std::complex<double> s(0.0,
+                             0.5 * (modes[n].angular_frequency + modes[n + 1].angular_frequency));
+      for (int step = 0; step < 30; ++step)
+        s -= receptance(modes, s) / detail::receptance_slope(modes, s);
+      if (std::isfinite(std::abs(s))) found.push_back(complex_expm1(s * sampling.period));
+    }
+    const double decay = absorber.damping / (2.0 * absorber.mass);
+    const std::complex<double> turn =
+        std::sqrt(std::complex<double>(decay * decay - absorber.stiffness / absorber.mass));
+    found.push_back(complex_expm1((turn - decay) * sampling.period));
+    return found;
+  }
+};
+
+/// The D that minimises the largest amplitude ratio to no control over a band, at a fixed P, of a
+/// conductor by its modes: as `minimax_amplitude` of a plant.
+/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
+///                           called
+/// @param conductor          with all its poles
+/// @param options            within their ranges; their wish what ratios are relative to does not
+///                           count
+/// @param proportional_gain  P (N/m), finite
+/// @param band               Hz, 0 < lower < upper ≤ 1/(2τ)
+/// @throws InvalidParameter outside the admissible ranges
+template <class Scalar = double>
+MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,
+                                         const AmplitudeOptions& options, double proportional_gain,
+                                         const FrequencyBand& band) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  validate(conductor.modes, conductor.absorber);
+  validate(options);
+  require_finite("proportional gain P", proportional_gain, "N/m");
+  validate(band, options.sampling.period);
+  const ConductorOverBand<Scalar> model{conductor, options.sampling, options.hold};
+  const auto admissible = admissible_differential_gains(model.loop, proportional_gain, options);
+  if (admissible.empty()) return {MinimaxOutcome::none, none, none, none, none, none};
+  return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
 }
 
 }  // namespace holdfast

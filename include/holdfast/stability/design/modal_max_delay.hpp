@@ -8,8 +8,8 @@
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/interval.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/modal_plant.hpp"
-#include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
@@ -18,13 +18,6 @@
 
 namespace holdfast {
 
-/// A conductor by its modes with the absorber, and the natural motions of the two.
-struct ConductorWithAbsorber {
-  std::vector<PlaceMode<double>> modes;  ///< as the absorber's place sees them
-  Absorber<double> absorber;             ///< with its clamp
-  std::vector<PlantPole> poles;          ///< `plant_poles` of the two, all of them
-};
-
 namespace detail {
 
 /// Walks the sampling period until no D serves.
@@ -32,7 +25,10 @@ template <class Scalar>
 class ModalDelayWalk {
  public:
   ModalDelayWalk(const ConductorWithAbsorber& plant, const MaxDelayOptions& options, double ratio)
-      : plant_(plant), options_(options), ratio_(ratio) {}
+      : plant_(plant),
+        poles_(with_hardware(plant.poles, plant.hardware)),
+        options_(options),
+        ratio_(ratio) {}
 
   MaxDelay answer() const {
     double feasible = std::min(options_.shortest_period, 1e-3 / options_.frequency);
@@ -55,13 +51,12 @@ class ModalDelayWalk {
 
   DelayOffer<double> offer_at(double period) const {
     const auto sampling = options_.sampling(period);
-    const ResolvedCircle<Scalar> circle(modal_response<Scalar>(plant_.poles, sampling));
+    const ResolvedCircle<Scalar> circle(modal_response<Scalar>(poles_, sampling));
     DelayOffer<double> offer{
         circle.stable_gains(FreeGain::differential, {options_.proportional_gain, 0.0}), {}};
     if (options_.criterion == DelayCriterion::attenuates && !offer.stable.empty())
       offer.response =
-          steady_response<Scalar>(plant_.modes, plant_.absorber, plant_.poles, sampling,
-                                  options_.hold, options_.angular_frequency());
+          steady_response<Scalar>(plant_, sampling, options_.hold, options_.angular_frequency());
     return offer;
   }
 
@@ -113,6 +108,7 @@ class ModalDelayWalk {
   }
 
   const ConductorWithAbsorber& plant_;
+  std::vector<PlantPole> poles_;  // with those of the hardware
   MaxDelayOptions options_;
   double ratio_;
 };
@@ -125,7 +121,7 @@ class ModalDelayWalk {
 /// edge is halved to 10⁻⁹. A stretch of periods narrower than a step is missed, and nothing is
 /// shown of what lies in between or beyond.
 /// @tparam Scalar  double; a parameter so that nothing is compiled where this is not called
-/// @param plant    kept outside while this runs, its poles not none
+/// @param plant    kept outside while this runs, its poles not none and none of its hardware's
 /// @param options  within their ranges; search ratio and most steps do not count
 /// @param ratio    of two neighbouring periods, > 1
 /// @throws InvalidParameter outside these ranges

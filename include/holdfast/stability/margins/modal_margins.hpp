@@ -33,7 +33,7 @@ class ModalMargins {
         sampling_(sampling),
         gains_(gains),
         response_(modal_response<Scalar>(poles, sampling)),
-        reserve_(-excess_of(response_)) {}
+        reserve_(-loop_excess_or_turn(response_, gains_)) {}
 
   bool is_stable() const { return reserve_ > Scalar(0); }
   Scalar reserve() const { return reserve_; }
@@ -160,7 +160,9 @@ class ModalMargins {
   /// @param response  and gains just outside, where that root is the largest
   static MarginEnd boundary_at(const Response& response, const PdGains<Scalar>& gains,
                                Scalar position, Scalar value, Scalar period) {
-    const std::complex<Scalar> root = largest_loop_root(response, gains);
+    std::complex<Scalar> root = largest_loop_root(response, gains);
+    if (!std::isfinite(std::abs(root)))
+      root = Scalar(1) + ResolvedCircle<Scalar>(response).roots_nearby(gains).front();
     const bool real = std::abs(root.imag()) <= Scalar(1e-6) * std::abs(root - Scalar(1));
     const BoundaryCurve curve = !real                     ? BoundaryCurve::complex_pair
                                 : root.real() < Scalar(0) ? BoundaryCurve::minus_one

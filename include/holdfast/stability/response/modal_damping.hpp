@@ -10,6 +10,8 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
@@ -42,15 +44,18 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
 }
 
 /// ζ_n + φ_n²/(2 M_n ω_n) Re[Z_passive + T_a Z_eff] at s = i ω_n, with
-/// Z_eff = −(D + P/s) sinc(ωτ/2) e^{−s(δ + τ/2)}.
+/// Z_eff = −(D + P/s) F(s) D(s) sinc(ωτ/2) e^{−s(δ + τ/2)}.
 inline double first_order_damping(const PlaceMode<double>& mode, const Absorber<double>& absorber,
-                                  const Sampling<double>& sampling, const PdGains<double>& gains) {
+                                  const Sampling<double>& sampling, const PdGains<double>& gains,
+                                  const LoopHardware& hardware) {
   const std::complex<double> s(0.0, mode.angular_frequency);
   const double half = mode.angular_frequency * sampling.period / 2.0;
   const std::complex<double> late =
       std::sin(half) / half * std::exp(-s * (sampling.processing_delay + sampling.period / 2.0));
+  const HardwarePoles lags(hardware);
   const std::complex<double> drive =
-      -(gains.differential + gains.proportional / s) * late * transmitted_share(absorber, s);
+      -(gains.differential + gains.proportional / s) * late * HardwarePoles::lag(lags.drive, s) *
+      HardwarePoles::lag(lags.filter, s) * transmitted_share(absorber, s);
   const double share = mode.shape * mode.shape / (2.0 * mode.mass * mode.angular_frequency);
   return mode.damping_ratio + share * (passive_stiffness(absorber, s) / s + drive).real();
 }
@@ -70,16 +75,18 @@ inline double first_order_damping(const PlaceMode<double>& mode, const Absorber<
 /// @param absorber  with its clamp
 /// @param sampling  τ and δ
 /// @param gains     P and D; 0: without control
-/// @throws InvalidParameter where modes, absorber or sampling are not admissible
+/// @param hardware  measurement filter and drive
+/// @throws InvalidParameter where modes, absorber, sampling or hardware are not admissible
 template <class Scalar = double>
 std::vector<ModeDamping> modal_damping(
     const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
     const Absorber<detail::Undeduced<Scalar>>& absorber,
     const Sampling<detail::Undeduced<Scalar>>& sampling,
-    const PdGains<detail::Undeduced<Scalar>>& gains) {
+    const PdGains<detail::Undeduced<Scalar>>& gains, const LoopHardware& hardware = {}) {
   using Complex = std::complex<double>;
   const auto poles = plant_poles(modes, absorber);
-  const ModalResponse<Scalar> response = modal_response<Scalar>(modes, absorber, poles, sampling);
+  const ModalResponse<Scalar> response =
+      modal_response<Scalar>(ConductorWithAbsorber{modes, absorber, poles, hardware}, sampling);
   const auto of_gains = [&](const Complex& s) {
     const auto g = response.at_distance_from_one(complex_expm1(s * sampling.period));
     return gains.proportional * g.displacement + gains.differential * g.velocity;
@@ -98,7 +105,7 @@ std::vector<ModeDamping> modal_damping(
                                  : poles[n].s;
     if (controlled) root = root_from_pole(of_gains, root);
     found.push_back({modes[n].angular_frequency, modes[n].damping_ratio, root,
-                     detail::first_order_damping(modes[n], absorber, sampling, gains)});
+                     detail::first_order_damping(modes[n], absorber, sampling, gains, hardware)});
   }
   return found;
 }

@@ -9,6 +9,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/eigenbasis.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
@@ -168,8 +169,10 @@ class ModalResponse {
 
   void add(const Residue& residue) {
     Complex s = residue.s;
-    // What nothing damps lies on the circle but for round-off: here just within it.
-    if (std::abs(s.real()) * period_ < undamped) s.real(-undamped / period_);
+    // What nothing damps lies on the circle but for round-off: here just within it. What creeps
+    // back does so however slowly.
+    const bool creeps = s.imag() == Scalar(0) && s.real() < Scalar(0);
+    if (std::abs(s.real()) * period_ < undamped && !creeps) s.real(-undamped / period_);
     const Complex present = exponential_integral(s, period_ - late_);
     const Complex past = std::exp(s * (period_ - late_)) * exponential_integral(s, late_);
     poles_.push_back({complex_expm1(s * period_), residue.displacement * present,
@@ -206,34 +209,32 @@ ModalResponse<Scalar> modal_response(const std::vector<PlantPole>& poles,
   return {residues, sampling};
 }
 
-/// The response of a conductor by its modes with the absorber: from its poles, or where those are
-/// not all found from the eigenvalues of its plant.
-/// @tparam Scalar   double, as above
-/// @param modes     as the absorber's place sees them
-/// @param absorber  with its clamp
-/// @param poles     `plant_poles` of the two
-/// @param sampling  τ and δ
-/// @throws InvalidParameter where modes, absorber or sampling are not admissible
+/// The response of a conductor by its modes with the absorber and the loop's hardware: from their
+/// poles, or where those are not all told apart from the eigenvalues of the plant.
+/// @tparam Scalar    double, as above
+/// @param conductor  with all its poles, or none
+/// @param sampling   τ and δ
+/// @throws InvalidParameter where conductor, absorber, hardware or sampling are not admissible
 template <class Scalar = double>
-ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
-                                     const Absorber<detail::Undeduced<Scalar>>& absorber,
-                                     const std::vector<PlantPole>& poles,
+ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
                                      const Sampling<detail::Undeduced<Scalar>>& sampling) {
-  if (poles.empty()) return {modal_plant<Scalar>(modes, absorber), sampling};
+  const auto poles = with_hardware(conductor.poles, conductor.hardware);
+  if (poles.empty() || conductor.poles.empty()) return {linear_plant<Scalar>(conductor), sampling};
   return modal_response<Scalar>(poles, sampling);
 }
 
 /// The same, whose poles are found here.
 /// @tparam Scalar   double, as above
-/// @param modes     as above
-/// @param absorber  as above
+/// @param modes     as the absorber's place sees them
+/// @param absorber  with its clamp
 /// @param sampling  as above
 /// @throws InvalidParameter as above
 template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
                                      const Absorber<detail::Undeduced<Scalar>>& absorber,
                                      const Sampling<detail::Undeduced<Scalar>>& sampling) {
-  return modal_response<Scalar>(modes, absorber, plant_poles(modes, absorber), sampling);
+  return modal_response<Scalar>(
+      ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -7,6 +7,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/excitation/harmonic_input.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
@@ -26,10 +27,10 @@ inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& mod
 }
 
 /// The steady response of the loop of a conductor by its modes, the force acting at the absorber's
-/// place: as `steady_response` of `modal_plant`, in N operations.
-/// @param modes              as the absorber's place sees them
-/// @param absorber           with its clamp
-/// @param poles              `plant_poles` of the two
+/// place: as `steady_response` of `linear_plant`, in N operations.
+/// @param conductor          with all its poles, or none; the plant is asked where there are none
+/// or
+///                           one of them is the hardware's
 /// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
 /// @param hold               how the excitation enters a sample
 /// @param angular_frequency  ω (rad/s), > 0
@@ -37,32 +38,43 @@ inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& mod
 /// called
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>
-SteadyResponse<Scalar> steady_response(
-    const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
-    const Absorber<detail::Undeduced<Scalar>>& absorber, const std::vector<PlantPole>& poles,
-    const Sampling<detail::Undeduced<Scalar>>& sampling, ForceHold hold, double angular_frequency) {
+SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
+                                       const Sampling<double>& sampling, ForceHold hold,
+                                       double angular_frequency) {
   using Complex = std::complex<double>;
   require_positive("angular frequency", angular_frequency, "rad/s");
-  if (poles.empty())
-    return steady_response(modal_plant<Scalar>(modes, absorber), sampling, hold, angular_frequency);
+  validate(conductor.hardware);
+  if (with_hardware(conductor.poles, conductor.hardware).empty())
+    return steady_response(linear_plant<Scalar>(conductor), sampling, hold, angular_frequency);
   const Complex turn = circle_increment(angular_frequency * sampling.period);
-  const auto drive = modal_response<Scalar>(poles, sampling).at_distance_from_one(turn);
-  Complex force, force_velocity;
+  const detail::HardwarePoles lags(conductor.hardware);
+  const auto answer = [&](const std::vector<PlantPole>& poles, const Sampling<Scalar>& at) {
+    return modal_response<Scalar>(poles, at).at_distance_from_one(turn);
+  };
+  const auto driven = detail::lagged(conductor.poles, lags.drive);
+  const auto place = answer(driven, sampling);
+  const auto read =
+      lags.filter.empty() ? place : answer(detail::lagged(driven, lags.filter), sampling);
+  CommandResponse<double> force, read_force;
   if (hold == ForceHold::exact) {
     const Complex s(0.0, angular_frequency);
-    force = place_response(receptance(modes, s), absorber, s).to_force;
-    force_velocity = s * force;
+    const Complex bare = receptance(conductor.modes, s);
+    const Complex there = place_response(bare, conductor.absorber, s).to_force;
+    const Complex filtered = there * detail::HardwarePoles::lag(lags.filter, s);
+    force = {there, s * there};
+    read_force = {filtered, s * filtered};
   } else {
     // A held force on the conductor alone is a drive without delay whose whole force reaches it.
-    std::vector<PlantPole> of_force = poles;
-    for (PlantPole& pole : of_force) pole.residue /= detail::transmitted_share(absorber, pole.s);
-    const auto held =
-        modal_response<Scalar>(of_force, {sampling.period}).at_distance_from_one(turn);
-    force = held.displacement;
-    force_velocity = held.velocity;
+    std::vector<PlantPole> of_force = conductor.poles;
+    for (PlantPole& pole : of_force)
+      pole.residue /= detail::transmitted_share(conductor.absorber, pole.s);
+    force = answer(of_force, {sampling.period});
+    read_force = lags.filter.empty()
+                     ? force
+                     : answer(detail::lagged(of_force, lags.filter), {sampling.period});
   }
-  return SteadyResponse<double>(
-      {drive.displacement, drive.velocity, force, force_velocity, drive.displacement, force});
+  return SteadyResponse<double>({read.displacement, read.velocity, read_force.displacement,
+                                 read_force.velocity, place.displacement, force.displacement});
 }
 
 /// The same, whose poles are found here.
@@ -78,8 +90,9 @@ SteadyResponse<Scalar> steady_response(
     const std::vector<PlaceMode<detail::Undeduced<Scalar>>>& modes,
     const Absorber<detail::Undeduced<Scalar>>& absorber,
     const Sampling<detail::Undeduced<Scalar>>& sampling, ForceHold hold, double angular_frequency) {
-  return steady_response<Scalar>(modes, absorber, plant_poles(modes, absorber), sampling, hold,
-                                 angular_frequency);
+  return steady_response<Scalar>(
+      ConductorWithAbsorber{modes, absorber, plant_poles(modes, absorber)}, sampling, hold,
+      angular_frequency);
 }
 
 }  // namespace holdfast

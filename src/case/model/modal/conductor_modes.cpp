@@ -114,6 +114,19 @@ ConductorModes all_modes_of_string(const Case& the_case, int apart) {
                 apart, 0);
 }
 
+/// One mass under its own spring and dashpot, or a string without ends.
+ConductorModes one_mode_of(const Case& the_case) {
+  if (is_infinite(the_case))
+    return {{infinite_string_mode(string_of(the_case).wave_impedance(),
+                                  the_case.absorber.clamp_mass, the_case.control.sampling_period)},
+            1};
+  const auto& plant = the_case.plant;
+  const double omega = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
+  return {{{omega, plant.conductor_damping / (2.0 * omega * plant.conductor_mass), 1.0,
+            plant.conductor_mass}},
+          1};
+}
+
 }  // namespace
 
 double ConductorModes::highest_frequency() const {
@@ -137,11 +150,13 @@ double bare_damping_of(const Case& the_case, double angular_frequency) {
 }
 
 ConductorModes all_conductor_modes_of(const Case& the_case, int apart) {
+  if (is_two_masses(the_case) || is_infinite(the_case)) return one_mode_of(the_case);
   return is_cable(the_case) ? all_modes_of_cable(the_case, apart, bars_of(the_case, apart))
                             : all_modes_of_string(the_case, apart);
 }
 
 ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& conductor) {
+  if (conductor.apart == 1) return conductor;
   const int half = (conductor.apart + 1) / 2;
   constexpr double coarser = 0.7;
   return is_cable(the_case)
@@ -155,6 +170,7 @@ ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conduc
 }
 
 ConductorModes conductor_modes_of(const Case& the_case) {
+  if (is_two_masses(the_case) || is_infinite(the_case)) return one_mode_of(the_case);
   if (!std::isfinite(the_case.plant.modes))
     return all_conductor_modes_of(the_case, chosen_modes(the_case));
   const int modes = static_cast<int>(the_case.plant.modes);

@@ -5,7 +5,9 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "holdfast/control/late_controller.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
@@ -17,12 +19,15 @@ namespace holdfast::program {
 
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
+  // Of a string without ends the clamp is the mode's own mass; one mass has none.
+  const bool clamped = !is_two_masses(the_case) && !is_infinite(the_case);
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,
-          the_case.absorber.clamp_mass};
+          clamped ? the_case.absorber.clamp_mass : 0.0};
 }
 
-LinearPlant<double> modal_plant_of(const Case& the_case) {
-  return modal_plant(place_modes_of(the_case), absorber_of(the_case));
+LoopHardware hardware_of(const Case& the_case) {
+  const auto& control = the_case.control;
+  return {control.measurement_filter, control.drive_bandwidth, control.drive_damping};
 }
 
 namespace {
@@ -47,28 +52,56 @@ std::vector<PlantPole> remembered_poles(const std::vector<PlaceMode<double>>& mo
   return memo.of(numbers_of(modes, absorber), [&] { return plant_poles(modes, absorber); });
 }
 
+ConductorWithAbsorber conductor_by(const Case& the_case,
+                                   const std::vector<PlaceMode<double>>& modes) {
+  const Absorber<double> absorber = absorber_of(the_case);
+  return {modes, absorber, remembered_poles(modes, absorber), hardware_of(the_case)};
+}
+
+/// Without the drift of a string without ends, which the drive neither moves nor sees.
+std::vector<PlantPole> without_drift(const Case& the_case, std::vector<PlantPole> poles) {
+  if (!is_infinite(the_case)) return poles;
+  const double slow = 1e-11 / the_case.control.sampling_period;
+  poles.erase(std::remove_if(poles.begin(), poles.end(),
+                             [&](const PlantPole& pole) { return std::abs(pole.s) < slow; }),
+              poles.end());
+  return poles;
+}
+
 ModalResponse<double> response_of(const Case& the_case,
                                   const std::vector<PlaceMode<double>>& modes) {
   throw_if_interrupted();
-  const Absorber<double> absorber = absorber_of(the_case);
-  auto response =
-      modal_response(modes, absorber, remembered_poles(modes, absorber), sampling_of(the_case));
+  ConductorWithAbsorber conductor = conductor_by(the_case, modes);
+  conductor.poles = without_drift(the_case, std::move(conductor.poles));
+  auto response = modal_response(conductor, sampling_of(the_case));
   throw_if_interrupted();
   return response;
 }
 
 }  // namespace
 
-std::vector<PlantPole> poles_of(const Case& the_case) {
-  std::vector<PlantPole> poles = remembered_poles(place_modes_of(the_case), absorber_of(the_case));
-  if (poles.empty())
+ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
+  ConductorWithAbsorber conductor = conductor_by(the_case, place_modes_of(the_case));
+  if (conductor.poles.empty())
     throw NoAnswer(
         "two natural motions of conductor and absorber coincide too nearly to be told apart: "
         "change plant.absorber_damping or absorber.position by a thousandth");
-  return poles;
+  if (with_hardware(conductor.poles, conductor.hardware).empty())
+    throw NoAnswer(
+        "a natural motion of conductor and absorber coincides too nearly with one of filter or "
+        "drive: change control.measurement_filter or control.drive_bandwidth by a thousandth");
+  return conductor;
 }
 
-void require_natural_motions(const Case& the_case) { static_cast<void>(poles_of(the_case)); }
+std::vector<PlantPole> loop_poles_of(const Case& the_case) {
+  const ConductorWithAbsorber conductor = conductor_with_absorber_of(the_case);
+  return with_hardware(without_drift(the_case, conductor.poles), conductor.hardware);
+}
+
+LinearPlant<double> modal_plant_of(const Case& the_case) {
+  return linear_plant(ConductorWithAbsorber{
+      place_modes_of(the_case), absorber_of(the_case), {}, hardware_of(the_case)});
+}
 
 ResolvedCircle<double> circle_of(const Case& the_case) {
   return ResolvedCircle<double>(response_of(the_case, place_modes_of(the_case)));
@@ -80,6 +113,8 @@ ModalRadius::ModalRadius(const Case& the_case)
 double ModalRadius::operator()(const PdGains<double>& gains) {
   const std::complex<double> root = largest_loop_root(response_, gains);
   if (std::abs(root) > 0.0) return std::abs(root);
+  const double excess = loop_excess_or_turn(response_, gains);
+  if (std::isfinite(excess)) return 1.0 + excess;
   if (!map_) map_ = loop_map(modal_plant_of(case_), sampling_of(case_));
   return spectral_radius(map_->closed_map(gains));
 }
@@ -120,9 +155,7 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency) {
   if (!is_modal(the_case))
     return steady_response(plant_of(the_case), sampling, hold, angular_frequency);
-  const auto modes = place_modes_of(the_case);
-  const Absorber<double> absorber = absorber_of(the_case);
-  return steady_response(modes, absorber, remembered_poles(modes, absorber), sampling, hold,
+  return steady_response(conductor_by(the_case, place_modes_of(the_case)), sampling, hold,
                          angular_frequency);
 }
 
@@ -139,53 +172,70 @@ ModalLoop modal_loop_of(const Case& the_case) {
 }
 
 void require_sweepable(const Case& the_case, Switching switching) {
-  if (is_modal(the_case) && !is_of_the_paper(the_case, switching))
-    throw WrongInput("of plant.model = \"" + the_case.plant.model +
-                     "\" motions are swept in the paper's model alone: switching at samples, its "
-                     "law of the backlash, one harmonic, an ideal computer");
+  if (!is_two_masses(the_case) && switching == Switching::exact)
+    throw WrongInput("with " + modal_words(the_case) +
+                     " motions are swept that switch at their samples alone: between them hundreds "
+                     "of modes are followed too slowly");
 }
 
-ModalLoop swept_loop_of(const Case& the_case, Switching switching) {
-  require_sweepable(the_case, switching);
-  require_natural_motions(the_case);
+ModalLoop paper_loop_of(const Case& the_case, Switching switching) {
+  if (!is_of_the_paper(the_case, switching))
+    throw WrongInput(
+        "with " + modal_words(the_case) +
+        " this is answered in the paper's model alone: switching at samples, its law of "
+        "the backlash, one harmonic, an ideal computer and drive");
+  static_cast<void>(conductor_with_absorber_of(the_case));
   return modal_loop_of(the_case);
 }
 
-ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the_case,
-                                                                 Switching switching) {
-  const ImplementedLoop loop = implemented_loop_of(the_case, switching);
-  return {modal_plant_of(the_case), loop.digital, loop.backlash, loop.switching};
-}
-
-ImplementedLoopOf<ControlledPlant> controlled_conductor_of(const Case& the_case,
-                                                           Switching switching) {
-  const ImplementedLoop loop = implemented_loop_of(the_case, switching);
-  if (!is_ideal(loop.digital.limits))
-    throw WrongInput("of plant.model = \"" + the_case.plant.model +
-                     "\" orbits, exponents and verdicts are of a computer without quanta, limits "
-                     "of its force and differences");
+ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
+                                                     const MotionChoice& choice) {
+  if (is_infinite(the_case) && !(the_case.absorber.clamp_mass > 0.0))
+    throw WrongInput(
+        "a string without ends has no inertia of its own: this needs absorber.clamp_mass > 0");
+  const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
+  const PdGains<double> gains = choice.controlled ? loop.digital.gains : PdGains<double>{};
+  const Sampling<double>& sampling = loop.digital.sampling;
   ImplementedLoopOf<ControlledPlant> own{
-      with_controller(modal_plant_of(the_case), loop.digital.gains), loop.digital, loop.backlash,
-      loop.switching};
+      with_controller(modal_plant_of(the_case),
+                      late_controller(gains, loop.digital.limits, sampling)),
+      loop.digital, loop.backlash, choice.switching};
+  own.digital.sampling = within_sample(sampling);
   own.digital.gains = {0.0, 0.0};
+  own.digital.limits = {};
+  if (!choice.controlled) own.backlash = {ContactLaw::none};
   return own;
 }
 
+ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
+                                                            Switching switching) {
+  if (!is_ideal(implemented_loop_of(the_case, switching).digital.limits))
+    throw WrongInput("with " + modal_words(the_case) +
+                     " orbits, exponents and verdicts are of a computer without quanta, limits "
+                     "of its force and differences");
+  return conductor_loop_of(the_case, {switching, true});
+}
+
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
-  const auto modes = place_modes_of(the_case);
-  const auto& initial = the_case.initial;
-  const auto absorber = static_cast<Eigen::Index>(2 * modes.size());
-  Vector<double, Eigen::Dynamic> state = Vector<double, Eigen::Dynamic>::Zero(absorber + 2);
-  state(Eigen::seq(0, absorber - 2, 2)) = initial.z1 * bent_conductor(modes);
-  state(Eigen::seq(1, absorber - 1, 2)) = initial.v1 * struck_conductor(modes);
-  state[absorber] = initial.z2;
-  state[absorber + 1] = initial.v2;
+  const auto seen = initial_state_of(the_case);
+  const Vector<double, Eigen::Dynamic> conductor = modal_state(place_modes_of(the_case), seen);
+  const DigitalLoop digital = implemented_loop_of(the_case, Switching::sampled).digital;
+  const Eigen::Index commands =
+      late_controller(digital.gains, digital.limits, digital.sampling).order();
+  const detail::HardwarePoles lags(hardware_of(the_case));
+  const auto drive = static_cast<Eigen::Index>(lags.drive.size());
+  const auto filter = static_cast<Eigen::Index>(lags.filter.size());
+  Vector<double, Eigen::Dynamic> state =
+      Vector<double, Eigen::Dynamic>::Zero(conductor.size() + drive + filter + commands);
+  state.head(conductor.size()) = conductor;
+  state.segment(conductor.size() + drive, filter).setConstant(seen[0]);
   return state;
 }
 
 void refuse_on_modes(const Case& the_case, bool given, const std::string& option) {
   if (given && is_modal(the_case))
-    throw WrongInput(option + " goes with plant.model = \"two_masses\" alone");
+    throw WrongInput(option + " is of two_masses under an ideal drive alone, not with " +
+                     modal_words(the_case));
 }
 
 }  // namespace holdfast::program

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/controlled_plant.hpp"
@@ -13,7 +14,9 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/response/response.hpp"
@@ -23,12 +26,18 @@ namespace holdfast::program {
 /// The absorber with what of it moves with the conductor.
 Absorber<double> absorber_of(const Case& the_case);
 
-/// The plant of a modal case.
+/// Measurement filter and drive.
+LoopHardware hardware_of(const Case& the_case);
+
+/// The plant of a modal case, with filter and drive.
 LinearPlant<double> modal_plant_of(const Case& the_case);
 
-/// Its poles; those found last are remembered. Throws NoAnswer where two natural motions of it
-/// cannot be told apart.
-std::vector<PlantPole> poles_of(const Case& the_case);
+/// The same with the poles of conductor and absorber; those found last are remembered. Throws
+/// NoAnswer where two natural motions of it cannot be told apart.
+ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case);
+
+/// The poles from the command to the readings, those of filter and drive too. Throws as above.
+std::vector<PlantPole> loop_poles_of(const Case& the_case);
 
 /// Its loop on the unit circle.
 ResolvedCircle<double> circle_of(const Case& the_case);
@@ -70,31 +79,33 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// The loops of a modal case, as those of two masses (loop_of_case.hpp).
+/// The loop of a modal case in the paper's model.
 ModalLoop modal_loop_of(const Case& the_case);
-/// Throws WrongInput where many motions are asked for of a modal case that is not of the paper's
-/// model.
+/// Throws WrongInput where many motions are asked for of a conductor that switches between its
+/// samples.
 void require_sweepable(const Case& the_case, Switching switching);
 
-/// The first one where many motions are asked for: throws as `require_sweepable`, and NoAnswer
-/// where its natural motions cannot be told apart.
-ModalLoop swept_loop_of(const Case& the_case, Switching switching);
-ImplementedLoopOf<LinearPlant<double>> modal_implemented_loop_of(const Case& the_case,
-                                                                 Switching switching);
+/// The loop for a job of the paper's model alone: throws WrongInput where it is not of the paper's
+/// model, and NoAnswer where its natural motions cannot be told apart.
+ModalLoop paper_loop_of(const Case& the_case, Switching switching);
 
-/// The same loop with the gains as a controller of the plant's own, of which orbits, exponents and
-/// verdicts are compiled. Throws WrongInput for a computer that limits force or reading.
-ImplementedLoopOf<ControlledPlant> controlled_conductor_of(const Case& the_case,
-                                                           Switching switching);
+/// The loop of a modal case with all that the case says of it, its controller being one of the
+/// plant's own, whose memory are the commands on their way. Throws WrongInput for a string without
+/// ends that nothing is clamped to.
+ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
+                                                     const MotionChoice& choice);
 
-/// The initial state of a modal case: the conductor as a force at the absorber's place bends it to
-/// z1, with the velocities that a blow there gives it to have v1; the absorber at z2 and v2.
+/// The same for orbits, exponents and verdicts. Throws WrongInput for a computer that limits force
+/// or reading.
+ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
+                                                            Switching switching);
+
+/// The initial state of a modal case, of either loop: the conductor as a force at the absorber's
+/// place bends it to z1, with the velocities that a blow there gives it to have v1; the absorber at
+/// z2 and v2; drive and commands at 0, the filter settled.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
 
-/// Throws WrongInput where an option of two masses is given for a modal case.
+/// Throws WrongInput where an option of the two masses alone is given for a modal case.
 void refuse_on_modes(const Case& the_case, bool given, const std::string& option);
-
-/// Throws NoAnswer where two natural motions of conductor and absorber cannot be told apart.
-void require_natural_motions(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -20,8 +20,8 @@ double mobility_of(const std::vector<PlaceMode<double>>& modes) {
 
 /// What is given that nothing of the case's plant depends on.
 std::string idle_keys_warning(const Case& the_case) {
-  const bool masses = !is_modal(the_case), cable = is_cable(the_case);
-  const bool string = !masses && !cable;
+  const bool masses = is_two_masses(the_case), cable = is_cable(the_case);
+  const bool endless = is_infinite(the_case), string = !masses && !cable && !endless;
   std::string names;
   const auto add = [&](bool counts, const char* name) {
     if (counts) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -33,12 +33,13 @@ std::string idle_keys_warning(const Case& the_case) {
   add(masses && the_case.absorber.clamp_mass > 0.0, "absorber.clamp_mass");
   add(!cable && plane, "absorber.motion");
   add(!string && bends, "conductor.bending_stiffness");
-  add(masses && the_case.conductor.damping != "chosen", "conductor.damping");
-  add(masses && std::isfinite(the_case.plant.modes), "plant.modes");
+  add((masses || endless) && the_case.conductor.damping != "chosen", "conductor.damping");
+  add((masses || endless) && std::isfinite(the_case.plant.modes), "plant.modes");
   if (names.empty()) return "";
-  const char* const who = masses   ? "the two masses do"
-                          : string ? "the string does"
-                                   : "the cable does";
+  const char* const who = masses    ? "the two masses do"
+                          : endless ? "the string without ends does"
+                          : string  ? "the string does"
+                                    : "the cable does";
   const char* const other = plane && !cable && !of_modes && !bends ? "\"cable\"" : "\"string\"";
   return names + ": " + who + " not depend on it; plant.model = " + other + " does";
 }
@@ -96,7 +97,11 @@ std::string cut_warning(const Case& the_case, const ConductorModes& conductor) {
 
 std::string modes_warning(const Case& the_case) {
   std::string said = idle_keys_warning(the_case);
-  if (!is_modal(the_case)) return said;
+  if (std::isfinite(the_case.control.drive_damping) &&
+      !std::isfinite(the_case.control.drive_bandwidth))
+    said += (said.empty() ? "" : "; ") +
+            std::string("control.drive_damping: without control.drive_bandwidth no drive lags");
+  if (is_two_masses(the_case) || is_infinite(the_case)) return said;
   const ConductorModes conductor = conductor_modes_of(the_case);
   const auto warning = std::isfinite(the_case.plant.modes) ? cut_warning : bundles_warning;
   for (const std::string& more :
@@ -108,6 +113,12 @@ std::string modes_warning(const Case& the_case) {
             : ""})
     said += (said.empty() || more.empty() ? "" : "; ") + more;
   return said;
+}
+
+std::string drift_warning(const Case& the_case) {
+  if (!is_infinite(the_case)) return "";
+  return "nothing brings the mean of a motion of a string without ends back: its largest "
+         "displacement counts where it drifted to as it began; response tells the amplitude alone";
 }
 
 std::string dense_work_warning(const Case& the_case) {

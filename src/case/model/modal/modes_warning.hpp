@@ -14,4 +14,7 @@ std::string modes_warning(const Case& the_case);
 /// the modes; empty where it does not.
 std::string dense_work_warning(const Case& the_case);
 
+/// That the peaks of a motion count its drift, of a string without ends; else empty.
+std::string drift_warning(const Case& the_case);
+
 }  // namespace holdfast::program

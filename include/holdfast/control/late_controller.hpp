@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include "holdfast/control/controlled_plant.hpp"
+#include "holdfast/control/controller.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// The proportional–differential law of a computer whose force comes whole samples late,
+///
+///     u_j = c_{j−M′},   c_j that of `Controller` with its limits; 0 of the first M′ samples
+///
+/// as a controller of one's own (`with_controller`): its states are the M′ commands on their way,
+/// the next one first, and where the velocity is a difference the displacement read before and
+/// whether there was one.
+struct LateController {
+  static constexpr int states = Eigen::Dynamic;             ///< known at run time alone
+  using State = Vector<double, Eigen::Dynamic>;             ///< M × 1
+  using Derivative = ControllerDerivative<Eigen::Dynamic>;  ///< (M + 1) × (M + 2)
+
+  PdGains<double> gains;         ///< P and D
+  ControllerLimits limits = {};  ///< of readings and force
+  Eigen::Index samples = 0;      ///< M′ ≥ 0
+
+  /// M.
+  Eigen::Index order() const { return samples + (differs() ? 2 : 0); }
+
+  /// u_j (N); moves the state on.
+  double command(const ControlSample& sample, State& state) const {
+    const auto [now, controller] = sensed(sample, state);
+    if (differs()) state.tail(2) << controller.memory().previous_displacement, 1.0;
+    if (samples == 0) return now;
+    const double next = state[0];
+    for (Eigen::Index k = 0; k + 1 < samples; ++k) state[k] = state[k + 1];
+    state[samples - 1] = now;
+    return next;
+  }
+
+  /// Of u_j and the next state by readings and state; a step of the readings has the slope 0.
+  Derivative derivative(const ControlSample& sample, const State& state) const {
+    const ControllerSlope slope = sensed(sample, state).second.slope();
+    Derivative result = Derivative::Zero(order() + 1, order() + 2);
+    // [u; the commands on their way] move up by one, and the new one comes in last.
+    for (Eigen::Index k = 0; k < samples; ++k) result(k, k + 2) = 1.0;
+    result(samples, 0) = slope.displacement;
+    result(samples, 1) = slope.velocity;
+    if (!differs()) return result;
+    result(samples, samples + 2) = slope.previous_displacement;
+    result(samples + 1, 0) = limits.displacement_quantum > 0.0 ? 0.0 : 1.0;
+    return result;
+  }
+
+ private:
+  bool differs() const { return limits.velocity == VelocitySensing::difference; }
+
+  std::pair<double, Controller> sensed(const ControlSample& sample, const State& state) const {
+    Controller controller(gains, limits);
+    if (differs()) controller.restore({state[samples], state[samples + 1] > 0.0});
+    const double now = controller.command(sample.displacement, sample.velocity, sample.elapsed);
+    return {now, controller};
+  }
+};
+
+/// What of a delay comes within a sample, (k − 1) τ being the controller's: τ, and δ less them.
+/// @param sampling  τ (s) > 0, δ (s) ≥ 0
+/// @throws InvalidParameter for another sampling
+inline Sampling<double> within_sample(const Sampling<double>& sampling) {
+  const double whole = held_commands(sampling) - 1;
+  const double late = sampling.processing_delay - whole * sampling.period;
+  return {sampling.period, std::clamp(late, 0.0, sampling.period)};
+}
+
+/// The law of a loop whose delay may exceed a sample: whole samples by the controller, the rest
+/// `within_sample`.
+/// @param gains     P and D
+/// @param limits    of readings and force
+/// @param sampling  τ (s) > 0, δ (s) ≥ 0
+/// @throws InvalidParameter where one of them is not admissible
+inline LateController late_controller(const PdGains<double>& gains, const ControllerLimits& limits,
+                                      const Sampling<double>& sampling) {
+  validate(gains);
+  validate(limits);
+  return {gains, limits, held_commands(sampling) - 1};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/modal/modal_motion.hpp"
+#include "holdfast/motion/modal/natural_motions.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/phase_space/attractor_set.hpp"
+#include "holdfast/phase_space/basins.hpp"
+#include "holdfast/phase_space/event_basins.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+
+namespace holdfast {
+namespace detail {
+
+/// The regions of attraction of the orbits of a conductor by its modes, each about the first sample
+/// of its orbit.
+template <>
+struct Neighbourhoods<ModalLoop> {
+  using Orbit = PeriodicOrbit;
+
+  struct Point {
+    Vector<double, 4> state;  ///< the orbit's first
+    ModalAttraction region;
+  };
+  /// A motion at a stroboscopic instant.
+  struct Seen {
+    const ModalMotion& motion;
+    Vector<double, 4> state;
+  };
+
+  ModalLoop loop;
+  std::shared_ptr<const ModalItineraryMaps> maps;
+
+  explicit Neighbourhoods(const ModalLoop& of) : loop(of) {
+    const auto ratio = forcing_ratio(of);
+    const auto poles = plant_poles(of.modes, of.absorber);
+    if (ratio && !poles.empty())
+      maps = std::make_shared<const ModalItineraryMaps>(of, poles, *ratio);
+  }
+
+  std::vector<Point> points_of(const Orbit& orbit) const {
+    const auto region = modal_attraction(loop, *maps, orbit);
+    if (!region) return {};
+    return {{orbit.states.front().template head<4>(), *region}};
+  }
+  /// A region is no ball in z₁: none is passed over.
+  double reach(const Point&) const { return std::numeric_limits<double>::infinity(); }
+  bool holds(const Point& point, const Seen& seen) const {
+    return attracts(point.region, seen.motion, maps->units());
+  }
+};
+
+/// Motions of a conductor by its modes: each goes past the regions that the rounds before have
+/// found, and is searched for its own orbit where it comes into none of them.
+/// @tparam LoopModel  ModalLoop; a template so that only who uses it compiles it
+template <class LoopModel>
+struct ModalMotions {
+  using Loop = LoopModel;
+
+  Loop loop;
+  Rational ratio;
+  OrbitLimits limits;
+  std::vector<PlantPole> poles = plant_poles(loop.modes, loop.absorber);
+
+  static std::optional<Rational> ratio_of(const Loop& loop) { return forcing_ratio(loop); }
+
+  FoundOrbit<PeriodicOrbit> search(const ActiveTrajectory& from,
+                                   const AttractorSet<Loop>& known) const {
+    if (poles.empty()) return {};
+    const ModalMotion start(loop, poles, modal_state(loop.modes, from.memory.state));
+    const int number = attracted(start, known);
+    if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
+    const ModalItineraryMaps maps(loop, poles, ratio, limits.watch);
+    OrbitResult found = orbit_by_returns(loop, ratio, limits, start, ModalRegion<Loop>(loop, maps));
+    if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
+    return {{found.outcome, -1}, std::move(found.orbit)};
+  }
+
+  /// They move on in their searches alone.
+  template <class Tiles>
+  void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
+
+ private:
+  /// The orbit of `known` whose region the motion comes into; −1: none while one may expect it to.
+  int attracted(ModalMotion motion, const AttractorSet<Loop>& known) const {
+    const std::int64_t most = patience(known.orbits(), limits);
+    for (std::int64_t j = 0; j < most; ++j) {
+      if (j % ratio.denominator == 0) {
+        if (limits.watch) limits.watch();
+        if (!(motion.state().cwiseAbs().maxCoeff() < 1e100)) return -1;
+        const int number =
+            known.attracted_by(typename Neighbourhoods<Loop>::Seen{motion, motion.state()});
+        if (number >= 0) return number;
+      }
+      motion.sense();
+      motion.advance();
+    }
+    return -1;
+  }
+};
+
+}  // namespace detail
+
+/// find_basins() of a conductor by its modes: a motion is an attractor's where its own search
+/// certifies that orbit, or once it is in the region of attraction of one that another search has
+/// certified.
+/// @param loop            with its excitation and backlash
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite: the conductor as a force
+///                        at the absorber bends it, and with the speeds that a blow there gives it
+/// @param limits          of each search for one motion's own orbit
+/// @param for_tiles       as find_basins() of an IdealLoop takes it
+/// @throws InvalidParameter where loop, states or limits are not admissible
+/// @tparam Loop           ModalLoop; a template so that only who calls it compiles it
+template <class Loop, class Tiles, std::enable_if_t<std::is_same_v<Loop, ModalLoop>, int> = 0>
+BasinMap find_basins(const Loop& loop, const std::vector<Vector<double, 4>>& initial_states,
+                     const OrbitLimits& limits, const Tiles& for_tiles) {
+  return detail::basins_by<detail::ModalMotions<Loop>>(loop, initial_states, limits, for_tiles);
+}
+
+}  // namespace holdfast

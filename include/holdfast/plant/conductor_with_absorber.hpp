@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "holdfast/plant/loop_hardware.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+
+namespace holdfast {
+
+/// A conductor by its modes with the absorber, the natural motions of the two, and what of the
+/// loop's hardware is late.
+struct ConductorWithAbsorber {
+  std::vector<PlaceMode<double>> modes;  ///< as the absorber's place sees them
+  Absorber<double> absorber;             ///< with its clamp
+  std::vector<PlantPole> poles;          ///< `plant_poles` of the two, all of them or none
+  LoopHardware hardware = {};            ///< measurement filter and drive
+};
+
+/// It as a plant of order 2N + 2 and what states the hardware has.
+/// @tparam Scalar    double; a parameter so that nothing is compiled where this is not called
+/// @param conductor  whose poles do not count
+/// @throws InvalidParameter where modes, absorber or hardware are not admissible
+template <class Scalar = double>
+LinearPlant<Scalar> linear_plant(const ConductorWithAbsorber& conductor) {
+  return with_hardware(modal_plant<Scalar>(conductor.modes, conductor.absorber),
+                       conductor.hardware);
+}
+
+}  // namespace holdfast

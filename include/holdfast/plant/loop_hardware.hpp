@@ -1,0 +1,159 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+
+namespace holdfast {
+
+/// What makes the readings and the force of a loop late beside its computer: a measurement filter
+/// of first order and a drive that follows its command with a lag,
+///
+///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
+///
+/// The computer reads F z and its rate; the conductor and the absorber feel D u.
+struct LoopHardware {
+  static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< without a lag
+
+  double measurement_filter = ideal;  ///< ω_f/2π (Hz), > 0
+  double drive_bandwidth = ideal;     ///< ω_d/2π (Hz), > 0
+  double drive_damping = ideal;       ///< ζ_d, > 0; infinity: a lag of first order
+
+  /// Whether neither of them is there.
+  bool is_ideal() const { return measurement_filter == ideal && drive_bandwidth == ideal; }
+};
+
+/// Refuses hardware outside the ranges that its members state.
+/// @throws InvalidParameter naming the first one
+inline void validate(const LoopHardware& hardware) {
+  const auto require = [](const char* name, double value, const char* unit) {
+    if (!(value > 0.0)) throw InvalidParameter(name, value, unit, "> 0");
+  };
+  require("measurement filter", hardware.measurement_filter, "Hz");
+  require("drive bandwidth", hardware.drive_bandwidth, "Hz");
+  require("drive damping", hardware.drive_damping, "");
+}
+
+/// The plant behind such hardware, as `with_drive_lag` and `with_measurement_filter` have it.
+/// @param plant     with an ideal drive
+/// @param hardware  up to three states more
+/// @throws InvalidParameter where the hardware is not admissible
+template <class Scalar>
+LinearPlant<Scalar> with_hardware(LinearPlant<Scalar> plant, const LoopHardware& hardware) {
+  validate(hardware);
+  if (hardware.drive_bandwidth != LoopHardware::ideal) {
+    const Scalar bandwidth(hardware.drive_bandwidth);
+    plant = hardware.drive_damping == LoopHardware::ideal
+                ? with_drive_lag(plant, bandwidth)
+                : with_drive_lag(plant, bandwidth, Scalar(hardware.drive_damping));
+  }
+  if (hardware.measurement_filter != LoopHardware::ideal)
+    plant = with_measurement_filter(plant, Scalar(hardware.measurement_filter));
+  return plant;
+}
+
+namespace detail {
+
+/// The poles p of D(s) and of F(s): each factor is −p/(s − p), of a pair both together.
+struct HardwarePoles {
+  std::vector<std::complex<double>> drive, filter;
+
+  explicit HardwarePoles(const LoopHardware& hardware) {
+    const double turn = 2.0 * pi<double>;
+    if (hardware.drive_bandwidth != LoopHardware::ideal) {
+      const double rate = turn * hardware.drive_bandwidth, zeta = hardware.drive_damping;
+      if (zeta == LoopHardware::ideal) {
+        drive = {-rate};
+      } else {
+        const std::complex<double> half = std::sqrt(std::complex<double>(zeta * zeta - 1.0));
+        // The product of the two is rate²: the larger one first loses no digit of the smaller.
+        const std::complex<double> larger = -rate * (zeta + half);
+        drive = {larger, rate * rate / larger};
+      }
+    }
+    if (hardware.measurement_filter != LoopHardware::ideal)
+      filter = {-turn * hardware.measurement_filter};
+    part_equals();
+  }
+
+  /// D(s) or F(s) of its poles.
+  static std::complex<double> lag(const std::vector<std::complex<double>>& poles,
+                                  const std::complex<double>& s) {
+    std::complex<double> product(1.0);
+    for (const std::complex<double>& p : poles) product *= -p / (s - p);
+    return product;
+  }
+
+ private:
+  /// Equal poles have no partial fractions. Two are taken apart by ε of themselves each way, which
+  /// changes the response by ε² of itself and costs 1/ε of its digits; so are three.
+  void part_equals() {
+    std::vector<std::complex<double>*> all;
+    for (auto* of : {&drive, &filter})
+      for (std::complex<double>& p : *of) all.push_back(&p);
+    std::sort(all.begin(), all.end(),
+              [](const auto* one, const auto* other) { return one->real() < other->real(); });
+    const auto within = [](double share, const auto* one, const auto* other) {
+      return std::abs(*one - *other) < share * std::abs(*one);
+    };
+    const bool three = all.size() == 3 && within(1e-3, all[0], all[2]);
+    const double apart = three ? 1e-3 : 1e-5;
+    for (std::size_t k = 0; k + 1 < all.size(); k += three ? 2 : 1) {
+      std::complex<double>&slow = *all[three ? 2 : k + 1], &fast = *all[k];
+      if (!within(apart, &fast, &slow)) continue;
+      const double middle = 0.5 * (slow + fast).real();
+      fast = middle * (1.0 + apart);
+      slow = middle * (1.0 - apart);
+      if (three) *all[1] = middle;
+    }
+  }
+};
+
+/// The partial fractions of G(s)·(−p)/(s − p), given those of G.
+inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles, const std::complex<double>& p) {
+  std::complex<double> there(0.0);
+  for (PlantPole& pole : poles) {
+    pole.residue *= -p / (pole.s - p);
+    // −p G(p), each part of which is the lagged residue with the other sign.
+    there -= pole.residue;
+  }
+  poles.push_back({p, there});
+  return poles;
+}
+
+inline std::vector<PlantPole> lagged(std::vector<PlantPole> poles,
+                                     const std::vector<std::complex<double>>& lags) {
+  for (const std::complex<double>& p : lags) poles = lagged(std::move(poles), p);
+  return poles;
+}
+
+}  // namespace detail
+
+/// The poles of the plant behind such hardware, from the command to what is read: those of the
+/// plant, then the drive's and the filter's.
+/// @param poles     `plant_poles`, all of them
+/// @param hardware  its lags; poles of it that are equal are taken apart by a part in 10⁵ (three of
+///                  them by one in 10³), which moves the response by a part in 10¹⁰ (10⁶)
+/// @return nothing where a pole of the plant is one of the hardware's
+/// @throws InvalidParameter where the hardware is not admissible
+inline std::vector<PlantPole> with_hardware(const std::vector<PlantPole>& poles,
+                                            const LoopHardware& hardware) {
+  validate(hardware);
+  const detail::HardwarePoles lags(hardware);
+  auto all = detail::lagged(detail::lagged(poles, lags.drive), lags.filter);
+  for (const auto* of : {&lags.drive, &lags.filter})
+    for (const std::complex<double>& p : *of)
+      for (const PlantPole& pole : poles)
+        if (!(std::abs(pole.s - p) > 1e-7 * std::abs(p))) return {};
+  return all;
+}
+
+}  // namespace holdfast
