@@ -24,8 +24,9 @@ namespace detail {
 
 /// The regions of attraction of the orbits of a conductor by its modes, each about the first sample
 /// of its orbit.
-template <>
-struct Neighbourhoods<ModalLoop> {
+/// @tparam Loop  ModalLoop; a template so that only who uses it compiles it
+template <class Loop>
+struct ModalNeighbourhoods {
   using Orbit = PeriodicOrbit;
 
   struct Point {
@@ -38,10 +39,10 @@ struct Neighbourhoods<ModalLoop> {
     Vector<double, 4> state;
   };
 
-  ModalLoop loop;
+  Loop loop;
   std::shared_ptr<const ModalItineraryMaps> maps;
 
-  explicit Neighbourhoods(const ModalLoop& of) : loop(of) {
+  explicit ModalNeighbourhoods(const Loop& of) : loop(of) {
     const auto ratio = forcing_ratio(of);
     const auto poles = plant_poles(of.modes, of.absorber);
     if (ratio && !poles.empty())
@@ -58,6 +59,11 @@ struct Neighbourhoods<ModalLoop> {
   bool holds(const Point& point, const Seen& seen) const {
     return attracts(point.region, seen.motion, maps->units());
   }
+};
+
+template <>
+struct Neighbourhoods<ModalLoop> : ModalNeighbourhoods<ModalLoop> {
+  using ModalNeighbourhoods<ModalLoop>::ModalNeighbourhoods;
 };
 
 /// Motions of a conductor by its modes: each goes past the regions that the rounds before have
