@@ -97,6 +97,7 @@ struct HardwarePoles {
   /// changes the response by ε² of itself and costs 1/ε of its digits; so are three.
   void part_equals() {
     std::vector<std::complex<double>*> all;
+    all.reserve(drive.size() + filter.size());
     for (auto* of : {&drive, &filter})
       for (std::complex<double>& p : *of) all.push_back(&p);
     std::sort(all.begin(), all.end(),

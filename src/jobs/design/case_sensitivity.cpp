@@ -148,6 +148,7 @@ std::vector<CaseSensitivity> case_sensitivities(const Case& the_case, bool tuned
   static_cast<void>(conductor_with_absorber_of(the_case));
   const AnswerValues here = answers_of(the_case);
   std::vector<CaseSensitivity> all;
+  all.reserve(here.size());
   for (std::size_t k = 0; k < here.size(); ++k)
     all.push_back({answered[k].name, answered[k].unit, here[k], {}});
   for (const std::string& key : keys_of(the_case)) {

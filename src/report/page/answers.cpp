@@ -49,24 +49,31 @@ Answer asked(const std::string& name, const Values& values) {
           words_of(page_text(name + " command", values))};
 }
 
-/// A loop that is unstable without its play lives on it: the text says so.
+/// A loop that is unstable without its play lives on it, and without play it grows: the text says
+/// so.
 std::string help_text(const Question& question, const Vibration& vibration) {
-  const bool lives_on_play = question.is_unstable_without_play();
-  const char* helps = !vibration.is_reduced()          ? "No"
+  const bool unstable = question.is_unstable_without_play();
+  const auto& backlash = question.the_case.backlash;
+  const bool lives_on_play = unstable && backlash.width > 0.0 && backlash.law != "none";
+  const char* helps = !vibration.is_reduced() || (unstable && !lives_on_play) ? "No"
                       : lives_on_play                  ? "It lives on its play"
                       : vibration.ratio() < worthwhile ? "Yes"
                                                        : "Hardly";
   const char* text = "vibration left";
   if (question.motion.stays_in_play)
     text = "idle drive";
-  else if (!lives_on_play && std::abs(vibration.ratio() - 1.0) < negligible)
+  else if (!unstable && std::abs(vibration.ratio() - 1.0) < negligible)
     text = "same vibration";
+  // A root just outside the circle is told from one on it.
+  const int digits = std::abs(question.radius_without_play - 1.0) < 1e-4 ? 9 : 5;
   const Values values = {{"helps", helps},
                          {"ratio", percent(vibration.ratio())},
                          {"controlled", millimetres(vibration.controlled)},
                          {"free", millimetres(vibration.free)},
-                         {"radius", rounded(question.radius_without_play, 5)}};
-  return page_text(text, values) + (lives_on_play ? page_text("bounded by play", values) : "");
+                         {"radius", rounded(question.radius_without_play, digits)}};
+  if (!unstable) return page_text(text, values);
+  return page_text(text, values) +
+         page_text(lives_on_play ? "bounded by play" : "grows without play", values);
 }
 
 /// What the force of the paper, held over a sample, would make of the vibration without control.

@@ -108,6 +108,7 @@ class ResolvedCircle {
     std::sort(found.begin(), found.end(),
               [](const auto& one, const auto& other) { return one.first < other.first; });
     std::vector<std::complex<Scalar>> roots;
+    roots.reserve(found.size());
     for (const auto& [distance, root] : found) roots.push_back(root);
     return roots;
   }
