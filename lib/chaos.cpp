@@ -16,6 +16,9 @@ template class BlockSpectrum<double>;
 template EventClassification classify_motion(const ImplementedLoop&, const Vector<double, 4>&,
                                              const OrbitLimits&);
 
+template void EventLyapunov<DriveContact<>>::advance();
+template void EventLyapunov<DriveContact<ControlledPlant>>::advance();
+
 template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<>>&, const LyapunovRun&,
                                            const std::function<void()>&);
 
@@ -30,6 +33,7 @@ template ItineraryBlocks::ItineraryBlocks(const Matrix<double, 5>&, const Matrix
 
 template class LyapunovSpectrum<double, 5>;
 template class LyapunovSpectrum<double, 7>;
+template class LyapunovSpectrum<double, Eigen::Dynamic>;
 
 template SampledClassification classify_motion(const IdealLoop<double>&, const Vector<double, 4>&,
                                                const OrbitLimits&);

@@ -3,11 +3,13 @@
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
+#include "holdfast/math/linalg/moving_spectrum.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 
 namespace holdfast {
 
 template class EigenBasis<double>;
+template class MovingSpectrum<double>;
 template Vector<std::complex<double>, 4> eigenvalues(const Matrix<double, 4>&);
 template Vector<std::complex<double>, 5> eigenvalues(const Matrix<double, 5>&);
 template Vector<std::complex<double>, Eigen::Dynamic> eigenvalues(

@@ -5,6 +5,8 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
+#include "holdfast/stability/design/modal_max_delay.hpp"
 
 namespace holdfast {
 
@@ -19,5 +21,13 @@ template MaxDelay max_sampling_period(const LinearPlant<double>&, const MaxDelay
 template MinimumAmplitude minimum_amplitude(const LinearPlant<double>&, const AmplitudeOptions&,
                                             double, double);
 template MinimumRadius minimum_radius(const LoopMap<double>&, double, double);
+template MinimumRadius minimum_radius(const ModalResponse<double>&, double, double);
+template MinimumAmplitude minimum_amplitude(const ModalResponse<double>&, const AmplitudeOptions&,
+                                            double, double, const SteadyResponse<double>&);
+template MinimaxAmplitude modal_minimax_amplitude<double>(const ConductorWithAbsorber&,
+                                                          const AmplitudeOptions&, double,
+                                                          const FrequencyBand&);
+template MaxDelay modal_max_sampling_period<double>(const ConductorWithAbsorber&,
+                                                    const MaxDelayOptions&, double);
 
 }  // namespace holdfast

@@ -2,6 +2,7 @@
 
 #include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
 
 namespace holdfast {
@@ -12,6 +13,13 @@ template StabilityMargins stability_margins(const LinearPlant<double>&, const Sa
                                             const PdGains<double>&, const MarginSearch&);
 template LoopMargins loop_margins(const TwoMass<double>&, const Sampling<double>&,
                                   const PdGains<double>&, const MarginSearch&);
+template StabilityMargins modal_stability_margins<double>(const std::vector<PlantPole>&,
+                                                          const Sampling<double>&,
+                                                          const PdGains<double>&,
+                                                          const MarginSearch&);
+template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
+                                                const Sampling<double>&, const PdGains<double>&,
+                                                const MarginSearch&);
 
 }  // namespace holdfast
 

@@ -1,11 +1,12 @@
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
-#include "case/model/motion_of_case.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/modal_lyapunov.hpp"
 #include "job.hpp"
 #include "jobs/charts/conditioning.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_run.hpp"
 
 namespace holdfast::program {
@@ -61,7 +62,7 @@ LyapunovResult exponents_of(EventMotion<Contact> motion, const JobContext& conte
                             const LyapunovQuestion&, const LyapunovRun& run) {
   const LyapunovResult result = run_event_lyapunov(motion, run, throw_if_interrupted);
   if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
-  tell_of_end(context, motion);
+  tell_of_end(context, end_of(motion));
   return result;
 }
 
@@ -92,7 +93,7 @@ void require_bearable_modes(const Case& the_case, const LyapunovQuestion& option
                      " the largest exponent alone is computed beyond the paper's model "
                      "(switching at samples, its law of the backlash, one harmonic, an ideal "
                      "computer and drive): add --largest");
-  report_warning(dense_work_warning(the_case), quiet);
+  report_warning(dense_work_warning(the_case, options.switching), quiet);
 }
 
 /// A row of the exponents so far.
@@ -131,16 +132,20 @@ void write_history(EventMotion<Contact> motion, const JobContext& context, const
     run_to_completion(lyapunov, 1, {});
     write_history_row(table, motion.time(), lyapunov.spectrum().exponents().template head<5>());
   }
-  tell_of_end(context, motion);
+  tell_of_end(context, end_of(motion));
 }
 
 /// Calls `visit` with a motion of the case that has tangents.
 template <class Visit>
 auto with_smooth_motion_of(const Case& the_case, Switching switching, const Visit& visit) {
-  if (!is_modal(the_case)) return with_two_mass_motion_of(the_case, {switching}, visit);
-  if (is_of_the_paper(the_case, switching)) return visit(modal_motion_of(the_case, true));
-  return visit(
-      event_motion(smooth_conductor_loop_of(the_case, switching), modal_state_of(the_case)));
+  const bool of_paper = is_of_the_paper(the_case, switching);
+  if (is_modal(the_case)) {
+    if (of_paper) return visit(modal_motion_of(the_case, true));
+    return visit(
+        event_motion(smooth_conductor_loop_of(the_case, switching), modal_state_of(the_case)));
+  }
+  if (of_paper) return visit(motion_of(the_case));
+  return visit(event_motion(implemented_loop_of(the_case, switching), initial_state_of(the_case)));
 }
 
 /// One row for each exponent: per sample, per second, standard error.

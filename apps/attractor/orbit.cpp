@@ -52,7 +52,7 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
     return visit(
         certified_orbit(context, modal_loop_of(context.case_data), options.largest_period));
   if (is_modal(context.case_data)) {
-    report_warning(dense_work_warning(context.case_data), context.quiet);
+    report_warning(dense_work_warning(context.case_data, options.switching), context.quiet);
     EventOrbit orbit = certified_orbit_of_modes(context, options.switching, options.largest_period);
     if (at_samples) forget_margins(orbit);
     visit(orbit);

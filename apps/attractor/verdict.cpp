@@ -75,12 +75,11 @@ struct VerdictQuestion {
     const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
     if (is_modal(the_case) && is_of_the_paper(the_case, switching)) {
       const ModalLoop loop = modal_loop_of(the_case);
-      static_cast<void>(conductor_with_absorber_of(the_case));
       write(context, table, classify_motion(loop, modal_state_of(the_case), limits));
       return;
     }
     if (is_modal(the_case)) {
-      report_warning(dense_work_warning(the_case), context.quiet);
+      report_warning(dense_work_warning(the_case, switching), context.quiet);
       write(context, table,
             classify_motion(smooth_conductor_loop_of(the_case, switching), modal_state_of(the_case),
                             limits));

@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "case/axes/axis.hpp"
-#include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/observers.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/phase_space/coverage.hpp"
 #include "job.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_run.hpp"
 
 namespace holdfast::program {
@@ -34,8 +34,8 @@ PhaseWindow window_of(const JobContext& context, const CoverageQuestion& options
   }
   PhaseExtent extent(duration / 2.0);
   const std::int64_t samples = samples_of(context.case_data, duration);
-  with_motion_of(context.case_data, {options.switching},
-                 [&](auto motion) { run_to_completion(motion, samples, {}, extent); });
+  CaseMotion motion(context.case_data, {options.switching});
+  run_to_completion(motion, samples, {}, extent);
   if (!(extent.displacement() > 0) || !(extent.velocity() > 0)) {
     throw NoAnswer("the motion stands still, so it has no window of its own; give --window");
   }
@@ -54,14 +54,13 @@ void CoverageQuestion::run(const JobContext& context) const {
   const std::vector<double> ascending = durations_of(*this);
   Coverage coverage(window_of(context, *this, ascending.front()), static_cast<std::size_t>(cells));
   Table table(context, columns_of("coverage"));
-  with_motion_of(context.case_data, {switching}, [&](auto motion) {
-    for (const double duration : ascending) {
-      const std::int64_t samples = samples_of(context.case_data, duration);
-      run_to_completion(motion, samples - motion.index(), {}, coverage);
-      table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
-    }
-    tell_of_end(context, motion);
-  });
+  CaseMotion motion(context.case_data, {switching});
+  for (const double duration : ascending) {
+    const std::int64_t samples = samples_of(context.case_data, duration);
+    run_to_completion(motion, samples - motion.index(), {}, coverage);
+    table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
+  }
+  tell_of_end(context, end_of(motion));
   table.commit();
 }
 

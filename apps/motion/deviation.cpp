@@ -1,7 +1,7 @@
 #include "holdfast/phase_space/deviation.hpp"
 #include "case/case_keys.hpp"
-#include "case/model/motion_of_case.hpp"
 #include "job.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
 #include "jobs/orbit/neighbours.hpp"
@@ -30,16 +30,14 @@ struct DeviationQuestion {
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples, "rows", "a shorter --duration leaves fewer");
     double last = 0.0;
-    with_motion_of(context.case_data, {switching}, [&](auto first) {
-      auto second = first;
-      second.displace_conductor(offset);
-      const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
-        table.row(deviation.time, deviation.displacement, deviation.state);
-        last = deviation.state;
-      });
-      require_completed(outcome, first.time());
-      tell_of_end(context, first);
+    CaseMotion first(context.case_data, {switching}), second = first;
+    second.displace_conductor(offset);
+    const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
+      table.row(deviation.time, deviation.displacement, deviation.state);
+      last = deviation.state;
     });
+    require_completed(outcome, first.time());
+    tell_of_end(context, end_of(first));
     table.trust(trusted_digits_of_deviation(context.case_data, switching, offset, samples));
     table.commit();
     if (last >= std::abs(offset)) tell_why_apart(context, last);

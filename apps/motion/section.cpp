@@ -2,9 +2,9 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
-#include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "job.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
 
@@ -37,10 +37,10 @@ struct SectionQuestion {
       };
       run_to_completion(motion, before, {});
       require_completed(run_section(motion, samples - before, write), motion.time());
-      tell_of_end(context, motion);
+      tell_of_end(context, end_of(motion));
     };
     if (is_modal(context.case_data)) {
-      report_warning(dense_work_warning(context.case_data), context.quiet);
+      report_warning(dense_work_warning(context.case_data, Switching::exact), context.quiet);
       run_of(event_motion(conductor_loop_of(context.case_data, {switching, true}),
                           modal_state_of(context.case_data)));
     } else {

@@ -1,10 +1,10 @@
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/modal/modes_warning.hpp"
-#include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/elements_run.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/motion/motion_digits.hpp"
@@ -12,11 +12,6 @@
 
 namespace holdfast::program {
 namespace {
-
-ContactMode mode_of(const EventSample& sample) { return sample.mode; }
-ContactMode mode_of(const MotionSample<double>& sample) {
-  return sample.engaged ? ContactMode::engaged : ContactMode::gap;
-}
 
 struct SimulateQuestion {
   double duration = 10.0;
@@ -54,18 +49,16 @@ struct SimulateQuestion {
       return;
     }
     const MotionChoice choice{switching, !no_control};
-    if (is_modal(context.case_data) && !is_of_the_paper(context.case_data, switching))
-      report_warning(dense_work_warning(context.case_data), context.quiet);
+    report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     auto digits = digits_beside(context.case_data, choice, kicked, from);
-    with_motion_of(context.case_data, choice, [&](auto motion) {
-      run_to_completion(motion, samples, kicked, [&](const auto& sample) {
-        if (digits) (*digits)(sample);
-        if (!not_before(sample.time, from)) return;
-        write_motion_row(table, switching,
-                         {sample.time, sample.state, sample.control_force, mode_of(sample)});
-      });
-      tell_of_end(context, motion, choice.controlled, kicked ? kicked->displacement : 0.0);
+    CaseMotion motion(context.case_data, choice);
+    run_to_completion(motion, samples, kicked, [&](const EventSample& sample) {
+      if (digits) (*digits)(sample);
+      if (!not_before(sample.time, from)) return;
+      write_motion_row(table, switching,
+                       {sample.time, sample.state, sample.control_force, sample.mode});
     });
+    tell_of_end(context, end_of(motion), choice.controlled, kicked ? kicked->displacement : 0.0);
     if (digits) tell_trust(context, table, digits->result());
     table.commit();
   }
@@ -77,13 +70,14 @@ struct SimulateQuestion {
                        (kick ? "--kick" : "--switching exact"));
     Progress progress(static_cast<std::uint64_t>(samples), "simulate, samples",
                       progress_wanted(context));
-    run_elements(
-        context.case_data, {elements.value_or(200), !no_control, samples}, [&](const auto& sample) {
-          progress.advance();
-          if (!not_before(sample.time, from)) return;
-          write_motion_row(table, switching,
-                           {sample.time, sample.state, sample.control_force, mode_of(sample)});
-        });
+    run_elements(context.case_data, {elements.value_or(200), !no_control, samples},
+                 [&](const auto& sample) {
+                   progress.advance();
+                   if (!not_before(sample.time, from)) return;
+                   write_motion_row(table, switching,
+                                    {sample.time, sample.state, sample.control_force,
+                                     sample.engaged ? ContactMode::engaged : ContactMode::gap});
+                 });
   }
 
   std::optional<Kick> parsed_kick() const {

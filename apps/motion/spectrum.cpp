@@ -1,9 +1,9 @@
 #include "holdfast/math/signal/spectrum.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/motion_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "job.hpp"
+#include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
 
@@ -58,13 +58,12 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   auto digits = digits_beside(context.case_data, {options.switching}, {}, from);
   std::vector<double> record;
   record.reserve(static_cast<std::size_t>(kept));
-  with_motion_of(context.case_data, {options.switching}, [&](auto motion) {
-    run_to_completion(motion, samples, {}, [&](const MotionSample<double>& sample) {
-      if (digits) (*digits)(sample);
-      if (sample.index >= samples - kept) record.push_back(sample.state[0]);
-    });
-    tell_of_end(context, motion);
+  CaseMotion motion(context.case_data, {options.switching});
+  run_to_completion(motion, samples, {}, [&](const EventSample& sample) {
+    if (digits) (*digits)(sample);
+    if (sample.index >= samples - kept) record.push_back(sample.state[0]);
   });
+  tell_of_end(context, end_of(motion));
   return {record, digits ? digits->result() : TrustedDigits{}};
 }
 

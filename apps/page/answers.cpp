@@ -17,8 +17,7 @@ struct AnswersQuestion {
   void run(const Job& job) const {
     const JobContext context = job.context();
     report_warning(drift_warning(context.case_data), context.quiet);
-    if (is_modal(context.case_data) && !is_of_the_paper(context.case_data, Switching::sampled))
-      report_warning(dense_work_warning(context.case_data), context.quiet);
+    report_warning(dense_work_warning(context.case_data, Switching::sampled), context.quiet);
     Table table(context, columns_of(detailed ? "detailed answers" : "answers"));
     for (const Answer& answer : answers_of(context)) {
       if (detailed)

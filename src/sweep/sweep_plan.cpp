@@ -139,8 +139,7 @@ void SweepPlan::settle_case() {
     report_warning(borrowed_gains_text(context_.case_data), context_.quiet);
     report_warning(modes_warning(context_.case_data), context_.quiet);
     report_warning(drift_warning(context_.case_data), context_.quiet);
-    if (is_modal(context_.case_data) && !is_of_the_paper(context_.case_data, options_.switching))
-      report_warning(dense_work_warning(context_.case_data), context_.quiet);
+    report_warning(dense_work_warning(context_.case_data, options_.switching), context_.quiet);
   } else {
     reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
   }

@@ -66,7 +66,7 @@ TEST(VerdictOfAnyOrder, OfFourThroughPortsIsThatOfTheTwoMassesByItsSamplesToo) {
 
 TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
   for (const Switching switching : {Switching::sampled, Switching::exact}) {
-    const auto loop = test::lagging_loop(test::seven_states(), switching);
+    const auto loop = test::lagging_loop(test::lagging_plant(), switching);
     const auto found = classify_motion(loop, rest_of_plant(loop));
     EXPECT_EQ(found.classification.kind, AttractorType::periodic);
     ASSERT_TRUE(found.search.orbit.has_value());
@@ -82,7 +82,7 @@ TEST(VerdictOfAnyOrder, OfSevenIsPeriodicWithTheExponentOfItsMultiplier) {
 }
 
 TEST(VerdictOfAnyOrder, OfSevenUnderTwoFrequenciesIsJudgedByItsSamples) {
-  const auto plant = test::seven_states();
+  const auto plant = test::lagging_plant();
   const auto loop = without_common_period(test::lagging_loop(plant, Switching::exact));
   const auto found = classify_motion(loop, rest_of_plant(loop));
   EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);

@@ -2,6 +2,7 @@
 
 #include "holdfast/motion/implemented_loop.hpp"
 #include "support/kollar_case.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -64,10 +65,10 @@ TEST(Deviation, StopsWhereAMotionDiverges) {
 
 TEST(Deviation, OfADriveWithStatesOfItsOwnIsThatOfTheConductor) {
   const ImplementedLoop ideal = implemented_loop(KollarCase{}.ideal_loop());
-  const auto plant = with_drive_lag(linear_plant(ideal.plant), 20.0);
-  const ImplementedLoopOf<LinearPlant<double, 5>> loop{plant, ideal.digital, ideal.backlash,
-                                                       Switching::exact};
-  auto first = event_motion(loop, Vector<double, 5>::Zero().eval()), second = first;
+  const auto plant = with_drive_lag(test::through_ports(ideal.plant), 20.0);
+  const ImplementedLoopOf<LinearPlant<double>> loop{plant, ideal.digital, ideal.backlash,
+                                                    Switching::exact};
+  auto first = event_motion(loop, Eigen::VectorXd::Zero(5).eval()), second = first;
   second.displace_conductor(1e-5);
   std::int64_t seen = 0;
   run_deviation(first, second, 1000, [&](const Deviation& deviation) {

@@ -26,7 +26,7 @@ TEST(AnyOrderDelay, OfTwoMassesIsThatOfTheClosedForms) {
     for (const double frequency : {8.0, 20.0}) {
       const auto options = tuned_to(frequency, criterion, frequency > 10.0 ? 0.5 : 0.0);
       const MaxDelay closed = max_sampling_period(plant, options);
-      const MaxDelay general = max_sampling_period(linear_plant(plant), options);
+      const MaxDelay general = max_sampling_period(through_ports(plant), options);
       EXPECT_EQ(general.outcome, closed.outcome);
       EXPECT_EQ(general.limit, closed.limit);
       EXPECT_NEAR(general.sampling_period, closed.sampling_period, 1e-7 * closed.sampling_period);
@@ -51,7 +51,7 @@ bool feasible_in_a_scan(const Plant& plant, const MaxDelayOptions& options, doub
 }
 
 TEST(AnyOrderDelay, OfSevenStatesJustBelowIsFeasibleAndJustAboveIsNot) {
-  const auto plant = filtered_and_lagging_plant(100.0, 150.0);
+  const auto plant = lagging_plant(100.0, 150.0);
   for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
     const auto options = tuned_to(10.0, criterion, 0.3);
     const MaxDelay answer = max_sampling_period(plant, options);
@@ -73,7 +73,7 @@ TEST(AnyOrderAmplitude, OfTwoMassesIsThatOfTheClosedForms) {
       const double p = tuned_proportional_gain(74.4, 0.16, frequency);
       const MinimumAmplitude closed = minimum_amplitude(plant, options, frequency, p);
       const MinimumAmplitude general =
-          minimum_amplitude(linear_plant(plant), options, frequency, p);
+          minimum_amplitude(through_ports(plant), options, frequency, p);
       EXPECT_EQ(general.outcome, closed.outcome);
       if (closed.outcome == MinimumAmplitudeOutcome::none) continue;
       EXPECT_NEAR(general.differential_gain, closed.differential_gain,
@@ -85,7 +85,7 @@ TEST(AnyOrderAmplitude, OfTwoMassesIsThatOfTheClosedForms) {
 }
 
 TEST(AnyOrderAmplitude, OfSevenStatesIsTheLeastOfAScan) {
-  const auto plant = filtered_and_lagging_plant(100.0, 150.0);
+  const auto plant = lagging_plant(100.0, 150.0);
   const AmplitudeOptions options{{0.002, 0.001}, ForceHold::sampled, 1.0};
   const MinimumAmplitude least = minimum_amplitude(plant, options, 9.0, -50.0);
   ASSERT_NE(least.outcome, MinimumAmplitudeOutcome::none);
@@ -115,7 +115,7 @@ TEST(AnyOrderRadius, OfTwoMassesIsThatOfTheClosedForms) {
 }
 
 TEST(AnyOrderRadius, OfSevenStatesIsTheLeastOfAScan) {
-  const auto plant = filtered_and_lagging_plant(100.0, 150.0);
+  const auto plant = lagging_plant(100.0, 150.0);
   for (const double delay : {0.001, 0.005}) {
     const LoopMap<double> map = loop_map(plant, {0.002, delay});
     const MinimumRadius least = minimum_radius(map, -50.0);

@@ -59,7 +59,7 @@ TEST(AnyOrderMargins, OfTwoMassesAreTheClosedForms) {
     if (closed.outcome != MarginOutcome::stable || closed.unit_circle < 1e-4) continue;
     ++stable;
     SCOPED_TRACE(draw);
-    const StabilityMargins general = stability_margins(linear_plant(plant), sampling, gains);
+    const StabilityMargins general = stability_margins(through_ports(plant), sampling, gains);
     ASSERT_EQ(general.outcome, MarginOutcome::stable);
     EXPECT_NEAR(general.unit_circle, closed.unit_circle, 1e-9);
     const auto expected = all_of(closed, sampling, gains), found = all_of(general, sampling, gains);
@@ -119,8 +119,7 @@ TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
   int late = 0;
   for (const MarginCase& c : margin_cases()) {
     SCOPED_TRACE(c.sampling.processing_delay / c.sampling.period);
-    const LinearPlant<double> plant =
-        of_dynamic_order(filtered_and_lagging_plant(c.filter, c.drive));
+    const LinearPlant<double> plant = lagging_plant(c.filter, c.drive);
     const StabilityMargins margins = stability_margins(plant, c.sampling, c.gains);
     ASSERT_EQ(margins.outcome, MarginOutcome::stable);
     EXPECT_NEAR(margins.unit_circle, 1.0 - radius(plant, c.sampling, c.gains), 1e-10);
@@ -153,12 +152,10 @@ TEST(AnyOrderMargins, OfSevenStatesAreTheFirstLossesOfStability) {
 }
 
 TEST(AnyOrderMargins, AnUnstableLoopHasNone) {
-  const auto margins = stability_margins(of_dynamic_order(filtered_and_lagging_plant(20.0, 20.0)),
-                                         {0.01, 0.03}, {-300.0, 40.0});
+  const auto margins = stability_margins(lagging_plant(20.0, 20.0), {0.01, 0.03}, {-300.0, 40.0});
   EXPECT_EQ(margins.outcome, MarginOutcome::not_stable);
   EXPECT_LE(margins.unit_circle, 0.0);
-  EXPECT_THROW(stability_margins(of_dynamic_order(filtered_and_lagging_plant(20.0, 20.0)),
-                                 {0.0, 0.0}, {0.0, 0.0}),
+  EXPECT_THROW(stability_margins(lagging_plant(20.0, 20.0), {0.0, 0.0}, {0.0, 0.0}),
                InvalidParameter);
 }
 
@@ -167,7 +164,7 @@ TEST(AnyOrderMargins, TheBoundOnSlowSamplingIsThatOfTheResolventPolynomials) {
   for (int draw = 0; draw < 50; ++draw) {
     const TwoMass<double> plant = random_plant(random);
     const PdGains<double> gains = random_gains(plant, 0.01, random);
-    const SlowSamplingBound closed(plant, gains, 0.3), general(linear_plant(plant), gains, 0.3);
+    const SlowSamplingBound closed(plant, gains, 0.3), general(through_ports(plant), gains, 0.3);
     for (const double period : {0.01, 0.3, 2.0}) {
       if (!std::isfinite(closed.at(period))) continue;
       EXPECT_NEAR(general.at(period), closed.at(period), 1e-6 * closed.at(period) + 1e-14) << draw;
@@ -191,8 +188,7 @@ double dense_amplitude(const Plant& plant, const Sampling<double>& sampling,
 
 TEST(AnyOrderResponse, AmplitudeIsThatOfTheClosedMap) {
   for (const MarginCase& c : margin_cases()) {
-    const LinearPlant<double> plant =
-        of_dynamic_order(filtered_and_lagging_plant(c.filter, c.drive));
+    const LinearPlant<double> plant = lagging_plant(c.filter, c.drive);
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
       for (const double frequency : {0.5, 8.0, 30.0}) {
         const double omega = 2.0 * pi<double> * frequency;
@@ -217,7 +213,7 @@ TEST(AnyOrderResponse, OfTwoMassesIsTheClosedForm) {
     const PdGains<double> gains = random_gains(plant, sampling.period, random);
     const double omega = random.uniform(0.05, 3.0) / sampling.period;
     const auto closed = steady_response(plant, sampling, ForceHold::exact, omega);
-    const auto general = steady_response(linear_plant(plant), sampling, ForceHold::exact, omega);
+    const auto general = steady_response(through_ports(plant), sampling, ForceHold::exact, omega);
     EXPECT_NEAR(general.ratio_to_uncontrolled(gains), closed.ratio_to_uncontrolled(gains),
                 1e-8 * closed.ratio_to_uncontrolled(gains))
         << draw;
@@ -236,7 +232,7 @@ TEST(AnyOrderResponse, ADelayOfTwoMassesBeyondASampleIsThatOfTheirMap) {
 
 /// The closed map anywhere in a stretch is its polynomial but for the remainder, which is small.
 TEST(SamplingFamily, TheMovingMapIsTheMapAllOverTheStretch) {
-  const LinearPlant<double> plant = of_dynamic_order(filtered_and_lagging_plant(40.0, 60.0));
+  const LinearPlant<double> plant = lagging_plant(40.0, 60.0);
   const PdGains<double> gains{-50.0, -3.0};
   const double period = 0.003;
   using Family = SamplingFamily<LinearPlant<double>>;

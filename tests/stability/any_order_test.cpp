@@ -74,8 +74,8 @@ TEST(AnyOrder, EndsOfIntervalsLieOnTheCircleAndTheirInsideWithin) {
     const TwoMass<double> masses = random_plant(random);
     Sampling<double> sampling = random_sampling(masses, random);
     if (draw % 3 == 2) sampling.processing_delay = sampling.period * random.uniform(1.0, 4.0);
-    const auto plant = filtered_and_lagging_plant(5.0 * (0.2 / sampling.period),
-                                                  8.0 * (0.2 / sampling.period), masses);
+    const auto plant =
+        lagging_plant(5.0 * (0.2 / sampling.period), 8.0 * (0.2 / sampling.period), masses);
     const LoopMap<double> map = loop_map(plant, sampling);
     const PdGains<double> gains = random_gains(masses, sampling.period, random);
     const PdGains<double> held{0.1 * gains.proportional, 0.0};
@@ -98,7 +98,7 @@ TEST(AnyOrder, EndsOfIntervalsLieOnTheCircleAndTheirInsideWithin) {
 }
 
 TEST(AnyOrder, ChartIsThatOfTheEigenvalues) {
-  const auto plant = filtered_and_lagging_plant(40.0, 64.0);
+  const auto plant = lagging_plant(40.0, 64.0);
   for (const double delay : {0.0, 0.0004, 0.0027}) {
     const LoopMap<double> map = loop_map(plant, {0.001, delay});
     const GainGrid grid{{-600.0, 100.0, 36}, {-30.0, 10.0, 41}};
@@ -124,12 +124,12 @@ TEST(AnyOrder, ChartOfTwoMassesIsTheClosedForms) {
   const Sampling<double> sampling{0.01, 0.004};
   const GainGrid grid{{-600.0, 100.0, 71}, {-30.0, 10.0, 81}};
   const auto polynomial = characteristic_polynomial(sampled_loop(plant, sampling));
-  const ResolvedCircle<double> circle({linear_plant(plant), sampling});
+  const ResolvedCircle<double> circle({through_ports(plant), sampling});
   EXPECT_EQ(stability_chart(circle, grid), stability_chart(polynomial, grid));
 }
 
 TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {
-  const auto plant = filtered_and_lagging_plant(50.0, 80.0);
+  const auto plant = lagging_plant(50.0, 80.0);
   const LoopMap<double> map = loop_map(plant, {0.002, 0.0051});
   EXPECT_EQ(map.held_commands, 3);
   const LoopResponse<double> response(map);
@@ -148,7 +148,7 @@ TEST(AnyOrder, ResponseIsThatOfTheDenseResolvent) {
 }
 
 TEST(AnyOrder, BoundaryPointsHaveARootOnTheCircle) {
-  const auto plant = filtered_and_lagging_plant(40.0, 64.0);
+  const auto plant = lagging_plant(40.0, 64.0);
   const LoopMap<double> map = loop_map(plant, {0.002, 0.003});
   const auto points =
       stability_boundary(ModalResponse<double>(plant, {0.002, 0.003}), {-1000.0, 200.0});
@@ -207,7 +207,7 @@ TEST(LinearPlant, FilterAndDriveMultiplyTheTransferFunction) {
   const TwoMass<double> masses = kollar2022_plant();
   const double filter = 20.0, drive = 30.0, damping = 0.6;
   const auto plant =
-      with_drive_lag(with_measurement_filter(linear_plant(masses), filter), drive, damping);
+      with_drive_lag(with_measurement_filter(through_ports(masses), filter), drive, damping);
   for (const Complex s : {Complex(0.0, 5.0), Complex(-1.0, 60.0), Complex(2.0, 200.0)}) {
     const auto transfer = [&s](const auto& of, const auto& row) {
       Eigen::MatrixXcd matrix = -of.state_matrix().template cast<Complex>();
@@ -227,7 +227,7 @@ TEST(LinearPlant, FilterAndDriveMultiplyTheTransferFunction) {
 }
 
 TEST(LinearPlant, RefusesWhatNoLoopCanBeClosedOn) {
-  auto plant = linear_plant(kollar2022_plant());
+  auto plant = through_ports(kollar2022_plant());
   EXPECT_NO_THROW(validate(plant));
   EXPECT_THROW(with_measurement_filter(plant, 0.0), InvalidParameter);
   EXPECT_THROW(with_drive_lag(plant, -1.0), InvalidParameter);

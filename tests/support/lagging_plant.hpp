@@ -32,12 +32,17 @@ LinearPlant<double> of_dynamic_order(const LinearPlant<double, States>& plant) {
 }
 
 /// Two masses whose state is read through ports, their order known at run time alone. Tests take
-/// this one plant of any order, so that each folder compiles the general route once.
+/// plants of such an order, whose solvers are compiled once, and those of a fixed one where that
+/// itself is tested.
 inline LinearPlant<double> through_ports(const TwoMass<double>& masses) {
   return of_dynamic_order(linear_plant(masses));
 }
 
-/// Seven states, of which the compiler does not know the number.
-inline LinearPlant<double> seven_states() { return of_dynamic_order(filtered_and_lagging_plant()); }
+/// filtered_and_lagging_plant(), of which the compiler does not know the order.
+inline LinearPlant<double> lagging_plant(double filter = 80.0, double drive = 60.0,
+                                         const TwoMass<double>& masses = kollar2022_plant(),
+                                         double damping = 0.7) {
+  return of_dynamic_order(filtered_and_lagging_plant(filter, drive, masses, damping));
+}
 
 }  // namespace holdfast::test

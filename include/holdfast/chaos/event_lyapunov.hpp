@@ -50,11 +50,7 @@ class EventLyapunov {
   typename EventMotion<Contact>::Sample sense() { return motion_->sense(); }
 
   /// Moves on to the next sample, and the tangent vectors with it.
-  void advance() {
-    tangent_.begin_sample(*motion_);
-    motion_->advance(tangent_);
-    spectrum_.push(tangent_.map(), tangent_.rank_of_product());
-  }
+  void advance();
 
   /// Adds a displacement (m) to the conductor, which leaves the tangent vectors as they are; call
   /// before `sense()`.
@@ -77,6 +73,13 @@ class EventLyapunov {
   LyapunovSpectrum<double, size> spectrum_;
 };
 
+template <class Contact>
+void EventLyapunov<Contact>::advance() {
+  tangent_.begin_sample(*motion_);
+  motion_->advance(tangent_);
+  spectrum_.push(tangent_.map(), tangent_.rank_of_product());
+}
+
 /// The five leading Lyapunov exponents of a motion that may switch between its samples, from where
 /// it stands, natural logarithm per sample. One whose `counts()` say that its changes of contact
 /// accumulate has none to be trusted from there on.
@@ -97,6 +100,8 @@ LyapunovResult run_event_lyapunov(EventMotion<Contact>& motion, const LyapunovRu
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template void EventLyapunov<DriveContact<>>::advance();
+extern template void EventLyapunov<DriveContact<ControlledPlant>>::advance();
 extern template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<>>&, const LyapunovRun&,
                                                   const std::function<void()>&);
 extern template LyapunovResult run_event_lyapunov(EventMotion<DriveContact<ControlledPlant>>&,

@@ -145,6 +145,7 @@ Vector<Scalar, Size> LyapunovSpectrum<Scalar, Size>::cautious_standard_errors() 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class LyapunovSpectrum<double, 5>;
 extern template class LyapunovSpectrum<double, 7>;
+extern template class LyapunovSpectrum<double, Eigen::Dynamic>;
 #endif
 
 }  // namespace holdfast

@@ -94,4 +94,11 @@ EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& lo
           initial_state};
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template EventMotion<DriveContact<>> event_motion(const ImplementedLoop&,
+                                                         const StateOf<TwoMass<double>>&);
+extern template EventMotion<DriveContact<ControlledPlant>> event_motion(
+    const ImplementedLoopOf<ControlledPlant>&, const StateOf<ControlledPlant>&);
+#endif
+
 }  // namespace holdfast

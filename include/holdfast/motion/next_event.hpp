@@ -115,6 +115,9 @@ NextEvent<States> next_event(const AffineDynamicsOf<States>& dynamics,
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template NextEvent<4> next_event(const AffineDynamicsOf<4>&, const GuardsOf<4>&,
                                         const ModeStretch<4>&);
+extern template NextEvent<Eigen::Dynamic> next_event(const AffineDynamicsOf<Eigen::Dynamic>&,
+                                                     const GuardsOf<Eigen::Dynamic>&,
+                                                     const ModeStretch<Eigen::Dynamic>&);
 #endif
 
 }  // namespace holdfast

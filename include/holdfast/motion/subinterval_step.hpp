@@ -70,6 +70,8 @@ SubintervalStep<States>::SubintervalStep(const AffineDynamicsOf<States>& dynamic
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template SubintervalStep<4>::SubintervalStep(const AffineDynamicsOf<4>&,
                                                     const std::vector<Harmonic>&, double, double);
+extern template SubintervalStep<Eigen::Dynamic>::SubintervalStep(
+    const AffineDynamicsOf<Eigen::Dynamic>&, const std::vector<Harmonic>&, double, double);
 #endif
 
 }  // namespace holdfast

@@ -145,7 +145,7 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
 }  // namespace
 
 std::vector<CaseSensitivity> case_sensitivities(const Case& the_case, bool tuned) {
-  static_cast<void>(conductor_with_absorber_of(the_case));
+  require_natural_motions(the_case);
   const AnswerValues here = answers_of(the_case);
   std::vector<CaseSensitivity> all;
   all.reserve(here.size());

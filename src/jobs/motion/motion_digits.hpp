@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "case/case.hpp"
-#include "case/model/motion_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/reduction.hpp"

@@ -118,7 +118,6 @@ EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loo
 PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
                               std::int64_t largest_period) {
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  static_cast<void>(conductor_with_absorber_of(context.case_data));
   PeriodicOrbit orbit =
       certified(find_periodic_orbit(loop, modal_state_of(context.case_data), limits),
                 {forcing_ratio(loop), loop.excitation.frequency * loop.sampling.period}, limits,

@@ -133,7 +133,6 @@ MotionRow modal_row_of(const std::string& place, const std::string& text, const 
   if (!is_of_the_paper(the_case, Switching::sampled))
     return row(classify_motion(smooth_conductor_loop_of(the_case, Switching::sampled),
                                modal_state_of(the_case), limits));
-  static_cast<void>(conductor_with_absorber_of(the_case));
   return row(classify_motion(modal_loop_of(the_case), modal_state_of(the_case), limits));
 }
 

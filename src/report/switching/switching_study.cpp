@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/motion_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/instant.hpp"

@@ -136,7 +136,7 @@ void expect_closes_with_multiplier(const ImplementedLoopOf<Plant>& loop) {
 
 TEST(OrbitOfAnyOrder, OfSevenClosesAndHasTheMultiplierOfItsReturn) {
   for (const Switching switching : {Switching::sampled, Switching::exact})
-    expect_closes_with_multiplier(test::lagging_loop(test::seven_states(), switching));
+    expect_closes_with_multiplier(test::lagging_loop(test::lagging_plant(), switching));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ void expect_same(const Plant& plant, const Sampling<double>& sampling, double to
 TEST(ModalResponse, IsThatOfTheEliminationForAnyDelay) {
   for (const double delay : {0.0, 0.0004, 0.001, 0.0027, 0.01}) {
     expect_same(through_ports(kollar2022_plant()), {0.001, delay}, 1e-9);
-    expect_same(of_dynamic_order(filtered_and_lagging_plant()), {0.001, delay}, 1e-9);
+    expect_same(lagging_plant(), {0.001, delay}, 1e-9);
     const auto modes = string_modes(taut_string(kollar2022_conductor()), 0.64, 20);
     expect_same(modal_plant<double>(modes, {0.16, 74.4, 4.0, 0.01}), {0.001, delay}, 1e-9);
   }
@@ -36,8 +36,7 @@ TEST(ModalResponse, IsThatOfTheEliminationForAnyDelay) {
 
 /// A critically damped drive has a double eigenvalue, which no sum over eigenvalues can bear.
 TEST(ModalResponse, HoldsWhereEigenvaluesCoincide) {
-  const auto plant =
-      of_dynamic_order(filtered_and_lagging_plant(80.0, 60.0, kollar2022_plant(), 1.0));
+  const auto plant = lagging_plant(80.0, 60.0, kollar2022_plant(), 1.0);
   expect_same(plant, {0.001, 0.0004}, 1e-13);
 }
 

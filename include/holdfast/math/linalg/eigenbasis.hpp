@@ -27,88 +27,27 @@ class EigenBasis {
   using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< N × N
 
   /// @param matrix  A, N × N, finite, N ≥ 1
-  explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
-    using Square = Matrix<Scalar, Eigen::Dynamic>;
-    const BalancedMatrix<Scalar, Eigen::Dynamic> similar(matrix);
-    factors_ = similar.factors;
-    const Scalar scale =
-        std::max(similar.balanced.cwiseAbs().maxCoeff(), std::numeric_limits<Scalar>::min());
-    const Eigen::HessenbergDecomposition<Square> hessenberg(Square(similar.balanced / scale));
-    Eigen::RealSchur<Square> schur(matrix.rows());
-    schur.computeFromHessenberg(hessenberg.matrixH(), hessenberg.matrixQ(), true);
-    converged_ = schur.info() == Eigen::Success;
-    triangle_ = (schur.matrixT() * scale).template cast<Complex>();
-    basis_ = schur.matrixU().template cast<Complex>();
-    make_triangular();
-    find_vectors();
-  }
+  explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
   /// s, N × 1; those of a conjugate pair side by side.
   ComplexVector values() const { return triangle_.diagonal(); }
 
   /// β = V⁻¹ b, N × 1.
-  ComplexVector coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const {
-    const Vector<Scalar, Eigen::Dynamic> balanced = factors_.cwiseInverse().cwiseProduct(b);
-    return vectors_.template triangularView<Eigen::UnitUpper>().solve(basis_.adjoint() * balanced);
-  }
+  ComplexVector coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const;
 
   /// γ = h V, as N × 1.
-  ComplexVector readings(const RowVector<Scalar, Eigen::Dynamic>& h) const {
-    const RowVector<Scalar, Eigen::Dynamic> balanced = h.cwiseProduct(factors_.transpose());
-    return ((balanced.template cast<Complex>() * basis_) * vectors_).transpose();
-  }
+  ComplexVector readings(const RowVector<Scalar, Eigen::Dynamic>& h) const;
 
   /// Whether coordinates and readings have nine digits and more: no two eigenvectors are nearly
   /// one, and the QR algorithm has converged.
-  bool is_sound() const {
-    return converged_ &&
-           vectors_.cwiseAbs().maxCoeff() * std::numeric_limits<Scalar>::epsilon() < Scalar(1e-10);
-  }
+  bool is_sound() const;
 
  private:
   /// Turns each 2 × 2 block of the real Schur form by a unitary rotation into a triangle.
-  void make_triangular() {
-    const Eigen::Index n = triangle_.rows();
-    for (Eigen::Index m = n - 1; m > 0; --m) {
-      if (triangle_(m, m - 1) == Complex(0)) continue;
-      const Complex half = (triangle_(m - 1, m - 1) - triangle_(m, m)) / Scalar(2);
-      const Complex root = std::sqrt(half * half + triangle_(m - 1, m) * triangle_(m, m - 1));
-      const Complex away = half + root;  // eigenvalue less the lower diagonal entry
-      const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle_(m, m - 1)));
-      const Complex c = away / length, s = triangle_(m, m - 1) / length;
-      const auto turn = [&c, &s](auto&& upper, auto&& lower) {
-        const auto before = upper.eval();
-        upper = std::conj(c) * before + std::conj(s) * lower;
-        lower = c * lower - s * before;
-      };
-      turn(triangle_.row(m - 1).tail(n - m + 1), triangle_.row(m).tail(n - m + 1));
-      const auto turn_columns = [&c, &s](auto&& left, auto&& right) {
-        const auto before = left.eval();
-        left = c * before + s * right;
-        right = std::conj(c) * right - std::conj(s) * before;
-      };
-      turn_columns(triangle_.col(m - 1).head(m + 1), triangle_.col(m).head(m + 1));
-      turn_columns(basis_.col(m - 1), basis_.col(m));
-      triangle_(m, m - 1) = Complex(0);
-    }
-  }
+  void make_triangular();
 
   /// Column k solves (T − t_kk) x = 0 with x_k = 1.
-  void find_vectors() {
-    const Eigen::Index n = triangle_.rows();
-    const Scalar least = std::numeric_limits<Scalar>::epsilon() *
-                         std::max(triangle_.cwiseAbs().maxCoeff(), Scalar(1e-300));
-    vectors_ = ComplexMatrix::Identity(n, n);
-    for (Eigen::Index k = 1; k < n; ++k) {
-      vectors_.col(k).head(k) = -triangle_.col(k).head(k);
-      for (Eigen::Index i = k - 1; i >= 0; --i) {
-        Complex away = triangle_(i, i) - triangle_(k, k);
-        if (std::abs(away) < least) away = least;
-        vectors_(i, k) /= away;
-        vectors_.col(k).head(i) -= vectors_(i, k) * triangle_.col(i).head(i);
-      }
-    }
-  }
+  void find_vectors();
 
   Vector<Scalar, Eigen::Dynamic> factors_;  // of the balancing
   ComplexMatrix triangle_;                  // T of the complex Schur form
@@ -116,6 +55,90 @@ class EigenBasis {
   ComplexMatrix vectors_;                   // of T, unit upper triangular
   bool converged_ = false;
 };
+
+// Beside the class, so that who links holdfast::compiled is spared them: what stands in a class is
+// inline, and compiled by all who call it.
+
+template <class Scalar>
+EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
+  const BalancedMatrix<Scalar, Eigen::Dynamic> similar(matrix);
+  factors_ = similar.factors;
+  const Scalar scale =
+      std::max(similar.balanced.cwiseAbs().maxCoeff(), std::numeric_limits<Scalar>::min());
+  const Eigen::HessenbergDecomposition<Square> hessenberg(Square(similar.balanced / scale));
+  Eigen::RealSchur<Square> schur(matrix.rows());
+  schur.computeFromHessenberg(hessenberg.matrixH(), hessenberg.matrixQ(), true);
+  converged_ = schur.info() == Eigen::Success;
+  triangle_ = (schur.matrixT() * scale).template cast<Complex>();
+  basis_ = schur.matrixU().template cast<Complex>();
+  make_triangular();
+  find_vectors();
+}
+
+template <class Scalar>
+auto EigenBasis<Scalar>::coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const
+    -> ComplexVector {
+  const Vector<Scalar, Eigen::Dynamic> balanced = factors_.cwiseInverse().cwiseProduct(b);
+  return vectors_.template triangularView<Eigen::UnitUpper>().solve(basis_.adjoint() * balanced);
+}
+
+template <class Scalar>
+auto EigenBasis<Scalar>::readings(const RowVector<Scalar, Eigen::Dynamic>& h) const
+    -> ComplexVector {
+  const RowVector<Scalar, Eigen::Dynamic> balanced = h.cwiseProduct(factors_.transpose());
+  return ((balanced.template cast<Complex>() * basis_) * vectors_).transpose();
+}
+
+template <class Scalar>
+bool EigenBasis<Scalar>::is_sound() const {
+  return converged_ &&
+         vectors_.cwiseAbs().maxCoeff() * std::numeric_limits<Scalar>::epsilon() < Scalar(1e-10);
+}
+
+template <class Scalar>
+void EigenBasis<Scalar>::make_triangular() {
+  const Eigen::Index n = triangle_.rows();
+  for (Eigen::Index m = n - 1; m > 0; --m) {
+    if (triangle_(m, m - 1) == Complex(0)) continue;
+    const Complex half = (triangle_(m - 1, m - 1) - triangle_(m, m)) / Scalar(2);
+    const Complex root = std::sqrt(half * half + triangle_(m - 1, m) * triangle_(m, m - 1));
+    const Complex away = half + root;  // eigenvalue less the lower diagonal entry
+    const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle_(m, m - 1)));
+    const Complex c = away / length, s = triangle_(m, m - 1) / length;
+    const auto turn = [&c, &s](auto&& upper, auto&& lower) {
+      const auto before = upper.eval();
+      upper = std::conj(c) * before + std::conj(s) * lower;
+      lower = c * lower - s * before;
+    };
+    turn(triangle_.row(m - 1).tail(n - m + 1), triangle_.row(m).tail(n - m + 1));
+    const auto turn_columns = [&c, &s](auto&& left, auto&& right) {
+      const auto before = left.eval();
+      left = c * before + s * right;
+      right = std::conj(c) * right - std::conj(s) * before;
+    };
+    turn_columns(triangle_.col(m - 1).head(m + 1), triangle_.col(m).head(m + 1));
+    turn_columns(basis_.col(m - 1), basis_.col(m));
+    triangle_(m, m - 1) = Complex(0);
+  }
+}
+
+template <class Scalar>
+void EigenBasis<Scalar>::find_vectors() {
+  const Eigen::Index n = triangle_.rows();
+  const Scalar least = std::numeric_limits<Scalar>::epsilon() *
+                       std::max(triangle_.cwiseAbs().maxCoeff(), Scalar(1e-300));
+  vectors_ = ComplexMatrix::Identity(n, n);
+  for (Eigen::Index k = 1; k < n; ++k) {
+    vectors_.col(k).head(k) = -triangle_.col(k).head(k);
+    for (Eigen::Index i = k - 1; i >= 0; --i) {
+      Complex away = triangle_(i, i) - triangle_(k, k);
+      if (std::abs(away) < least) away = least;
+      vectors_(i, k) /= away;
+      vectors_.col(k).head(i) -= vectors_(i, k) * triangle_.col(i).head(i);
+    }
+  }
+}
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class EigenBasis<double>;

@@ -92,13 +92,7 @@ class MovingSpectrum {
   using Complex = std::complex<Scalar>;  ///< of the triangular form
 
   /// @param matrix  finite; a matrix that is not has no proof
-  explicit MovingSpectrum(const MovingMatrix& matrix) {
-    if (!matrix.terms.front().allFinite()) return;
-    take(matrix);
-    inside_at_centre_ =
-        ((2.0 * terms_[0].diagonal().real() + terms_[0].diagonal().cwiseAbs2()).maxCoeff() < 0.0);
-    if (inside_at_centre_ && remainder_.allFinite()) bound();
-  }
+  explicit MovingSpectrum(const MovingMatrix& matrix);
 
   /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
   bool inside_at_centre() const { return inside_at_centre_; }
@@ -113,34 +107,7 @@ class MovingSpectrum {
   /// @param source    g(x), likewise
   /// @param rows      c, any number of them, each n wide
   std::vector<MovingNumber> responses(const MovingNumber& from_one, const MovingVector& source,
-                                      const Eigen::MatrixXd& rows) const {
-    std::vector<Eigen::VectorXcd> y;
-    std::vector<Eigen::VectorXd> beyond(order() + 1, Eigen::VectorXd::Zero(size()));
-    for (std::size_t k = 0; k <= order(); ++k) {
-      Eigen::VectorXcd right = back_ * source.terms[k];
-      for (std::size_t l = 1; l <= k; ++l)
-        right += terms_[l] * y[k - l] - from_one.terms[l] * y[k - l];
-      y.push_back(solved(from_one.terms[0], std::move(right)));
-    }
-    for (std::size_t k = order(); k > 0; --k) beyond[k - 1] = beyond[k] + y[k].cwiseAbs();
-    const Eigen::VectorXd all = beyond[0] + y[0].cwiseAbs();
-    Eigen::VectorXd missed =
-        back_.cwiseAbs() * source.remainder + remainder_ * all + from_one.remainder * all;
-    for (std::size_t l = 1; l <= order(); ++l)
-      missed += terms_[l].cwiseAbs() * beyond[order() - l] +
-                std::abs(from_one.terms[l]) * beyond[order() - l];
-    const Bound unit = Bound::Identity(size(), size()) - turned_;
-    missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
-    missed = reserve_.partialPivLu().solve(missed).cwiseAbs();
-    missed += turned_ * missed;
-    std::vector<MovingNumber> result;
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      const Eigen::RowVectorXcd row = rows.row(i) * basis_;
-      result.push_back({{}, row.cwiseAbs().dot(missed)});
-      for (const Eigen::VectorXcd& term : y) result.back().terms.push_back((row * term).value());
-    }
-    return result;
-  }
+                                      const Eigen::MatrixXd& rows) const;
 
  private:
   using Form = Matrix<Complex, Eigen::Dynamic>;
@@ -152,32 +119,7 @@ class MovingSpectrum {
 
   /// The terms in the coordinates V = Q X, in which S(0) is diagonal but for the pairs that are not
   /// apart, and what is not in them.
-  void take(const MovingMatrix& matrix) {
-    const Eigen::Index n = matrix.remainder.rows();
-    const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
-    const Eigen::VectorXd factors = similar.factors, inverse = factors.cwiseInverse();
-    const auto balanced = [&](const Eigen::MatrixXd& entries) -> Eigen::MatrixXd {
-      return inverse.asDiagonal() * entries * factors.asDiagonal();
-    };
-    const Form unitary = detail::triangular_basis<Scalar>(similar.balanced);
-    const Form form = unitary.adjoint() * (similar.balanced * unitary);
-    find_cleared(form, unitary.adjoint() * (balanced(matrix.terms[1]) * unitary));
-    const Form x = diagonalising(form);
-    const Form basis = unitary * x, back = unit_upper_inverse_times(x, unitary.adjoint());
-    basis_ = factors.asDiagonal() * basis;
-    back_ = back * inverse.asDiagonal();
-    Bound rounded = Bound::Zero(n, n);
-    for (const Eigen::MatrixXd& term : matrix.terms) {
-      const Eigen::MatrixXd entries = balanced(term);
-      terms_.push_back(back * (entries * basis));
-      rounded += entries.cwiseAbs();
-    }
-    remainder_ =
-        back.cwiseAbs() * (rounding() * rounded + balanced(matrix.remainder)) * basis.cwiseAbs();
-    count_inverse(back, basis);
-    remainder_ += terms_[0].cwiseAbs().template triangularView<Eigen::StrictlyLower>();
-    terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
-  }
+  void take(const MovingMatrix& matrix);
 
   /// What a sum of as many products as there are here loses to round-off, as a share.
   Scalar rounding() const {
@@ -188,19 +130,7 @@ class MovingSpectrum {
   /// Counts that `back` is the inverse of the basis but for round-off: of back·V = I + G the
   /// similarity with V makes (I + G)⁻¹T of what is computed as T. Nothing is shown where |G| is
   /// not small.
-  void count_inverse(const Form& back, const Form& basis) {
-    const Bound identity = Bound::Identity(size(), size());
-    off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
-           rounding() * (back.cwiseAbs() * basis.cwiseAbs());
-    if (!(off_.rowwise().sum().maxCoeff() < Scalar(0.5))) {
-      remainder_.setConstant(std::numeric_limits<Scalar>::infinity());
-      return;
-    }
-    off_ = (identity - off_).partialPivLu().solve(off_).cwiseAbs().eval();
-    Bound all = remainder_;
-    for (const Form& term : terms_) all += term.cwiseAbs();
-    remainder_ += off_ * all;
-  }
+  void count_inverse(const Form& back, const Form& basis);
 
   /// Which pairs of eigenvalues are to be uncoupled: those so far apart that this converges.
   void find_cleared(const Form& form, const Form& moved) {
@@ -248,26 +178,7 @@ class MovingSpectrum {
   }
 
   /// W_k and D_k from what they have to cancel and leave, R = T_k + Σ (T_l W_{k−l} − W_l D_{k−l}).
-  void split(const Form& r) {
-    const Form& t = terms_[0];
-    const Eigen::Index n = size();
-    Form w = Form::Zero(n, n);
-    for (Eigen::Index i = n - 1; i > 0; --i) {
-      for (Eigen::Index j = 0; j < i; ++j) {
-        if (!cleared_(i, j)) continue;
-        Complex right = -r(i, j);
-        for (Eigen::Index p = i + 1; p < n; ++p) right -= t(i, p) * w(p, j);
-        for (Eigen::Index q = 0; q < j; ++q) right += w(i, q) * t(q, j);
-        w(i, j) = right / (t(i, i) - t(j, j));
-      }
-    }
-    Form d = r + t * w - w * t;
-    for (Eigen::Index j = 0; j < n; ++j)
-      for (Eigen::Index i = j + 1; i < n; ++i)
-        if (cleared_(i, j)) d(i, j) = 0.0;
-    turning_.push_back(std::move(w));
-    diagonal_.push_back(std::move(d));
-  }
+  void split(const Form& r);
 
   void split_all() {
     const Eigen::Index n = size();
@@ -301,28 +212,7 @@ class MovingSpectrum {
     return -outside / (1.0 + std::sqrt(std::max(0.0, 1.0 + outside)));
   }
 
-  void bound() {
-    split_all();
-    const Eigen::Index n = size();
-    const Bound identity = Bound::Identity(n, n);
-    const std::vector<Bound> turned = sums_beyond(turning_), kept = sums_beyond(diagonal_);
-    turned_ = turned[0];
-    Bound missed = remainder_ * (identity + turned_);
-    for (std::size_t l = 1; l <= order(); ++l)
-      missed +=
-          terms_[l].cwiseAbs() * turned[order() - l] + turning_[l].cwiseAbs() * kept[order() - l];
-    // Unit lower triangular: solved from the top, nothing is subtracted.
-    const Bound unit = identity - turned_;
-    missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
-    reserve_ = -(kept[0] + diagonal_[0].cwiseAbs() + missed);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double reserve = distance(i) - missed(i, i);
-      if (!(reserve > 0.0)) return;
-      reserve_(i, i) = reserve;
-    }
-    const Eigen::VectorXd v = reserve_.partialPivLu().solve(Eigen::VectorXd::Ones(n));
-    inside_ = v.allFinite() && v.minCoeff() > 0.0 && (reserve_ * v).minCoeff() > 0.5;
-  }
+  void bound();
 
   Pairs cleared_;                         // which pairs of eigenvalues are uncoupled
   std::vector<Form> terms_;               // T_k, of S − I
@@ -334,5 +224,139 @@ class MovingSpectrum {
   Bound reserve_;                         // I − B
   bool inside_at_centre_ = false, inside_ = false;
 };
+
+template <class Scalar>
+MovingSpectrum<Scalar>::MovingSpectrum(const MovingMatrix& matrix) {
+  if (!matrix.terms.front().allFinite()) return;
+  take(matrix);
+  inside_at_centre_ =
+      ((2.0 * terms_[0].diagonal().real() + terms_[0].diagonal().cwiseAbs2()).maxCoeff() < 0.0);
+  if (inside_at_centre_ && remainder_.allFinite()) bound();
+}
+
+template <class Scalar>
+std::vector<MovingNumber> MovingSpectrum<Scalar>::responses(const MovingNumber& from_one,
+                                                            const MovingVector& source,
+                                                            const Eigen::MatrixXd& rows) const {
+  std::vector<Eigen::VectorXcd> y;
+  std::vector<Eigen::VectorXd> beyond(order() + 1, Eigen::VectorXd::Zero(size()));
+  for (std::size_t k = 0; k <= order(); ++k) {
+    Eigen::VectorXcd right = back_ * source.terms[k];
+    for (std::size_t l = 1; l <= k; ++l)
+      right += terms_[l] * y[k - l] - from_one.terms[l] * y[k - l];
+    y.push_back(solved(from_one.terms[0], std::move(right)));
+  }
+  for (std::size_t k = order(); k > 0; --k) beyond[k - 1] = beyond[k] + y[k].cwiseAbs();
+  const Eigen::VectorXd all = beyond[0] + y[0].cwiseAbs();
+  Eigen::VectorXd missed =
+      back_.cwiseAbs() * source.remainder + remainder_ * all + from_one.remainder * all;
+  for (std::size_t l = 1; l <= order(); ++l)
+    missed += terms_[l].cwiseAbs() * beyond[order() - l] +
+              std::abs(from_one.terms[l]) * beyond[order() - l];
+  const Bound unit = Bound::Identity(size(), size()) - turned_;
+  missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
+  missed = reserve_.partialPivLu().solve(missed).cwiseAbs();
+  missed += turned_ * missed;
+  std::vector<MovingNumber> result;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::RowVectorXcd row = rows.row(i) * basis_;
+    result.push_back({{}, row.cwiseAbs().dot(missed)});
+    for (const Eigen::VectorXcd& term : y) result.back().terms.push_back((row * term).value());
+  }
+  return result;
+}
+
+template <class Scalar>
+void MovingSpectrum<Scalar>::take(const MovingMatrix& matrix) {
+  const Eigen::Index n = matrix.remainder.rows();
+  const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
+  const Eigen::VectorXd factors = similar.factors, inverse = factors.cwiseInverse();
+  const auto balanced = [&](const Eigen::MatrixXd& entries) -> Eigen::MatrixXd {
+    return inverse.asDiagonal() * entries * factors.asDiagonal();
+  };
+  const Form unitary = detail::triangular_basis<Scalar>(similar.balanced);
+  const Form form = unitary.adjoint() * (similar.balanced * unitary);
+  find_cleared(form, unitary.adjoint() * (balanced(matrix.terms[1]) * unitary));
+  const Form x = diagonalising(form);
+  const Form basis = unitary * x, back = unit_upper_inverse_times(x, unitary.adjoint());
+  basis_ = factors.asDiagonal() * basis;
+  back_ = back * inverse.asDiagonal();
+  Bound rounded = Bound::Zero(n, n);
+  for (const Eigen::MatrixXd& term : matrix.terms) {
+    const Eigen::MatrixXd entries = balanced(term);
+    terms_.push_back(back * (entries * basis));
+    rounded += entries.cwiseAbs();
+  }
+  remainder_ =
+      back.cwiseAbs() * (rounding() * rounded + balanced(matrix.remainder)) * basis.cwiseAbs();
+  count_inverse(back, basis);
+  remainder_ += terms_[0].cwiseAbs().template triangularView<Eigen::StrictlyLower>();
+  terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
+}
+
+template <class Scalar>
+void MovingSpectrum<Scalar>::count_inverse(const Form& back, const Form& basis) {
+  const Bound identity = Bound::Identity(size(), size());
+  off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
+         rounding() * (back.cwiseAbs() * basis.cwiseAbs());
+  if (!(off_.rowwise().sum().maxCoeff() < Scalar(0.5))) {
+    remainder_.setConstant(std::numeric_limits<Scalar>::infinity());
+    return;
+  }
+  off_ = (identity - off_).partialPivLu().solve(off_).cwiseAbs().eval();
+  Bound all = remainder_;
+  for (const Form& term : terms_) all += term.cwiseAbs();
+  remainder_ += off_ * all;
+}
+
+template <class Scalar>
+void MovingSpectrum<Scalar>::split(const Form& r) {
+  const Form& t = terms_[0];
+  const Eigen::Index n = size();
+  Form w = Form::Zero(n, n);
+  for (Eigen::Index i = n - 1; i > 0; --i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (!cleared_(i, j)) continue;
+      Complex right = -r(i, j);
+      for (Eigen::Index p = i + 1; p < n; ++p) right -= t(i, p) * w(p, j);
+      for (Eigen::Index q = 0; q < j; ++q) right += w(i, q) * t(q, j);
+      w(i, j) = right / (t(i, i) - t(j, j));
+    }
+  }
+  Form d = r + t * w - w * t;
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j + 1; i < n; ++i)
+      if (cleared_(i, j)) d(i, j) = 0.0;
+  turning_.push_back(std::move(w));
+  diagonal_.push_back(std::move(d));
+}
+
+template <class Scalar>
+void MovingSpectrum<Scalar>::bound() {
+  split_all();
+  const Eigen::Index n = size();
+  const Bound identity = Bound::Identity(n, n);
+  const std::vector<Bound> turned = sums_beyond(turning_), kept = sums_beyond(diagonal_);
+  turned_ = turned[0];
+  Bound missed = remainder_ * (identity + turned_);
+  for (std::size_t l = 1; l <= order(); ++l)
+    missed +=
+        terms_[l].cwiseAbs() * turned[order() - l] + turning_[l].cwiseAbs() * kept[order() - l];
+  // Unit lower triangular: solved from the top, nothing is subtracted.
+  const Bound unit = identity - turned_;
+  missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
+  reserve_ = -(kept[0] + diagonal_[0].cwiseAbs() + missed);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double reserve = distance(i) - missed(i, i);
+    if (!(reserve > 0.0)) return;
+    reserve_(i, i) = reserve;
+  }
+  const Eigen::VectorXd v = reserve_.partialPivLu().solve(Eigen::VectorXd::Ones(n));
+  inside_ = v.allFinite() && v.minCoeff() > 0.0 && (reserve_ * v).minCoeff() > 0.5;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template class MovingSpectrum<double>;
+#endif
 
 }  // namespace holdfast

@@ -303,4 +303,14 @@ MinimaxAmplitude modal_minimax_amplitude(const ConductorWithAbsorber& conductor,
   return detail::exchanged(AmplitudeBand(model, proportional_gain, band), band, admissible);
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MinimumRadius minimum_radius(const ModalResponse<double>&, double, double);
+extern template MinimumAmplitude minimum_amplitude(const ModalResponse<double>&,
+                                                   const AmplitudeOptions&, double, double,
+                                                   const SteadyResponse<double>&);
+extern template MinimaxAmplitude modal_minimax_amplitude<double>(const ConductorWithAbsorber&,
+                                                                 const AmplitudeOptions&, double,
+                                                                 const FrequencyBand&);
+#endif
+
 }  // namespace holdfast

@@ -135,4 +135,9 @@ MaxDelay modal_max_sampling_period(const ConductorWithAbsorber& plant,
   return detail::ModalDelayWalk<Scalar>(plant, options, ratio).answer();
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MaxDelay modal_max_sampling_period<double>(const ConductorWithAbsorber&,
+                                                           const MaxDelayOptions&, double);
+#endif
+
 }  // namespace holdfast

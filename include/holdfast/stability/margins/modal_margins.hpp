@@ -237,4 +237,14 @@ LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
           margins.phase(),       margins.of_delay(search.longest_delay_ratio).above};
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template StabilityMargins modal_stability_margins<double>(const std::vector<PlantPole>&,
+                                                                 const Sampling<double>&,
+                                                                 const PdGains<double>&,
+                                                                 const MarginSearch&);
+extern template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
+                                                       const Sampling<double>&,
+                                                       const PdGains<double>&, const MarginSearch&);
+#endif
+
 }  // namespace holdfast

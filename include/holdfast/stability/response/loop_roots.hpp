@@ -242,4 +242,9 @@ Scalar loop_excess(const ModalResponse<Scalar>& response, const PdGains<Scalar>&
   return squared / (Scalar(1) + std::sqrt(Scalar(1) + squared));
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<std::complex<double>> loop_roots(const ModalResponse<double>&,
+                                                             const PdGains<double>&);
+#endif
+
 }  // namespace holdfast

@@ -110,4 +110,10 @@ std::vector<ModeDamping> modal_damping(
   return found;
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template std::vector<ModeDamping> modal_damping<double>(
+    const std::vector<PlaceMode<double>>&, const Absorber<double>&, const Sampling<double>&,
+    const PdGains<double>&, const LoopHardware&);
+#endif
+
 }  // namespace holdfast

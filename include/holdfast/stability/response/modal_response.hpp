@@ -33,19 +33,7 @@ class ModalResponse {
   /// @param sampling  τ > 0 and δ ≥ 0, which may exceed τ by up to 1000 samples
   /// @throws InvalidParameter where the sampling is another or the state matrix is not finite
   template <class Plant>
-  ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling) : ModalResponse(sampling) {
-    const Matrix<Scalar, Eigen::Dynamic> matrix = plant.state_matrix();
-    require_finite("entries of the plant's state matrix", static_cast<double>(matrix.sum()), "");
-    const EigenBasis<Scalar> basis(matrix);
-    if (!basis.is_sound()) dense_.emplace(loop_map(plant, sampling));
-    const auto ports = ports_of(plant);
-    const auto beta = basis.coordinates(plant.control_input());
-    const auto of_z = basis.readings(ports.measured_displacement);
-    const auto of_v = basis.readings(ports.measured_velocity);
-    const auto values = basis.values();
-    for (Eigen::Index k = 0; k < values.size(); ++k)
-      add({values[k], of_z[k] * beta[k], of_v[k] * beta[k]});
-  }
+  ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling);
 
   /// s_k with γ_k β_k of what P and of what D multiplies.
   struct Residue {
@@ -194,6 +182,23 @@ class ModalResponse {
   Scalar period_, late_{0};  // τ and δ′
 };
 
+template <class Scalar>
+template <class Plant>
+ModalResponse<Scalar>::ModalResponse(const Plant& plant, const Sampling<Scalar>& sampling)
+    : ModalResponse(sampling) {
+  const Matrix<Scalar, Eigen::Dynamic> matrix = plant.state_matrix();
+  require_finite("entries of the plant's state matrix", static_cast<double>(matrix.sum()), "");
+  const EigenBasis<Scalar> basis(matrix);
+  if (!basis.is_sound()) dense_.emplace(loop_map(plant, sampling));
+  const auto ports = ports_of(plant);
+  const auto beta = basis.coordinates(plant.control_input());
+  const auto of_z = basis.readings(ports.measured_displacement);
+  const auto of_v = basis.readings(ports.measured_velocity);
+  const auto values = basis.values();
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    add({values[k], of_z[k] * beta[k], of_v[k] * beta[k]});
+}
+
 /// The response of which these are all poles.
 /// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
 /// @param poles     of `plant_poles`
@@ -241,6 +246,10 @@ ModalResponse<Scalar> modal_response(const std::vector<PlaceMode<detail::Undeduc
 extern template class ModalResponse<double>;
 extern template ModalResponse<double>::ModalResponse(const LinearPlant<double>&,
                                                      const Sampling<double>&);
+extern template ModalResponse<double> modal_response<double>(const ConductorWithAbsorber&,
+                                                             const Sampling<double>&);
+extern template ModalResponse<double> modal_response<double>(const std::vector<PlantPole>&,
+                                                             const Sampling<double>&);
 #endif
 
 }  // namespace holdfast

@@ -95,4 +95,10 @@ SteadyResponse<Scalar> steady_response(
       angular_frequency);
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template SteadyResponse<double> steady_response<double>(const ConductorWithAbsorber&,
+                                                               const Sampling<double>&, ForceHold,
+                                                               double);
+#endif
+
 }  // namespace holdfast

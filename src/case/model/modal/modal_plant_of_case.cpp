@@ -165,10 +165,22 @@ double true_amplitude_of(const Case& the_case, double angular_frequency) {
                                   angular_frequency);
 }
 
+void require_natural_motions(const Case& the_case) {
+  static_cast<void>(conductor_with_absorber_of(the_case));
+}
+
 ModalLoop modal_loop_of(const Case& the_case) {
+  require_natural_motions(the_case);
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   return {place_modes_of(the_case), absorber_of(the_case), loop.sampling, loop.gains,
           loop.excitation,          loop.backlash_width,   loop.hold};
+}
+
+ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
+  ModalLoop loop = modal_loop_of(the_case);
+  if (!controlled) loop.sampling.processing_delay = 0.0;
+  return *modal_motion(controlled ? loop : uncontrolled(loop),
+                       modal_state(loop.modes, initial_state_of(the_case)));
 }
 
 void require_sweepable(const Case& the_case, Switching switching) {
@@ -184,7 +196,6 @@ ModalLoop paper_loop_of(const Case& the_case, Switching switching) {
         "with " + modal_words(the_case) +
         " this is answered in the paper's model alone: switching at samples, its law of "
         "the backlash, one harmonic, an ideal computer and drive");
-  static_cast<void>(conductor_with_absorber_of(the_case));
   return modal_loop_of(the_case);
 }
 

@@ -79,8 +79,15 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// The loop of a modal case in the paper's model.
+/// Throws NoAnswer where two natural motions of a modal case cannot be told apart.
+void require_natural_motions(const Case& the_case);
+
+/// The loop of a modal case in the paper's model. Throws as above.
 ModalLoop modal_loop_of(const Case& the_case);
+
+/// Its motion from the case's initial state; without control of any modal case. Throws as above.
+ModalMotion modal_motion_of(const Case& the_case, bool controlled);
+
 /// Throws WrongInput where many motions are asked for of a conductor that switches between its
 /// samples.
 void require_sweepable(const Case& the_case, Switching switching);

@@ -121,8 +121,8 @@ std::string drift_warning(const Case& the_case) {
          "displacement counts where it drifted to as it began; response tells the amplitude alone";
 }
 
-std::string dense_work_warning(const Case& the_case) {
-  if (!is_modal(the_case)) return "";
+std::string dense_work_warning(const Case& the_case, Switching switching) {
+  if (!is_modal(the_case) || is_of_the_paper(the_case, switching)) return "";
   const std::size_t modes = conductor_modes_of(the_case).modes.size();
   constexpr std::size_t soon = 50;
   if (modes <= soon) return "";

@@ -10,9 +10,9 @@ namespace holdfast::program {
 /// that do not count for the case's plant. Empty where there is nothing.
 std::string modes_warning(const Case& the_case);
 
-/// That an orbit, an exponent or a verdict takes minutes, its work growing with the third power of
+/// That a motion beyond the paper's model takes minutes, its work growing with the third power of
 /// the modes; empty where it does not.
-std::string dense_work_warning(const Case& the_case);
+std::string dense_work_warning(const Case& the_case, Switching switching);
 
 /// That the peaks of a motion count its drift, of a string without ends; else empty.
 std::string drift_warning(const Case& the_case);
