@@ -5,6 +5,7 @@
 #include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "job.hpp"
+#include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
 
 namespace holdfast::program {
@@ -56,13 +57,7 @@ struct MaxDelayQuestion {
   void answer(const JobContext& context, const Plant& plant) {
     const Axis axis = parse_axis("--frequency", frequency);
     Table table(context, columns_of("max-delay"));
-    Progress progress(static_cast<std::uint64_t>(axis.count), "max-delay",
-                      progress_wanted(context));
-    for (std::int64_t i = 0; i < axis.count; ++i) {
-      throw_if_interrupted();
-      MaxDelayOptions question = tuned_delay_question(context.case_data, axis.at(i));
-      if (criterion == "stable") question.criterion = DelayCriterion::stable;
-      const MaxDelay answer = largest_period(plant, question);
+    for (const auto& [question, answer] : answers_of(context, plant, axis)) {
       if (answer.outcome == MaxDelayOutcome::beyond_search)
         report_warning("at " + format_rounded(question.frequency) +
                            " Hz the search ended without a limit at a period of " +
@@ -72,7 +67,6 @@ struct MaxDelayQuestion {
       note(plant, question, answer, context);
       table.row(question.frequency, question.proportional_gain, answer.sampling_period,
                 answer.differential_gain);
-      progress.advance();
     }
     table.commit();
     if (on_boundary_ > 0)
@@ -81,6 +75,33 @@ struct MaxDelayQuestion {
                          "at a shorter one holdfast design finds a D with a margin",
                      context.quiet);
     report_warning(held_force_, context.quiet);
+  }
+
+  /// What was asked at one frequency, with its answer.
+  struct Answered {
+    MaxDelayOptions question;
+    MaxDelay answer;
+  };
+
+  /// At all frequencies, side by side on the threads.
+  template <class Plant>
+  std::vector<Answered> answers_of(const JobContext& context, const Plant& plant,
+                                   const Axis& axis) const {
+    Progress progress(static_cast<std::uint64_t>(axis.count), "max-delay",
+                      progress_wanted(context));
+    std::vector<Answered> all(static_cast<std::size_t>(axis.count));
+    parallel_rows(axis.count, 1, context.threads, 0,
+                  [&](int&, std::int64_t first, std::int64_t count) {
+                    for (std::int64_t i = first; i < first + count && !interrupted(); ++i) {
+                      Answered& here = all[static_cast<std::size_t>(i)];
+                      here.question = tuned_delay_question(context.case_data, axis.at(i));
+                      if (criterion == "stable") here.question.criterion = DelayCriterion::stable;
+                      here.answer = largest_period(plant, here.question);
+                      progress.advance();
+                    }
+                  });
+    throw_if_interrupted();
+    return all;
   }
 
   /// Notes where D is a limit, and where the hold of the force decides what is attenuated.

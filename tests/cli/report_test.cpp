@@ -283,5 +283,35 @@ TEST(Report, OfADivergingCaseSaysSoInThePage) {
                                                  "left all bounds", "holdfast verdict --set"});
 }
 
+TEST(Report, OnTheConductorShowsItsModesAndNoStudyOfTwoMasses) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_holdfast(
+      "report --set plant.model=string --set plant.modes=3 --set control.differential_gain=-2 "
+      "--output '" +
+      (folder / "mine").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string page = read_text(folder / "mine/report.html");
+  expect_holds(page, {"Damping of the conductor&#39;s modes", "two masses and the cable",
+                      "Does this hold on the cable?"});
+  EXPECT_EQ(page.find("No picture"), std::string::npos);
+  EXPECT_EQ(page.find("How much the sampled switching matters"), std::string::npos);
+  const std::string damping = read_text(folder / "mine/data/modal-damping-control.csv");
+  EXPECT_EQ(damping, run_holdfast("modal-damping --count 40 --set plant.model=string --set "
+                                  "plant.modes=3 --set control.differential_gain=-2 --quiet")
+                         .output);
+}
+
+TEST(Report, OfALoopWithAFilterShowsItsOwnFigures) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_holdfast("report --set control.measurement_filter=100 --output '" +
+                                       (folder / "mine").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string page = read_text(folder / "mine/report.html");
+  expect_holds(page, {"Stable gains", "Largest sampling period", "No picture: deviation"});
+  for (const char* picture : {"stability", "delay", "contact", "spectrum"})
+    EXPECT_TRUE(
+        std::filesystem::exists(folder / "mine/pictures" / (std::string(picture) + ".svg")));
+}
+
 }  // namespace
 }  // namespace holdfast::tests

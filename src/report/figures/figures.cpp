@@ -198,6 +198,15 @@ Values judged_plant(const Case& the_case, const CableDecayOptions& options) {
   }
 }
 
+/// The loop of the case's own plant.
+std::vector<Figure> figures_of_loop(const Case& the_case) {
+  Values values = window_of_gains(the_case);
+  values.emplace_back("greatest frequency", greatest_frequency(the_case));
+  // On a conductor each period is walked to, with all roots at every step.
+  values.emplace_back("count of periods", is_modal(the_case) ? "20" : "115");
+  return listed_figures("loop", values);
+}
+
 std::vector<Figure> figures_of_cable(const Case& the_case) {
   if (!plant_is_reduced(the_case)) return {};
   const CableDecayOptions options = usual_decay(the_case);
@@ -229,10 +238,13 @@ std::string greatest_frequency(const Case& the_case) {
 
 std::vector<Figure> figures_of(const Case& the_case, bool builtin) {
   if (builtin) return joined(listed_figures("paper"), success_figures(the_case, true));
-  Values values = window_of_gains(the_case);
-  values.emplace_back("greatest frequency", greatest_frequency(the_case));
-  return joined(joined(figures_of_cable(the_case), listed_figures("loop", values)),
-                success_figures(the_case, false));
+  if (is_two_masses(the_case)) {
+    // The maps choose the D of two masses under an ideal drive for every cell.
+    const auto maps = is_modal(the_case) ? std::vector<Figure>{} : success_figures(the_case, false);
+    return joined(joined(figures_of_cable(the_case), figures_of_loop(the_case)), maps);
+  }
+  return joined(is_infinite(the_case) ? std::vector<Figure>{} : listed_figures("conductor"),
+                figures_of_loop(the_case));
 }
 
 }  // namespace holdfast::program

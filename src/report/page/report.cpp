@@ -155,7 +155,8 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   Progress progress(figures.size() + 2, "report", progress_wanted(context));
   page.answers = answers_of(context);
   progress.advance();
-  page.switching = switching_part(context, builtin, writer);
+  // The study of switching is of two masses, which it runs by the thousand.
+  if (!is_modal(context.case_data)) page.switching = switching_part(context, builtin, writer);
   progress.advance();
   for (const Figure& figure : figures) {
     throw_if_interrupted();

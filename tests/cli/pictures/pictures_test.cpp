@@ -23,6 +23,7 @@ const std::vector<std::string> drawn_commands = {
     "response --p -600:0:11 --d -20:0:11",
     "design --frequency 5:15:4",
     "max-delay --frequency 5:6:3",
+    "modal-damping --set plant.model=string --set plant.modes=9",
     "simulate --duration 0.5",
     "simulate --duration 0.5 --switching exact --no-control",
     "spectrum --duration 2",
