@@ -2,8 +2,8 @@
 #include "case/model/held_force.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/design/modal_max_delay.hpp"
-#include "holdfast/stability/response/loop_roots.hpp"
 #include "job.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
@@ -50,7 +50,7 @@ struct MaxDelayQuestion {
   }
   static double excess_of(const ConductorWithAbsorber& plant, const Sampling<double>& sampling,
                           const PdGains<double>& gains) {
-    return loop_excess(modal_response(plant, sampling), gains);
+    return loop_excess_or_turn(modal_response(plant, sampling), gains);
   }
 
   template <class Plant>

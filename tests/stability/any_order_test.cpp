@@ -2,8 +2,11 @@
 // against the closed forms of the two masses and against the eigenvalues of the loop's map.
 
 #include "holdfast/control/loop_map.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "holdfast/stability/boundary/circle_boundary.hpp"
+#include "holdfast/stability/boundary/circle_crossings.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
