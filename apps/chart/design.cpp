@@ -11,6 +11,7 @@
 #include "holdfast/stability/design/modal_design.hpp"
 #include "io/text/names.hpp"
 #include "job.hpp"
+#include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
 
@@ -62,34 +63,58 @@ void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
         quiet);
 }
 
+/// What is found at one frequency and P.
+struct BestRow {
+  double frequency, p;  // Hz, N/m
+  MinimumAmplitude quietest;
+  MinimumRadius fastest;
+  GainMargins margins;  // of the quietest
+};
+
+/// At each frequency, side by side on the threads.
+/// @param tuned  P to each frequency by Eq. 6, else that of the case
+std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions& options,
+                               const Axis& axis, bool tuned) {
+  const Case& the_case = context.case_data;
+  const BestForPlant best(the_case, options);
+  Progress progress(static_cast<std::uint64_t>(axis.count), "design", progress_wanted(context));
+  std::vector<BestRow> rows(static_cast<std::size_t>(axis.count));
+  parallel_rows(
+      axis.count, 1, context.threads, 0, [&](int&, std::int64_t first, std::int64_t count) {
+        for (std::int64_t i = first; i < first + count && !interrupted(); ++i) {
+          BestRow& row = rows[static_cast<std::size_t>(i)];
+          row.frequency = axis.at(i);
+          row.p = tuned ? tuned_proportional_gain(the_case.plant.absorber_stiffness,
+                                                  the_case.plant.absorber_mass, row.frequency)
+                        : gains_of(the_case).proportional;
+          row.quietest = best.quietest(row.frequency, row.p);
+          row.fastest = best.fastest(row.p);
+          row.margins = gain_margins(the_case, {row.p, row.quietest.differential_gain});
+          progress.advance();
+        }
+      });
+  throw_if_interrupted();
+  return rows;
+}
+
 /// The best D at each frequency, P tuned to each by Eq. 6; without frequencies at the case's own
 /// frequency and P.
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
                       const Admissible& admissible) {
   const Case& the_case = context.case_data;
   const AmplitudeOptions options = options_of(the_case, admissible);
-  const BestForPlant best(the_case, options);
   const double own = excitation_of(the_case).frequency;
   const Axis axis = frequencies.value_or(Axis{own, own, 1});
   Table table(context, columns_of("best gains"));
-  Progress progress(static_cast<std::uint64_t>(axis.count), "design", progress_wanted(context));
   double largest = 0.0;  // spectral radius of all
-  for (std::int64_t i = 0; i < axis.count; ++i) {
-    throw_if_interrupted();
-    const double frequency = axis.at(i);
-    const double p = frequencies ? tuned_proportional_gain(the_case.plant.absorber_stiffness,
-                                                           the_case.plant.absorber_mass, frequency)
-                                 : gains_of(the_case).proportional;
-    const MinimumAmplitude quietest = best.quietest(frequency, p);
-    const MinimumRadius fastest = best.fastest(p);
+  for (const auto& [frequency, p, quietest, fastest, margins] :
+       best_rows(context, options, axis, frequencies.has_value())) {
     if (!frequencies) warn_of_no_gain(quietest.outcome, p, options.largest_radius, context.quiet);
-    const GainMargins margins = gain_margins(the_case, {p, quietest.differential_gain});
     largest = std::max(largest, margins.spectral_radius);
     table.row(frequency, p, quietest.differential_gain, quietest.ratio_to_uncontrolled,
               quietest.attenuation, fastest.differential_gain, fastest.radius,
               name_in(amplitude_names, quietest.outcome), margins.spectral_radius,
               margins.gain_decibels, margins.phase_degrees, margins.delay);
-    progress.advance();
   }
   warn_of_edge(largest, options.sampling.period, context.quiet);
   if (largest > 0.0)

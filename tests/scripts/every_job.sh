@@ -30,9 +30,9 @@ a boundary --regions
 a boundary --features
 a boundary --stable-interval
 a response --p -600:0:3 --d -20:0:3
-a max-delay
+t max-delay --frequency 5:8:3 --threads 3
 a design
-a design --frequency 5:10:2
+t design --frequency 5:10:3 --threads 3
 a design --band 9:11
 a margins
 t stability --set plant.model=string --set plant.modes=10 --p -600:0:7 --d -20:0:5 --radius
