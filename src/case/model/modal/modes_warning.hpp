@@ -3,6 +3,7 @@
 #include <string>
 
 #include "case/case.hpp"
+#include "holdfast/contact/contact.hpp"
 
 namespace holdfast::program {
 
