@@ -297,7 +297,7 @@ TEST(BuiltLoop, WhatIsNotAnsweredIsSaid) {
         " --set control.processing_delay=0.0015"}) {
     const std::string key = settings.substr(7, settings.find('=') - 7);
     for (const std::string job :
-         {"report --output never", "boundary --regions", "design --both-gains",
+         {"decay --duration 0.1", "boundary --regions", "design --both-gains",
           "sweep --axis backlash.width=0:0.001:2 --best-gain", "stability --continuous"})
       expect_refused(job + " --quiet" + settings, {key, "two_masses"});
     expect_refused("diagram --axis backlash.width=0:0.001:2 --quiet" + settings,
