@@ -77,23 +77,17 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
                                const Axis& axis, bool tuned) {
   const Case& the_case = context.case_data;
   const BestForPlant best(the_case, options);
-  Progress progress(static_cast<std::uint64_t>(axis.count), "design", progress_wanted(context));
   std::vector<BestRow> rows(static_cast<std::size_t>(axis.count));
-  parallel_rows(
-      axis.count, 1, context.threads, 0, [&](int&, std::int64_t first, std::int64_t count) {
-        for (std::int64_t i = first; i < first + count && !interrupted(); ++i) {
-          BestRow& row = rows[static_cast<std::size_t>(i)];
-          row.frequency = axis.at(i);
-          row.p = tuned ? tuned_proportional_gain(the_case.plant.absorber_stiffness,
-                                                  the_case.plant.absorber_mass, row.frequency)
-                        : gains_of(the_case).proportional;
-          row.quietest = best.quietest(row.frequency, row.p);
-          row.fastest = best.fastest(row.p);
-          row.margins = gain_margins(the_case, {row.p, row.quietest.differential_gain});
-          progress.advance();
-        }
-      });
-  throw_if_interrupted();
+  side_by_side(context, "design", axis.count, [&](std::int64_t i) {
+    BestRow& row = rows[static_cast<std::size_t>(i)];
+    row.frequency = axis.at(i);
+    row.p = tuned ? tuned_proportional_gain(the_case.plant.absorber_stiffness,
+                                            the_case.plant.absorber_mass, row.frequency)
+                  : gains_of(the_case).proportional;
+    row.quietest = best.quietest(row.frequency, row.p);
+    row.fastest = best.fastest(row.p);
+    row.margins = gain_margins(the_case, {row.p, row.quietest.differential_gain});
+  });
   return rows;
 }
 

@@ -87,20 +87,13 @@ struct MaxDelayQuestion {
   template <class Plant>
   std::vector<Answered> answers_of(const JobContext& context, const Plant& plant,
                                    const Axis& axis) const {
-    Progress progress(static_cast<std::uint64_t>(axis.count), "max-delay",
-                      progress_wanted(context));
     std::vector<Answered> all(static_cast<std::size_t>(axis.count));
-    parallel_rows(axis.count, 1, context.threads, 0,
-                  [&](int&, std::int64_t first, std::int64_t count) {
-                    for (std::int64_t i = first; i < first + count && !interrupted(); ++i) {
-                      Answered& here = all[static_cast<std::size_t>(i)];
-                      here.question = tuned_delay_question(context.case_data, axis.at(i));
-                      if (criterion == "stable") here.question.criterion = DelayCriterion::stable;
-                      here.answer = largest_period(plant, here.question);
-                      progress.advance();
-                    }
-                  });
-    throw_if_interrupted();
+    side_by_side(context, "max-delay", axis.count, [&](std::int64_t i) {
+      Answered& here = all[static_cast<std::size_t>(i)];
+      here.question = tuned_delay_question(context.case_data, axis.at(i));
+      if (criterion == "stable") here.question.criterion = DelayCriterion::stable;
+      here.answer = largest_period(plant, here.question);
+    });
     return all;
   }
 

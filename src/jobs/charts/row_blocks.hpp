@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+
+#include "process/interrupt.hpp"
+#include "process/job_context.hpp"
+#include "process/progress.hpp"
 
 #ifdef HOLDFAST_HAS_SIMD
 #include "holdfast/simd/parallel_rows.hpp"
@@ -22,5 +27,19 @@ void parallel_rows(std::int64_t rows, std::int64_t tile, int, const Kernel& kern
   }
 }
 #endif
+
+/// Calls `compute(i)` for i = 0 … count − 1, side by side on the threads, each a step of the job's
+/// progress. Throws Interrupted, and what a call throws.
+template <class Compute>
+void side_by_side(const JobContext& context, const std::string& job, std::int64_t count,
+                  const Compute& compute) {
+  Progress progress(static_cast<std::uint64_t>(count), job, progress_wanted(context));
+  parallel_rows(count, 1, context.threads, 0, [&](int&, std::int64_t i, std::int64_t) {
+    if (interrupted()) return;
+    compute(i);
+    progress.advance();
+  });
+  throw_if_interrupted();
+}
 
 }  // namespace holdfast::program

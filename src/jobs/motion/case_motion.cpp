@@ -5,6 +5,7 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
+#include "holdfast/motion/trajectory.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
@@ -12,15 +13,17 @@
 namespace holdfast::program {
 namespace {
 
-using ConductorEvents = EventMotion<DriveContact<ControlledPlant>>;
+static_assert(is_motion_v<CaseMotion>);
 
-// Of a conductor by its modes what its place shows.
+template <class Contact>
+const SwitchCounts& counts_of(const EventMotion<Contact>& motion) {
+  return motion.counts();
+}
+// Of a motion that switches at samples alone.
 template <class Motion>
-Vector<double, 4> shown_state(const Motion& motion) {
-  if constexpr (std::is_same_v<Motion, ConductorEvents>)
-    return motion.readings().both_sides(motion.state());
-  else
-    return motion.state();
+const SwitchCounts& counts_of(const Motion&) {
+  static const SwitchCounts none;
+  return none;
 }
 
 template <int States>
@@ -60,7 +63,7 @@ struct CaseMotion::ModelOf final : Model {
     EventSample sample;
     sample.index = taken.index;
     sample.time = taken.time;
-    sample.state = shown_state(motion);
+    sample.state = state();
     sample.control_force = taken.control_force;
     sample.engaged = taken.engaged;
     sample.mode = mode_of(taken);
@@ -70,15 +73,8 @@ struct CaseMotion::ModelOf final : Model {
   void displace_conductor(double by) override { motion.displace_conductor(by); }
   std::int64_t index() const override { return motion.index(); }
   double time() const override { return motion.time(); }
-  State state() const override { return shown_state(motion); }
-
-  const SwitchCounts& counts() const override {
-    static const SwitchCounts none;
-    if constexpr (std::is_same_v<Motion, EventMotion<>> || std::is_same_v<Motion, ConductorEvents>)
-      return motion.counts();
-    else
-      return none;
-  }
+  State state() const override { return motion.readings().both_sides(motion.state()); }
+  const SwitchCounts& counts() const override { return counts_of(motion); }
 
   Motion motion;
 };

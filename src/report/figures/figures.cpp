@@ -213,7 +213,8 @@ std::vector<Figure> figures_of_cable(const Case& the_case) {
   const Values values = {{"removed", format_number(options.force)},
                          {"removed about", rounded(options.force, 4)},
                          {"duration", format_number(options.duration)}};
-  return listed_figures("cable", joined(values, judged_plant(the_case, options)));
+  return joined(listed_figures("cable", joined(values, judged_plant(the_case, options))),
+                listed_figures("amplitudes"));
 }
 
 }  // namespace
@@ -237,13 +238,16 @@ std::string greatest_frequency(const Case& the_case) {
 }
 
 std::vector<Figure> figures_of(const Case& the_case, bool builtin) {
-  if (builtin) return joined(listed_figures("paper"), success_figures(the_case, true));
+  if (builtin)
+    return joined(joined(listed_figures("paper"), listed_figures("amplitudes")),
+                  success_figures(the_case, true));
   if (is_two_masses(the_case)) {
     // The maps choose the D of two masses under an ideal drive for every cell.
     const auto maps = is_modal(the_case) ? std::vector<Figure>{} : success_figures(the_case, false);
     return joined(joined(figures_of_cable(the_case), figures_of_loop(the_case)), maps);
   }
-  return joined(is_infinite(the_case) ? std::vector<Figure>{} : listed_figures("conductor"),
+  if (is_infinite(the_case)) return figures_of_loop(the_case);
+  return joined(joined(listed_figures("amplitudes"), listed_figures("conductor")),
                 figures_of_loop(the_case));
 }
 

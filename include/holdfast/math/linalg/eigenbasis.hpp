@@ -44,10 +44,48 @@ class EigenBasis {
 
  private:
   /// Turns each 2 × 2 block of the real Schur form by a unitary rotation into a triangle.
-  void make_triangular();
+  void make_triangular() {
+    const Eigen::Index n = triangle_.rows();
+    for (Eigen::Index m = n - 1; m > 0; --m) {
+      if (triangle_(m, m - 1) == Complex(0)) continue;
+      const Complex half = (triangle_(m - 1, m - 1) - triangle_(m, m)) / Scalar(2);
+      const Complex root = std::sqrt(half * half + triangle_(m - 1, m) * triangle_(m, m - 1));
+      const Complex away = half + root;  // eigenvalue less the lower diagonal entry
+      const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle_(m, m - 1)));
+      const Complex c = away / length, s = triangle_(m, m - 1) / length;
+      const auto turn = [&c, &s](auto&& upper, auto&& lower) {
+        const auto before = upper.eval();
+        upper = std::conj(c) * before + std::conj(s) * lower;
+        lower = c * lower - s * before;
+      };
+      turn(triangle_.row(m - 1).tail(n - m + 1), triangle_.row(m).tail(n - m + 1));
+      const auto turn_columns = [&c, &s](auto&& left, auto&& right) {
+        const auto before = left.eval();
+        left = c * before + s * right;
+        right = std::conj(c) * right - std::conj(s) * before;
+      };
+      turn_columns(triangle_.col(m - 1).head(m + 1), triangle_.col(m).head(m + 1));
+      turn_columns(basis_.col(m - 1), basis_.col(m));
+      triangle_(m, m - 1) = Complex(0);
+    }
+  }
 
   /// Column k solves (T − t_kk) x = 0 with x_k = 1.
-  void find_vectors();
+  void find_vectors() {
+    const Eigen::Index n = triangle_.rows();
+    const Scalar least = std::numeric_limits<Scalar>::epsilon() *
+                         std::max(triangle_.cwiseAbs().maxCoeff(), Scalar(1e-300));
+    vectors_ = ComplexMatrix::Identity(n, n);
+    for (Eigen::Index k = 1; k < n; ++k) {
+      vectors_.col(k).head(k) = -triangle_.col(k).head(k);
+      for (Eigen::Index i = k - 1; i >= 0; --i) {
+        Complex away = triangle_(i, i) - triangle_(k, k);
+        if (std::abs(away) < least) away = least;
+        vectors_(i, k) /= away;
+        vectors_.col(k).head(i) -= vectors_(i, k) * triangle_.col(i).head(i);
+      }
+    }
+  }
 
   Vector<Scalar, Eigen::Dynamic> factors_;  // of the balancing
   ComplexMatrix triangle_;                  // T of the complex Schur form
@@ -57,7 +95,7 @@ class EigenBasis {
 };
 
 // Beside the class, so that who links holdfast::compiled is spared them: what stands in a class is
-// inline, and compiled by all who call it.
+// inline, and compiled by all who call it, with all that it calls.
 
 template <class Scalar>
 EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
@@ -94,50 +132,6 @@ template <class Scalar>
 bool EigenBasis<Scalar>::is_sound() const {
   return converged_ &&
          vectors_.cwiseAbs().maxCoeff() * std::numeric_limits<Scalar>::epsilon() < Scalar(1e-10);
-}
-
-template <class Scalar>
-void EigenBasis<Scalar>::make_triangular() {
-  const Eigen::Index n = triangle_.rows();
-  for (Eigen::Index m = n - 1; m > 0; --m) {
-    if (triangle_(m, m - 1) == Complex(0)) continue;
-    const Complex half = (triangle_(m - 1, m - 1) - triangle_(m, m)) / Scalar(2);
-    const Complex root = std::sqrt(half * half + triangle_(m - 1, m) * triangle_(m, m - 1));
-    const Complex away = half + root;  // eigenvalue less the lower diagonal entry
-    const Scalar length = std::sqrt(std::norm(away) + std::norm(triangle_(m, m - 1)));
-    const Complex c = away / length, s = triangle_(m, m - 1) / length;
-    const auto turn = [&c, &s](auto&& upper, auto&& lower) {
-      const auto before = upper.eval();
-      upper = std::conj(c) * before + std::conj(s) * lower;
-      lower = c * lower - s * before;
-    };
-    turn(triangle_.row(m - 1).tail(n - m + 1), triangle_.row(m).tail(n - m + 1));
-    const auto turn_columns = [&c, &s](auto&& left, auto&& right) {
-      const auto before = left.eval();
-      left = c * before + s * right;
-      right = std::conj(c) * right - std::conj(s) * before;
-    };
-    turn_columns(triangle_.col(m - 1).head(m + 1), triangle_.col(m).head(m + 1));
-    turn_columns(basis_.col(m - 1), basis_.col(m));
-    triangle_(m, m - 1) = Complex(0);
-  }
-}
-
-template <class Scalar>
-void EigenBasis<Scalar>::find_vectors() {
-  const Eigen::Index n = triangle_.rows();
-  const Scalar least = std::numeric_limits<Scalar>::epsilon() *
-                       std::max(triangle_.cwiseAbs().maxCoeff(), Scalar(1e-300));
-  vectors_ = ComplexMatrix::Identity(n, n);
-  for (Eigen::Index k = 1; k < n; ++k) {
-    vectors_.col(k).head(k) = -triangle_.col(k).head(k);
-    for (Eigen::Index i = k - 1; i >= 0; --i) {
-      Complex away = triangle_(i, i) - triangle_(k, k);
-      if (std::abs(away) < least) away = least;
-      vectors_(i, k) /= away;
-      vectors_.col(k).head(i) -= vectors_(i, k) * triangle_.col(i).head(i);
-    }
-  }
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

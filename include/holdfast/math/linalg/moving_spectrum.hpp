@@ -119,7 +119,32 @@ class MovingSpectrum {
 
   /// The terms in the coordinates V = Q X, in which S(0) is diagonal but for the pairs that are not
   /// apart, and what is not in them.
-  void take(const MovingMatrix& matrix);
+  void take(const MovingMatrix& matrix) {
+    const Eigen::Index n = matrix.remainder.rows();
+    const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
+    const Eigen::VectorXd factors = similar.factors, inverse = factors.cwiseInverse();
+    const auto balanced = [&](const Eigen::MatrixXd& entries) -> Eigen::MatrixXd {
+      return inverse.asDiagonal() * entries * factors.asDiagonal();
+    };
+    const Form unitary = detail::triangular_basis<Scalar>(similar.balanced);
+    const Form form = unitary.adjoint() * (similar.balanced * unitary);
+    find_cleared(form, unitary.adjoint() * (balanced(matrix.terms[1]) * unitary));
+    const Form x = diagonalising(form);
+    const Form basis = unitary * x, back = unit_upper_inverse_times(x, unitary.adjoint());
+    basis_ = factors.asDiagonal() * basis;
+    back_ = back * inverse.asDiagonal();
+    Bound rounded = Bound::Zero(n, n);
+    for (const Eigen::MatrixXd& term : matrix.terms) {
+      const Eigen::MatrixXd entries = balanced(term);
+      terms_.push_back(back * (entries * basis));
+      rounded += entries.cwiseAbs();
+    }
+    remainder_ =
+        back.cwiseAbs() * (rounding() * rounded + balanced(matrix.remainder)) * basis.cwiseAbs();
+    count_inverse(back, basis);
+    remainder_ += terms_[0].cwiseAbs().template triangularView<Eigen::StrictlyLower>();
+    terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
+  }
 
   /// What a sum of as many products as there are here loses to round-off, as a share.
   Scalar rounding() const {
@@ -130,7 +155,19 @@ class MovingSpectrum {
   /// Counts that `back` is the inverse of the basis but for round-off: of back·V = I + G the
   /// similarity with V makes (I + G)⁻¹T of what is computed as T. Nothing is shown where |G| is
   /// not small.
-  void count_inverse(const Form& back, const Form& basis);
+  void count_inverse(const Form& back, const Form& basis) {
+    const Bound identity = Bound::Identity(size(), size());
+    off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
+           rounding() * (back.cwiseAbs() * basis.cwiseAbs());
+    if (!(off_.rowwise().sum().maxCoeff() < Scalar(0.5))) {
+      remainder_.setConstant(std::numeric_limits<Scalar>::infinity());
+      return;
+    }
+    off_ = (identity - off_).partialPivLu().solve(off_).cwiseAbs().eval();
+    Bound all = remainder_;
+    for (const Form& term : terms_) all += term.cwiseAbs();
+    remainder_ += off_ * all;
+  }
 
   /// Which pairs of eigenvalues are to be uncoupled: those so far apart that this converges.
   void find_cleared(const Form& form, const Form& moved) {
@@ -178,7 +215,26 @@ class MovingSpectrum {
   }
 
   /// W_k and D_k from what they have to cancel and leave, R = T_k + Σ (T_l W_{k−l} − W_l D_{k−l}).
-  void split(const Form& r);
+  void split(const Form& r) {
+    const Form& t = terms_[0];
+    const Eigen::Index n = size();
+    Form w = Form::Zero(n, n);
+    for (Eigen::Index i = n - 1; i > 0; --i) {
+      for (Eigen::Index j = 0; j < i; ++j) {
+        if (!cleared_(i, j)) continue;
+        Complex right = -r(i, j);
+        for (Eigen::Index p = i + 1; p < n; ++p) right -= t(i, p) * w(p, j);
+        for (Eigen::Index q = 0; q < j; ++q) right += w(i, q) * t(q, j);
+        w(i, j) = right / (t(i, i) - t(j, j));
+      }
+    }
+    Form d = r + t * w - w * t;
+    for (Eigen::Index j = 0; j < n; ++j)
+      for (Eigen::Index i = j + 1; i < n; ++i)
+        if (cleared_(i, j)) d(i, j) = 0.0;
+    turning_.push_back(std::move(w));
+    diagonal_.push_back(std::move(d));
+  }
 
   void split_all() {
     const Eigen::Index n = size();
@@ -212,7 +268,28 @@ class MovingSpectrum {
     return -outside / (1.0 + std::sqrt(std::max(0.0, 1.0 + outside)));
   }
 
-  void bound();
+  void bound() {
+    split_all();
+    const Eigen::Index n = size();
+    const Bound identity = Bound::Identity(n, n);
+    const std::vector<Bound> turned = sums_beyond(turning_), kept = sums_beyond(diagonal_);
+    turned_ = turned[0];
+    Bound missed = remainder_ * (identity + turned_);
+    for (std::size_t l = 1; l <= order(); ++l)
+      missed +=
+          terms_[l].cwiseAbs() * turned[order() - l] + turning_[l].cwiseAbs() * kept[order() - l];
+    // Unit lower triangular: solved from the top, nothing is subtracted.
+    const Bound unit = identity - turned_;
+    missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
+    reserve_ = -(kept[0] + diagonal_[0].cwiseAbs() + missed);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double reserve = distance(i) - missed(i, i);
+      if (!(reserve > 0.0)) return;
+      reserve_(i, i) = reserve;
+    }
+    const Eigen::VectorXd v = reserve_.partialPivLu().solve(Eigen::VectorXd::Ones(n));
+    inside_ = v.allFinite() && v.minCoeff() > 0.0 && (reserve_ * v).minCoeff() > 0.5;
+  }
 
   Pairs cleared_;                         // which pairs of eigenvalues are uncoupled
   std::vector<Form> terms_;               // T_k, of S − I
@@ -264,95 +341,6 @@ std::vector<MovingNumber> MovingSpectrum<Scalar>::responses(const MovingNumber& 
     for (const Eigen::VectorXcd& term : y) result.back().terms.push_back((row * term).value());
   }
   return result;
-}
-
-template <class Scalar>
-void MovingSpectrum<Scalar>::take(const MovingMatrix& matrix) {
-  const Eigen::Index n = matrix.remainder.rows();
-  const BalancedMatrix<double, Eigen::Dynamic> similar(matrix.terms.front());
-  const Eigen::VectorXd factors = similar.factors, inverse = factors.cwiseInverse();
-  const auto balanced = [&](const Eigen::MatrixXd& entries) -> Eigen::MatrixXd {
-    return inverse.asDiagonal() * entries * factors.asDiagonal();
-  };
-  const Form unitary = detail::triangular_basis<Scalar>(similar.balanced);
-  const Form form = unitary.adjoint() * (similar.balanced * unitary);
-  find_cleared(form, unitary.adjoint() * (balanced(matrix.terms[1]) * unitary));
-  const Form x = diagonalising(form);
-  const Form basis = unitary * x, back = unit_upper_inverse_times(x, unitary.adjoint());
-  basis_ = factors.asDiagonal() * basis;
-  back_ = back * inverse.asDiagonal();
-  Bound rounded = Bound::Zero(n, n);
-  for (const Eigen::MatrixXd& term : matrix.terms) {
-    const Eigen::MatrixXd entries = balanced(term);
-    terms_.push_back(back * (entries * basis));
-    rounded += entries.cwiseAbs();
-  }
-  remainder_ =
-      back.cwiseAbs() * (rounding() * rounded + balanced(matrix.remainder)) * basis.cwiseAbs();
-  count_inverse(back, basis);
-  remainder_ += terms_[0].cwiseAbs().template triangularView<Eigen::StrictlyLower>();
-  terms_[0].template triangularView<Eigen::StrictlyLower>().setZero();
-}
-
-template <class Scalar>
-void MovingSpectrum<Scalar>::count_inverse(const Form& back, const Form& basis) {
-  const Bound identity = Bound::Identity(size(), size());
-  off_ = (back * basis - Form::Identity(size(), size())).cwiseAbs() +
-         rounding() * (back.cwiseAbs() * basis.cwiseAbs());
-  if (!(off_.rowwise().sum().maxCoeff() < Scalar(0.5))) {
-    remainder_.setConstant(std::numeric_limits<Scalar>::infinity());
-    return;
-  }
-  off_ = (identity - off_).partialPivLu().solve(off_).cwiseAbs().eval();
-  Bound all = remainder_;
-  for (const Form& term : terms_) all += term.cwiseAbs();
-  remainder_ += off_ * all;
-}
-
-template <class Scalar>
-void MovingSpectrum<Scalar>::split(const Form& r) {
-  const Form& t = terms_[0];
-  const Eigen::Index n = size();
-  Form w = Form::Zero(n, n);
-  for (Eigen::Index i = n - 1; i > 0; --i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (!cleared_(i, j)) continue;
-      Complex right = -r(i, j);
-      for (Eigen::Index p = i + 1; p < n; ++p) right -= t(i, p) * w(p, j);
-      for (Eigen::Index q = 0; q < j; ++q) right += w(i, q) * t(q, j);
-      w(i, j) = right / (t(i, i) - t(j, j));
-    }
-  }
-  Form d = r + t * w - w * t;
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j + 1; i < n; ++i)
-      if (cleared_(i, j)) d(i, j) = 0.0;
-  turning_.push_back(std::move(w));
-  diagonal_.push_back(std::move(d));
-}
-
-template <class Scalar>
-void MovingSpectrum<Scalar>::bound() {
-  split_all();
-  const Eigen::Index n = size();
-  const Bound identity = Bound::Identity(n, n);
-  const std::vector<Bound> turned = sums_beyond(turning_), kept = sums_beyond(diagonal_);
-  turned_ = turned[0];
-  Bound missed = remainder_ * (identity + turned_);
-  for (std::size_t l = 1; l <= order(); ++l)
-    missed +=
-        terms_[l].cwiseAbs() * turned[order() - l] + turning_[l].cwiseAbs() * kept[order() - l];
-  // Unit lower triangular: solved from the top, nothing is subtracted.
-  const Bound unit = identity - turned_;
-  missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
-  reserve_ = -(kept[0] + diagonal_[0].cwiseAbs() + missed);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double reserve = distance(i) - missed(i, i);
-    if (!(reserve > 0.0)) return;
-    reserve_(i, i) = reserve;
-  }
-  const Eigen::VectorXd v = reserve_.partialPivLu().solve(Eigen::VectorXd::Ones(n));
-  inside_ = v.allFinite() && v.minCoeff() > 0.0 && (reserve_ * v).minCoeff() > 0.5;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

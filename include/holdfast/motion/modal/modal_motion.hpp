@@ -181,19 +181,29 @@ class ModalMotion {
 };
 
 /// The motion from a state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂].
-/// @return nothing where `plant_poles` are not all found: `harmonically_forced_motion` of the plant
-///         is then the way, at N² operations a sample
+/// @param poles  `plant_poles` of the loop's modes and absorber
+/// @return nothing where these are not all found: `harmonically_forced_motion` of the plant is then
+///         the way, at N² operations a sample
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
 ///         another size
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
+                                               const std::vector<PlantPole>& poles,
                                                const ModalMotion::Full& state) {
   validate(loop);
-  const auto poles = plant_poles(loop.modes, loop.absorber);
   require_finite("initial state", state.sum(), "");
   const double size = static_cast<double>(2 * loop.modes.size() + 2);
   require_within("size of the initial state", static_cast<double>(state.size()), "", size, size);
   if (poles.empty()) return std::nullopt;
   return ModalMotion(loop, poles, state);
+}
+
+/// The same, whose poles are found here.
+/// @return as above
+/// @throws InvalidParameter as above
+inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
+                                               const ModalMotion::Full& state) {
+  validate(loop);
+  return modal_motion(loop, plant_poles(loop.modes, loop.absorber), state);
 }
 
 }  // namespace holdfast

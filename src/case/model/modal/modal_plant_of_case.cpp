@@ -180,6 +180,7 @@ ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
   ModalLoop loop = modal_loop_of(the_case);
   if (!controlled) loop.sampling.processing_delay = 0.0;
   return *modal_motion(controlled ? loop : uncontrolled(loop),
+                       conductor_with_absorber_of(the_case).poles,
                        modal_state(loop.modes, initial_state_of(the_case)));
 }
 
