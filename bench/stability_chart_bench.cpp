@@ -52,7 +52,8 @@ void eigen_solver(const LoopChart& chart, std::int64_t cells) {
 
 /// Every cell by Liénard and Chipart's conditions on packs.
 void kernel(const LoopChart& chart, std::vector<std::uint8_t>& stable) {
-  const ChartPolynomials<5> polynomials(chart, StabilityChartRows<Pack>::polynomial_of);
+  const ChartPolynomials<5, PolynomialVariable::half_plane> polynomials(
+      chart, StabilityChartRows<Pack>::polynomial_of);
   std::vector<double> values;
   for (std::int64_t j = 0; j < polynomials.columns(); ++j)
     values.push_back(chart.fast.values.at(j));
@@ -204,27 +205,29 @@ void sizes() {
     const double cells = static_cast<double>(side * side);
     std::vector<std::uint8_t> flags(static_cast<std::size_t>(side));
     std::vector<double> radii(static_cast<std::size_t>(side) * RadiusChartRows<Pack, 6>::most_rows);
-    const auto time = medians(
-        {[&] {
-           const ChartPolynomials<5> polynomials(chart, StabilityChartRows<Pack>::polynomial_of);
-           std::vector<double> values;
-           for (std::int64_t j = 0; j < side; ++j) values.push_back(chart.fast.values.at(j));
-           for (std::int64_t row = 0; row < side; ++row) {
-             const AffineLine<5> line = polynomials.line(row);
-             hurwitz_row<Pack, 6>(line.constant, line.slope, values, flags.data());
-           }
-         },
-         [&] {
-           StabilityChartRows<Pack> rows(chart);
-           for (std::int64_t row = 0; row < side; ++row) rows.fill(row, 1, flags.data());
-         },
-         [&] {
-           using Rows = RadiusChartRows<Pack, 6>;
-           Rows rows(chart);
-           for (std::int64_t row = 0; row < side; row += Rows::most_rows) {
-             rows.fill(row, std::min(Rows::most_rows, side - row), radii.data());
-           }
-         }});
+    const auto time =
+        medians({[&] {
+                   const ChartPolynomials<5, PolynomialVariable::half_plane> polynomials(
+                       chart, StabilityChartRows<Pack>::polynomial_of);
+                   std::vector<double> values;
+                   for (std::int64_t j = 0; j < side; ++j)
+                     values.push_back(chart.fast.values.at(j));
+                   for (std::int64_t row = 0; row < side; ++row) {
+                     const AffineLine<5> line = polynomials.line(row);
+                     hurwitz_row<Pack, 6>(line.constant, line.slope, values, flags.data());
+                   }
+                 },
+                 [&] {
+                   StabilityChartRows<Pack> rows(chart);
+                   for (std::int64_t row = 0; row < side; ++row) rows.fill(row, 1, flags.data());
+                 },
+                 [&] {
+                   using Rows = RadiusChartRows<Pack, 6>;
+                   Rows rows(chart);
+                   for (std::int64_t row = 0; row < side; row += Rows::most_rows) {
+                     rows.fill(row, std::min(Rows::most_rows, side - row), radii.data());
+                   }
+                 }});
     std::printf("  %12.0f %10.3f %10.3f %10.2f %10.1f\n", cells, time[0] / cells * 1e9,
                 time[1] / cells * 1e9, time[2] / cells * 1e9, peak_memory() / 1e6);
   }
