@@ -191,8 +191,10 @@ class LyapunovObserver {
       : engine_(std::move(blocks), scope) {}
 
   /// Takes the contact of the next sample, and nothing else of it.
-  void operator()(const MotionSample<Scalar>& sample) {
-    open_[0] = followed_by(open_[0], sample.engaged);
+  void operator()(const MotionSample<Scalar>& sample) { take(sample.engaged); }
+  /// The same.
+  void take(bool engaged) {
+    open_[0] = followed_by(open_[0], engaged);
     if (!is_whole(open_[0])) return;
     engine_.push(open_);
     open_ = empty_blocks<Scalar>();
@@ -224,16 +226,16 @@ class SampledLyapunov : public LyapunovObserver<double> {
                   LyapunovScope scope)
       : LyapunovObserver(blocks, scope), motion_(motion) {}
 
-  void sense() { sample_ = motion_.sense(); }
+  void sense() { engaged_ = motion_.sense().engaged; }
   void advance() {
-    (*this)(sample_);
+    take(engaged_);
     motion_.advance();
   }
   const auto& state() const { return motion_.state(); }
 
  private:
   Motion& motion_;
-  MotionSample<double> sample_{};
+  bool engaged_ = false;
 };
 
 }  // namespace detail

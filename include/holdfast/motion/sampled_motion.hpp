@@ -96,15 +96,7 @@ class SampledMotion {
 
   /// Moves from t_j to t_{j+1} under the force that the last `sense()` decided.
   void advance() {
-    const Matrix<Scalar, states>& transition = loop_.transition;
-    // Of four states column by column: written out, the order of the sums is the same for every
-    // number type.
-    if constexpr (states == 4) {
-      move_to((transition.col(0) * state_[0] + transition.col(1) * state_[1]) +
-              (transition.col(2) * state_[2] + transition.col(3) * state_[3]));
-    } else {
-      move_to(transition * state_);
-    }
+    move(forcing_.next());
     previous_force_ = present_force_;
     ++index_;
   }
@@ -144,13 +136,32 @@ class SampledMotion {
   }
 
  private:
-  /// @param moved  A_d x, as an expression: one with the forces it takes no store between them
-  template <class Moved>
-  void move_to(const Moved& moved) {
-    const State next = moved + loop_.previous_force * previous_force_ +
-                       loop_.present_force * present_force_ +
-                       forcing_.next().template cast<Scalar>();
-    state_ = next;
+  /// Of four states the order of the sums is the same for every number type.
+  /// @param addition  of the forcing, N × 1
+  template <class Addition>
+  void move(const Addition& addition) {
+    const Matrix<Scalar, states>& a = loop_.transition;
+    const State& b = loop_.previous_force;
+    const State& c = loop_.present_force;
+    if constexpr (states == 4 && !std::is_arithmetic_v<Scalar>) {
+      // Packs entry by entry: their expressions are too long for compilers to take apart.
+      State next;
+      for (int i = 0; i < 4; ++i)
+        next[i] = ((a(i, 0) * state_[0] + a(i, 1) * state_[1]) +
+                   (a(i, 2) * state_[2] + a(i, 3) * state_[3])) +
+                  b[i] * previous_force_ + c[i] * present_force_ + Scalar(addition[i]);
+      state_ = next;
+    } else if constexpr (states == 4) {
+      const State next = ((a.col(0) * state_[0] + a.col(1) * state_[1]) +
+                          (a.col(2) * state_[2] + a.col(3) * state_[3])) +
+                         b * previous_force_ + c * present_force_ +
+                         addition.template cast<Scalar>();
+      state_ = next;
+    } else {
+      const State next =
+          a * state_ + b * previous_force_ + c * present_force_ + addition.template cast<Scalar>();
+      state_ = next;
+    }
   }
 
   Loop loop_;
