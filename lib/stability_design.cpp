@@ -3,6 +3,7 @@
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
@@ -24,6 +25,10 @@ template MinimumRadius minimum_radius(const LoopMap<double>&, double, double);
 template MinimumRadius minimum_radius(const ModalResponse<double>&, double, double);
 template MinimumAmplitude minimum_amplitude(const ModalResponse<double>&, const AmplitudeOptions&,
                                             double, double, const SteadyResponse<double>&);
+template MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<double>&,
+                                                       const AmplitudeOptions&, double,
+                                                       Interval<double>,
+                                                       const SteadyResponse<double>&);
 template MinimaxAmplitude modal_minimax_amplitude<double>(const ConductorWithAbsorber&,
                                                           const AmplitudeOptions&, double,
                                                           const FrequencyBand&);

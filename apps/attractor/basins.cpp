@@ -5,6 +5,7 @@
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/basins.hpp"
@@ -190,11 +191,20 @@ struct BasinsQuestion {
     const auto write = [&](const auto& map) {
       fractions ? write_fractions(context, map) : write_states(context, grid, map);
     };
-    if (is_modal(context.case_data)) {
-      const ModalLoop loop = paper_loop_of(context.case_data, switching);
+    const bool of_paper = is_of_the_paper(context.case_data, switching);
+    if (is_modal(context.case_data) && of_paper) {
+      const ModalLoop loop = modal_loop_of(context.case_data);
       require_attractors(forcing_ratio(loop), largest_period);
       write(find_basins(loop, states, limits, tiles));
-    } else if (is_of_the_paper(context.case_data, switching)) {
+    } else if (is_modal(context.case_data)) {
+      report_warning(dense_work_warning(context.case_data, switching), context.quiet);
+      const auto loop = smooth_conductor_loop_of(context.case_data, switching);
+      require_attractors(forcing_ratio(loop.digital), largest_period);
+      const auto begin = [&](const Vector<double, 4>& state) {
+        return modal_state_of(context.case_data, state);
+      };
+      write(find_basins(loop, states, limits, tiles, begin));
+    } else if (of_paper) {
       const IdealLoop<double> loop = ideal_loop_of(context.case_data);
       require_attractors(forcing_ratio(loop), largest_period);
       const auto travel = [&](const auto& motion) {

@@ -55,7 +55,10 @@ void warn_of_edge(double spectral_radius, double sampling_period, bool quiet) {
 void warn_of_no_gain(MinimumAmplitudeOutcome outcome, double proportional_gain,
                      double largest_radius, bool quiet) {
   if (outcome == MinimumAmplitudeOutcome::none)
-    report_warning(no_gain_text(proportional_gain, largest_radius), quiet);
+    report_warning(std::isfinite(proportional_gain)
+                       ? no_gain_text(proportional_gain, largest_radius)
+                       : "no P and D of those searched have that margin",
+                   quiet);
   if (outcome == MinimumAmplitudeOutcome::aliased)
     report_warning(
         "the excitation frequency is not below half the sampling rate: its samples do "
@@ -73,8 +76,9 @@ struct BestRow {
 
 /// At each frequency, side by side on the threads.
 /// @param tuned  P to each frequency by Eq. 6, else that of the case
+/// @param both   P too is the best one
 std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions& options,
-                               const Axis& axis, bool tuned) {
+                               const Axis& axis, bool tuned, bool both) {
   const Case& the_case = context.case_data;
   const BestForPlant best(the_case, options);
   std::vector<BestRow> rows(static_cast<std::size_t>(axis.count));
@@ -84,7 +88,13 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
     row.p = tuned ? tuned_proportional_gain(the_case.plant.absorber_stiffness,
                                             the_case.plant.absorber_mass, row.frequency)
                   : gains_of(the_case).proportional;
-    row.quietest = best.quietest(row.frequency, row.p);
+    if (both) {
+      const auto [p, quietest] = best.quietest_pair(row.frequency);
+      row.p = p;
+      row.quietest = quietest;
+    } else {
+      row.quietest = best.quietest(row.frequency, row.p);
+    }
     row.fastest = best.fastest(row.p);
     row.margins = gain_margins(the_case, {row.p, row.quietest.differential_gain});
   });
@@ -92,9 +102,9 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
 }
 
 /// The best D at each frequency, P tuned to each by Eq. 6; without frequencies at the case's own
-/// frequency and P.
+/// frequency and P. With `both` the best P and D.
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
-                      const Admissible& admissible) {
+                      const Admissible& admissible, bool both) {
   const Case& the_case = context.case_data;
   const AmplitudeOptions options = options_of(the_case, admissible);
   const double own = excitation_of(the_case).frequency;
@@ -102,7 +112,7 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
   Table table(context, columns_of("best gains"));
   double largest = 0.0;  // spectral radius of all
   for (const auto& [frequency, p, quietest, fastest, margins] :
-       best_rows(context, options, axis, frequencies.has_value())) {
+       best_rows(context, options, axis, frequencies.has_value(), both)) {
     if (!frequencies) warn_of_no_gain(quietest.outcome, p, options.largest_radius, context.quiet);
     largest = std::max(largest, margins.spectral_radius);
     table.row(frequency, p, quietest.differential_gain, quietest.ratio_to_uncontrolled,
@@ -172,13 +182,20 @@ struct DesignQuestion {
     job.add("--both-gains", both_gains);
   }
 
+  void write_fastest_pair(const JobContext& context) const {
+    if (!frequency.empty() || admissible.largest_radius || admissible.margin)
+      throw WrongInput(
+          "--both-gains of two_masses under an ideal drive are those of least spectral radius: "
+          "--frequency, --largest-radius and --margin do not go with them");
+    write_best_pair(context);
+  }
+
   void run(const JobContext& context) const {
-    refuse_on_modes(context.case_data, both_gains, "--both-gains");
-    if (both_gains) return write_best_pair(context);
+    if (both_gains && !is_modal(context.case_data)) return write_fastest_pair(context);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), admissible);
     std::optional<Axis> frequencies;
     if (!frequency.empty()) frequencies = parse_axis("--frequency", frequency);
-    write_best_gains(context, frequencies, admissible);
+    write_best_gains(context, frequencies, admissible, both_gains);
   }
 };
 

@@ -2,6 +2,7 @@
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/modal/modes_warning.hpp"
 #include "holdfast/phase_space/orbit_diagram.hpp"
 #include "job.hpp"
 
@@ -49,20 +50,30 @@ struct DiagramQuestion {
     const auto case_at = [&, name = key](double value) {
       return case_with(context.case_data, name, value);
     };
-    for (const double value : values)
-      if (is_modal(case_at(value)) != is_modal(context.case_data))
-        throw WrongInput(
-            "--axis " + axis + ": with " +
-            modal_words(is_modal(context.case_data) ? context.case_data : case_at(value)) +
-            " another loop is meant than without; a diagram is of one of them");
-    const std::size_t diverged =
-        is_modal(context.case_data)
-            ? run_orbit_diagram(
-                  [&](double value) { return paper_loop_of(case_at(value), switching); }, values,
-                  modal_state_of(context.case_data), watched, write)
-            : run_orbit_diagram(
-                  [&](double value) { return implemented_loop_of(case_at(value), switching); },
-                  values, initial_state_of(context.case_data), watched, write);
+    const bool modal = is_modal(context.case_data);
+    bool of_paper = true;  // at all values
+    for (const double value : values) {
+      const Case there = case_at(value);
+      of_paper = of_paper && is_of_the_paper(there, switching);
+      if (is_modal(there) != modal)
+        throw WrongInput("--axis " + axis + ": with " +
+                         modal_words(modal ? context.case_data : there) +
+                         " another loop is meant than without; a diagram is of one of them");
+    }
+    report_warning(dense_work_warning(context.case_data, switching), context.quiet);
+    const auto diagram_of = [&](const auto& loop_of, const auto& state_of) {
+      return run_orbit_diagram([&](double value) { return loop_of(case_at(value)); }, values,
+                               [&](double value) { return state_of(case_at(value)); }, watched,
+                               write);
+    };
+    const auto modal_state = [](const Case& there) { return modal_state_of(there); };
+    const auto built = [&](const Case& there) { return implemented_loop_of(there, switching); };
+    const auto built_conductor = [&](const Case& there) {
+      return conductor_loop_of(there, {switching, true});
+    };
+    const std::size_t diverged = !modal     ? diagram_of(built, initial_state_of)
+                                 : of_paper ? diagram_of(modal_loop_of, modal_state)
+                                            : diagram_of(built_conductor, modal_state);
     table.commit();
     if (diverged > 0) {
       report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +

@@ -286,6 +286,47 @@ TEST(EndlessString, MotionSwingsAsTheClosedForm) {
   }
 }
 
+/// Without play, switching between the samples changes nothing: the same motions by natural motions
+/// and by a dense plant whose contact is followed.
+TEST(BuiltLoop, DiagramBasinsAndSweepOfModesAreTheSameByBothRoutes) {
+  const std::string string =
+      " --quiet --set plant.model=string --set plant.modes=6 --set absorber.clamp_mass=0.01"
+      " --set control.differential_gain=-3 --set backlash.width=0";
+  const auto expect_equal = [&](const std::string& job, const std::vector<std::string>& columns) {
+    const CsvTable paper = table_of(job + string);
+    const CsvTable built = table_of(job + string + " --switching exact");
+    ASSERT_EQ(built.rows(), paper.rows()) << job;
+    ASSERT_GT(paper.rows(), 0U) << job;
+    for (std::size_t row = 0; row < paper.rows(); ++row)
+      for (const std::string& column : columns)
+        EXPECT_NEAR(built.number(row, column), paper.number(row, column),
+                    1e-9 * std::max(1e-3, std::abs(paper.number(row, column))))
+            << job << column << row;
+  };
+  expect_equal("diagram --axis control.differential_gain=-3:-2:2 --transient 3.033 --strobes 4",
+               {"z1_m", "v1_m_per_s", "z2_m", "v2_m_per_s"});
+  expect_equal("basins --fractions --axis initial.z1=-1e-3:1e-3:2 --axis initial.z2=-1e-3:1e-3:2",
+               {"period_samples", "amplitude_m", "largest_multiplier", "fraction"});
+  expect_equal("sweep --axis control.differential_gain=-3:-2:2 --duration 20",
+               {"steady_peak", "ratio_to_uncontrolled"});
+}
+
+/// A loop as it is built has the attractors that its motions come to one by one.
+TEST(BuiltLoop, BasinsOfModesWithAFilterAreTheOrbitsOfTheirStarts) {
+  const std::string string =
+      " --quiet --set plant.model=string --set plant.modes=3 --set absorber.clamp_mass=0.01"
+      " --set control.measurement_filter=80 --set control.differential_gain=-3";
+  const CsvTable states =
+      table_of("basins --axis initial.z1=-2e-3:2e-3:2 --axis initial.z2=0:3e-3:2" + string);
+  ASSERT_EQ(states.rows(), 4U);
+  for (std::size_t row = 0; row < states.rows(); ++row) {
+    const std::string start = " --set initial.z1=" + states.text(row, "initial.z1") +
+                              " --set initial.z2=" + states.text(row, "initial.z2");
+    const CsvTable orbit = table_of("orbit" + string + start);
+    EXPECT_EQ(states.number(row, "period_s"), orbit.number(0, "period_s")) << row;
+  }
+}
+
 TEST(BuiltLoop, WhatIsNotAnsweredIsSaid) {
   expect_refused("boundary --set control.measurement_filter=0", {"control.measurement_filter"});
   expect_refused("boundary --set control.drive_bandwidth=-1", {"control.drive_bandwidth"});
@@ -297,14 +338,9 @@ TEST(BuiltLoop, WhatIsNotAnsweredIsSaid) {
         " --set control.processing_delay=0.0015"}) {
     const std::string key = settings.substr(7, settings.find('=') - 7);
     for (const std::string job :
-         {"decay --duration 0.1", "boundary --regions", "design --both-gains",
+         {"decay --duration 0.1", "boundary --regions",
           "sweep --axis backlash.width=0:0.001:2 --best-gain", "stability --continuous"})
       expect_refused(job + " --quiet" + settings, {key, "two_masses"});
-    expect_refused("diagram --axis backlash.width=0:0.001:2 --quiet" + settings,
-                   {key, "the paper's model alone"});
-    expect_refused(
-        "basins --axis initial.z1=0:1e-3:2 --axis initial.z2=0:1e-3:2 --quiet" + settings,
-        {key, "the paper's model alone"});
   }
   expect_refused("modal-damping --quiet --set plant.model=infinite_string", {"plant.model=cable"});
   expect_refused("simulate --switching exact --quiet --set plant.model=infinite_string",

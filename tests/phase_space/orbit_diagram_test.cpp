@@ -124,14 +124,14 @@ TEST(OrbitDiagram, OfTheTwoMassesAsALinearPlantIsTheSame) {
   const std::vector<double> widths{0.0, 0.0005};
   const DiagramOptions options{5.0, 20};
   const auto expected = diagram_of(0.001, widths, options);
-  std::vector<StrobePointOf<Eigen::Dynamic>> points;
+  std::vector<StrobePoint> points;
   const auto path = [](double width) {
     const ImplementedLoop loop = implemented_loop(diagram_loop(0.001, width));
     return ImplementedLoopOf<LinearPlant<double>>{test::through_ports(loop.plant), loop.digital,
                                                   loop.backlash, loop.switching};
   };
   run_orbit_diagram(path, widths, Vector<double, 4>::Zero(), options,
-                    [&](const auto& point) { points.push_back(point); });
+                    [&](const StrobePoint& point) { points.push_back(point); });
   ASSERT_EQ(points.size(), expected.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     EXPECT_LE((points[k].state - expected[k].state).cwiseAbs().maxCoeff(), 1e-11) << k;
@@ -206,6 +206,32 @@ TEST(OrbitDiagram, RefusesWhatIsNotAdmissible) {
   EXPECT_THROW(validate(DiagramOptions{1.0, 0}), InvalidParameter);
 }
 
+/// What begins where another loop ended begins anew where the order of the plant is another.
+TEST(OrbitDiagram, OfAnotherOrderBeginsAtTheInitialState) {
+  const auto path = [](double order) {
+    const IdealLoop<double> of = diagram_loop(0.001, 0.0005);
+    const LinearPlant<double> plant =
+        order == 4.0 ? test::through_ports(of.plant) : test::lagging_plant(1e6, 1e6);
+    return implemented_loop(IdealLoop<double, LinearPlant<double>>{
+        plant, of.sampling, of.gains, of.excitation, of.backlash_width});
+  };
+  const auto begin = [](double order) -> Vector<double, Eigen::Dynamic> {
+    return Vector<double, Eigen::Dynamic>::Constant(static_cast<Eigen::Index>(order), 1e-3);
+  };
+  const auto points_of = [&](const std::vector<double>& orders) {
+    std::vector<StrobePoint> points;
+    run_orbit_diagram(path, orders, begin, {0.1, 3},
+                      [&](const StrobePoint& point) { points.push_back(point); });
+    return points;
+  };
+  const auto both = points_of({4.0, 7.0}), alone = points_of({7.0});
+  ASSERT_EQ(both.size(), 12U);
+  ASSERT_EQ(alone.size(), 6U);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(both[3 + k].state, alone[k].state) << k;
+  EXPECT_EQ(both[9].state, both[0].state) << "back at the first order";
+  EXPECT_NE(both[6].state, both[3].state) << "of the same order it goes on";
+}
+
 /// Most strobes fall between the samples; the modes are more at one of the values.
 TEST(OrbitDiagram, OfAConductorByItsModesIsThatOfTheDensePlant) {
   const auto string = taut_string(kollar2022_conductor());
@@ -232,13 +258,11 @@ TEST(OrbitDiagram, OfAConductorByItsModesIsThatOfTheDensePlant) {
                               [&](const StrobePoint& point) { found.push_back(point); }),
             0U);
   std::size_t next = 0;
-  const PortReadings<LinearPlant<double>> readings(dense_at(1e-4).plant);
-  run_orbit_diagram(dense_at, widths, rest, options, [&](const auto& point) {
+  run_orbit_diagram(dense_at, widths, rest, options, [&](const StrobePoint& point) {
     ASSERT_LT(next, found.size());
     EXPECT_EQ(found[next].index, point.index);
     EXPECT_EQ(found[next].upward, point.upward);
-    const Vector<double, 4> state = readings.both_sides(point.state);
-    EXPECT_LE((found[next++].state - state).cwiseAbs().maxCoeff(), 1e-10);
+    EXPECT_LE((found[next++].state - point.state).cwiseAbs().maxCoeff(), 1e-10);
   });
   EXPECT_EQ(next, found.size());
   // Of a value with a mode more the motion goes on with the slower ones.

@@ -60,7 +60,7 @@ namespace detail {
 
 /// The neighbourhoods of the orbits of a loop: Orbit, Point, points_of(orbit), reach(point) in z₁
 /// (m) and holds(point, motion).
-/// @tparam Loop  IdealLoop<double>; ImplementedLoop in event_basins.hpp
+/// @tparam Loop  IdealLoop<double>; ImplementedLoopOf<Plant> in event_basins.hpp
 template <class Loop>
 struct Neighbourhoods;
 
@@ -89,7 +89,7 @@ struct Neighbourhoods<IdealLoop<Scalar>> {
 /// The different orbits of one loop, and the neighbourhoods of their points at the stroboscopic
 /// instants: those from which a motion tends to the orbit (AttractionBall), of an ImplementedLoop
 /// those within a millionth of the orbit's extent.
-/// @tparam Loop  IdealLoop<double> or ImplementedLoop
+/// @tparam Loop  IdealLoop<double>, ModalLoop or ImplementedLoopOf<Plant>
 template <class Loop>
 class AttractorSet {
   using Neighbourhoods = detail::Neighbourhoods<Loop>;

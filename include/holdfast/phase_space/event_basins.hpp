@@ -17,44 +17,45 @@
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/event/return_map.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/orbit/state_scale.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
+#include "holdfast/plant/port_readings.hpp"
+#include "holdfast/plant/ports.hpp"
 
 namespace holdfast {
 
 namespace detail {
 
-/// Those within a millionth of an orbit's extent, coordinate by coordinate.
+/// Those within a millionth of how far an orbit reaches (`StateScaleOf`).
 template <class Plant>
 struct Neighbourhoods<ImplementedLoopOf<Plant>> {
-  using Orbit = EventOrbit;
+  using Orbit = EventOrbitOf<states_of<Plant>>;
 
   struct Point {
-    std::size_t sample;        ///< of the orbit
-    Vector<double, 4> state;   ///< there
-    Vector<double, 4> extent;  ///< max |z_i| of the orbit
+    std::size_t sample;          ///< of the orbit
+    StateOf<Plant> state;        ///< there
+    StateScaleOf<Plant> extent;  ///< of the orbit
 
-    /// max_i |z_i − z_i of the orbit| / max |z_i of the orbit|.
-    double distance(const Vector<double, 4>& other) const {
-      return (other - state).cwiseAbs().cwiseQuotient(extent).maxCoeff();
-    }
+    double distance(const StateOf<Plant>& other) const { return extent.share_of(other - state); }
   };
 
-  explicit Neighbourhoods(const ImplementedLoopOf<Plant>& /*loop*/) {}
+  PortReadings<Plant> readings;
+
+  explicit Neighbourhoods(const ImplementedLoopOf<Plant>& loop) : readings(loop.plant) {}
 
   std::vector<Point> points_of(const Orbit& orbit) const {
-    Vector<double, 4> extent = Vector<double, 4>::Zero();
-    for (const auto& state : orbit.states) extent = extent.cwiseMax(state.cwiseAbs());
+    const StateScaleOf<Plant> extent(readings, orbit.states);
     std::vector<Point> points;
     // A state of rest has no extent to tell what is near.
-    if (!(extent.minCoeff() > 0.0)) return points;
+    if (!(extent.sides().displacement > 0.0)) return points;
     const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
     for (std::size_t sample = 0; sample < orbit.states.size(); sample += step)
       points.push_back({sample, orbit.states[sample], extent});
     return points;
   }
-  double reach(const Point& point) const { return nearness * point.extent[0]; }
+  double reach(const Point& point) const { return nearness * point.extent.largest()[0]; }
   template <class Memory>
   bool holds(const Point& point, const Memory& motion) const {
     return point.distance(motion.state) <= nearness;
@@ -66,7 +67,9 @@ struct Neighbourhoods<ImplementedLoopOf<Plant>> {
 /// A motion that may come to an orbit of a set.
 template <class Contact>
 class ApproachingMotion {
-  using Attractors = AttractorSet<ImplementedLoop>;
+  using Plant = typename EventMotion<Contact>::Plant;
+  using Attractors = AttractorSet<ImplementedLoopOf<Plant>>;
+  using Orbit = typename Attractors::Orbit;
 
  public:
   /// @param start  at a stroboscopic instant (sampling and forcing in phase)
@@ -79,7 +82,7 @@ class ApproachingMotion {
       if (limits.watch) limits.watch();
       const auto* const entry = known.near(motion_.point());
       if (entry != nullptr) {
-        const EventOrbit& orbit = known.orbits()[static_cast<std::size_t>(entry->orbit)];
+        const Orbit& orbit = known.orbits()[static_cast<std::size_t>(entry->orbit)];
         if (comes_to(orbit, entry->point)) return entry->orbit;
       }
       for (std::int64_t j = 0; j < motion_.period(); ++j) take();
@@ -88,7 +91,7 @@ class ApproachingMotion {
   }
 
  private:
-  const Vector<double, 4>& state() const { return motion_.motion().state(); }
+  const StateOf<Plant>& state() const { return motion_.motion().state(); }
 
   bool is_followed() const {
     return state().cwiseAbs().maxCoeff() < 1e100 && !motion_.motion().counts().accumulates;
@@ -104,7 +107,7 @@ class ApproachingMotion {
   /// Whether the motion keeps to the orbit's modes and comes nearer over two of its periods, in the
   /// second one as its largest multiplier asks.
   template <class Point>
-  bool comes_to(const EventOrbit& orbit, const Point& point) {
+  bool comes_to(const Orbit& orbit, const Point& point) {
     double distances[3] = {point.distance(state())};
     for (const int period : {1, 2}) {
       bool keeps = true;
@@ -139,21 +142,23 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
   return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
 }
 
-/// Motions of an ImplementedLoop: each goes past the orbits that the rounds before have found, and
-/// is searched for its own where it comes to none of them.
-template <class LoopModel>
+/// Motions of an ImplementedLoopOf a plant: each goes past the orbits that the rounds before have
+/// found, and is searched for its own where it comes to none of them.
+/// @tparam Begin  [z₁, ż₁, z₂, ż₂] ↦ x
+template <class LoopModel, class Begin>
 struct SingleMotions {
   using Loop = LoopModel;
+  using Orbit = typename AttractorSet<Loop>::Orbit;
 
   Loop loop;
   Rational ratio;
   OrbitLimits limits;
+  const Begin& begin;
 
   static std::optional<Rational> ratio_of(const Loop& loop) { return forcing_ratio(loop.digital); }
 
-  FoundOrbit<EventOrbit> search(const ActiveTrajectory& from,
-                                const AttractorSet<Loop>& known) const {
-    const auto motion = event_motion(loop, from.memory.state);
+  FoundOrbit<Orbit> search(const ActiveTrajectory& from, const AttractorSet<Loop>& known) const {
+    const auto motion = event_motion(loop, begin(from.memory.state));
     const int number =
         ApproachingMotion(motion, ratio).run(known, limits, patience(known.orbits(), limits));
     if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
@@ -176,16 +181,25 @@ struct SingleMotions {
 /// two periods and comes nearer over both, over the second by 0.9 of the decay (in logarithms) that
 /// the largest multiplier asks.
 /// @param loop            as it is built
-/// @param initial_states  each (m, m/s, m, m/s), finite; may be none
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
 /// @param limits          of each search for one motion's own orbit
 /// @param for_tiles       as find_basins() of an IdealLoop takes it
+/// @param begin           such a state ↦ x of the plant, N × 1
 /// @throws InvalidParameter where loop, states or limits are not admissible
+template <class Plant, class Tiles, class Begin>
+BasinsOf<EventOrbitOf<states_of<Plant>>> find_basins(
+    const ImplementedLoopOf<Plant>& loop, const std::vector<Vector<double, 4>>& initial_states,
+    const OrbitLimits& limits, const Tiles& for_tiles, const Begin& begin) {
+  return detail::basins_by<detail::SingleMotions<ImplementedLoopOf<Plant>, Begin>>(
+      loop, initial_states, limits, for_tiles, begin);
+}
+/// The same of two masses, which begin with the states as they are.
 template <class Tiles>
 BasinsOf<EventOrbit> find_basins(const ImplementedLoop& loop,
                                  const std::vector<Vector<double, 4>>& initial_states,
                                  const OrbitLimits& limits, const Tiles& for_tiles) {
-  return detail::basins_by<detail::SingleMotions<ImplementedLoop>>(loop, initial_states, limits,
-                                                                   for_tiles);
+  return find_basins(loop, initial_states, limits, for_tiles,
+                     [](const Vector<double, 4>& state) { return state; });
 }
 
 }  // namespace holdfast

@@ -42,16 +42,13 @@ inline void validate(const DiagramOptions& options) {
 }
 
 /// One point of an orbit diagram.
-/// @tparam States  N, the order of the plant
-template <int States>
-struct StrobePointOf {
-  std::size_t index;             ///< of the parameter's value
-  bool upward;                   ///< on the way up, the values in their order; else on the way back
-  Vector<double, States> state;  ///< x, N × 1, at a whole number of forcing periods
+struct StrobePoint {
+  std::size_t index;  ///< of the parameter's value
+  bool upward;        ///< on the way up, the values in their order; else on the way back
+  /// [z, ż, z₂, ż₂] (m, m/s, m, m/s), conductor and absorber on both sides of the gap, at a whole
+  /// number of forcing periods.
+  Vector<double, 4> state;
 };
-
-/// That of the two masses, [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s).
-using StrobePoint = StrobePointOf<4>;
 
 namespace detail {
 
@@ -68,8 +65,16 @@ template <class Family>
 using StateOfFamily =
     typename StateOfLoop<std::decay_t<decltype(std::declval<const Family&>()(0.0))>>::Type;
 
-/// Shows the states of a motion once every forcing period after the transient; leaves the last of
-/// them in `state`. @return false where it leaves the range of numbers
+/// Whether a motion of the loop may begin with a state: whether that has its order.
+template <class Plant>
+bool may_begin_with(const ImplementedLoopOf<Plant>& loop, const StateOf<Plant>& state) {
+  return loop.plant.state_matrix().rows() == state.size();
+}
+/// That of a conductor with more or fewer modes keeps the slow ones (`show_strobes`).
+inline bool may_begin_with(const ModalLoop&, const ModalMotion::Full&) { return true; }
+
+/// Shows both sides of the gap once every forcing period after the transient; leaves the last state
+/// in `state`. @return false where it leaves the range of numbers
 /// @param state  the initial one
 /// @throws InvalidParameter where the force has no harmonic
 template <class Plant, class Observer>
@@ -101,7 +106,7 @@ bool show_strobes(const ImplementedLoopOf<Plant>& loop, const DiagramOptions& op
     for (; shown < options.strobes && after < end; after += forcing_period) {
       const bool at_sample = after < 1e-9 * period;
       state = at_sample ? sample.state : between.state(after);
-      observer(state);
+      observer(motion.readings().both_sides(state));
       ++shown;
       strobe += 1.0;
     }
@@ -128,7 +133,7 @@ inline Eigen::VectorXcd amplitudes_after(const NaturalMotions& motions, const Mo
   return amplitudes;
 }
 
-/// The same of a conductor by its modes; shown is [z, ż, z₂, ż₂] (m, m/s, m, m/s) at the absorber.
+/// The same of a conductor by its modes.
 /// @throws InvalidParameter where its natural motions are not all found
 template <class Observer>
 bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMotion::Full& state,
@@ -179,32 +184,40 @@ bool show_strobes(const ModalLoop& loop, const DiagramOptions& options, ModalMot
 ///
 /// The drive begins outside its backlash at each value (a dead zone where the state is), the
 /// computer without a memory of the past. A motion that diverges shows no more of itself, and
-/// the next one begins at the initial state.
+/// the next one begins at the initial state; so does one whose loop has another order than that
+/// before, as where commands on their way become more.
 /// @param family         parameter ↦ ImplementedLoopOf<Plant>, or ModalLoop
 /// @param values         of the parameter, in their order
-/// @param initial_state  of the first motion
+/// @param initial_state  a state, or parameter ↦ state
 /// @param options        how much is left out and shown at each value
 /// @param observer       called with each `StrobePoint`
 /// @return how many of the motions, two for each value, diverged
 /// @throws InvalidParameter where the question or a loop is not admissible, or its force has no
 /// harmonic
-template <class Family, class Observer>
+template <class Family, class Initial, class Observer>
 std::size_t run_orbit_diagram(const Family& family, const std::vector<double>& values,
-                              const detail::StateOfFamily<Family>& initial_state,
-                              const DiagramOptions& options, Observer&& observer) {
+                              const Initial& initial_state, const DiagramOptions& options,
+                              Observer&& observer) {
+  using State = detail::StateOfFamily<Family>;
   validate(options);
-  detail::StateOfFamily<Family> state = initial_state;
+  const auto initial = [&](double value) -> State {
+    if constexpr (std::is_convertible_v<const Initial&, State>)
+      return initial_state;
+    else
+      return initial_state(value);
+  };
+  std::optional<State> state;  // none: the motion begins anew
   std::size_t diverged = 0;
   for (const bool upward : {true, false}) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::size_t index = upward ? k : values.size() - 1 - k;
       const auto loop = family(values[index]);
-      const bool bounded = detail::show_strobes(loop, options, state, [&](const auto& strobe) {
-        constexpr int states = std::decay_t<decltype(strobe)>::RowsAtCompileTime;
-        observer(StrobePointOf<states>{index, upward, strobe});
-      });
-      if (bounded) continue;
-      state = initial_state;
+      if (!state || !detail::may_begin_with(loop, *state)) state = initial(values[index]);
+      if (detail::show_strobes(loop, options, *state, [&](const Vector<double, 4>& sides) {
+            observer(StrobePoint{index, upward, sides});
+          }))
+        continue;
+      state.reset();
       ++diverged;
     }
   }

@@ -39,10 +39,24 @@ BestForPlant::BestForPlant(const Case& the_case, const AmplitudeOptions& options
 
 MinimumAmplitude BestForPlant::quietest(double frequency, double p) const {
   if (loop_) return minimum_amplitude(plant_of(case_), options_, frequency, p);
+  return minimum_amplitude(*modal_, options_, frequency, p, modal_steady_response(frequency));
+}
+
+MinimumAmplitudeGains BestForPlant::quietest_pair(double frequency) const {
+  const auto& plant = case_.plant;
   const double omega = 2.0 * pi<double> * frequency;
-  return minimum_amplitude(*modal_, options_, frequency, p,
-                           steady_response_of(case_, options_.sampling, options_.hold, omega)
-                               .relative_to(true_amplitude_of(case_, omega)));
+  const double tuned =
+      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
+  const double stiffness = plant.absorber_stiffness + plant.absorber_mass * omega * omega;
+  return minimum_amplitude_gains(*modal_, options_, frequency,
+                                 {tuned - stiffness, tuned + stiffness},
+                                 modal_steady_response(frequency));
+}
+
+SteadyResponse<double> BestForPlant::modal_steady_response(double frequency) const {
+  const double omega = 2.0 * pi<double> * frequency;
+  return steady_response_of(case_, options_.sampling, options_.hold, omega)
+      .relative_to(true_amplitude_of(case_, omega));
 }
 
 MinimumRadius BestForPlant::fastest(double p) const {

@@ -7,6 +7,7 @@
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
@@ -20,10 +21,15 @@ class BestForPlant {
 
   /// The D of least steady amplitude at a frequency (Hz) and P.
   MinimumAmplitude quietest(double frequency, double p) const;
+  /// The P and D of least steady amplitude at a frequency (Hz), whose modulus margin is that of the
+  /// options itself; of a modal case.
+  MinimumAmplitudeGains quietest_pair(double frequency) const;
   /// The D of least spectral radius.
   MinimumRadius fastest(double p) const;
 
  private:
+  SteadyResponse<double> modal_steady_response(double frequency) const;
+
   const Case& case_;
   AmplitudeOptions options_;
   std::optional<SampledLoop<double>> loop_;

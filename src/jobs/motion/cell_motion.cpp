@@ -112,7 +112,6 @@ CellMotion cell_motion(const Case& the_case, Switching switching, double duratio
     loop.sampling = within_sample(loop.sampling);
   validate(loop);
   if (is_modal(the_case)) {
-    require_sweepable(the_case, switching);
     motion.conductor = std::make_shared<ConductorMotion>(conductor_motion_of(the_case));
     if (!is_of_the_paper(the_case, switching))
       motion.built_conductor = std::make_shared<BuiltConductor>(

@@ -42,8 +42,7 @@ struct CellMotion {
 };
 
 /// Throws InvalidParameter where the loop is not admissible, WrongInput where a recorded force ends
-/// before the duration, or where hundreds of modes would switch between their samples; NoAnswer
-/// where natural motions cannot be told apart.
+/// before the duration; NoAnswer where natural motions cannot be told apart.
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration);
 
 /// Of the two masses of the paper; throws WrongInput of other plants.

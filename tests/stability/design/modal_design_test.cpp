@@ -6,6 +6,7 @@
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "support/string_case.hpp"
@@ -72,18 +73,25 @@ TEST(ModalDesign, BestGainsAreThoseOfTheMatrices) {
 }
 
 /// min |1 − P G_z − D G_v| over the circle, of the map.
-double modulus(const LoopMap<double>& map, const PdGains<double>& gains) {
-  const LoopResponse<double> response(map);
-  double least = 1e300;
-  for (int i = 1; i <= 8000; ++i) {
+class Modulus {
+ public:
+  explicit Modulus(const LoopMap<double>& map) {
+    const LoopResponse<double> response(map);
     // Close together where the modes are.
-    const double share = i / 8000.0;
-    const auto g = response.at_angle(pi<double> * share * share * share);
-    least = std::min(least, std::abs(1.0 - gains.proportional * g.displacement -
-                                     gains.differential * g.velocity));
+    for (int i = 1; i <= 8000; ++i)
+      responses_.push_back(response.at_angle(pi<double> * std::pow(i / 8000.0, 3)));
   }
-  return least;
-}
+  double of(const PdGains<double>& gains) const {
+    double least = 1e300;
+    for (const auto& g : responses_)
+      least = std::min(least, std::abs(1.0 - gains.proportional * g.displacement -
+                                       gains.differential * g.velocity));
+    return least;
+  }
+
+ private:
+  std::vector<CommandResponse<double>> responses_;
+};
 
 /// The admissible gains end where the modulus margin is the share of the largest that was asked, or
 /// so far from the gain that has that as was asked.
@@ -94,14 +102,14 @@ TEST(ModalDesign, AMarginIsAShareOfTheLargestModulus) {
   for (const Sampling<double>& sampling :
        {Sampling<double>{1e-3, 3e-4}, Sampling<double>{0.01, 0.016}}) {
     const auto response = modal_response(modes, absorber, sampling);
-    const auto map = loop_map(modal_plant(modes, absorber), sampling);
+    const Modulus modulus(loop_map(modal_plant(modes, absorber), sampling));
     const double p = -100.0;
     const auto stable = differential_gains_within_radius(response, p, 1.0);
     ASSERT_EQ(stable.size(), 1U);
     const double width = stable[0].upper - stable[0].lower;
     double largest = 0.0, best = 0.0;
     for (int i = 1; i < 100; ++i) {
-      const double d = stable[0].lower + width * i / 100.0, there = modulus(map, {p, d});
+      const double d = stable[0].lower + width * i / 100.0, there = modulus.of({p, d});
       if (there > largest) best = d;
       largest = std::max(largest, there);
     }
@@ -112,10 +120,10 @@ TEST(ModalDesign, AMarginIsAShareOfTheLargestModulus) {
       for (const auto& [end, edge] : {std::pair{admissible[0].lower, stable[0].lower},
                                       std::pair{admissible[0].upper, stable[0].upper}}) {
         const double way = best + (1.0 - margin) * (edge - best);
-        const bool at_modulus = std::abs(modulus(map, {p, end}) - margin * largest) < 0.01;
+        const bool at_modulus = std::abs(modulus.of({p, end}) - margin * largest) < 0.01;
         const bool at_way = std::abs(end - way) < 0.015 * width;
         EXPECT_TRUE(at_modulus || at_way) << sampling.period << ' ' << margin << ' ' << end;
-        EXPECT_GT(modulus(map, {p, end}), margin * largest - 0.01);
+        EXPECT_GT(modulus.of({p, end}), margin * largest - 0.01);
         EXPECT_LT(std::abs(end - best), std::abs(way - best) + 0.015 * width);
         by_modulus += at_modulus ? 1 : 0;
         by_way += at_way ? 1 : 0;
@@ -226,6 +234,39 @@ TEST(ModalMargins, OfTheLoopAsAWholeAreThoseOfTwoMasses) {
   const auto unstable = modal_loop_margins(plant_poles({mode}, absorber), {1e-3}, {-557.0, 90.0});
   EXPECT_EQ(unstable.outcome, MarginOutcome::not_stable);
   EXPECT_TRUE(std::isnan(unstable.phase));
+}
+
+/// Of a grid of gains none that the map shows to have the margin leaves less amplitude.
+TEST(ModalDesign, NoPairOfAGridIsQuieterThanTheBest) {
+  const auto modes = some_modes();
+  const auto absorber = papers_absorber(0.01);
+  const double omega = 2.0 * pi<double> * 10.0, margin = 0.5;
+  int admissible = 0;
+  for (const Sampling<double>& sampling :
+       {Sampling<double>{1e-3, 3e-4}, Sampling<double>{0.01, 0.004}}) {
+    const auto response = modal_response(modes, absorber, sampling);
+    const auto map = loop_map(modal_plant(modes, absorber), sampling);
+    const auto steady = steady_response(modes, absorber, sampling, ForceHold::exact, omega)
+                            .relative_to(true_amplitude_per_force(modes, absorber, omega));
+    const AmplitudeOptions options{sampling, ForceHold::exact, 1.0, margin, true};
+    const auto best = minimum_amplitude_gains(response, options, 10.0, {-1200.0, 200.0}, steady);
+    const PdGains<double> gains{best.proportional_gain, best.quietest.differential_gain};
+    const Modulus modulus(map);
+    EXPECT_NEAR(modulus.of(gains), margin, 0.01) << "at the edge of what is admitted";
+    EXPECT_LT(spectral_radius(map.closed_map(gains)), 1.0);
+    EXPECT_NEAR(best.quietest.ratio_to_uncontrolled, steady.ratio_to_uncontrolled(gains), 1e-9);
+    for (int i = 0; i <= 30; ++i) {
+      for (int j = 0; j <= 30; ++j) {
+        const PdGains<double> other{-400.0 + 20.0 * i, -6.0 + 0.4 * j};
+        if (!(modulus.of(other) > margin + 0.01)) continue;
+        if (!(spectral_radius(map.closed_map(other)) < 1.0)) continue;
+        EXPECT_GT(steady.ratio_to_uncontrolled(other), best.quietest.ratio_to_uncontrolled)
+            << other.proportional << ' ' << other.differential;
+        ++admissible;
+      }
+    }
+  }
+  EXPECT_GT(admissible, 50);
 }
 
 }  // namespace

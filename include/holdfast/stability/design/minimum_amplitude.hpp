@@ -105,6 +105,21 @@ SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, Fo
              : response;
 }
 
+/// The D of least steady amplitude among some.
+/// @param admissible  perhaps none
+template <class Scalar>
+MinimumAmplitude least_amplitude(const SteadyResponse<Scalar>& response, double proportional_gain,
+                                 const std::vector<Interval<double>>& admissible) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto best = response.best_differential_gain(proportional_gain, admissible);
+  if (!std::isfinite(best.differential_gain))
+    return {MinimumAmplitudeOutcome::none, none, none, none};
+  const bool inside = contains_any(admissible, best.differential_gain);
+  return {inside ? MinimumAmplitudeOutcome::stationary : MinimumAmplitudeOutcome::edge,
+          best.differential_gain, best.ratio_to_uncontrolled,
+          holdfast::attenuation(best.ratio_to_uncontrolled)};
+}
+
 /// The D of least steady amplitude of a loop among the admissible ones.
 /// @param response_at  () → SteadyResponse at the frequency, taken where there are such D
 template <class Loop, class ResponseAt>
@@ -116,13 +131,7 @@ MinimumAmplitude minimum_amplitude_of(const Loop& loop, const AmplitudeOptions& 
     return {MinimumAmplitudeOutcome::aliased, none, none, none};
   const auto admissible = admissible_differential_gains(loop, proportional_gain, options);
   if (admissible.empty()) return {MinimumAmplitudeOutcome::none, none, none, none};
-  const auto best = response_at().best_differential_gain(proportional_gain, admissible);
-  if (!std::isfinite(best.differential_gain))
-    return {MinimumAmplitudeOutcome::none, none, none, none};
-  const bool inside = contains_any(admissible, best.differential_gain);
-  return {inside ? MinimumAmplitudeOutcome::stationary : MinimumAmplitudeOutcome::edge,
-          best.differential_gain, best.ratio_to_uncontrolled,
-          holdfast::attenuation(best.ratio_to_uncontrolled)};
+  return least_amplitude(response_at(), proportional_gain, admissible);
 }
 
 }  // namespace detail

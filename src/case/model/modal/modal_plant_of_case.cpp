@@ -184,22 +184,6 @@ ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
                        modal_state(loop.modes, initial_state_of(the_case)));
 }
 
-void require_sweepable(const Case& the_case, Switching switching) {
-  if (!is_two_masses(the_case) && switching == Switching::exact)
-    throw WrongInput("with " + modal_words(the_case) +
-                     " motions are swept that switch at their samples alone: between them hundreds "
-                     "of modes are followed too slowly");
-}
-
-ModalLoop paper_loop_of(const Case& the_case, Switching switching) {
-  if (!is_of_the_paper(the_case, switching))
-    throw WrongInput(
-        "with " + modal_words(the_case) +
-        " this is answered in the paper's model alone: switching at samples, its law of "
-        "the backlash, one harmonic, an ideal computer and drive");
-  return modal_loop_of(the_case);
-}
-
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice) {
   if (is_infinite(the_case) && !(the_case.absorber.clamp_mass > 0.0))
@@ -222,14 +206,18 @@ ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
 ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
                                                             Switching switching) {
   if (!is_ideal(implemented_loop_of(the_case, switching).digital.limits))
-    throw WrongInput("with " + modal_words(the_case) +
-                     " orbits, exponents and verdicts are of a computer without quanta, limits "
-                     "of its force and differences");
+    throw WrongInput(
+        "with " + modal_words(the_case) +
+        " orbits, basins, exponents and verdicts are of a computer without quanta, limits "
+        "of its force and differences");
   return conductor_loop_of(the_case, {switching, true});
 }
 
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
-  const auto seen = initial_state_of(the_case);
+  return modal_state_of(the_case, initial_state_of(the_case));
+}
+
+Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen) {
   const Vector<double, Eigen::Dynamic> conductor = modal_state(place_modes_of(the_case), seen);
   const DigitalLoop digital = implemented_loop_of(the_case, Switching::sampled).digital;
   const Eigen::Index commands =

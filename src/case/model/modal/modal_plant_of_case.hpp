@@ -88,21 +88,13 @@ ModalLoop modal_loop_of(const Case& the_case);
 /// Its motion from the case's initial state; without control of any modal case. Throws as above.
 ModalMotion modal_motion_of(const Case& the_case, bool controlled);
 
-/// Throws WrongInput where many motions are asked for of a conductor that switches between its
-/// samples.
-void require_sweepable(const Case& the_case, Switching switching);
-
-/// The loop for a job of the paper's model alone: throws WrongInput where it is not of the paper's
-/// model, and NoAnswer where its natural motions cannot be told apart.
-ModalLoop paper_loop_of(const Case& the_case, Switching switching);
-
 /// The loop of a modal case with all that the case says of it, its controller being one of the
 /// plant's own, whose memory are the commands on their way. Throws WrongInput for a string without
 /// ends that nothing is clamped to.
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 
-/// The same for orbits, exponents and verdicts. Throws WrongInput for a computer that limits force
+/// The same for orbits, basins, exponents and verdicts. Throws WrongInput for a computer that limits force
 /// or reading.
 ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
                                                             Switching switching);
@@ -111,6 +103,8 @@ ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case
 /// place bends it to z1, with the velocities that a blow there gives it to have v1; the absorber at
 /// z2 and v2; drive and commands at 0, the filter settled.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
+/// The same that begins with other z1, v1, z2, v2.
+Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
 
 /// Throws WrongInput where an option of the two masses alone is given for a modal case.
 void refuse_on_modes(const Case& the_case, bool given, const std::string& option);

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/core/interval_sets.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/design/minimum_amplitude.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
+#include "holdfast/stability/response/modal_response.hpp"
+#include "holdfast/stability/response/response.hpp"
+
+namespace holdfast {
+
+/// The pair of gains of least steady amplitude at one frequency.
+struct MinimumAmplitudeGains {
+  double proportional_gain;   ///< P (N/m)
+  MinimumAmplitude quietest;  ///< D and what it leaves, or why no pair is admissible
+};
+
+namespace detail {
+
+/// The D of least amplitude at one P after another, among those of a modulus margin.
+/// @tparam Scalar  double
+template <class Scalar>
+class QuietestAtModulus {
+ public:
+  QuietestAtModulus(const ModalResponse<Scalar>& loop, const AmplitudeOptions& options,
+                    const SteadyResponse<Scalar>& response)
+      : loop_(loop), circle_(loop), options_(options), response_(response) {}
+
+  MinimumAmplitude at(double p) const {
+    auto admissible = ModulusLevels<Scalar>(circle_, p).beyond(Scalar(options_.margin));
+    if (options_.largest_radius < 1.0)
+      admissible = intersection(
+          admissible, differential_gains_within_radius(loop_, p, Scalar(options_.largest_radius)));
+    return least_amplitude(response_, p, admissible);
+  }
+
+ private:
+  const ModalResponse<Scalar>& loop_;
+  ResolvedCircle<Scalar> circle_;
+  const AmplitudeOptions& options_;
+  const SteadyResponse<Scalar>& response_;
+};
+
+/// Whether one pair leaves less than another.
+inline bool is_quieter(const MinimumAmplitude& one, const MinimumAmplitude& other) {
+  if (one.outcome == MinimumAmplitudeOutcome::none) return false;
+  return other.outcome == MinimumAmplitudeOutcome::none ||
+         one.ratio_to_uncontrolled < other.ratio_to_uncontrolled;
+}
+
+}  // namespace detail
+
+/// The P and D of least steady amplitude of a loop by its poles, among the stable ones with
+///
+///     min |1 − P G_z − D G_v| ≥ m   over the unit circle, m the options' margin itself
+///
+/// that is, with a sensitivity of 1/m at most: m = 1/2 leaves a gain margin of 6 dB upwards and a
+/// phase margin of 29° at least.
+///
+/// At each P the D is exact; P itself is searched, at 65 places of a range that is doubled while
+/// the best of them is at its end, and about the best by golden section. A better P between two
+/// places may be missed: this is a search and no proof.
+/// @tparam Scalar    double; a parameter so that nothing is compiled where this is not called
+/// @param loop       of the plant by its poles, at the sampling of the options
+/// @param options    within their ranges
+/// @param frequency  f (Hz), > 0
+/// @param range      of P (N/m) to begin from, lower < upper, finite
+/// @param response   as `minimum_amplitude` of such a loop takes it
+/// @throws InvalidParameter outside the admissible ranges
+/// Source of the margin: K. J. Åström and R. M. Murray, Feedback Systems (2008), 9.3.
+template <class Scalar>
+MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
+                                              const AmplitudeOptions& options, double frequency,
+                                              Interval<double> range,
+                                              const SteadyResponse<Scalar>& response) {
+  validate(options);
+  require_positive("frequency", frequency, "Hz");
+  require_positive("width of the range of P", range.upper - range.lower, "N/m");
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!(2.0 * frequency * options.sampling.period < 1.0))
+    return {none, {MinimumAmplitudeOutcome::aliased, none, none, none}};
+  const detail::QuietestAtModulus<Scalar> quietest(loop, options, response);
+  MinimumAmplitudeGains best{none, {MinimumAmplitudeOutcome::none, none, none, none}};
+  const auto ask = [&](double p) {
+    const MinimumAmplitude there = quietest.at(p);
+    if (detail::is_quieter(there, best.quietest)) best = {p, there};
+    return there;
+  };
+  constexpr int places = 65, most_ranges = 8;
+  double step = 0.0;
+  for (int k = 0; k < most_ranges; ++k) {
+    step = (range.upper - range.lower) / (places - 1);
+    for (int i = 0; i < places; ++i) ask(range.lower + i * step);
+    if (best.proportional_gain > range.lower + step && best.proportional_gain < range.upper - step)
+      break;
+    const double half = 0.5 * (range.upper - range.lower);
+    range = {range.lower - half, range.upper + half};
+  }
+  if (best.quietest.outcome == MinimumAmplitudeOutcome::none) return best;
+  constexpr double golden = 0.3819660112501051;
+  double lower = best.proportional_gain - step, upper = best.proportional_gain + step;
+  for (int k = 0; k < 40; ++k) {
+    const double left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
+    const bool left_is_quieter = detail::is_quieter(ask(left), ask(right));
+    (left_is_quieter ? upper : lower) = left_is_quieter ? right : left;
+  }
+  return best;
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<double>&,
+                                                              const AmplitudeOptions&, double,
+                                                              Interval<double>,
+                                                              const SteadyResponse<double>&);
+#endif
+
+}  // namespace holdfast
