@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "case/library/named_conductor.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
@@ -97,6 +98,7 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
   doubt(context, doubts_about(context.case_data, quantities_of_case()));
   doubt(context, {contradicted_conductor_text(context.case_data)});
+  doubt(context, {idle_name_text(context.case_data)});
   if (needs_plant) report_warning(modes_warning(context.case_data), context.quiet);
   if (needs_plant) context.plant_remark = settle_plant(context.case_data);
   report_warning(context.plant_remark, context.quiet);

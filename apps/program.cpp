@@ -32,12 +32,13 @@ void add_texts(CLI::App& program) {
 }
 
 void add_jobs(CLI::App& program) {
-  for (AddJob* add : {add_case,     add_reduce,   add_statics,       add_modes,       add_decay,
-                      add_peaks,    add_fit,      add_stability,     add_boundary,    add_response,
-                      add_design,   add_margins,  add_modal_damping, add_sensitivity, add_max_delay,
-                      add_simulate, add_spectrum, add_deviation,     add_coverage,    add_verdict,
-                      add_orbit,    add_basins,   add_diagram,       add_section,     add_lyapunov,
-                      add_sweep,    add_answers,  add_report})
+  for (AddJob* add :
+       {add_case,      add_conductors, add_reduce,   add_statics,       add_modes,
+        add_decay,     add_peaks,      add_fit,      add_stability,     add_boundary,
+        add_response,  add_design,     add_margins,  add_modal_damping, add_sensitivity,
+        add_max_delay, add_simulate,   add_spectrum, add_deviation,     add_coverage,
+        add_verdict,   add_orbit,      add_basins,   add_diagram,       add_section,
+        add_lyapunov,  add_sweep,      add_answers,  add_report})
     add(program);
   add_texts(program);
 }
@@ -130,6 +131,8 @@ std::string unexpected_text(const CLI::App& job) {
   if (word.rfind('-', 0) == 0)
     return "unknown option " + word + "; did you mean " + nearest_option(job, word) +
            "? (holdfast " + job.get_name() + " --help lists the options)";
+  if (job.get_option_no_throw("--find") != nullptr)
+    return "unexpected word " + word + "; did you mean --find " + word + "?";
   const char* option = job.get_name() == "case" ? "--check " : "--case ";
   std::error_code ignored;
   if (std::filesystem::exists(word, ignored))

@@ -4,6 +4,7 @@
 
 #include "case/case_file.hpp"
 #include "case/case_keys.hpp"
+#include "case/library/named_conductor.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
@@ -101,7 +102,9 @@ Derivations derivations_of(const Case& the_case) {
 std::string origin_of(const CaseKey& key, const Case& the_case) {
   const auto given = the_case.places.find(key.name);
   if (given != the_case.places.end()) return given->second;
+  if (is_from_library(the_case, key.name)) return "conductor library";
   const bool computed =
+      key.name == "wind.diameter" ||
       (key.name == "reduction.first_frequency" && the_case.first_frequency_computed) ||
       (key.name == "reduction.second_frequency" && the_case.second_frequency_computed) ||
       (key.table() == "plant" && !key.beyond_two_masses && plant_is_reduced(the_case));

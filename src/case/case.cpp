@@ -56,7 +56,9 @@ case_tables::Wind wind_for(const Case& the_case) {
   const double frequency = the_case.excitation.frequency;
   const double wave_speed = cable.span * std::sqrt(cable.gravity / (8.0 * cable.sag));
   case_tables::Wind wind;
-  wind.diameter = to_three_digits(std::sqrt(4.0 * cable.area / (filled * pi)));
+  wind.diameter = std::isfinite(cable.diameter)
+                      ? cable.diameter
+                      : to_three_digits(std::sqrt(4.0 * cable.area / (filled * pi)));
   wind.speed = to_three_digits(frequency * wind.diameter / wind.strouhal);
   wind.effective_length = to_three_digits(std::min(wave_speed / (2.0 * frequency), cable.span));
   return wind;

@@ -19,6 +19,7 @@ namespace holdfast::program {
 namespace case_tables {
 
 struct Conductor {
+  std::string name;  // of the library; "": none
   double mass_per_length = 0.0;
   double span = 0.0;
   double sag = 0.0;
@@ -28,6 +29,11 @@ struct Conductor {
   double gravity = 9.81;
   double tension = std::numeric_limits<double>::infinity();  // infinity: "sag", what that leaves
   double bending_stiffness = 0.0;
+  // Infinity: "unknown".
+  double diameter = std::numeric_limits<double>::infinity();
+  double rated_strength = std::numeric_limits<double>::infinity();
+  double outer_wire_diameter = std::numeric_limits<double>::infinity();
+  double outer_wire_modulus = std::numeric_limits<double>::infinity();
   std::string damping = "chosen";  // by the plant: ratio of the string, Rayleigh's of the cable
   std::array<double, 2> rayleigh_frequencies{2.0, 7.0};  // Hz
 };
@@ -164,8 +170,9 @@ bool is_cable(const Case& the_case);
 /// effective_length·lift_coefficient (N).
 case_tables::Excitation effective_excitation(const Case& the_case);
 
-/// A wind for a case without one: it sheds vortices at the frequency of [excitation] from a strand
-/// of the conductor's area, in step over one half-wave of that frequency.
+/// A wind for a case without one: it sheds vortices at the frequency of [excitation] from the
+/// conductor, or a strand of its area where its diameter is unknown, in step over one half-wave of
+/// that frequency.
 case_tables::Wind wind_for(const Case& the_case);
 
 /// Why the wind's vortices are not those of aeolian vibration (3 to 150 Hz), in words for a

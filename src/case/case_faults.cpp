@@ -164,6 +164,12 @@ void settle_sag(Case& the_case) {
     c.sag = c.mass_per_length * c.gravity * c.span * c.span / (8.0 * c.tension);
 }
 
+void settle_wind(Case& the_case) {
+  const bool is_known = std::isfinite(the_case.conductor.diameter);
+  if (the_case.wind && is_known && the_case.places.count("wind.diameter") == 0)
+    the_case.wind->diameter = the_case.conductor.diameter;
+}
+
 void check_case(const Case& the_case) {
   const CaseFault fault = first_fault(the_case);
   if (!fault.message.empty()) throw WrongInput(fault.message);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "case/builtin_case.hpp"
+#include "case/library/conductor_library.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "case/toml_values.hpp"
@@ -62,9 +63,11 @@ class CaseReader {
   void set_number(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_word(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_file(const CaseKey& key, const toml::node& node, const std::string& place);
+  void set_conductor(const CaseKey& key, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
   const Given* last_given(const std::vector<std::string>& keys) const;
   const Given* blamed(const std::vector<std::string>& keys) const;
+  void fill_from_library();
   void check_wind() const;
   void settle_frequencies();
   bool given_by_user(const std::string& key) const;
@@ -200,6 +203,8 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
     set_word(*key, node, place);
   } else if (key->file != nullptr) {
     set_file(*key, node, place);
+  } else if (key->conductor != nullptr) {
+    set_conductor(*key, node, place);
   } else if (key->interval != nullptr) {
     *key->interval(case_) = interval_of(*key, node, place);
   } else if (key->harmonics != nullptr) {
@@ -249,6 +254,17 @@ void CaseReader::set_file(const CaseKey& key, const toml::node& node, const std:
   *key.file(case_) = name->empty() ? "" : (folder_ / *name).string();
 }
 
+void CaseReader::set_conductor(const CaseKey& key, const toml::node& node,
+                               const std::string& place) {
+  const auto name = node.value_exact<std::string>();
+  if (!name) throw WrongInput(place + ": must be " + key.admissible());
+  const LibraryConductor* found = find_conductor(*name);
+  if (found == nullptr && !name->empty())
+    throw WrongInput(place + ": must be " + key.admissible() + "; did you mean " +
+                     nearest_conductors(*name) + "?");
+  *key.conductor(case_) = found == nullptr ? "" : found->name;
+}
+
 void CaseReader::begin_wind(const std::string& place, Layer layer) {
   if (case_.wind) return;
   case_.wind.emplace();
@@ -275,10 +291,27 @@ const Given* CaseReader::blamed(const std::vector<std::string>& keys) const {
   return last;
 }
 
+/// What the library has of the named conductor and the user does not give, in whatever order.
+void CaseReader::fill_from_library() {
+  const LibraryConductor* conductor = find_conductor(case_.conductor.name);
+  if (conductor == nullptr) return;
+  const Given* found = last_given({"conductor.name"});
+  const Given name = *found;
+  const auto behind_name = found - given_.data() + 1;
+  for (const LibraryKey& key : library_keys()) {
+    const std::string key_name(key.name);
+    if (given_by_user(key_name)) continue;
+    *find_case_key(key.name)->number(case_) = conductor->*key.value;
+    given_.insert(given_.begin() + behind_name, {key_name, name.place, name.layer});
+  }
+  case_.conductor_given = true;
+}
+
 void CaseReader::check_wind() const {
   if (!case_.wind) return;
   for (const CaseKey& key : case_keys()) {
-    if (!key.required || last_given({key.name}) != nullptr) continue;
+    const bool is_settled = key.name == "wind.diameter" && case_.wind->diameter > 0.0;
+    if (!key.required || is_settled || last_given({key.name}) != nullptr) continue;
     throw WrongInput(wind_place_ + ": " + key.name + " is missing: " + key.description +
                      "; admissible is " + key.admissible() +
                      "; holdfast case --init FILE --wind writes all of them");
@@ -327,6 +360,8 @@ void CaseReader::check_faults() const {
 
 Case CaseReader::finish(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) read_override(text);
+  fill_from_library();
+  settle_wind(case_);
   check_wind();
   if (!given_by_user("conductor.sag")) settle_sag(case_);
   settle_frequencies();

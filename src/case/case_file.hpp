@@ -13,6 +13,7 @@ namespace holdfast::program {
 
 /// The built-in case, then the file, then each override `key=value` in its order (the value is
 /// TOML; a bare word counts as a string: `control.proportional_gain=tuned`).
+/// conductor.name stands for what neither file nor override gives of that conductor.
 /// [wind] takes the place of excitation.amplitude and excitation.frequency; the other keys of
 /// [excitation] may stand beside it.
 /// A relative excitation.record is one to the folder of the file that it stands in, in an override

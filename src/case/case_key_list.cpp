@@ -59,6 +59,12 @@ CaseKey file(const char* name, std::string* (*place)(Case&), const char* descrip
   return key;
 }
 
+CaseKey conductor_name(const char* name, std::string* (*place)(Case&), const char* description) {
+  CaseKey key{name, "", description, {}, {}};
+  key.conductor = place;
+  return key;
+}
+
 CaseKey harmonics(const char* name, std::vector<std::array<double, 3>>* (*place)(Case&),
                   const char* description) {
   CaseKey key{name, "", description, {}, {}};
@@ -96,6 +102,9 @@ CaseKey replaced_by_wind(CaseKey key) {
 }
 
 const std::vector<CaseKey> listed_keys = {
+    beyond_two_masses(
+        conductor_name(KEY(conductor, name),
+                       "of a conductor whose data in the library stand where none are given")),
     number(KEY(conductor, mass_per_length), "kg/m", positive,
            "mass of the conductor per unit length"),
     number(KEY(conductor, span), "m", positive, "distance between the supports, which are level"),
@@ -108,7 +117,16 @@ const std::vector<CaseKey> listed_keys = {
                           "horizontal tension; \"sag\": the one that the sag leaves, "
                           "mass_per_length gravity span^2 / (8 sag)")),
     beyond_two_masses(number(KEY(conductor, bending_stiffness), "N m2", bending_stiffnesses,
-                             "EI, which stiffens the modes of the string")),
+                             "EI, which stiffens the modes of the string; of a named conductor the "
+                             "least, its wires bending one by one")),
+    beyond_two_masses(or_word("unknown", number(KEY(conductor, diameter), "m", positive,
+                                                "outside; wind.diameter where that is not given"))),
+    beyond_two_masses(or_word(
+        "unknown", number(KEY(conductor, rated_strength), "N", positive, "at which it breaks"))),
+    beyond_two_masses(or_word("unknown", number(KEY(conductor, outer_wire_diameter), "m", positive,
+                                                "of the wires of the outermost layer"))),
+    beyond_two_masses(or_word("unknown", number(KEY(conductor, outer_wire_modulus), "Pa", positive,
+                                                "Young's modulus of those wires"))),
     beyond_two_masses(word(KEY(conductor, damping), {"chosen", "ratio", "rayleigh"},
                            "of the modes: damping_ratio of each, or Rayleigh's; \"chosen\": ratio "
                            "of the string, Rayleigh's of the cable")),
@@ -202,7 +220,8 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(excitation, noise_seed), "", seed, "of the phases of the random force"),
 
     required(number(KEY(wind, speed), "m/s", positive, "speed across the conductor")),
-    required(number(KEY(wind, diameter), "m", positive, "of the conductor")),
+    required(number(KEY(wind, diameter), "m", positive,
+                    "of the conductor; that of [conductor] where it is known")),
     required(number(KEY(wind, effective_length), "m", positive,
                     "length over which vortices are shed in step, for instance half a wave")),
     number(KEY(wind, strouhal), "", positive, "Strouhal number"),

@@ -123,6 +123,8 @@ std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1)
 
 std::string CaseKey::admissible() const {
   if (file != nullptr) return "the name of a file in quotes, or \"\" for none";
+  if (conductor != nullptr)
+    return "the name of a conductor (holdfast conductors lists them), or \"\" for none";
   if (harmonics != nullptr) return harmonics_in_words();
   if (interval != nullptr) return "[lower, higher], each " + range.in_words(unit);
   std::string text = number != nullptr ? range.in_words(unit) : "";
@@ -188,6 +190,7 @@ void set_case_value(Case& the_case, std::string_view name, double value) {
   require_in_force(the_case, key);
   *key.number(the_case) = value + 0.0;  // a negative zero is zero
   if (key.name == "conductor.tension") settle_sag(the_case);
+  if (key.name == "conductor.diameter") settle_wind(the_case);
   if (key.tuned != nullptr) *key.tuned(the_case) = false;
 }
 

@@ -33,9 +33,9 @@ struct HarmonicPart {
 /// Amplitude, frequency and phase, of which the last may be left out.
 const std::array<HarmonicPart, 3>& harmonic_parts();
 
-/// One key of the case file. Exactly one of `number`, `word`, `file`, `interval` and `harmonics`
-/// says where its value lies in a case; a key of [wind] gives a null pointer for a case without
-/// wind.
+/// One key of the case file. Exactly one of `number`, `word`, `file`, `conductor`, `interval` and
+/// `harmonics` says where its value lies in a case; a key of [wind] gives a null pointer for a case
+/// without wind.
 struct CaseKey {
   std::string name;  // with its table: "control.sampling_period"
   std::string unit;  // "" without dimension
@@ -48,6 +48,7 @@ struct CaseKey {
   double* (*number)(Case&) = nullptr;
   std::string* (*word)(Case&) = nullptr;
   std::string* (*file)(Case&) = nullptr;                // the name of a file, empty for none
+  std::string* (*conductor)(Case&) = nullptr;           // a name of the library, empty for none
   std::array<double, 2>* (*interval)(Case&) = nullptr;  // two numbers, ascending
   std::vector<std::array<double, 3>>* (*harmonics)(Case&) = nullptr;
   bool* (*tuned)(Case&) = nullptr;  // set when a key that is a number is given the word "tuned"
@@ -104,6 +105,9 @@ CaseFault conductor_fault(const Case& the_case);
 
 /// Gives the conductor the sag that its tension leaves, where it has a tension.
 void settle_sag(Case& the_case);
+
+/// Gives the wind the conductor's diameter, where that is known and nobody gives the wind one.
+void settle_wind(Case& the_case);
 
 /// Throws WrongInput when first_fault() finds one.
 void check_case(const Case& the_case);

@@ -52,6 +52,7 @@ std::int64_t whole(double value) { return static_cast<std::int64_t>(value); }
 std::string toml_value(const CaseKey& key, Case& the_case) {
   if (key.word != nullptr) return toml_string(*key.word(the_case));
   if (key.file != nullptr) return toml_string(*key.file(the_case));
+  if (key.conductor != nullptr) return toml_string(*key.conductor(the_case));
   if (key.interval != nullptr) return toml_interval(*key.interval(the_case));
   if (key.harmonics != nullptr) return toml_harmonics(*key.harmonics(the_case));
   if (key.bears_word(the_case)) return toml_string(key.words.front());
@@ -62,6 +63,7 @@ std::string toml_value(const CaseKey& key, Case& the_case) {
 nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
   if (key.word != nullptr) return *key.word(the_case);
   if (key.file != nullptr) return *key.file(the_case);
+  if (key.conductor != nullptr) return *key.conductor(the_case);
   if (key.interval != nullptr) return *key.interval(the_case);
   if (key.harmonics != nullptr) return *key.harmonics(the_case);
   if (key.bears_word(the_case)) return key.words.front();

@@ -83,7 +83,7 @@ toml::table parse_override_value(const CaseKey& key, std::string_view value,
     toml::table parsed = toml::parse("value = " + std::string(value));
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
-    const bool is_text = key.file != nullptr || is_bare_word(value);
+    const bool is_text = key.file != nullptr || key.conductor != nullptr || is_bare_word(value);
     if (is_text) return toml::table{{"value", std::string(value)}};
   }
   const std::string guess = guess_of_value(value);

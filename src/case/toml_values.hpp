@@ -12,7 +12,7 @@ namespace holdfast::program {
 /// what is probably wrong.
 toml::table parse_case_text(std::string_view text, const std::string& name);
 
-/// The value of an override, under "value": TOML, or a word or the name of a file without quotes.
+/// The value of an override, under "value": TOML, or a word or a name without quotes.
 /// Throws WrongInput, which begins with the place.
 toml::table parse_override_value(const CaseKey& key, std::string_view value,
                                  const std::string& place);

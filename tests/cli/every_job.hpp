@@ -19,6 +19,7 @@ struct JobToTry {
 /// Every job whose result is a table.
 inline const std::vector<JobToTry> jobs_with_table = {
     {"case", ""},
+    {"conductors", ""},
     {"reduce", "reduce", true},
     {"statics --elements 10 --force -0.5:0.5:3", "statics --elements 20000 --force -1:1:100000"},
     {"modes --elements 20 --count 2", "modes --elements 1000 --count 200"},

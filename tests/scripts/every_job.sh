@@ -66,6 +66,7 @@ p reduce
 p fit --data decay.csv
 a case
 a case --check case.toml
+a conductors --find drake
 a answers
 l report --output report
 a manual

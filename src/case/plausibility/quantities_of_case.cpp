@@ -11,6 +11,9 @@ using namespace plausibility;
 
 double tension_of(const Case& c) { return weight_of(c) * c.conductor.span / (8 * c.conductor.sag); }
 
+/// A word stands for what is not known.
+double known(double value) { return std::isfinite(value) ? value : unknown; }
+
 double largest_displacement(const Case& c) {
   return std::max(std::abs(c.initial.z1), std::abs(c.initial.z2));
 }
@@ -45,6 +48,29 @@ const Quantities listed_of_case = {
      at_most(0.2),
      whatever,
      "cables have 0.0001 to 0.03"},
+    {"conductor.diameter",
+     "m",
+     {"conductor.diameter"},
+     [](const Case& c) { return known(c.conductor.diameter); },
+     {1e-4, 1.5},
+     {1e-6, 10},
+     "lines have 0.005 to 0.06, stays 0.1 to 0.3, cables of suspension bridges 1.1"},
+    {"conductor.outer_wire_modulus",
+     "Pa",
+     {"conductor.outer_wire_modulus"},
+     [](const Case& c) { return known(c.conductor.outer_wire_modulus); },
+     {1e9, 1e12},
+     whatever,
+     "aluminium has 7e10, steel 2e11"},
+    {"conductor.outer_wire_diameter over conductor.diameter",
+     "",
+     {"conductor.outer_wire_diameter", "conductor.diameter"},
+     [](const Case& c) {
+       return known(c.conductor.outer_wire_diameter / known(c.conductor.diameter));
+     },
+     {1e-3, 1},
+     whatever,
+     "seven wires have 0.33, sixty-one 0.11, a stay of a hundred strands 0.03"},
     {"wind.speed",
      "m/s",
      {"wind.speed"},
@@ -144,6 +170,35 @@ const Quantities listed_of_case = {
      {10, 1e6},
      "polymer ropes have 900, aluminium 2700, steel 7900, grouted stays up to 12000, tungsten "
      "19300, models with masses fixed to them more"},
+    {"the share of its circle that the conductor fills, 4 conductor.area / (pi "
+     "conductor.diameter^2),",
+     "",
+     {"conductor.diameter", "conductor.area"},
+     [](const Case& c) {
+       const double diameter = known(c.conductor.diameter);
+       return has_own_cable(c) ? 8.0 * c.conductor.area / (two_pi * diameter * diameter) : unknown;
+     },
+     {0.005, 1.1},
+     whatever,
+     "a rod has 1, a strand 0.75, a sheathed stay 0.3, a model under foam 0.01"},
+    {"conductor.rated_strength / conductor.area",
+     "Pa",
+     {"conductor.rated_strength", "conductor.area"},
+     [](const Case& c) {
+       return has_own_cable(c) ? known(c.conductor.rated_strength) / c.conductor.area : unknown;
+     },
+     {8e7, 6e9},
+     whatever,
+     "aluminium conductors have 1.6e8 to 3.3e8, steel strands up to 2e9, carbon fibre 5e9"},
+    {"the tension over conductor.rated_strength",
+     "",
+     {"conductor.sag", "conductor.tension", "conductor.rated_strength", "conductor.span"},
+     [](const Case& c) {
+       return has_own_cable(c) ? tension_of(c) / known(c.conductor.rated_strength) : unknown;
+     },
+     at_most(0.75),
+     whatever,
+     "lines have 0.1 to 0.3 every day and up to 0.7 under ice, stays 0.45"},
     {"conductor.sag over conductor.span",
      "",
      {"conductor.sag", "conductor.span"},

@@ -42,7 +42,8 @@ TEST(CaseKeys, NamesAreDistinctAndEachHasOnePlaceAndADescription) {
   for (const CaseKey& key : case_keys()) {
     EXPECT_TRUE(names.insert(key.name).second) << key.name;
     const int places = (key.number != nullptr) + (key.word != nullptr) + (key.file != nullptr) +
-                       (key.harmonics != nullptr) + (key.interval != nullptr);
+                       (key.conductor != nullptr) + (key.harmonics != nullptr) +
+                       (key.interval != nullptr);
     EXPECT_EQ(places, 1) << key.name;
     EXPECT_EQ(key.word != nullptr, key.number == nullptr && !key.words.empty()) << key.name;
     EXPECT_FALSE(key.description.empty()) << key.name;
@@ -56,6 +57,7 @@ const void* place_of(const CaseKey& key, Case& the_case) {
   if (key.number != nullptr) return key.number(the_case);
   if (key.word != nullptr) return key.word(the_case);
   if (key.file != nullptr) return key.file(the_case);
+  if (key.conductor != nullptr) return key.conductor(the_case);
   if (key.interval != nullptr) return key.interval(the_case);
   return key.harmonics(the_case);
 }

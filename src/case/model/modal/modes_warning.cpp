@@ -27,7 +27,8 @@ std::string idle_keys_warning(const Case& the_case) {
     if (counts) names += (names.empty() ? "" : ", ") + std::string(name);
   };
   const bool plane = the_case.absorber.motion == "plane";
-  const bool bends = the_case.conductor.bending_stiffness > 0.0;
+  // That of a named conductor is there without being asked for.
+  const bool bends = the_case.conductor.bending_stiffness > 0.0 && the_case.conductor.name.empty();
   const bool of_modes = the_case.absorber.clamp_mass > 0.0 || std::isfinite(the_case.plant.modes) ||
                         the_case.conductor.damping != "chosen";
   add(masses && the_case.absorber.clamp_mass > 0.0, "absorber.clamp_mass");
