@@ -181,7 +181,9 @@ class ModalMotion {
 };
 
 /// The motion from a state of `modal_plant`, [q₁, q̇₁, …, z₂, ż₂].
+/// @param loop   with its excitation and backlash
 /// @param poles  `plant_poles` of the loop's modes and absorber
+/// @param state  the initial one
 /// @return nothing where these are not all found: `harmonically_forced_motion` of the plant is then
 ///         the way, at N² operations a sample
 /// @throws InvalidParameter where the loop is not admissible, or the state is not finite or of
@@ -198,6 +200,8 @@ inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
 }
 
 /// The same, whose poles are found here.
+/// @param loop   with its excitation and backlash
+/// @param state  the initial one
 /// @return as above
 /// @throws InvalidParameter as above
 inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,

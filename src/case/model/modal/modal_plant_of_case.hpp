@@ -94,8 +94,8 @@ ModalMotion modal_motion_of(const Case& the_case, bool controlled);
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 
-/// The same for orbits, basins, exponents and verdicts. Throws WrongInput for a computer that limits force
-/// or reading.
+/// The same for orbits, basins, exponents and verdicts. Throws WrongInput for a computer that
+/// limits force or reading.
 ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
                                                             Switching switching);
 
