@@ -18,8 +18,10 @@ namespace holdfast {
 namespace detail {
 
 /// The indicators of the motion of a conductor by its modes, from what conductor and absorber show.
-inline ChaosIndicators indicators_of_motion(const ModalLoop& loop, ModalMotion motion,
-                                            const IndicatorOptions& options) {
+/// @tparam Loop  ModalLoop
+template <class Loop>
+ChaosIndicators indicators_of_motion(const Loop& loop, ModalMotion motion,
+                                     const IndicatorOptions& options) {
   ModalSpectrum tangent(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
                         loop.sampling.processing_delay > 0.0);
   ExponentWatch<5> watch(options.samples);

@@ -24,6 +24,8 @@ namespace holdfast {
 /// Those that are exactly −∞ are not among them, but of a single mode, which has four where there
 /// is no processing delay, and once the drive has been in its backlash. Work per sample: 130
 /// multiply-adds a natural motion.
+/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
+template <class Scalar = double>
 class ModalSpectrum {
  public:
   /// @param motions  of the loop
@@ -33,17 +35,17 @@ class ModalSpectrum {
       : deviations_(motions, gains) {
     const Eigen::Index order = deviations_.order();
     finite_ = std::min<Eigen::Index>(leading, late ? order : order - 1);
-    deviations_.begin(detail::oblique_basis<double, Eigen::Dynamic>(order).leftCols(finite_));
+    deviations_.begin(detail::oblique_basis<Scalar, Eigen::Dynamic>(order).leftCols(finite_));
   }
 
   /// Takes one sample, at which the drive transmits or not.
   void push(bool engaged) {
     deviations_.advance(engaged);
-    Eigen::MatrixXd basis = deviations_.columns();
+    Matrix<Scalar, Eigen::Dynamic> basis = deviations_.columns();
     // In the backlash no force is decided: one direction is lost, whatever the delay.
     if (!engaged) finite_ = std::min(finite_, deviations_.order() - 1);
-    const Eigen::MatrixXd upper = orthonormalise(basis);
-    Vector<double, leading> logarithms = Vector<double, leading>::Zero();
+    const Matrix<Scalar, Eigen::Dynamic> upper = orthonormalise(basis);
+    Vector<Scalar, leading> logarithms = Vector<Scalar, leading>::Zero();
     for (Eigen::Index i = 0; i < finite_; ++i) {
       if (upper(i, i) == 0.0) {
         finite_ = i;
@@ -56,12 +58,12 @@ class ModalSpectrum {
   }
 
   /// Forgets all but the directions of the deviations.
-  void restart() { sums_ = BatchSums<double, leading>(1); }
+  void restart() { sums_ = BatchSums<Scalar, leading>(1); }
 
   /// Over the samples since the last restart.
-  LyapunovSpectrum<double, 5> spectrum() const {
-    return LyapunovSpectrum<double, 5>({Matrix<double, leading>::Identity(), sums_,
-                                        Vector<double, leading>::Zero(),
+  LyapunovSpectrum<Scalar, 5> spectrum() const {
+    return LyapunovSpectrum<Scalar, 5>({Matrix<Scalar, leading>::Identity(), sums_,
+                                        Vector<Scalar, leading>::Zero(),
                                         static_cast<int>(finite_)});
   }
   /// Samples since then.
@@ -74,11 +76,13 @@ class ModalSpectrum {
 
   ModalDeviations deviations_;
   Eigen::Index finite_;
-  BatchSums<double, leading> sums_{1};
+  BatchSums<Scalar, leading> sums_{1};
 };
 
 /// A motion of a conductor by its modes and the leading Lyapunov exponents that it has had so far.
 /// It stands in for the motion in run_trajectory.
+/// @tparam Scalar  double
+template <class Scalar = double>
 class ModalLyapunov {
  public:
   /// @param loop    that of the motion
@@ -116,7 +120,7 @@ class ModalLyapunov {
 
  private:
   ModalMotion motion_;
-  ModalSpectrum spectrum_;
+  ModalSpectrum<Scalar> spectrum_;
   bool engaged_ = true;
 };
 
@@ -126,8 +130,9 @@ class ModalLyapunov {
 /// @param run       how long, and with what accuracy, is averaged
 /// @param pause     called every 2¹² samples; may throw to end the run
 /// @throws InvalidParameter where `run` is not admissible
-inline LyapunovResult run_lyapunov(ModalLyapunov& lyapunov, const LyapunovRun& run,
-                                   const std::function<void()>& pause = {}) {
+template <class Scalar>
+LyapunovResult run_lyapunov(ModalLyapunov<Scalar>& lyapunov, const LyapunovRun& run,
+                            const std::function<void()>& pause = {}) {
   validate(run);
   detail::SingleLane lane(lyapunov, pause);
   return detail::run_average(lane, run)[0];

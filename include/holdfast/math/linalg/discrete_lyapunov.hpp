@@ -17,25 +17,28 @@ namespace holdfast {
 /// @return nothing where M does not contract, or so slowly that rounding hides it
 /// Work: 4 n³ multiply-adds for each doubling, of which there are log₂ of the steps that M takes to
 /// forget.
-inline std::optional<Eigen::MatrixXd> discrete_lyapunov(const Eigen::MatrixXd& map) {
+/// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
+template <class Scalar>
+std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
+    const Matrix<Scalar, Eigen::Dynamic>& map) {
+  using Square = Matrix<Scalar, Eigen::Dynamic>;
   constexpr int most_doublings = 48;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const Eigen::Index n = map.rows();
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
-  Eigen::MatrixXd measure = identity, power = map;
+  const Square identity = Square::Identity(n, n);
+  Square measure = identity, power = map;
   for (int count = 0; count < most_doublings; ++count) {
-    const Eigen::MatrixXd more = power.transpose() * (measure * power);
+    const Square more = power.transpose() * (measure * power);
     measure += more;
     if (!measure.allFinite()) return std::nullopt;
     if (more.norm() <= 0.125 * epsilon * measure.norm()) break;
-    power = Eigen::MatrixXd(power * power);
+    power = Square(power * power);
   }
-  const Eigen::MatrixXd left =
-      measure - map.transpose() * (measure * map) - identity;  // is to be nothing
+  const Square left = measure - map.transpose() * (measure * map) - identity;  // is to be nothing
   const double rounding =
       4.0 * static_cast<double>(n) * epsilon * measure.norm() * (1.0 + map.squaredNorm());
   if (!(left.norm() + rounding < 0.5)) return std::nullopt;
-  return Eigen::MatrixXd(0.5 * (measure + measure.transpose()));
+  return Square(0.5 * (measure + measure.transpose()));
 }
 
 }  // namespace holdfast

@@ -26,9 +26,10 @@ inline std::optional<Rational> forcing_ratio(const ModalLoop& loop) {
 /// @param region  at the same phase of the forcing
 /// @param motion  before a sample
 /// @param units   of the deviations
-inline bool attracts(const ModalAttraction& region, const ModalMotion& motion,
-                     const Eigen::VectorXd& units) {
-  const ModalMotion::Memory memory = motion.memory();
+/// @tparam Motion  ModalMotion; a parameter so that who does not ask compiles none of it
+template <class Motion>
+bool attracts(const ModalAttraction& region, const Motion& motion, const Eigen::VectorXd& units) {
+  const typename Motion::Memory memory = motion.memory();
   const BacklashMemory<double>& drive = memory.backlash;
   const bool same_direction = drive.previous_velocity * region.memory.previous_velocity > 0.0;
   if (drive.inside != region.memory.inside || !(drive.inside || same_direction)) return false;

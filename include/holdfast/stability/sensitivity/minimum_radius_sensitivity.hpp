@@ -83,19 +83,18 @@ class ActiveRoots {
     if (!near_double_root(closeness, mu)) return std::nullopt;
     PdGains<double> gains = gains_;
     for (int step = 0; step < 6; ++step) {
-      const Vector<double, 2> change = double_root_matrix(gains, mu).partialPivLu().solve(
-          -double_root_residual(values_at(gains), mu));
+      const Vector<double, 2> change =
+          -double_root_matrix(gains, mu).inverse() * double_root_residual(values_at(gains), mu);
       mu += change[0];
       gains.differential += change[1];
     }
     if (!(std::abs(gains.differential - gains_.differential) <= 1e-4 * natural_gain(gains, mu)))
       return std::nullopt;
-    const auto factors = double_root_matrix(gains, mu).partialPivLu();
+    const Matrix<double, 2> inverse = double_root_matrix(gains, mu).inverse();
     const auto p = polynomial_.at(gains);
     Entries logarithm, gain;
     for (int i = 0; i < by_d; ++i) {
-      const Vector<double, 2> change =
-          factors.solve(-double_root_residual(derivative_of(p, i), mu));
+      const Vector<double, 2> change = -inverse * double_root_residual(derivative_of(p, i), mu);
       logarithm[i] = change[0] / (polynomial_.centre + mu);
       gain[i] = change[1];
     }
