@@ -176,9 +176,10 @@ struct BasinsQuestion {
   }
 
   void run(const JobContext& context) const {
+    const Case& the_case = context.case_data;
     const StateGrid grid = grid_of(axes);
     for (const KeyAxis& axis : {grid.slow, grid.fast}) require_admissible_ends(axis, context);
-    const auto states = grid.states(context.case_data);
+    const auto states = grid.states(the_case);
     const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
     // Deals tiles of states out to threads.
     const auto tiles = [&](std::size_t count, std::size_t tile, const auto& job) {
@@ -191,28 +192,26 @@ struct BasinsQuestion {
     const auto write = [&](const auto& map) {
       fractions ? write_fractions(context, map) : write_states(context, grid, map);
     };
-    const bool of_paper = is_of_the_paper(context.case_data, switching);
-    if (is_modal(context.case_data) && of_paper) {
-      const ModalLoop loop = modal_loop_of(context.case_data);
+    const bool of_paper = is_of_the_paper(the_case, switching);
+    if (is_modal(the_case) && of_paper) {
+      const ModalLoop loop = modal_loop_of(the_case);
       require_attractors(forcing_ratio(loop), largest_period);
       write(find_basins(loop, states, limits, tiles));
-    } else if (is_modal(context.case_data)) {
-      report_warning(dense_work_warning(context.case_data, switching), context.quiet);
-      const auto loop = smooth_conductor_loop_of(context.case_data, switching);
+    } else if (is_modal(the_case)) {
+      report_warning(dense_work_warning(the_case, switching), context.quiet);
+      const auto loop = smooth_conductor_loop_of(the_case, switching);
       require_attractors(forcing_ratio(loop.digital), largest_period);
-      const auto begin = [&](const Vector<double, 4>& state) {
-        return modal_state_of(context.case_data, state);
-      };
+      const auto begin = [&](const auto& state) { return modal_state_of(the_case, state); };
       write(find_basins(loop, states, limits, tiles, begin));
     } else if (of_paper) {
-      const IdealLoop<double> loop = ideal_loop_of(context.case_data);
+      const IdealLoop<double> loop = ideal_loop_of(the_case);
       require_attractors(forcing_ratio(loop), largest_period);
       const auto travel = [&](const auto& motion) {
         return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
       };
       write(find_basins_by(travel, loop, states, limits, tiles));
     } else {
-      const ImplementedLoop loop = implemented_loop_of(context.case_data, switching);
+      const ImplementedLoop loop = implemented_loop_of(the_case, switching);
       require_attractors(forcing_ratio(loop.digital), largest_period);
       write(find_basins(loop, states, limits, tiles));
     }

@@ -32,6 +32,38 @@ struct DiagramQuestion {
     job.add("--switching", switching);
   }
 
+  /// Writes the points of the case's motions along a key. @return how many of them diverge
+  template <class Write>
+  std::size_t run_diagram(const JobContext& context, const std::string& key,
+                          const std::vector<double>& values, const DiagramOptions& options,
+                          const Write& write) const {
+    const auto case_at = [&](double value) { return case_with(context.case_data, key, value); };
+    const bool modal = is_modal(context.case_data);
+    bool of_paper = true;  // at all values
+    for (const double value : values) {
+      const Case there = case_at(value);
+      of_paper = of_paper && is_of_the_paper(there, switching);
+      if (is_modal(there) != modal)
+        throw WrongInput("--axis " + axis + ": with " +
+                         modal_words(modal ? context.case_data : there) +
+                         " another loop is meant than without; a diagram is of one of them");
+    }
+    report_warning(dense_work_warning(context.case_data, switching), context.quiet);
+    const auto diagram_of = [&](const auto& loop_of, const auto& state_of) {
+      return run_orbit_diagram([&](double value) { return loop_of(case_at(value)); }, values,
+                               [&](double value) { return state_of(case_at(value)); }, options,
+                               write);
+    };
+    const auto modal_state = [](const Case& there) { return modal_state_of(there); };
+    const auto built = [&](const Case& there) { return implemented_loop_of(there, switching); };
+    const auto built_conductor = [&](const Case& there) {
+      return conductor_loop_of(there, {switching, true});
+    };
+    return !modal     ? diagram_of(built, initial_state_of)
+           : of_paper ? diagram_of(modal_loop_of, modal_state)
+                      : diagram_of(built_conductor, modal_state);
+  }
+
   void run(const JobContext& context) const {
     const auto [key, range] = parse_key_axis("--axis", axis);
     case_value(context.case_data, key);  // throws where there is no such number
@@ -47,33 +79,7 @@ struct DiagramQuestion {
       table.row(values[point.index], point.upward ? 1 : 0, point.state[0], point.state[1],
                 point.state[2], point.state[3]);
     };
-    const auto case_at = [&, name = key](double value) {
-      return case_with(context.case_data, name, value);
-    };
-    const bool modal = is_modal(context.case_data);
-    bool of_paper = true;  // at all values
-    for (const double value : values) {
-      const Case there = case_at(value);
-      of_paper = of_paper && is_of_the_paper(there, switching);
-      if (is_modal(there) != modal)
-        throw WrongInput("--axis " + axis + ": with " +
-                         modal_words(modal ? context.case_data : there) +
-                         " another loop is meant than without; a diagram is of one of them");
-    }
-    report_warning(dense_work_warning(context.case_data, switching), context.quiet);
-    const auto diagram_of = [&](const auto& loop_of, const auto& state_of) {
-      return run_orbit_diagram([&](double value) { return loop_of(case_at(value)); }, values,
-                               [&](double value) { return state_of(case_at(value)); }, watched,
-                               write);
-    };
-    const auto modal_state = [](const Case& there) { return modal_state_of(there); };
-    const auto built = [&](const Case& there) { return implemented_loop_of(there, switching); };
-    const auto built_conductor = [&](const Case& there) {
-      return conductor_loop_of(there, {switching, true});
-    };
-    const std::size_t diverged = !modal     ? diagram_of(built, initial_state_of)
-                                 : of_paper ? diagram_of(modal_loop_of, modal_state)
-                                            : diagram_of(built_conductor, modal_state);
+    const std::size_t diverged = run_diagram(context, key, values, watched, write);
     table.commit();
     if (diverged > 0) {
       report_warning(std::to_string(diverged) + " of " + std::to_string(2 * values.size()) +

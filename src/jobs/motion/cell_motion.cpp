@@ -202,10 +202,10 @@ MotionMetrics diverging(const MotionMetrics& metrics) {
 }
 
 double largest_exponent_of(const CellMotion& motion, double duration) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const SweepMotion& cell = motion.of_paper;
   const std::int64_t steps = samples_within(duration, cell.loop.sampling.period) - 1;
-  if (steps < 1) return unknown;
+  if (steps < 1) return none;
   const LyapunovRun run{steps, 0, 0.0, LyapunovScope::largest};
   const auto exponents_of_modes = [&] {
     const ConductorMotion& conductor = *motion.conductor;
@@ -223,7 +223,7 @@ double largest_exponent_of(const CellMotion& motion, double duration) {
                                 : motion.built
                                     ? exponents_between_samples(*motion.built, cell.initial_state)
                                     : exponents_of_paper(cell, run);
-  return result.outcome == LyapunovOutcome::diverged ? unknown : result.exponents[0];
+  return result.outcome == LyapunovOutcome::diverged ? none : result.exponents[0];
 }
 
 std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {
