@@ -5,6 +5,7 @@
 #include "case/builtin_case.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "process/errors.hpp"
+#include "program/case/case_text.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
@@ -12,26 +13,15 @@
 namespace holdfast::program {
 namespace {
 
+using tests::from_text;
+using tests::holds;
 using tests::message_of;
+using tests::refusal;
 using tests::TemporaryFolder;
 using tests::write_text;
 
-Case from_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return load_case_text(text, "case.toml", overrides);
-}
-
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const std::string message = message_of<WrongInput>([&] { from_text(text, overrides); });
-  EXPECT_EQ(message.find('\n'), std::string::npos);
-  return message;
-}
-
 std::string override_refusal(const std::string& text) {
   return message_of<WrongInput>([&] { load_case(std::nullopt, {text}); });
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// Equal in every key, and in what the keys mean together.

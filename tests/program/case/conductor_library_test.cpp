@@ -7,6 +7,7 @@
 #include "case/library/named_conductor.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "process/errors.hpp"
+#include "program/case/case_text.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
@@ -14,23 +15,12 @@
 namespace holdfast::program {
 namespace {
 
+using tests::from_text;
+using tests::holds;
 using tests::message_of;
+using tests::refusal;
 
 const double pi = std::acos(-1.0);
-
-Case from_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return load_case_text(text, "case.toml", overrides);
-}
-
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const std::string message = message_of<WrongInput>([&] { from_text(text, overrides); });
-  EXPECT_EQ(message.find('\n'), std::string::npos);
-  return message;
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A span on which a conductor hangs as it does on a line.
 std::string span_of(const LibraryConductor& one) {
