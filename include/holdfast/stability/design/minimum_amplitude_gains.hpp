@@ -103,13 +103,11 @@ MinimumAmplitudeGains minimum_amplitude_gains(const ModalResponse<Scalar>& loop,
     range = {range.lower - half, range.upper + half};
   }
   if (best.quietest.outcome == MinimumAmplitudeOutcome::none) return best;
-  constexpr double golden = 0.3819660112501051;
-  double lower = best.proportional_gain - step, upper = best.proportional_gain + step;
-  for (int k = 0; k < 40; ++k) {
-    const double left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
-    const bool left_is_quieter = detail::is_quieter(ask(left), ask(right));
-    (left_is_quieter ? upper : lower) = left_is_quieter ? right : left;
-  }
+  detail::narrow_to_best(best.proportional_gain - step, best.proportional_gain + step, 40,
+                         [&](double left, double right) {
+                           const MinimumAmplitude at_left = ask(left);
+                           return detail::is_quieter(at_left, ask(right));
+                         });
   return best;
 }
 

@@ -43,6 +43,18 @@ std::vector<Interval<Scalar>> differential_gains_within_radius(
 
 namespace detail {
 
+/// Narrows an interval by golden section.
+/// @param left_is_better  (left, right) ↦ whether the first of two places in it is
+template <class Scalar, class Better>
+void narrow_to_best(Scalar lower, Scalar upper, int steps, const Better& left_is_better) {
+  const Scalar golden(0.3819660112501051);
+  for (int k = 0; k < steps; ++k) {
+    const Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
+    const bool is_left = left_is_better(left, right);
+    (is_left ? upper : lower) = is_left ? right : left;
+  }
+}
+
 /// The least ρ(P, D) − 1 over some D in an interval and that D, each of which the roots are asked,
 /// and about the best of them, where it is less than what is known, by golden section.
 template <class Scalar>
@@ -59,14 +71,12 @@ std::pair<Scalar, Scalar> least_excess(const ModalResponse<Scalar>& response, co
     best = std::min(best, {excess(d), d});
   }
   if (best.first > known) return best;
-  const Scalar golden(0.3819660112501051);
-  Scalar lower = best.second - step, upper = best.second + step;
-  for (int k = 0; k < 30; ++k) {
-    const Scalar left = lower + golden * (upper - lower), right = upper - golden * (upper - lower);
-    const Scalar at_left = excess(left), at_right = excess(right);
-    best = std::min({best, {at_left, left}, {at_right, right}});
-    (at_left < at_right ? upper : lower) = at_left < at_right ? right : left;
-  }
+  narrow_to_best(best.second - step, best.second + step, 30,
+                 [&](const Scalar& left, const Scalar& right) {
+                   const Scalar at_left = excess(left), at_right = excess(right);
+                   best = std::min({best, {at_left, left}, {at_right, right}});
+                   return at_left < at_right;
+                 });
   return best;
 }
 
