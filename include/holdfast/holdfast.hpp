@@ -13,5 +13,6 @@
 #include "holdfast/orbit.hpp"
 #include "holdfast/phase_space.hpp"
 #include "holdfast/plant.hpp"
+#include "holdfast/span.hpp"
 #include "holdfast/stability.hpp"
 #include "holdfast/sweep.hpp"

@@ -14,6 +14,7 @@
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/stability/response/absorber_impedance.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 
 namespace holdfast {
@@ -43,21 +44,14 @@ inline std::complex<double> matched_pole(const std::vector<std::complex<double>>
   return s + nearest / ((1.0 + mu) * period);
 }
 
-/// ζ_n + φ_n²/(2 M_n ω_n) Re[Z_passive + T_a Z_eff] at s = i ω_n, with
-/// Z_eff = −(D + P/s) F(s) D(s) sinc(ωτ/2) e^{−s(δ + τ/2)}.
+/// ζ_n + φ_n²/(2 M_n ω_n) Re Z(iω_n) of `absorber_impedance`.
 inline double first_order_damping(const PlaceMode<double>& mode, const Absorber<double>& absorber,
                                   const Sampling<double>& sampling, const PdGains<double>& gains,
                                   const LoopHardware& hardware) {
-  const std::complex<double> s(0.0, mode.angular_frequency);
-  const double half = mode.angular_frequency * sampling.period / 2.0;
-  const std::complex<double> late =
-      std::sin(half) / half * std::exp(-s * (sampling.processing_delay + sampling.period / 2.0));
-  const HardwarePoles lags(hardware);
-  const std::complex<double> drive =
-      -(gains.differential + gains.proportional / s) * late * HardwarePoles::lag(lags.drive, s) *
-      HardwarePoles::lag(lags.filter, s) * transmitted_share(absorber, s);
   const double share = mode.shape * mode.shape / (2.0 * mode.mass * mode.angular_frequency);
-  return mode.damping_ratio + share * (passive_stiffness(absorber, s) / s + drive).real();
+  const std::complex<double> s(0.0, mode.angular_frequency);
+  return mode.damping_ratio +
+         share * absorber_impedance(absorber, sampling, gains, hardware, s).real();
 }
 
 }  // namespace detail

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <complex>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/stability/response/absorber_impedance.hpp"
+
+namespace holdfast {
+
+/// The absorber with its computer as a device on a span.
+struct ActiveAbsorber {
+  Absorber<double> absorber;   ///< with its clamp
+  Sampling<double> sampling;   ///< τ and δ
+  PdGains<double> gains;       ///< P and D
+  LoopHardware hardware = {};  ///< measurement filter and drive
+};
+
+/// Z(s) of `absorber_impedance` (N s/m).
+/// @param s  1/s, ≠ 0
+inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {
+  return absorber_impedance(device.absorber, device.sampling, device.gains, device.hardware, s);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// Dashpot, spring and inerter side by side, between the conductor and a mass or the ground.
+struct DeviceBranch {
+  double damping = 0.0;    ///< c (N s/m), ≥ 0
+  double stiffness = 0.0;  ///< k (N/m); below 0 it pushes the conductor on
+  double inertance = 0.0;  ///< b (kg), ≥ 0: force over the difference of accelerations
+  /// m (kg), > 0, what the other end moves; infinity: the ground
+  double mass = std::numeric_limits<double>::infinity();
+};
+
+/// Z(s) of a branch, force over velocity of the conductor (N s/m): 1/Z = 1/(b s + c + k/s) +
+/// 1/(m s).
+/// @param s  1/s, ≠ 0
+inline std::complex<double> impedance(const DeviceBranch& branch, const std::complex<double>& s) {
+  const std::complex<double> link = branch.inertance * s + branch.damping + branch.stiffness / s;
+  if (!std::isfinite(branch.mass)) return link;
+  const std::complex<double> inertia = branch.mass * s;
+  return link * inertia / (link + inertia);
+}
+
+/// A device of masses, springs, dashpots and inerters clamped on a conductor: its branches side by
+/// side, and the mass of its clamp.
+///
+///     Z(s) = M_c s + Σ 1/(1/(b s + c + k/s) + 1/(m s))
+struct LumpedDevice {
+  std::vector<DeviceBranch> branches;
+  double clamp_mass = 0.0;  ///< M_c (kg), ≥ 0
+};
+
+/// Z(s) of the device (N s/m).
+/// @param s  1/s, ≠ 0
+inline std::complex<double> impedance(const LumpedDevice& device, const std::complex<double>& s) {
+  std::complex<double> sum = device.clamp_mass * s;
+  for (const DeviceBranch& branch : device.branches) sum += impedance(branch, s);
+  return sum;
+}
+
+/// Refuses a device outside the ranges that its members state.
+/// @throws InvalidParameter naming the first member that is not admissible
+inline void validate(const LumpedDevice& device) {
+  require_non_negative("clamp mass of a device", device.clamp_mass, "kg");
+  for (const DeviceBranch& branch : device.branches) {
+    require_non_negative("damping of a device", branch.damping, "N s/m");
+    require_finite("stiffness of a device", branch.stiffness, "N/m");
+    require_non_negative("inertance of a device", branch.inertance, "kg");
+    if (!(branch.mass > 0.0)) throw InvalidParameter("mass of a device", branch.mass, "kg", "> 0");
+  }
+}
+
+/// A mass on a spring and a dashpot, by the frequency at which it swings on a clamp that stands
+/// still.
+/// @param mass           m (kg), > 0
+/// @param frequency      f (Hz), > 0
+/// @param damping_ratio  ζ ≥ 0
+inline DeviceBranch tuned_branch(double mass, double frequency, double damping_ratio) {
+  const double omega = 2.0 * pi<double> * frequency;
+  return {2.0 * damping_ratio * mass * omega, mass * omega * omega, 0.0, mass};
+}
+
+/// The data of a Stockbridge damper: two weights on a messenger wire, of which its clamp feels two
+/// resonances.
+struct StockbridgeData {
+  double mass;                           ///< of the weights (kg), > 0
+  std::array<double, 2> frequencies;     ///< Hz, ascending, on a clamp that stands still
+  std::array<double, 2> damping_ratios;  ///< of the two resonances, > 0
+  double mass_share = 0.5;  ///< of the mass that swings at the lower one, within 0 … 1
+  double clamp_mass = 0.0;  ///< kg, ≥ 0
+};
+
+/// A Stockbridge damper by its two resonances: every device of weights on springs answers at its
+/// clamp like masses side by side, each on a spring of its own, whose sum is that of the weights.
+/// @throws InvalidParameter where the data are not admissible
+inline LumpedDevice stockbridge(const StockbridgeData& data) {
+  require_positive("mass of a Stockbridge damper", data.mass, "kg");
+  require_within("share of its mass that swings at the lower frequency", data.mass_share, "", 0, 1);
+  require_positive("lower frequency of a Stockbridge damper", data.frequencies[0], "Hz");
+  require_positive("higher frequency of a Stockbridge damper", data.frequencies[1], "Hz");
+  for (const double ratio : data.damping_ratios)
+    require_positive("damping ratio of a Stockbridge damper", ratio, "");
+  LumpedDevice device;
+  device.clamp_mass = data.clamp_mass;
+  const std::array<double, 2> masses = {data.mass_share * data.mass,
+                                        (1.0 - data.mass_share) * data.mass};
+  for (std::size_t k = 0; k < 2; ++k)
+    if (masses[k] > 0.0)
+      device.branches.push_back(
+          tuned_branch(masses[k], data.frequencies[k], data.damping_ratios[k]));
+  validate(device);
+  return device;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// The impedance of a device as it was measured on a shaker: force over velocity of its clamp at
+/// ascending frequencies.
+///
+/// Between them real and imaginary part run straight: what gives no power at its rows gives none
+/// between them. Outside them nothing was measured and nothing is said: NaN.
+class MeasuredImpedance {
+ public:
+  /// A row of the measurement.
+  struct Row {
+    double angular_frequency;        ///< ω (rad/s), > 0
+    std::complex<double> impedance;  ///< Z (N s/m), Re Z ≥ 0
+  };
+
+  /// @param rows  two or more, ω ascending
+  /// @throws InvalidParameter where they are fewer, not ascending, not finite, or give power
+  explicit MeasuredImpedance(std::vector<Row> rows) : rows_(std::move(rows)) {
+    require_within("rows of a measured impedance", static_cast<double>(rows_.size()), "", 2, 1e7);
+    double before = 0.0;
+    for (const Row& row : rows_) {
+      require_finite("measured impedance", std::abs(row.impedance), "N s/m");
+      if (!(std::isfinite(row.angular_frequency) && row.angular_frequency > before))
+        throw InvalidParameter("angular frequency of a measured impedance", row.angular_frequency,
+                               "rad/s", "above the one before it");
+      if (!(row.impedance.real() >= -giving * std::abs(row.impedance)))
+        throw InvalidParameter("real part of a measured impedance", row.impedance.real(), "N s/m",
+                               ">= 0: a passive device gives no power");
+      before = row.angular_frequency;
+    }
+  }
+
+  /// Z at ω (rad/s); NaN where it was not measured.
+  std::complex<double> at(double angular_frequency) const {
+    const auto above = std::lower_bound(
+        rows_.begin(), rows_.end(), angular_frequency,
+        [](const Row& row, double omega) { return row.angular_frequency < omega; });
+    if (above == rows_.end()) return {std::nan(""), std::nan("")};
+    if (above->angular_frequency == angular_frequency) return above->impedance;
+    if (above == rows_.begin()) return {std::nan(""), std::nan("")};
+    const Row& below = *(above - 1);
+    const double share = (angular_frequency - below.angular_frequency) /
+                         (above->angular_frequency - below.angular_frequency);
+    return below.impedance + share * (above->impedance - below.impedance);
+  }
+
+  double lowest() const { return rows_.front().angular_frequency; }  ///< ω (rad/s) of the first row
+  double highest() const { return rows_.back().angular_frequency; }  ///< and of the last one
+
+ private:
+  static constexpr double giving = 1e-9;  // of |Z|: the round-off of a phase of 90°
+
+  std::vector<Row> rows_;
+};
+
+/// Z of a measured device at s = iω, and beside that line at the same |s|: a mode that decays by
+/// few per cent a cycle moves the device nearly as a steady vibration does.
+/// @return NaN where it was not measured
+inline std::complex<double> impedance(const MeasuredImpedance& device,
+                                      const std::complex<double>& s) {
+  const std::complex<double> z = device.at(std::abs(s));
+  return s.imag() < 0.0 ? std::conj(z) : z;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <complex>
+#include <variant>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/span/device/active_absorber.hpp"
+#include "holdfast/span/device/lumped_device.hpp"
+#include "holdfast/span/device/measured_impedance.hpp"
+
+namespace holdfast {
+
+/// A device clamped on a span.
+struct SpanDevice {
+  double position;  ///< m from the left support, inside the span
+  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;
+
+  /// Z(s), force over velocity of the conductor (N s/m).
+  /// @param s  1/s, ≠ 0
+  std::complex<double> impedance(const std::complex<double>& s) const {
+    return std::visit([&](const auto& one) { return holdfast::impedance(one, s); }, device);
+  }
+};
+
+/// The devices in the order of their places.
+/// @throws InvalidParameter where one is not inside the span (m)
+inline std::vector<SpanDevice> in_order(std::vector<SpanDevice> devices, double span) {
+  for (const SpanDevice& device : devices) require_inside_span(device.position, span);
+  std::stable_sort(devices.begin(), devices.end(), [](const SpanDevice& a, const SpanDevice& b) {
+    return a.position < b.position;
+  });
+  return devices;
+}
+
+}  // namespace holdfast

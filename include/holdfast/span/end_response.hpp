@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/span/device/span_device.hpp"
+
+namespace holdfast {
+
+/// What an end of a span with its devices does to the waves of one frequency that come to it. What
+/// moves is given for a free span that vibrates with 1 m at its antinodes.
+struct EndResponse {
+  std::complex<double> reflection;  ///< r of the displacement, at the outermost device
+  /// Z of the end as the outermost device's place sees it (N s/m), Z_c (1 − r)/(1 + r); without
+  /// device that of the support is infinite
+  std::complex<double> impedance;
+  double support_angle;         ///< slope of the conductor at the support (rad/m)
+  std::vector<double> motions;  ///< of the devices, outward from the support (m/m)
+  std::vector<double> kinks;    ///< of the conductor at the devices, |Z v|/T (rad/m)
+
+  /// 1 − |r|²: of the incident power the part that does not come back.
+  double absorbed_fraction() const { return 1.0 - std::norm(reflection); }
+
+  /// S = (1 − |r|)/(1 + |r|), the inverse standing-wave ratio: node over antinode. Negative where
+  /// the devices feed the wave.
+  double inverse_standing_wave_ratio() const {
+    return (1.0 - std::abs(reflection)) / (1.0 + std::abs(reflection));
+  }
+
+  /// ½ Z_c ω² S: what the devices take from an antinode of 1 m (W/m²).
+  double absorbed_power(double wave_impedance, double angular_frequency) const {
+    return 0.5 * wave_impedance * angular_frequency * angular_frequency *
+           inverse_standing_wave_ratio();
+  }
+};
+
+/// An end of a span: the distances of its devices from the support, ascending, and the devices.
+struct SpanEnd {
+  std::vector<double> distances;  ///< m, > 0
+  std::vector<const SpanDevice*> devices;
+};
+
+/// The devices nearer to the left support, and to the right one. They must outlive what is
+/// returned.
+/// @param devices  `in_order`
+/// @param span     L (m)
+inline std::array<SpanEnd, 2> span_ends(const std::vector<SpanDevice>& devices, double span) {
+  std::array<SpanEnd, 2> ends;
+  for (const SpanDevice& device : devices) {
+    if (device.position > span / 2.0) continue;
+    ends[0].distances.push_back(device.position);
+    ends[0].devices.push_back(&device);
+  }
+  for (auto device = devices.rbegin(); device != devices.rend(); ++device) {
+    if (device->position <= span / 2.0) break;
+    ends[1].distances.push_back(span - device->position);
+    ends[1].devices.push_back(&*device);
+  }
+  return ends;
+}
+
+/// The waves e^{iωt} at an end of a taut string, from its fixed support outward: between devices
+/// the string keeps y and its slope turns, y″ = −k² y with k = ω/c; at a device the slope jumps by
+/// Z iω y/T. Beyond the last one what runs in and what comes back are told apart,
+///
+///     r = (1 − ζ_t)/(1 + ζ_t),  ζ_t = Z/Z_c − i cot ka   for one device at a
+///
+/// The string itself is taken without damping: over the few metres of an end it takes nothing.
+/// @param string             tension and mass; its damping and bending stiffness do not count
+/// @param end                its devices (unchecked)
+/// @param angular_frequency  ω (rad/s), > 0
+inline EndResponse end_response(const TautString<double>& string, const SpanEnd& end,
+                                double angular_frequency) {
+  using Complex = std::complex<double>;
+  const double k = angular_frequency / string.wave_speed();
+  const Complex s(0.0, angular_frequency);
+  EndResponse response{};
+  Complex y(0.0), slope(1.0);
+  double at = 0.0;
+  for (std::size_t j = 0; j < end.devices.size(); ++j) {
+    const double way = k * (end.distances[j] - at), sine = std::sin(way), cosine = std::cos(way);
+    const Complex moved = y * cosine + slope * sine / k;
+    slope = slope * cosine - y * k * sine;
+    y = moved;
+    const Complex kink = end.devices[j]->impedance(s) * s * y / string.tension;
+    slope += kink;
+    response.motions.push_back(std::abs(y));
+    response.kinks.push_back(std::abs(kink));
+    at = end.distances[j];
+  }
+  // y = A e^{ikx} + B e^{−ikx}: the first runs in, with e^{iωt}.
+  const Complex incident = (y + slope / Complex(0.0, k)) / 2.0;
+  const Complex returned = (y - slope / Complex(0.0, k)) / 2.0;
+  const double antinode = std::abs(incident) + std::abs(returned);
+  response.reflection = returned / incident;
+  response.impedance = string.tension * slope / (s * y);
+  response.support_angle = 1.0 / antinode;
+  for (double& motion : response.motions) motion /= antinode;
+  for (double& kink : response.kinks) kink /= antinode;
+  return response;
+}
+
+}  // namespace holdfast

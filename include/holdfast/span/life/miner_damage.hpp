@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// How long a wind speed blows in a year.
+struct WindHours {
+  double speed;  ///< U (m/s), > 0
+  double hours;  ///< a year, ≥ 0
+};
+
+/// The hours of a year at speeds U whose distribution is Weibull's, P(U > u) = e^{−(u/A)^k}, from
+/// one speed to another in equal steps; each row stands for the step around it.
+/// @param scale    A (m/s), > 0
+/// @param shape    k, > 0
+/// @param lowest   m/s, ≥ 0
+/// @param highest  m/s, above the lowest
+/// @param steps    ≥ 1
+/// @throws InvalidParameter outside these ranges
+inline std::vector<WindHours> weibull_hours(double scale, double shape, double lowest,
+                                            double highest, int steps) {
+  require_positive("scale of the wind's distribution", scale, "m/s");
+  require_positive("shape of the wind's distribution", shape, "");
+  require_non_negative("lowest wind speed", lowest, "m/s");
+  require_within("steps of wind speed", steps, "", 1, 1e6);
+  if (!(highest > lowest && std::isfinite(highest)))
+    throw InvalidParameter("highest wind speed", highest, "m/s", "above the lowest one");
+  constexpr double hours_of_year = 8766.0;
+  const auto beyond = [&](double speed) { return std::exp(-std::pow(speed / scale, shape)); };
+  std::vector<WindHours> rows;
+  for (int j = 0; j < steps; ++j) {
+    const double below = lowest + (highest - lowest) * j / steps;
+    const double above = lowest + (highest - lowest) * (j + 1) / steps;
+    rows.push_back({0.5 * (below + above), hours_of_year * (beyond(below) - beyond(above))});
+  }
+  return rows;
+}
+
+/// A stress that a conductor bears for a number of cycles a year.
+struct StressCycles {
+  double stress;  ///< σ (Pa), zero to peak
+  double cycles;  ///< n, a year
+};
+
+/// The damage of a year by Miner's rule, Σ n/N(σ): 1/damage are the years to the first broken wire
+/// by the line of life taken.
+/// @tparam LifeLine  has `cycles(stress)`, N
+template <class LifeLine>
+double miner_damage(const std::vector<StressCycles>& year, const LifeLine& line) {
+  double damage = 0.0;
+  for (const StressCycles& row : year)
+    if (row.cycles > 0.0) damage += row.cycles / line.cycles(row.stress);
+  return damage;
+}
+
+}  // namespace holdfast

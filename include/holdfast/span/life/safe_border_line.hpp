@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace holdfast {
+
+/// The life of a conductor at its clamps under bending, by the safe border line of CIGRE Study
+/// Committee 22, Working Group 04 (Electra 63, 1979): below all measured failures.
+///
+///     σ = A N^{−α} up to N₀ cycles,  σ = B N^{−β} beyond     (σ in MPa, zero to peak)
+///
+/// At N₀ the two do not meet, and to the stresses between them neither gives a number of cycles
+/// that is its own: there the smaller of both counts.
+struct SafeBorderLine {
+  double steep_stress;     ///< A (MPa)
+  double steep_exponent;   ///< α
+  double flat_stress;      ///< B (MPa)
+  double flat_exponent;    ///< β
+  double change_of_slope;  ///< N₀ (cycles)
+
+  /// N, the cycles that a stress σ (Pa) allows; infinity where there is no stress.
+  double cycles(double stress) const {
+    const double megapascal = stress / 1e6;
+    if (!(megapascal > 0.0))
+      return megapascal == 0.0 ? std::numeric_limits<double>::infinity() : std::nan("");
+    const double steep = std::pow(megapascal / steep_stress, -1.0 / steep_exponent);
+    const double flat = std::pow(megapascal / flat_stress, -1.0 / flat_exponent);
+    if (steep <= change_of_slope) return steep;
+    return flat >= change_of_slope ? flat : std::min(steep, flat);
+  }
+};
+
+/// The line of conductors of several layers of aluminium, and of a single layer.
+inline constexpr SafeBorderLine several_layers{450.0, 0.20, 263.0, 0.17, 1.56e7};
+inline constexpr SafeBorderLine single_layer{730.0, 0.20, 430.0, 0.17, 2.0e7};
+
+}  // namespace holdfast

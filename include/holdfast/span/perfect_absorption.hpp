@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/span/device/active_absorber.hpp"
+
+namespace holdfast {
+
+/// The impedance that lets no wave of one frequency come back from a support at a distance,
+/// Z* = Z_c (1 + i cot ka), k = ω/c (N s/m).
+/// @param string             tension and mass
+/// @param distance           a (m) from the support, > 0; sin ka ≠ 0
+/// @param angular_frequency  ω (rad/s), > 0
+/// @throws InvalidParameter where the place is a node of that frequency
+inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
+                                              double angular_frequency) {
+  const double phase = angular_frequency * distance / string.wave_speed();
+  if (!(std::abs(std::sin(phase)) > 1e-9))
+    throw InvalidParameter("distance from the support", distance, "m",
+                           "no whole number of half-waves: a node moves nothing");
+  return string.wave_impedance() * std::complex<double>(1.0, 1.0 / std::tan(phase));
+}
+
+/// The gains with which the absorber under its computer absorbs a wave of one frequency whole:
+///
+///     Z_eff = (Z* − (M_c s² + K_p)/s)/T_a,   s = iω
+///     D = −Re(Z_eff/Λ),   P = ω Im(Z_eff/Λ),  Λ = F D e^{−s(δ + τ/2)} sinc(ωτ/2)
+///
+/// Whether the loop is stable with them, at all other frequencies, is another question.
+/// @param string             tension and mass
+/// @param distance           a (m) from the support, > 0; sin ka ≠ 0
+/// @param device             its gains do not count
+/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ
+/// @throws InvalidParameter where the place is a node of that frequency
+inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
+                                          const ActiveAbsorber& device, double angular_frequency) {
+  const std::complex<double> s(0.0, angular_frequency);
+  const std::complex<double> wanted = (matched_impedance(string, distance, angular_frequency) -
+                                       detail::passive_stiffness(device.absorber, s) / s) /
+                                      detail::transmitted_share(device.absorber, s);
+  // Of D alone the drive has −Λ, of P alone −Λ/s.
+  const std::complex<double> late =
+      -drive_impedance(device.sampling, {0.0, 1.0}, device.hardware, s);
+  const std::complex<double> law = wanted / late;
+  return {angular_frequency * law.imag(), -law.real()};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/root_from_pole.hpp"
+#include "holdfast/span/device/span_device.hpp"
+
+namespace holdfast {
+
+/// The deflection at the right support of a string that leaves the left one with slope 1, in waves
+/// e^{st}: zero where s is a natural motion of the span with its devices.
+///
+/// The string's damping is that of a complex stiffness, T e^{2iφ} with sin φ = ζ, so that each mode
+/// alone has s = iω e^{iφ} and the damping ratio ζ exactly; it holds for Im s > 0.
+class SpanWaves {
+ public:
+  using Complex = std::complex<double>;  ///< of s and of deflections
+
+  /// @param string   its bending stiffness does not count
+  /// @param devices  `in_order`; they must outlive this
+  /// @throws InvalidParameter for an inadmissible string
+  SpanWaves(const TautString<double>& string, const std::vector<SpanDevice>& devices)
+      : string_(string), devices_(devices) {
+    validate(string);
+    const double zeta = string.damping_ratio;
+    turn_ = Complex(std::sqrt(1.0 - zeta * zeta), zeta);
+  }
+
+  /// s of mode n without devices (1/s), ζ_n its damping.
+  Complex bare_root(int n) const {
+    return Complex(0.0, n * pi<double> * string_.wave_speed() / string_.span) * turn_;
+  }
+
+  /// y(L) over what it is without devices, at s.
+  Complex held(const Complex& s) const {
+    const Complex rate = s / (string_.wave_speed() * turn_);
+    const Complex tension = string_.tension * turn_ * turn_;
+    Complex y(0.0), slope(1.0);
+    double at = 0.0;
+    for (const SpanDevice& device : devices_) {
+      run(device.position - at, rate, y, slope);
+      slope += device.impedance(s) * s * y / tension;
+      at = device.position;
+    }
+    run(string_.span - at, rate, y, slope);
+    return y * rate / std::sinh(rate * string_.span);
+  }
+
+ private:
+  /// Carries y and its slope along the string.
+  static void run(double way, const Complex& rate, Complex& y, Complex& slope) {
+    const Complex sine = std::sinh(rate * way), cosine = std::cosh(rate * way);
+    const Complex moved = y * cosine + slope * sine / rate;
+    slope = slope * cosine + y * rate * sine;
+    y = moved;
+  }
+
+  TautString<double> string_;
+  const std::vector<SpanDevice>& devices_;
+  Complex turn_;  // e^{iφ}
+};
+
+/// A natural motion of a span with its devices.
+struct SpanRoot {
+  std::complex<double> bare;  ///< s of the mode without devices (1/s)
+  std::complex<double> root;  ///< s with them; NaN where it could not be followed
+  /// ζ of the bare mode and what light devices add: Σ sin²(nπa/L) Re Z(iω_n)/(μ L ω_n)
+  double first_order;
+  /// ζ of the bare mode and what devices near the supports add by Krenk's asymptote,
+  /// Σ (a/L) Im iη/(1 + iη) with η = (Z/Z_c) nπ a/L and a from the nearer support
+  double asymptotic;
+
+  double damping() const { return -root.real() / std::abs(root); }          ///< ζ = −Re s/|s|
+  double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
+};
+
+namespace detail {
+
+inline SpanRoot span_root(const TautString<double>& string, const std::vector<SpanDevice>& devices,
+                          const SpanWaves& waves, int n) {
+  using Complex = std::complex<double>;
+  SpanRoot found{};
+  found.bare = waves.bare_root(n);
+  const double omega = std::abs(found.bare), half_waves = n * pi<double>;
+  found.first_order = found.asymptotic = string.damping_ratio;
+  for (const SpanDevice& device : devices) {
+    const Complex z = device.impedance(Complex(0.0, omega));
+    const double near = std::min(device.position, string.span - device.position) / string.span;
+    const double shape = std::sin(half_waves * near);
+    found.first_order += shape * shape * z.real() / (string.mass_per_length * string.span * omega);
+    const Complex turned = Complex(0.0, 1.0) * z / string.wave_impedance() * half_waves * near;
+    found.asymptotic += near * (turned / (1.0 + turned)).imag();
+  }
+  found.root =
+      devices.empty()
+          ? found.bare
+          : root_from_pole([&](const Complex& s) { return 1.0 - waves.held(s); }, found.bare);
+  return found;
+}
+
+}  // namespace detail
+
+/// The natural motions of a taut string with devices, all modes at once: roots of
+///
+///     sinh γL + Σ_j (Z_j/Z_c) sinh γa_j sinh γ(L − a_j) + …,   γ = s/c
+///
+/// of one dashpot to the ground sin βL + i (c/Z_c) sin βa sin β(L − a) = 0, s = iβc (Krenk, J. Eng.
+/// Mech. 126 (2000)). Each is followed from a mode of the bare string as its devices grow.
+///
+/// A mode is followed, not proved: where two roots meet on their way, which of them is whose is a
+/// matter of name. Of an ActiveAbsorber the part of its force at the frequency of the motion
+/// counts; of a measured one its impedance at |s|.
+/// @param string   its bending stiffness does not count
+/// @param devices  in any order
+/// @param count    modes 1 … count
+/// @throws InvalidParameter for an inadmissible string, a device outside it or a count outside
+///         1 … 10⁵
+inline std::vector<SpanRoot> span_roots(const TautString<double>& string,
+                                        const std::vector<SpanDevice>& devices, int count) {
+  require_within("number of modes", count, "", 1, 100000);
+  const std::vector<SpanDevice> ordered = in_order(devices, string.span);
+  const SpanWaves waves(string, ordered);
+  std::vector<SpanRoot> roots;
+  for (int n = 1; n <= count; ++n) roots.push_back(detail::span_root(string, ordered, waves, n));
+  return roots;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+
+namespace holdfast {
+
+/// The data of a stranded conductor on which its damping by itself depends.
+struct StrandedConductor {
+  double mass_per_length;  ///< m (kg/m), > 0
+  double diameter;         ///< d (m), > 0
+  double rated_strength;   ///< RTS (N), > 0
+  double tension;          ///< T (N), > 0, below RTS
+};
+
+/// Refuses data outside these ranges.
+/// @throws InvalidParameter naming the first one
+inline void validate(const StrandedConductor& conductor) {
+  require_positive("mass per length", conductor.mass_per_length, "kg/m");
+  require_positive("diameter", conductor.diameter, "m");
+  require_positive("rated strength", conductor.rated_strength, "N");
+  require_positive("tension", conductor.tension, "N");
+  if (!(conductor.tension < conductor.rated_strength))
+    throw InvalidParameter("tension", conductor.tension, "N", "below the rated strength");
+}
+
+/// What the wires of a stranded conductor take by rubbing, as a power a length:
+///
+///     P_self = k (y/d)^l f^m/T^n  (mW/m),   k = d/√(RTS m)
+///
+/// in the units of the fits: d in mm, RTS and T in kN, m in kg/m, f in Hz; y (m) is half the
+/// peak-to-peak.
+struct SelfDampingLaw {
+  std::string_view name;
+  double amplitude_exponent;  ///< l
+  double frequency_exponent;  ///< m
+  double tension_exponent;    ///< n
+
+  /// P_self (W/m).
+  double power(const StrandedConductor& conductor, double frequency, double amplitude) const {
+    constexpr double milli = 1e-3;
+    const double strength = milli * conductor.rated_strength, tension = milli * conductor.tension;
+    const double k = conductor.diameter / milli / std::sqrt(strength * conductor.mass_per_length);
+    return milli * k * std::pow(amplitude / conductor.diameter, amplitude_exponent) *
+           std::pow(frequency, frequency_exponent) / std::pow(tension, tension_exponent);
+  }
+};
+
+/// Exponents by three of those who measured them, collected by CIGRE Study Committee 22, Working
+/// Group 11: they differ by a factor, since they extrapolate from other spans and tensions.
+inline constexpr std::array<SelfDampingLaw, 3> self_damping_laws = {
+    SelfDampingLaw{"noiseux", 2.44, 5.63, 2.76}, SelfDampingLaw{"kraus_hagedorn", 2.47, 5.38, 2.80},
+    SelfDampingLaw{"seppa", 2.5, 5.75, 2.8}};
+
+/// What a mode's damping ratio ζ takes, as a power a length: ½ ζ μ ω³ y² (W/m).
+/// @param mass_per_length    μ (kg/m)
+/// @param damping_ratio      ζ
+/// @param angular_frequency  ω (rad/s)
+/// @param amplitude          y (m)
+inline double damped_power(double mass_per_length, double damping_ratio, double angular_frequency,
+                           double amplitude) {
+  return 0.5 * damping_ratio * mass_per_length * angular_frequency * angular_frequency *
+         angular_frequency * amplitude * amplitude;
+}
+
+}  // namespace holdfast

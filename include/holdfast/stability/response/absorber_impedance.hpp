@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+
+namespace holdfast {
+
+/// Z_eff(s) of the computer's force, as part of it that has the frequency of the motion, over the
+/// conductor's velocity (N s/m):
+///
+///     Z_eff = −(D + P/s) F(s) D(s) e^{−s(δ + τ/2)} sinh(sτ/2)/(sτ/2)
+///
+/// with the lags F of the measurement filter and D of the drive; sinh(sτ/2)/(sτ/2) = sinc(ωτ/2) at
+/// s = iω. What the hold sends out besides has frequencies ω + 2πk/τ; where the conductor answers
+/// there, only the sampled loop (`ModalResponse`) is exact.
+/// @param s  1/s, ≠ 0
+inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
+                                            const PdGains<double>& gains,
+                                            const LoopHardware& hardware,
+                                            const std::complex<double>& s) {
+  const std::complex<double> half = s * sampling.period / 2.0;
+  const std::complex<double> late =
+      std::sinh(half) / half * std::exp(-s * (sampling.processing_delay + sampling.period / 2.0));
+  const detail::HardwarePoles lags(hardware);
+  return -(gains.differential + gains.proportional / s) * late *
+         detail::HardwarePoles::lag(lags.drive, s) * detail::HardwarePoles::lag(lags.filter, s);
+}
+
+/// Z(s) = (M_c s² + K_p)/s + T_a Z_eff of the absorber with its computer (N s/m), force over
+/// velocity of the conductor; to `drive_impedance` applies what is said there.
+/// @param s  1/s, ≠ 0
+inline std::complex<double> absorber_impedance(const Absorber<double>& absorber,
+                                               const Sampling<double>& sampling,
+                                               const PdGains<double>& gains,
+                                               const LoopHardware& hardware,
+                                               const std::complex<double>& s) {
+  return detail::passive_stiffness(absorber, s) / s +
+         detail::transmitted_share(absorber, s) * drive_impedance(sampling, gains, hardware, s);
+}
+
+}  // namespace holdfast
