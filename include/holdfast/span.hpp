@@ -11,6 +11,7 @@
 #include "holdfast/span/life/miner_damage.hpp"
 #include "holdfast/span/life/safe_border_line.hpp"
 #include "holdfast/span/perfect_absorption.hpp"
+#include "holdfast/span/span_poles.hpp"
 #include "holdfast/span/span_roots.hpp"
 #include "holdfast/span/wind/energy_balance.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"

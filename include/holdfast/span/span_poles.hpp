@@ -1,0 +1,309 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/roots/root_from_pole.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/span/device/lumped_device.hpp"
+
+namespace holdfast {
+
+/// A mode of a conductor as several places see it.
+struct ModeAtPlaces {
+  double angular_frequency;    ///< ω_n (rad/s), > 0
+  double damping_ratio;        ///< ζ_n, ≥ 0, ≠ 1
+  double mass;                 ///< M_n (kg), > 0
+  std::vector<double> shapes;  ///< φ_n at each place
+};
+
+/// What a device presses back with for a displacement, K = s Z (N/m), and how K changes with s.
+struct DynamicStiffness {
+  std::complex<double> value;  ///< K
+  std::complex<double> slope;  ///< dK/ds
+};
+
+/// K and dK/ds of a device of masses, springs, dashpots and inerters, at s.
+inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
+                                          const std::complex<double>& s) {
+  DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
+  for (const DeviceBranch& branch : device.branches) {
+    const std::complex<double> link =
+        (branch.inertance * s + branch.damping) * s + branch.stiffness;
+    const std::complex<double> link_slope = 2.0 * branch.inertance * s + branch.damping;
+    if (!std::isfinite(branch.mass)) {
+      sum.value += link;
+      sum.slope += link_slope;
+      continue;
+    }
+    // 1/(1/q + 1/p) with p = m s².
+    const std::complex<double> inertia = branch.mass * s * s, both = link + inertia;
+    sum.value += link * inertia / both;
+    sum.slope +=
+        (link_slope * inertia * inertia + 2.0 * branch.mass * s * link * link) / (both * both);
+  }
+  return sum;
+}
+
+/// The natural motions of a device on a clamp that stands still (1/s), of each pair one.
+inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
+  std::vector<std::complex<double>> motions;
+  for (const DeviceBranch& branch : device.branches) {
+    if (!std::isfinite(branch.mass)) continue;
+    const double mass = branch.mass + branch.inertance, decay = branch.damping / (2.0 * mass);
+    const double square = decay * decay - branch.stiffness / mass;
+    if (square < 0.0) {
+      motions.emplace_back(-decay, std::sqrt(-square));
+      continue;
+    }
+    const double larger = decay + std::sqrt(square);
+    if (larger > 0.0) motions.emplace_back(-larger, 0.0);
+    // Of a weight on a dashpot alone nothing brings it back.
+    if (larger > 0.0 && branch.stiffness != 0.0)
+      motions.emplace_back(-branch.stiffness / mass / larger, 0.0);
+  }
+  return motions;
+}
+
+/// The natural motions of a conductor to which one device after the other is attached, as all its
+/// places see them:
+///
+///     H_il(s) = Σ_k φ_ik φ_lk/(s − s_k)  (m/N, force at l, displacement at i)
+///
+/// A device with K at place j makes of it H_il − H_ij K H_jl/(1 + K H_jj): its poles are the roots
+/// of 1 + K H_jj, each followed from where conductor or device moves alone (`root_from_pole`), and
+/// stay of rank one. N² operations a device.
+class SpanPoles {
+ public:
+  using Complex = std::complex<double>;  ///< of s and of what moves
+
+  /// @param modes  of the bare conductor, all with the same number of places, none damped
+  ///               critically
+  /// @throws InvalidParameter where there is no mode or one is not admissible
+  explicit SpanPoles(const std::vector<ModeAtPlaces>& modes) {
+    require_within("number of modes", static_cast<double>(modes.size()), "", 1, 10000);
+    const std::size_t places = modes.front().shapes.size();
+    mobility_.assign(places, std::vector<double>(places, 0.0));
+    for (const ModeAtPlaces& mode : modes) add(mode);
+  }
+
+  /// H_il at s.
+  Complex receptance(std::size_t i, std::size_t l, const Complex& s) const {
+    Complex sum(0.0);
+    for (const Pole& pole : poles_) sum += part(pole, i, l, s);
+    return sum;
+  }
+
+  /// Attaches a device.
+  /// @param place  its index
+  /// @throws InvalidParameter where the device is not admissible
+  void attach(const LumpedDevice& device, std::size_t place) {
+    validate(device);
+    const auto stiffness = [&](const Complex& s) { return dynamic_stiffness(device, s); };
+    attach(stiffness, own_motions(device), place);
+    load(place, [&] {
+      double mass = device.clamp_mass;
+      for (const DeviceBranch& branch : device.branches)
+        mass += std::isfinite(branch.mass)
+                    ? branch.inertance * branch.mass / (branch.inertance + branch.mass)
+                    : branch.inertance;
+      return mass;
+    }());
+  }
+
+  /// Attaches an absorber, and returns the poles from its drive to its place as `plant_poles` does:
+  /// of each pair both, nothing where they were not all found.
+  /// @throws InvalidParameter where the absorber is not admissible
+  std::vector<PlantPole> attach(const Absorber<double>& absorber, std::size_t place) {
+    validate({{1.0, 0.0, 1.0, 1.0}}, absorber);
+    const LumpedDevice device{{{absorber.damping, absorber.stiffness, 0.0, absorber.mass}},
+                              absorber.clamp_mass};
+    attach(device, place);
+    std::vector<PlantPole> found;
+    for (const Pole& pole : poles_) {
+      const Complex residue =
+          detail::transmitted_share(absorber, pole.s) * pole.shapes[place] * pole.shapes[place];
+      found.push_back({pole.s, residue});
+      if (pole.is_pair) found.push_back({std::conj(pole.s), std::conj(residue)});
+    }
+    if (!detail::are_all_poles(found, mobility_[place][place])) return {};
+    return found;
+  }
+
+  /// Of each pair the s with Im s > 0; in the order of the modes, then of what was attached.
+  std::vector<Complex> roots() const {
+    std::vector<Complex> found;
+    for (const Pole& pole : poles_) found.push_back(pole.s);
+    return found;
+  }
+
+ private:
+  struct Pole {
+    Complex s;
+    bool is_pair;
+    std::vector<Complex> shapes;
+  };
+
+  static Complex part(const Pole& pole, std::size_t i, std::size_t l, const Complex& s) {
+    const Complex product = pole.shapes[i] * pole.shapes[l];
+    if (product == 0.0) return 0.0;  // where the bundle of another place is, too
+    const Complex own = product / (s - pole.s);
+    return pole.is_pair ? own + std::conj(product) / (s - std::conj(pole.s)) : own;
+  }
+
+  /// dH_jj/ds.
+  Complex slope(std::size_t j, const Complex& s) const {
+    Complex sum(0.0);
+    for (const Pole& pole : poles_) {
+      const Complex square = pole.shapes[j] * pole.shapes[j], away = s - pole.s;
+      if (square == 0.0) continue;
+      sum -= square / (away * away);
+      const Complex other = s - std::conj(pole.s);
+      if (pole.is_pair) sum -= std::conj(square) / (other * other);
+    }
+    return sum;
+  }
+
+  void add(const ModeAtPlaces& mode) {
+    const PlaceMode<double> one{mode.angular_frequency, mode.damping_ratio, 1.0, mode.mass};
+    validate({one}, {1.0, 0.0, 0.0});
+    const auto [s, partner] = detail::PoleFinder::bare(one);
+    const auto with = [&](const Complex& at, const Complex& other, bool is_pair) {
+      Pole pole{at, is_pair, {}};
+      const Complex scale = 1.0 / std::sqrt(mode.mass * (at - other));
+      for (const double shape : mode.shapes) pole.shapes.push_back(scale * shape);
+      poles_.push_back(std::move(pole));
+    };
+    with(s, partner, mode.damping_ratio < 1.0);
+    if (mode.damping_ratio >= 1.0) with(partner, s, false);
+    for (std::size_t i = 0; i < mode.shapes.size(); ++i)
+      for (std::size_t l = 0; l < mode.shapes.size(); ++l)
+        mobility_[i][l] += mode.shapes[i] * mode.shapes[l] / mode.mass;
+  }
+
+  /// The mobility at very high frequency, once a mass is clamped to a place.
+  void load(std::size_t place, double mass) {
+    const std::vector<double> row = mobility_[place];
+    const double share = mass / (1.0 + mass * row[place]);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      for (std::size_t l = 0; l < row.size(); ++l) mobility_[i][l] -= share * row[i] * row[l];
+  }
+
+  template <class Stiffness>
+  void attach(const Stiffness& stiffness, const std::vector<Complex>& own, std::size_t place) {
+    const auto loop_gain = [&](const Complex& s) {
+      return -receptance(place, place, s) * stiffness(s).value;
+    };
+    std::vector<Pole> found;
+    for (const Pole& pole : poles_) {
+      if (auto moved = weakly_moved(pole, stiffness, place)) {
+        found.push_back(std::move(*moved));
+        continue;
+      }
+      follow(found, loop_gain, stiffness, pole.s, pole.is_pair, place);
+    }
+    for (const Complex& s : own) follow(found, loop_gain, stiffness, s, s.imag() != 0.0, place);
+    poles_ = std::move(found);
+  }
+
+  /// A pole that the device hardly moves, by its residue alone.
+  template <class Stiffness>
+  std::optional<Pole> weakly_moved(const Pole& pole, const Stiffness& stiffness,
+                                   std::size_t place) const {
+    const Complex s = pole.s, own = pole.shapes[place], pressed = stiffness(s).value;
+    if (!(std::abs(own * own * pressed) < 1e-6 * std::abs(s))) return std::nullopt;
+    std::vector<Complex> others(pole.shapes.size());
+    for (const Pole& other : poles_)
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        if (&other != &pole) others[i] += part(other, i, place, s);
+        if (&other == &pole && pole.is_pair)
+          others[i] += std::conj(pole.shapes[i] * own) / (s - std::conj(s));
+      }
+    const Complex held = 1.0 + others[place] * pressed;
+    const Complex moved = own * own * pressed / held;
+    if (!(std::abs(moved) < 1e-8 * std::abs(s))) return std::nullopt;
+    Pole result{s - moved, pole.is_pair, pole.shapes};
+    for (std::size_t i = 0; i < others.size(); ++i)
+      result.shapes[i] -= others[i] * pressed * own / held;
+    return result;
+  }
+
+  /// Adds the motion that begins at s; of a pair that meets on the real axis the other one too.
+  template <class LoopGain, class Stiffness>
+  void follow(std::vector<Pole>& found, const LoopGain& loop_gain, const Stiffness& stiffness,
+              const Complex& begin, bool is_pair, std::size_t place) const {
+    const Complex s = polished(root_from_pole(loop_gain, begin), stiffness, place);
+    const bool stays = std::abs(s.imag()) > 1e-9 * std::abs(s);
+    found.push_back(at(s, stays, stiffness, place));
+    if (!is_pair || stays) return;
+    const Complex other = polished(root_from_pole(loop_gain, std::conj(begin)), stiffness, place);
+    found.push_back(at(other, false, stiffness, place));
+  }
+
+  /// By Newton on 1/H + K.
+  template <class Stiffness>
+  Complex polished(Complex s, const Stiffness& stiffness, std::size_t place) const {
+    for (int turn = 0; turn < 12; ++turn) {
+      const Complex h = receptance(place, place, s);
+      const DynamicStiffness k = stiffness(s);
+      const Complex step = (1.0 / h + k.value) / (k.slope - slope(place, s) / (h * h));
+      s -= step;
+      if (turn >= 2 && std::abs(step) <= 1e-15 * std::abs(s)) break;
+    }
+    return s;
+  }
+
+  template <class Stiffness>
+  Pole at(const Complex& s, bool is_pair, const Stiffness& stiffness, std::size_t place) const {
+    const DynamicStiffness k = stiffness(s);
+    const Complex h = receptance(place, place, s);
+    const Complex scale = std::sqrt(-k.value / (k.slope * h + k.value * slope(place, s)));
+    Pole pole{s, is_pair, {}};
+    for (std::size_t i = 0; i < mobility_.size(); ++i)
+      pole.shapes.push_back(scale * receptance(i, place, s));
+    // The one with Im s > 0 stands for a pair.
+    if (!is_pair || s.imag() > 0.0) return pole;
+    pole.s = std::conj(pole.s);
+    for (Complex& shape : pole.shapes) shape = std::conj(shape);
+    return pole;
+  }
+
+  std::vector<Pole> poles_;
+  std::vector<std::vector<double>> mobility_;  // Σ φ_i φ_l/M with what was clamped
+};
+
+/// The modes of a taut string as several places see them: the sines 1 … count, and what is above
+/// them in bundles (`bundled_string_modes`) that each place has for itself, since waves so short
+/// are damped out between two places.
+/// @param string   any
+/// @param places   m from the left support, inside the span
+/// @param count    sines, 1 … 10⁴
+/// @param highest  ω (rad/s) up to which bundles are formed
+/// @throws InvalidParameter as `bundled_string_modes`
+inline std::vector<ModeAtPlaces> string_modes_at(const TautString<double>& string,
+                                                 const std::vector<double>& places, int count,
+                                                 double highest) {
+  std::vector<ModeAtPlaces> modes;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const auto seen = bundled_string_modes(string, places[j], count, highest);
+    for (std::size_t n = 0; n < seen.size(); ++n) {
+      const bool is_sine = n < static_cast<std::size_t>(count);
+      if (!is_sine || j == 0)
+        modes.push_back({seen[n].angular_frequency, seen[n].damping_ratio, seen[n].mass,
+                         std::vector<double>(places.size(), 0.0)});
+      (is_sine ? modes[n] : modes.back()).shapes[j] = seen[n].shape;
+    }
+  }
+  return modes;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,143 @@
+#include "holdfast/span/span_poles.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <vector>
+
+#include "holdfast/math/linalg/eigenvalues.hpp"
+#include "holdfast/span/span_roots.hpp"
+#include "span/drake_span.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast {
+namespace {
+
+using Complex = std::complex<double>;
+
+TautString<double> damped_drake(double span) {
+  TautString<double> string = drake_string();
+  string.span = span;
+  string.damping_ratio = 2e-4;
+  return string;
+}
+
+LumpedDevice damper() { return stockbridge({4.0, {9.0, 24.0}, {0.15, 0.2}, 0.55, 0.4}); }
+
+const Absorber<double> absorber{5.0, 78956.8, 125.0, 0.05};
+
+/// The whole as matrices: modes, then the masses of the branches, M q̈ + C q̇ + K q = 0.
+std::vector<Complex> dense_roots(const std::vector<ModeAtPlaces>& modes,
+                                 const std::vector<std::pair<LumpedDevice, std::size_t>>& devices) {
+  using Matrix = Eigen::MatrixXd;
+  const auto n = static_cast<Eigen::Index>(modes.size());
+  Eigen::Index size = n;
+  for (const auto& [device, place] : devices)
+    for (const DeviceBranch& branch : device.branches) size += std::isfinite(branch.mass) ? 1 : 0;
+  Matrix mass = Matrix::Zero(size, size), damping = mass, stiffness = mass;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const ModeAtPlaces& mode = modes[static_cast<std::size_t>(k)];
+    const double omega = mode.angular_frequency;
+    mass(k, k) = mode.mass;
+    damping(k, k) = 2.0 * mode.damping_ratio * omega * mode.mass;
+    stiffness(k, k) = omega * omega * mode.mass;
+  }
+  Eigen::Index hung = n;
+  for (const auto& [device, place] : devices) {
+    Eigen::VectorXd clamp = Eigen::VectorXd::Zero(size);
+    for (Eigen::Index k = 0; k < n; ++k)
+      clamp[k] = modes[static_cast<std::size_t>(k)].shapes[place];
+    mass += device.clamp_mass * clamp * clamp.transpose();
+    for (const DeviceBranch& branch : device.branches) {
+      Eigen::VectorXd across = clamp;
+      if (std::isfinite(branch.mass)) {
+        across[hung] = -1.0;
+        mass(hung, hung) += branch.mass;
+        ++hung;
+      }
+      mass += branch.inertance * across * across.transpose();
+      damping += branch.damping * across * across.transpose();
+      stiffness += branch.stiffness * across * across.transpose();
+    }
+  }
+  Matrix state = Matrix::Zero(2 * size, 2 * size);
+  state.topRightCorner(size, size).setIdentity();
+  state.bottomLeftCorner(size, size) = -mass.ldlt().solve(stiffness);
+  state.bottomRightCorner(size, size) = -mass.ldlt().solve(damping);
+  const Eigen::VectorXcd values = eigenvalues<double, Eigen::Dynamic>(state);
+  return {values.data(), values.data() + values.size()};
+}
+
+double farthest(const std::vector<Complex>& found, const std::vector<Complex>& all) {
+  double worst = 0.0;
+  for (const Complex& s : found) {
+    double nearest = 1e300;
+    for (const Complex& other : all) nearest = std::min(nearest, std::abs(s - other) / std::abs(s));
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+TEST(SpanPoles, AreTheEigenvaluesOfTheWhole) {
+  const auto string = damped_drake(20.0);
+  const std::vector<double> places = {1.5, 0.9, 18.6};
+  const auto modes = string_modes_at(string, places, 30, 0.0);
+  const LumpedDevice inerter{{{30.0, 900.0, 2.0}}, 0.0};
+  const LumpedDevice hung{{{absorber.damping, absorber.stiffness, 0.0, absorber.mass}},
+                          absorber.clamp_mass};
+  SpanPoles span(modes);
+  span.attach(damper(), 1);
+  span.attach(inerter, 2);
+  const auto poles = span.attach(absorber, 0);
+  ASSERT_EQ(poles.size(), 2u * (30 + 2 + 1));
+  const auto all = dense_roots(modes, {{damper(), 1}, {inerter, 2}, {hung, 0}});
+  ASSERT_EQ(all.size(), poles.size());
+  std::vector<Complex> found;
+  for (const PlantPole& pole : poles) found.push_back(pole.s);
+  EXPECT_LT(farthest(found, all), 1e-9);
+  EXPECT_LT(farthest(all, found), 1e-9);
+}
+
+TEST(SpanPoles, OfAnAbsorberAloneAreThoseOfThePlant) {
+  const auto string = damped_drake(60.0);
+  const auto modes = string_modes_at(string, {1.5}, 40, turn_of(400.0));
+  const auto plant = plant_poles(bundled_string_modes(string, 1.5, 40, turn_of(400.0)), absorber);
+  auto poles = SpanPoles(modes).attach(absorber, 0);
+  ASSERT_EQ(poles.size(), plant.size());
+  for (const PlantPole& pole : poles) {
+    const auto same =
+        std::min_element(plant.begin(), plant.end(), [&](const PlantPole& a, const PlantPole& b) {
+          return std::abs(a.s - pole.s) < std::abs(b.s - pole.s);
+        });
+    EXPECT_NEAR(std::abs(same->s - pole.s), 0.0, 1e-10 * std::abs(pole.s));
+    EXPECT_NEAR(std::abs(same->residue - pole.residue), 0.0, 1e-6 * std::abs(pole.residue) + 1e-15);
+  }
+}
+
+// Modes that the truncation hardly touches: of all modes at once, and of many.
+TEST(SpanPoles, OfManyModesAreTheRootsOfTheString) {
+  const auto string = damped_drake(100.0);
+  SpanPoles span(string_modes_at(string, {1.1, 98.7}, 400, turn_of(4000.0)));
+  span.attach(damper(), 0);
+  span.attach(LumpedDevice{{{60.0}}, 0.0}, 1);
+  const auto roots = span_roots(string, {{1.1, damper()}, {98.7, LumpedDevice{{{60.0}}, 0.0}}}, 60);
+  const auto found = span.roots();
+  for (const SpanRoot& root : roots) {
+    // Far from the axis damping by a ratio and by a complex stiffness are no longer the same.
+    const double tolerance = root.damping() < 0.02 ? 2e-4 : 2e-3;
+    EXPECT_LT(farthest({root.root}, found), tolerance);
+    const Complex same =
+        *std::min_element(found.begin(), found.end(), [&](const Complex& a, const Complex& b) {
+          return std::abs(a - root.root) < std::abs(b - root.root);
+        });
+    EXPECT_NEAR(-same.real() / std::abs(same), root.damping(), 0.02 * root.damping());
+  }
+}
+
+TEST(SpanPoles, RefuseWhatIsNoSpan) {
+  EXPECT_THROW(SpanPoles({}), InvalidParameter);
+  SpanPoles span(string_modes_at(damped_drake(20.0), {1.5}, 5, 0.0));
+  EXPECT_THROW(span.attach(LumpedDevice{{{-1.0}}, 0.0}, 0), InvalidParameter);
+}
+
+}  // namespace
+}  // namespace holdfast
