@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "io/text/text.hpp"
 
@@ -12,6 +13,16 @@ bool is_two_masses(const Case& the_case) { return the_case.plant.model == "two_m
 bool has_hardware(const Case& the_case) {
   return std::isfinite(the_case.control.measurement_filter) ||
          std::isfinite(the_case.control.drive_bandwidth);
+}
+
+bool has_absorber(const Case& the_case) { return the_case.plant.absorber_mass > 0.0; }
+
+bool has_site(const Case& the_case) {
+  const auto said = [](const case_tables::Site& site) {
+    return std::tie(site.speeds, site.hours, site.weibull_scale, site.weibull_shape,
+                    site.turbulence_intensity, site.years);
+  };
+  return said(the_case.site) != said(case_tables::Site{});
 }
 
 bool is_modal(const Case& the_case) {

@@ -14,6 +14,8 @@ class RecordedForce;
 
 namespace holdfast::program {
 
+struct ImpedanceTable;
+
 /// The tables of a case file, one struct each; the members bear the names of the keys. Units,
 /// admissible ranges and meaning of each are in case_keys().
 namespace case_tables {
@@ -34,6 +36,7 @@ struct Conductor {
   double rated_strength = std::numeric_limits<double>::infinity();
   double outer_wire_diameter = std::numeric_limits<double>::infinity();
   double outer_wire_modulus = std::numeric_limits<double>::infinity();
+  double layers = std::numeric_limits<double>::infinity();  // whole
   std::string damping = "chosen";  // by the plant: ratio of the string, Rayleigh's of the cable
   std::array<double, 2> rayleigh_frequencies{2.0, 7.0};  // Hz
 };
@@ -111,6 +114,35 @@ struct Wind {
   double air_density = 1.225;
 };
 
+/// A passive device clamped on the conductor. What of it counts, its kind says: device_keys.hpp.
+struct Device {
+  std::string kind;
+  double position = 0.0;            // from the left support
+  std::string to = "ground";        // what it pushes against, the ground or a mass that it carries
+  double damping = 0.0;             // N s/m
+  double stiffness = 0.0;           // N/m; below 0 of a stiffness alone
+  double inertance = 0.0;           // kg
+  double mass = 0.0;                // kg, what hangs below; of a stockbridge its weights together
+  double clamp_mass = 0.0;          // kg, moves with the conductor
+  std::vector<double> frequencies;  // Hz; empty: a tuned mass has a stiffness
+  std::vector<double> damping_ratios;  // of each; empty: a tuned mass has a damping
+  double mass_share = 0.5;             // of a stockbridge: what swings at the first frequency
+  std::string file;                    // measured: seen from the working folder
+
+  // What the file holds; null of every other kind. CaseSource::attach_record() reads it.
+  std::shared_ptr<const ImpedanceTable> table;
+};
+
+/// The wind where the line stands, over a year.
+struct Site {
+  std::vector<double> speeds;  // m/s, ascending; empty: by Weibull's law, or not known
+  std::vector<double> hours;   // a year, at each
+  double weibull_scale = std::numeric_limits<double>::infinity();  // m/s; infinity: "none"
+  double weibull_shape = 2.0;
+  double turbulence_intensity = 0.0;
+  double years = 40.0;
+};
+
 struct Initial {
   double z1 = 0.0;
   double v1 = 0.0;
@@ -131,6 +163,8 @@ struct Case {
   // With wind, its amplitude and frequency do not count: ask effective_excitation().
   case_tables::Excitation excitation;
   std::optional<case_tables::Wind> wind;
+  std::vector<case_tables::Device> devices;
+  case_tables::Site site;
   case_tables::Initial initial;
 
   // What excitation.record holds; null where it is "". CaseSource::attach_record() reads it.
@@ -155,6 +189,12 @@ bool has_hardware(const Case& the_case);
 /// itself; and on one mass, as a conductor of one mode, where the readings are filtered, the drive
 /// lags or the force comes more than a sample late.
 bool is_modal(const Case& the_case);
+
+/// Whether an absorber hangs on the conductor; without one its devices are alone.
+bool has_absorber(const Case& the_case);
+
+/// Whether anything is said of the site.
+bool has_site(const Case& the_case);
 
 /// What of a modal case it is that makes it one, for a message.
 std::string modal_words(const Case& the_case);

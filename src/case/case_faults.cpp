@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "case/device/device_keys.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/late_controller.hpp"
@@ -80,6 +82,44 @@ CaseFault modes_fault(const Case& c) {
               " modes are found; without plant.modes all count"};
 }
 
+CaseFault absorber_fault(const Case& c) {
+  if (has_absorber(c)) return {};
+  if (is_two_masses(c))
+    return {{"plant.absorber_mass", "plant.model"},
+            "plant.absorber_mass = 0: of plant.model = \"two_masses\" the second mass must be "
+            "greater than 0 kg; a span without absorber is one of the other models"};
+  const auto& control = c.control;
+  if (!control.proportional_gain_tuned && control.proportional_gain == 0.0 &&
+      control.differential_gain == 0.0)
+    return {};
+  return {{"control.proportional_gain", "control.differential_gain", "plant.absorber_mass"},
+          "plant.absorber_mass = 0: without absorber there is nothing that a drive moves: "
+          "control.proportional_gain and control.differential_gain must be 0"};
+}
+
+CaseFault speeds_fault(const Case& c) {
+  const std::vector<double>&speeds = c.site.speeds, &hours = c.site.hours;
+  if (speeds.size() != hours.size())
+    return {{"site.hours", "site.speeds"},
+            "site.speeds has " + std::to_string(speeds.size()) + " numbers and site.hours " +
+                std::to_string(hours.size()) + ": each speed has its hours"};
+  if (!speeds.empty() && std::isfinite(c.site.weibull_scale))
+    return {{"site.weibull_scale", "site.speeds"},
+            "site.speeds with site.hours and site.weibull_scale are both given: one of them says "
+            "how often the wind blows"};
+  for (std::size_t k = 1; k < speeds.size(); ++k)
+    if (!(speeds[k - 1] < speeds[k]))
+      return {{"site.speeds"},
+              "site.speeds must ascend: " + format_number(speeds[k]) + " m/s comes after " +
+                  format_number(speeds[k - 1])};
+  constexpr double most = 8784.0;
+  const double all = std::accumulate(hours.begin(), hours.end(), 0.0);
+  if (all <= most) return {};
+  return {{"site.hours"},
+          "site.hours are " + format_rounded(all) + " h together: a year has " +
+              format_number(most) + " at most"};
+}
+
 CaseFault noise_fault(const Case& c) {
   const Excitation& force = c.excitation;
   if (!(force.noise_rms > 0.0) || force.noise_lowest < force.noise_highest) return {};
@@ -149,9 +189,9 @@ CaseFault conductor_fault(const Case& the_case) {
 }
 
 CaseFault first_fault(const Case& the_case) {
-  for (const auto find :
-       {control_fault, jitter_fault, contact_fault, tension_fault, impossible_fault,
-        conductor_fault, reduction_fault, force_fault, noise_fault, modes_fault}) {
+  for (const auto find : {control_fault, jitter_fault, contact_fault, tension_fault,
+                          impossible_fault, conductor_fault, reduction_fault, force_fault,
+                          noise_fault, modes_fault, absorber_fault, devices_fault, speeds_fault}) {
     CaseFault fault = find(the_case);
     if (!fault.message.empty()) return fault;
   }

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "case/builtin_case.hpp"
+#include "case/device/device_values.hpp"
 #include "case/library/conductor_library.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
@@ -47,6 +49,23 @@ std::string unknown_key(std::string_view name) {
   return "unknown key: did you mean " + nearest.name + " (" + nearest.admissible() + ")?";
 }
 
+constexpr std::string_view device_table = "device";
+
+std::string in_brackets(const std::string& table, bool is_list) {
+  return is_list ? "[[" + table + "]]" : "[" + table + "]";
+}
+
+/// Whether a name, or its part before the dot, is nearly that of the devices.
+bool is_like_device(std::string_view name) {
+  return edit_distance(name.substr(0, name.find('.')), device_table) <= 1;
+}
+
+std::string unknown_table(const std::string& table, const std::string& place, bool is_list) {
+  const bool device = is_list || is_like_device(table);
+  return place + ": " + in_brackets(table, is_list) + ": unknown table: did you mean " +
+         (device ? "[[device]]" : in_brackets(nearest_case_table(table), false)) + "?";
+}
+
 /// Puts layers of values one over another and sees to it that each is fit.
 class CaseReader {
  public:
@@ -60,15 +79,20 @@ class CaseReader {
   void read_override(const std::string& text);
   std::vector<Entry> entries(const toml::table& root, const std::string& name) const;
   void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
+  void set_value(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_number(const CaseKey& key, const toml::node& node, const std::string& place);
-  void set_word(const CaseKey& key, const toml::node& node, const std::string& place);
   void set_file(const CaseKey& key, const toml::node& node, const std::string& place);
+  void set_device(const DeviceKeyName& name, const toml::node& node, const std::string& place,
+                  Layer layer);
   void set_conductor(const CaseKey& key, const toml::node& node, const std::string& place);
   void begin_wind(const std::string& place, Layer layer);
+  void begin_devices(const toml::node& list, const std::string& name, Layer layer);
+  void begin_device(const std::string& place, Layer layer);
   const Given* last_given(const std::vector<std::string>& keys) const;
   const Given* blamed(const std::vector<std::string>& keys) const;
   void fill_from_library();
   void check_wind() const;
+  void check_devices();
   void settle_frequencies();
   bool given_by_user(const std::string& key) const;
   void check_faults() const;
@@ -82,13 +106,6 @@ class CaseReader {
 
 bool is_word_of(const CaseKey& key, const std::string& word) {
   return std::find(key.words.begin(), key.words.end(), word) != key.words.end();
-}
-
-/// What to say behind a refusal: the nearest word, where a word was given and some are admissible.
-std::string suggested_word(const CaseKey& key, const toml::node& node) {
-  const auto word = node.value_exact<std::string>();
-  if (!word || key.words.empty()) return "";
-  return "; did you mean \"" + nearest_name(key.words, *word) + "\"?";
 }
 
 /// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.
@@ -137,12 +154,59 @@ std::array<double, 2> interval_of(const CaseKey& key, const toml::node& node,
   return ends;
 }
 
+std::string short_place(const std::string& place) {
+  return place.rfind("--set", 0) == 0 ? place : place.substr(0, place.find(": "));
+}
+
+std::string unknown_device_key(const DeviceKeyName& name) {
+  const DeviceKey& nearest = nearest_device_key(name.key);
+  return "unknown key: did you mean " + device_key_text(name.number, nearest.name) + " (" +
+         nearest.admissible() + ")?";
+}
+
+std::string no_device(const DeviceKeyName& name, std::size_t devices) {
+  const std::string next = std::to_string(devices + 1);
+  return "there is no device " + std::to_string(name.number) + ", the case has " +
+         (devices == 0 ? "none" : std::to_string(devices)) + "; device." + next +
+         ".kind adds device " + next;
+}
+
+void require_value(std::string_view value, const std::string& place) {
+  if (value.empty()) throw WrongInput(place + ": expected key=value");
+}
+
+toml::table case_override(const std::string& name, std::string_view value,
+                          const std::string& place) {
+  const CaseKey* key = find_case_key(name);
+  if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
+  require_value(value, place);
+  return parse_override_value(form_of(*key), key->admissible(), value, place);
+}
+
+/// A key of a device that is there, or the kind of one more.
+toml::table device_override(const std::string& text, std::string_view value,
+                            const std::string& place, std::size_t devices) {
+  const auto name = device_key_name(text);
+  if (!name)
+    throw WrongInput(place + ": a key of a device is device.NUMBER.KEY, such as device.1.damping");
+  const DeviceKey* key = find_device_key(name->key);
+  if (key == nullptr) throw WrongInput(place + ": " + unknown_device_key(*name));
+  const bool adds = name->number == devices + 1 && name->key == "kind";
+  if (name->number > devices && !adds) throw WrongInput(place + ": " + no_device(*name, devices));
+  require_value(value, place);
+  const ValueForm form = key->number != nullptr ? ValueForm::number
+                         : key->file != nullptr ? ValueForm::name
+                                                : ValueForm::other;
+  return parse_override_value(form, key->admissible(), value, place);
+}
+
 void CaseReader::read_text(std::string_view text, const std::string& name, Layer layer) {
   const toml::table root = parse_case_text(text, name);
   folder_ = std::filesystem::path(name).parent_path();
   if (const toml::node* wind = root.get("wind"); wind != nullptr && wind->is_table()) {
     begin_wind(name + ":" + std::to_string(line_of(*wind)) + ": [wind]", layer);
   }
+  if (const toml::node* devices = root.get(device_table)) begin_devices(*devices, name, layer);
   for (const Entry& entry : entries(root, name)) {
     const std::string place = name + ":" + std::to_string(entry.line) + ": " + entry.key + " = " +
                               value_text(*entry.node);
@@ -154,21 +218,27 @@ void CaseReader::read_text(std::string_view text, const std::string& name, Layer
 /// The file's values in the order of its lines, so that the first mistake is the one reported.
 std::vector<Entry> CaseReader::entries(const toml::table& root, const std::string& name) const {
   std::vector<Entry> found;
+  const auto append = [&](const std::string& table, const toml::table& keys) {
+    for (const auto& [key, value] : keys)
+      found.push_back({(table + ".").append(key.str()), &value, line_of(value)});
+  };
   for (const auto& [table_key, node] : root) {
     const std::string table(table_key.str());
+    if (table == device_table) {
+      std::size_t number = 0;
+      for (const toml::node& device : *node.as_array())
+        append("device." + std::to_string(++number), *device.as_table());
+      continue;
+    }
+    const bool is_list = node.is_array_of_tables() && !is_case_table(table);
     const toml::table* keys = node.as_table();
-    if (keys == nullptr) {
+    if (keys == nullptr && !is_list) {
       found.push_back({table, &node, line_of(node)});
       continue;
     }
     if (!is_case_table(table))
-      throw WrongInput(name + ":" + std::to_string(line_of(node)) + ": [" + table +
-                       "]: unknown table: did you mean [" + nearest_case_table(table) + "]?");
-    for (const auto& [key, value] : *keys) {
-      std::string full_name = table + ".";
-      full_name += key.str();
-      found.push_back({full_name, &value, line_of(value)});
-    }
+      throw WrongInput(unknown_table(table, name + ":" + std::to_string(line_of(node)), is_list));
+    append(table, *keys);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Entry& a, const Entry& b) { return a.line < b.line; });
@@ -183,42 +253,63 @@ void CaseReader::read_override(const std::string& text) {
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
   if (is_case_table(name))
     throw WrongInput(place + ": [" + name + "] is a table; set one of its keys, " + name + ".KEY");
-  const CaseKey* key = find_case_key(name);
-  if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
-  if (value.empty()) throw WrongInput(place + ": expected key=value");
-  const toml::table parsed = parse_override_value(*key, value, place);
+  const bool is_device = is_like_device(name);
+  const toml::table parsed = is_device ? device_override(name, value, place, case_.devices.size())
+                                       : case_override(name, value, place);
   if (name.rfind("wind.", 0) == 0) begin_wind(place, Layer::override);
+  if (is_device && device_key_name(name)->number > case_.devices.size())
+    begin_device(place, Layer::override);
   folder_.clear();
   set(name, *parsed.get("value"), place, Layer::override);
 }
 
 void CaseReader::set(const std::string& name, const toml::node& node, const std::string& place,
                      Layer layer) {
+  if (const auto of_device = device_key_name(name))
+    return set_device(*of_device, node, place, layer);
   const CaseKey* key = find_case_key(name);
   if (key == nullptr && is_case_table(name)) {
     throw WrongInput(place + ": must be a table, [" + name + "]");
   }
   if (key == nullptr) throw WrongInput(place + ": " + unknown_key(name));
-  if (key->word != nullptr) {
-    set_word(*key, node, place);
-  } else if (key->file != nullptr) {
-    set_file(*key, node, place);
-  } else if (key->conductor != nullptr) {
-    set_conductor(*key, node, place);
-  } else if (key->interval != nullptr) {
-    *key->interval(case_) = interval_of(*key, node, place);
-  } else if (key->harmonics != nullptr) {
-    *key->harmonics(case_) = harmonics_of(*key, node, place);
-  } else {
-    set_number(*key, node, place);
-  }
+  set_value(*key, node, place);
   given_.push_back({name, place, layer});
   if (layer == Layer::builtin) return;
-  case_.places[name] = place.rfind("--set", 0) == 0 ? place : place.substr(0, place.find(": "));
+  case_.places[name] = short_place(place);
   const std::string table = key->table();
   if (key->beyond_two_masses) return;
   case_.plant_given |= table == "plant";
   case_.conductor_given |= table == "conductor" || table == "absorber" || table == "reduction";
+}
+
+void CaseReader::set_value(const CaseKey& key, const toml::node& node, const std::string& place) {
+  if (key.word != nullptr) {
+    *key.word(case_) = read_word(node, {key.admissible(), key.words}, place);
+  } else if (key.file != nullptr) {
+    set_file(key, node, place);
+  } else if (key.conductor != nullptr) {
+    set_conductor(key, node, place);
+  } else if (key.interval != nullptr) {
+    *key.interval(case_) = interval_of(key, node, place);
+  } else if (key.numbers != nullptr) {
+    *key.numbers(case_) = read_numbers(node, key.range, key.admissible(), place);
+  } else if (key.harmonics != nullptr) {
+    *key.harmonics(case_) = harmonics_of(key, node, place);
+  } else {
+    set_number(key, node, place);
+  }
+}
+
+void CaseReader::set_device(const DeviceKeyName& name, const toml::node& node,
+                            const std::string& place, Layer layer) {
+  if (name.number > case_.devices.size())
+    throw WrongInput(place + ": " + no_device(name, case_.devices.size()));
+  const DeviceKey* key = find_device_key(name.key);
+  if (key == nullptr) throw WrongInput(place + ": " + unknown_device_key(name));
+  set_device_value(case_.devices[name.number - 1], *key, node, place, folder_);
+  const std::string full_name = device_key_text(name.number, name.key);
+  given_.push_back({full_name, place, layer});
+  case_.places[full_name] = short_place(place);
 }
 
 void CaseReader::set_number(const CaseKey& key, const toml::node& node, const std::string& place) {
@@ -227,31 +318,13 @@ void CaseReader::set_number(const CaseKey& key, const toml::node& node, const st
     key.give_word(case_);
     return;
   }
-  if (!node.is_number())
-    throw WrongInput(place + ": must be a number; admissible is " + key.admissible() +
-                     suggested_word(key, node));
-  const double value = node.value<double>().value_or(std::nan(""));
-  if (!std::isfinite(value)) {
-    throw WrongInput(place + ": must be finite; admissible is " + key.admissible());
-  }
-  if (!key.range.contains(value)) throw WrongInput(place + ": admissible is " + key.admissible());
-  *key.number(case_) = value + 0.0;  // a negative zero is zero
+  *key.number(case_) = read_number(node, key.range, {key.admissible(), key.words}, place);
   if (key.tuned != nullptr) *key.tuned(case_) = false;
 }
 
-void CaseReader::set_word(const CaseKey& key, const toml::node& node, const std::string& place) {
-  const auto word = node.value_exact<std::string>();
-  if (!word || !is_word_of(key, *word))
-    throw WrongInput(place + ": must be " + key.admissible() + suggested_word(key, node));
-  *key.word(case_) = *word;
-}
-
 void CaseReader::set_file(const CaseKey& key, const toml::node& node, const std::string& place) {
-  const auto name = node.value_exact<std::string>();
-  // The system's names of files end at a zero, and a case file is UTF-8.
-  const bool is_name = name && name->find('\0') == std::string::npos && is_utf8(*name);
-  if (!is_name) throw WrongInput(place + ": must be " + key.admissible());
-  *key.file(case_) = name->empty() ? "" : (folder_ / *name).string();
+  const std::string name = read_file_name(node, key.admissible(), place);
+  *key.file(case_) = name.empty() ? "" : (folder_ / name).string();
 }
 
 void CaseReader::set_conductor(const CaseKey& key, const toml::node& node,
@@ -270,6 +343,27 @@ void CaseReader::begin_wind(const std::string& place, Layer layer) {
   case_.wind.emplace();
   wind_place_ = place;
   wind_layer_ = layer;
+}
+
+/// They are there before any of their values is set, in the order of the file.
+void CaseReader::begin_devices(const toml::node& list, const std::string& name, Layer layer) {
+  const auto place = [&](const toml::node& node) {
+    return name + ":" + std::to_string(line_of(node)) + ": ";
+  };
+  const toml::array* devices = list.as_array();
+  if (devices == nullptr)
+    throw WrongInput(place(list) + "device must be a list of tables, [[device]] before each");
+  for (const toml::node& device : *devices) {
+    if (!device.is_table())
+      throw WrongInput(place(device) + "device = " + value_text(device) +
+                       ": must be a list of tables, [[device]] before each");
+    begin_device(place(device) + "[[device]]", layer);
+  }
+}
+
+void CaseReader::begin_device(const std::string& place, Layer layer) {
+  case_.devices.emplace_back();
+  given_.push_back({"device." + std::to_string(case_.devices.size()), place, layer});
 }
 
 const Given* CaseReader::last_given(const std::vector<std::string>& keys) const {
@@ -324,6 +418,23 @@ void CaseReader::check_wind() const {
                    wind_place_ + ")");
 }
 
+void CaseReader::check_devices() {
+  for (std::size_t k = 0; k < case_.devices.size(); ++k) {
+    const std::string name = "device." + std::to_string(k + 1);
+    std::set<std::string> given;
+    for (const DeviceKey& key : device_keys())
+      if (last_given({name + "." + key.name}) != nullptr) given.insert(key.name);
+    settle_device(case_.devices[k], given);
+    const CaseFault fault = device_fault(case_.devices[k], given);
+    if (fault.message.empty()) continue;
+    std::vector<std::string> keys = {name};
+    if (!fault.keys.empty()) keys.clear();
+    for (const std::string& key : fault.keys) keys.push_back(name + "." + key);
+    const std::string of_device = fault.keys.empty() ? name + ": " : "";
+    throw WrongInput(blamed(keys)->place + ": " + of_device + fault.message);
+  }
+}
+
 bool CaseReader::given_by_user(const std::string& key) const {
   const Given* given = last_given({key});
   return given != nullptr && given->layer != Layer::builtin;
@@ -363,6 +474,7 @@ Case CaseReader::finish(const std::vector<std::string>& overrides) {
   fill_from_library();
   settle_wind(case_);
   check_wind();
+  check_devices();
   if (!given_by_user("conductor.sag")) settle_sag(case_);
   settle_frequencies();
   check_faults();

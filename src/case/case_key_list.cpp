@@ -18,6 +18,10 @@ constexpr AdmissibleRange below_one{0.0, 1.0, false, true};
 constexpr AdmissibleRange any_number{};
 constexpr AdmissibleRange some_lines{1.0, 10000.0, false, false, true};
 constexpr AdmissibleRange some_modes{1.0, 1000.0, false, false, true};
+constexpr AdmissibleRange some_layers{1.0, 5.0, false, false, true};
+constexpr AdmissibleRange up_to_one{0.0, 1.0};
+constexpr AdmissibleRange wind_speeds{0.0, 150.0, true};  // the strongest gust on record had 113
+constexpr AdmissibleRange hours_of_year{0.0, 8784.0};
 /// Whole numbers that a double tells apart.
 constexpr AdmissibleRange seed{0.0, 9007199254740992.0, false, false, true};
 
@@ -69,6 +73,13 @@ CaseKey harmonics(const char* name, std::vector<std::array<double, 3>>* (*place)
                   const char* description) {
   CaseKey key{name, "", description, {}, {}};
   key.harmonics = place;
+  return key;
+}
+
+CaseKey numbers(const char* name, std::vector<double>* (*place)(Case&), const char* unit,
+                const AdmissibleRange& range, const char* description) {
+  CaseKey key{name, unit, description, range, {}};
+  key.numbers = place;
   return key;
 }
 
@@ -127,6 +138,9 @@ const std::vector<CaseKey> listed_keys = {
                                                 "of the wires of the outermost layer"))),
     beyond_two_masses(or_word("unknown", number(KEY(conductor, outer_wire_modulus), "Pa", positive,
                                                 "Young's modulus of those wires"))),
+    beyond_two_masses(or_word("unknown", number(KEY(conductor, layers), "", some_layers,
+                                                "of aluminium wires, which decide how many "
+                                                "vibrations they bear"))),
     beyond_two_masses(word(KEY(conductor, damping), {"chosen", "ratio", "rayleigh"},
                            "of the modes: damping_ratio of each, or Rayleigh's; \"chosen\": ratio "
                            "of the string, Rayleigh's of the cable")),
@@ -156,7 +170,8 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(plant, conductor_mass), "kg", positive, "m1"),
     number(KEY(plant, conductor_stiffness), "N/m", positive, "k1"),
     number(KEY(plant, conductor_damping), "N s/m", not_negative, "c1"),
-    number(KEY(plant, absorber_mass), "kg", positive, "m2"),
+    number(KEY(plant, absorber_mass), "kg", not_negative,
+           "m2; 0: no absorber, the devices alone, with every plant.model but two_masses"),
     number(KEY(plant, absorber_stiffness), "N/m", positive, "k2"),
     number(KEY(plant, absorber_damping), "N s/m", not_negative, "c2"),
     beyond_two_masses(word(KEY(plant, model), {"two_masses", "string", "cable", "infinite_string"},
@@ -227,6 +242,19 @@ const std::vector<CaseKey> listed_keys = {
     number(KEY(wind, strouhal), "", positive, "Strouhal number"),
     number(KEY(wind, lift_coefficient), "", not_negative, "lift coefficient"),
     number(KEY(wind, air_density), "kg/m3", positive, "density of the air"),
+
+    beyond_two_masses(
+        numbers(KEY(site, speeds), "m/s", wind_speeds, "of the wind across the line, ascending")),
+    beyond_two_masses(
+        numbers(KEY(site, hours), "h", hours_of_year, "how long a year the wind has each speed")),
+    beyond_two_masses(or_word("none", number(KEY(site, weibull_scale), "m/s", wind_speeds,
+                                             "of Weibull's law, in place of speeds and hours"))),
+    beyond_two_masses(
+        number(KEY(site, weibull_shape), "", positive, "of Weibull's law; 2 is Rayleigh's")),
+    beyond_two_masses(number(KEY(site, turbulence_intensity), "", up_to_one,
+                             "standard deviation of the wind's speed over its mean")),
+    beyond_two_masses(
+        number(KEY(site, years), "years", positive, "service life that is asked for")),
 
     number(KEY(initial, z1), "m", any_number, "displacement of the conductor, downward"),
     number(KEY(initial, v1), "m/s", any_number, "velocity of the conductor"),

@@ -117,6 +117,10 @@ std::string AdmissibleRange::in_words(const std::string& unit) const {
   return whole ? "a whole number, " + words : words;
 }
 
+std::string list_in_words(const AdmissibleRange& range, const std::string& unit) {
+  return "[number, ...], each " + range.in_words(unit);
+}
+
 std::string CaseKey::table() const { return name.substr(0, name.find('.')); }
 
 std::string CaseKey::short_name() const { return name.substr(name.find('.') + 1); }
@@ -126,6 +130,7 @@ std::string CaseKey::admissible() const {
   if (conductor != nullptr)
     return "the name of a conductor (holdfast conductors lists them), or \"\" for none";
   if (harmonics != nullptr) return harmonics_in_words();
+  if (numbers != nullptr) return list_in_words(range, unit) + ", or [] for none";
   if (interval != nullptr) return "[lower, higher], each " + range.in_words(unit);
   std::string text = number != nullptr ? range.in_words(unit) : "";
   for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";

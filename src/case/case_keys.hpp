@@ -23,6 +23,9 @@ struct AdmissibleRange {
   std::string in_words(const std::string& unit) const;
 };
 
+/// `[number, ...], each greater than 0 m/s`.
+std::string list_in_words(const AdmissibleRange& range, const std::string& unit);
+
 /// One of the three numbers of a further harmonic of the excitation.
 struct HarmonicPart {
   const char* name;
@@ -33,14 +36,14 @@ struct HarmonicPart {
 /// Amplitude, frequency and phase, of which the last may be left out.
 const std::array<HarmonicPart, 3>& harmonic_parts();
 
-/// One key of the case file. Exactly one of `number`, `word`, `file`, `conductor`, `interval` and
-/// `harmonics` says where its value lies in a case; a key of [wind] gives a null pointer for a case
-/// without wind.
+/// One key of the case file but for those of its devices. Exactly one of `number`, `word`, `file`,
+/// `conductor`, `interval`, `numbers` and `harmonics` says where its value lies in a case; a key of
+/// [wind] gives a null pointer for a case without wind.
 struct CaseKey {
   std::string name;  // with its table: "control.sampling_period"
   std::string unit;  // "" without dimension
   std::string description;
-  AdmissibleRange range;           // of numbers; of both ends of an interval
+  AdmissibleRange range;           // of numbers; of both ends of an interval; of each of a list
   std::vector<std::string> words;  // admissible words; a number may have one, "tuned" or "none"
   bool required = false;           // of [wind]: has no default
   bool replaced_by_wind = false;   // of [excitation]: [wind] stands in its place
@@ -50,6 +53,7 @@ struct CaseKey {
   std::string* (*file)(Case&) = nullptr;                // the name of a file, empty for none
   std::string* (*conductor)(Case&) = nullptr;           // a name of the library, empty for none
   std::array<double, 2>* (*interval)(Case&) = nullptr;  // two numbers, ascending
+  std::vector<double>* (*numbers)(Case&) = nullptr;     // a list
   std::vector<std::array<double, 3>>* (*harmonics)(Case&) = nullptr;
   bool* (*tuned)(Case&) = nullptr;  // set when a key that is a number is given the word "tuned"
 

@@ -3,12 +3,26 @@
 #include <utility>
 
 #include "case/case_file.hpp"
+#include "case/device/impedance_table.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "io/text/record_file.hpp"
 
 namespace holdfast::program {
 
+void CaseSource::attach_tables(Case& the_case) const {
+  for (case_tables::Device& device : the_case.devices) {
+    if (device.kind != "measured" || device.table != nullptr) continue;
+    const auto read = tables.find(device.file);
+    device.table = read != tables.end()
+                       ? read->second
+                       : std::make_shared<const ImpedanceTable>(read_impedance_table(device.file));
+  }
+}
+
 void CaseSource::attach_record(Case& the_case) {
+  attach_tables(the_case);
+  for (const case_tables::Device& device : the_case.devices)
+    if (device.table != nullptr) tables[device.file] = device.table;
   const auto& excitation = the_case.excitation;
   if (excitation.record.empty()) return;
   ForceRecord read = read_force_record(excitation.record);
@@ -25,6 +39,7 @@ Case CaseSource::load(const std::vector<std::string>& further) const {
   all.insert(all.end(), further.begin(), further.end());
   Case loaded = text ? load_case_text(*text, name, all) : load_case(std::nullopt, all);
   loaded.force_record = force_record;
+  attach_tables(loaded);
   return loaded;
 }
 

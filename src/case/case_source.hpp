@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,13 +18,21 @@ struct CaseSource {
 
   std::shared_ptr<const RecordedForce> force_record;  // every case that is loaded gets it
 
-  /// Reads the recorded force that the case names, if it names one, for it and for those to be
-  /// loaded. Throws what read_force_record() throws.
+  // The impedances of measured devices, by their files.
+  std::map<std::string, std::shared_ptr<const ImpedanceTable>> tables;
+
+  /// Reads the recorded force that the case names, if it names one, and the impedances of its
+  /// measured devices, for it and for those to be loaded. Throws what read_force_record() and
+  /// read_impedance_table() throw.
   void attach_record(Case& the_case);
 
   /// The case with further overrides behind the others; its plant is not reduced yet.
-  /// Throws what load_case() throws.
+  /// Throws what load_case() throws, and for a measured device of another file what
+  /// read_impedance_table() throws.
   Case load(const std::vector<std::string>& further = {}) const;
+
+ private:
+  void attach_tables(Case& the_case) const;
 };
 
 }  // namespace holdfast::program

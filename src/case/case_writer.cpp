@@ -1,38 +1,16 @@
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "case/builtin_case.hpp"
 #include "case/case_file.hpp"
+#include "case/device/device_values.hpp"
 #include "case/model/cable_of_case.hpp"
-#include "io/text/text.hpp"
+#include "case/toml_values.hpp"
 
 namespace holdfast::program {
 namespace {
-
-/// A TOML float: digits alone would be an integer, of which TOML has only 64 bits.
-std::string toml_number(double value) {
-  std::string text = format_number(value);
-  const bool whole = text.find_first_of(".e") == std::string::npos;
-  return whole ? text + ".0" : text;
-}
-
-/// A TOML string: quotes, backslashes and control characters are escaped.
-std::string toml_string(std::string_view text) {
-  constexpr std::string_view hexadecimal = "0123456789abcdef";
-  std::string quoted = "\"";
-  for (const char character : text) {
-    const auto code = static_cast<unsigned char>(character);
-    if (code < 0x20 || code == 0x7f) {
-      quoted.append("\\u00").append({hexadecimal[code / 16U], hexadecimal[code % 16U]});
-      continue;
-    }
-    if (character == '"' || character == '\\') quoted += '\\';
-    quoted += character;
-  }
-  return quoted + "\"";
-}
 
 std::string toml_harmonics(const std::vector<std::array<double, 3>>& harmonics) {
   std::string list;
@@ -53,6 +31,7 @@ std::string toml_value(const CaseKey& key, Case& the_case) {
   if (key.word != nullptr) return toml_string(*key.word(the_case));
   if (key.file != nullptr) return toml_string(*key.file(the_case));
   if (key.conductor != nullptr) return toml_string(*key.conductor(the_case));
+  if (key.numbers != nullptr) return toml_numbers(*key.numbers(the_case));
   if (key.interval != nullptr) return toml_interval(*key.interval(the_case));
   if (key.harmonics != nullptr) return toml_harmonics(*key.harmonics(the_case));
   if (key.bears_word(the_case)) return toml_string(key.words.front());
@@ -64,6 +43,7 @@ nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
   if (key.word != nullptr) return *key.word(the_case);
   if (key.file != nullptr) return *key.file(the_case);
   if (key.conductor != nullptr) return *key.conductor(the_case);
+  if (key.numbers != nullptr) return *key.numbers(the_case);
   if (key.interval != nullptr) return *key.interval(the_case);
   if (key.harmonics != nullptr) return *key.harmonics(the_case);
   if (key.bears_word(the_case)) return key.words.front();
@@ -72,8 +52,10 @@ nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
   return number;
 }
 
-/// What stands for a case's key: nothing for [wind] without wind, and for what wind replaces.
+/// What stands for a case's key: nothing for [wind] without wind, for what wind replaces, and for
+/// [site] where nothing is said of it.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
+  if (key.table() == "site") return has_site(the_case);
   if (key.table() == "wind") return the_case.wind.has_value();
   return !(key.replaced_by_wind && the_case.wind);
 }
@@ -119,13 +101,9 @@ Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
 
 std::string toml_line(const CaseKey& key, Case& the_case) {
   std::string line = key.short_name() + " = " + toml_value(key, the_case);
-  constexpr std::size_t comment_column = 32;
-  line.resize(std::max(line.size() + 1, comment_column), ' ');
-  line += "# ";
-  if (!key.unit.empty()) line += key.unit + ", ";
-  line += key.description;
-  if (key.word != nullptr) line += ": " + key.admissible();
-  return line + "\n";
+  std::string comment = (key.unit.empty() ? "" : key.unit + ", ") + key.description;
+  if (key.word != nullptr) comment += ": " + key.admissible();
+  return commented(std::move(line), comment);
 }
 
 /// The case, its keys standing as `standing` tells.
@@ -142,7 +120,7 @@ std::string written_case(Case the_case, const StandingOf& standing) {
     }
     text += (stands == Standing::comment ? "# " : "") + toml_line(key, the_case);
   }
-  return text;
+  return text + devices_to_toml(the_case.devices);
 }
 
 }  // namespace
@@ -177,6 +155,7 @@ nlohmann::ordered_json case_to_json(const Case& the_case) {
     if (!is_in_force(key, the_case)) continue;
     json[key.table()][key.short_name()] = json_value(key, copy);
   }
+  if (!the_case.devices.empty()) json["device"] = devices_to_json(the_case.devices);
   return json;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <locale>
 #include <sstream>
 
@@ -62,6 +63,13 @@ std::string guess_of_value(std::string_view value) {
   return "";
 }
 
+/// What to say behind a refusal: the nearest word, where a word was given and some are admissible.
+std::string suggested_word(const std::vector<std::string>& words, const toml::node& node) {
+  const auto word = node.value_exact<std::string>();
+  if (!word || words.empty()) return "";
+  return "; did you mean \"" + nearest_name(words, *word) + "\"?";
+}
+
 }  // namespace
 
 toml::table parse_case_text(std::string_view text, const std::string& name) {
@@ -76,24 +84,106 @@ toml::table parse_case_text(std::string_view text, const std::string& name) {
   }
 }
 
-toml::table parse_override_value(const CaseKey& key, std::string_view value,
-                                 const std::string& place) {
+ValueForm form_of(const CaseKey& key) {
+  if (key.number != nullptr) return ValueForm::number;
+  return key.file != nullptr || key.conductor != nullptr ? ValueForm::name : ValueForm::other;
+}
+
+toml::table parse_override_value(ValueForm form, const std::string& admissible,
+                                 std::string_view value, const std::string& place) {
   if (const auto excess = toml_excess(value)) throw WrongInput(place + ": " + excess->message);
   try {
     toml::table parsed = toml::parse("value = " + std::string(value));
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
-    const bool is_text = key.file != nullptr || key.conductor != nullptr || is_bare_word(value);
-    if (is_text) return toml::table{{"value", std::string(value)}};
+    if (form == ValueForm::name || is_bare_word(value))
+      return toml::table{{"value", std::string(value)}};
   }
   const std::string guess = guess_of_value(value);
-  const std::string form = key.number != nullptr ? ", a plain number such as 0.01" : "";
-  throw WrongInput(place + ": admissible is " + key.admissible() + (guess.empty() ? form : guess));
+  const std::string plain = form == ValueForm::number ? ", a plain number such as 0.01" : "";
+  throw WrongInput(place + ": admissible is " + admissible + (guess.empty() ? plain : guess));
+}
+
+double read_number(const toml::node& node, const AdmissibleRange& range,
+                   const Admissible& admissible, const std::string& place) {
+  if (!node.is_number())
+    throw WrongInput(place + ": must be a number; admissible is " + admissible.text +
+                     suggested_word(admissible.words, node));
+  const double value = node.value<double>().value_or(std::nan(""));
+  if (!std::isfinite(value))
+    throw WrongInput(place + ": must be finite; admissible is " + admissible.text);
+  if (!range.contains(value)) throw WrongInput(place + ": admissible is " + admissible.text);
+  return value + 0.0;  // a negative zero is zero
+}
+
+std::vector<double> read_numbers(const toml::node& node, const AdmissibleRange& range,
+                                 const std::string& admissible, const std::string& place) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) throw WrongInput(place + ": must be " + admissible);
+  std::vector<double> values;
+  for (const toml::node& one : *list) {
+    const double value = one.value<double>().value_or(std::nan(""));
+    if (!one.is_number() || !range.contains(value))
+      throw WrongInput(place + ": " + value_text(one) + " must be as in " + admissible);
+    values.push_back(value + 0.0);
+  }
+  return values;
+}
+
+std::string read_word(const toml::node& node, const Admissible& admissible,
+                      const std::string& place) {
+  const auto word = node.value_exact<std::string>();
+  const auto& words = admissible.words;
+  if (!word || std::find(words.begin(), words.end(), *word) == words.end())
+    throw WrongInput(place + ": must be " + admissible.text + suggested_word(words, node));
+  return *word;
+}
+
+std::string read_file_name(const toml::node& node, const std::string& admissible,
+                           const std::string& place) {
+  const auto name = node.value_exact<std::string>();
+  // The system's names of files end at a zero, and a case file is UTF-8.
+  const bool is_name = name && name->find('\0') == std::string::npos && is_utf8(*name);
+  if (!is_name) throw WrongInput(place + ": must be " + admissible);
+  return *name;
 }
 
 std::string value_text(const toml::node& node) {
   constexpr std::size_t longest = 60;
   return shortened(toml_text(node), longest);
+}
+
+std::string toml_number(double value) {
+  std::string text = format_number(value);
+  const bool whole = text.find_first_of(".e") == std::string::npos;
+  return whole ? text + ".0" : text;
+}
+
+std::string toml_numbers(const std::vector<double>& values) {
+  std::string list;
+  for (const double value : values) list += (list.empty() ? "" : ", ") + toml_number(value);
+  return "[" + list + "]";
+}
+
+std::string toml_string(std::string_view text) {
+  constexpr std::string_view hexadecimal = "0123456789abcdef";
+  std::string quoted = "\"";
+  for (const char character : text) {
+    const auto code = static_cast<unsigned char>(character);
+    if (code < 0x20 || code == 0x7f) {
+      quoted.append("\\u00").append({hexadecimal[code / 16U], hexadecimal[code % 16U]});
+      continue;
+    }
+    if (character == '"' || character == '\\') quoted += '\\';
+    quoted += character;
+  }
+  return quoted + "\"";
+}
+
+std::string commented(std::string assignment, const std::string& comment) {
+  constexpr std::size_t comment_column = 32;
+  assignment.resize(std::max(assignment.size() + 1, comment_column), ' ');
+  return assignment + "# " + comment + "\n";
 }
 
 }  // namespace holdfast::program

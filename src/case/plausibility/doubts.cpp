@@ -153,15 +153,14 @@ std::string found_text(const PlausibleQuantity& quantity, double value) {
 
 UnitGuess guessed_unit(const Case& the_case, const Keys& keys, const Quantities& quantities) {
   BestUnits best(the_case, quantities);
-  for (const std::string& name : keys) {
-    const CaseKey& key = *find_case_key(name);
-    if (key.number == nullptr || !is_given(the_case, name)) continue;
-    Case copy = the_case;
-    if (!key.bears_word(copy)) best.try_keys({name});
-  }
   std::set<Keys> groups;
-  for (const std::string& name : keys)
-    if (is_given(the_case, name)) groups.insert(of_same_unit(the_case, *find_case_key(name)));
+  for (const std::string& name : keys) {
+    const CaseKey* key = find_case_key(name);  // null of a device's key
+    if (key == nullptr || !is_given(the_case, name)) continue;
+    groups.insert(of_same_unit(the_case, *key));
+    Case copy = the_case;
+    if (key->number != nullptr && !key->bears_word(copy)) best.try_keys({name});
+  }
   for (const Keys& together : groups)
     if (together.size() > 1) best.try_keys(together);
   return std::move(best).found();

@@ -1,0 +1,271 @@
+#include "case/device/device_keys.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "io/text/text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using case_tables::Device;
+
+constexpr AdmissibleRange positive{0.0, std::numeric_limits<double>::infinity(), true};
+constexpr AdmissibleRange not_negative{0.0};
+constexpr AdmissibleRange any_number{};
+constexpr AdmissibleRange inside_one{0.0, 1.0, true, true};
+
+DeviceKey number(const char* name, double Device::*place, const char* unit,
+                 const AdmissibleRange& range, const char* description) {
+  DeviceKey key{name, unit, description, range, {}};
+  key.number = place;
+  return key;
+}
+
+DeviceKey numbers(const char* name, std::vector<double> Device::*place, const char* unit,
+                  const AdmissibleRange& range, const char* description) {
+  DeviceKey key{name, unit, description, range, {}};
+  key.numbers = place;
+  return key;
+}
+
+DeviceKey word(const char* name, std::string Device::*place, std::vector<std::string> words,
+               const char* description) {
+  DeviceKey key{name, "", description, {}, std::move(words)};
+  key.word = place;
+  return key;
+}
+
+DeviceKey file(const char* name, std::string Device::*place, const char* description) {
+  DeviceKey key{name, "", description, {}, {}};
+  key.file = place;
+  return key;
+}
+
+const std::vector<DeviceKey> listed_keys = {
+    word("kind", &Device::kind,
+         {"dashpot", "tuned_mass", "stockbridge", "measured", "inerter", "stiffness"},
+         "what it is"),
+    number("position", &Device::position, "m", positive,
+           "distance from the left support, inside the span"),
+    word("to", &Device::to, {"ground", "conductor"},
+         "what it pushes against: the ground, or a mass that hangs on the conductor by it"),
+    number("damping", &Device::damping, "N s/m", not_negative, "force over velocity"),
+    number("stiffness", &Device::stiffness, "N/m", any_number,
+           "force over displacement; below 0 of the kind stiffness alone"),
+    number("inertance", &Device::inertance, "kg", not_negative, "force over acceleration"),
+    number("mass", &Device::mass, "kg", positive,
+           "what hangs on the conductor by it; of a stockbridge its weights together"),
+    number("clamp_mass", &Device::clamp_mass, "kg", not_negative,
+           "what of it moves with the conductor"),
+    numbers("frequencies", &Device::frequencies, "Hz", positive,
+            "its resonances, ascending: two of a stockbridge, one of a tuned_mass in place of "
+            "stiffness"),
+    numbers("damping_ratios", &Device::damping_ratios, "", not_negative,
+            "of each resonance; of a tuned_mass in place of damping"),
+    number("mass_share", &Device::mass_share, "", inside_one,
+           "part of a stockbridge's mass that swings at its first frequency"),
+    file("file", &Device::file,
+         "CSV file of its impedance: columns frequency_Hz, magnitude_N_s_per_m and phase_deg"),
+};
+
+/// What a kind of device takes beside kind, position, to and clamp_mass.
+struct Kind {
+  std::string_view name;
+  std::vector<std::string_view> required, optional;
+  std::size_t resonances = 0;
+  bool has_own_mass = false;  // hangs on the conductor whatever it is
+
+  bool uses(std::string_view key) const {
+    for (const std::string_view one : {"kind", "position", "to", "clamp_mass"})
+      if (one == key) return true;
+    const bool hung = key == "mass" && name != "measured";
+    return hung || std::find(required.begin(), required.end(), key) != required.end() ||
+           std::find(optional.begin(), optional.end(), key) != optional.end();
+  }
+};
+
+const std::vector<Kind> kinds = {
+    {"dashpot", {"damping"}, {}},
+    {"tuned_mass", {"mass"}, {"stiffness", "damping", "frequencies", "damping_ratios"}, 1, true},
+    {"stockbridge", {"mass", "frequencies", "damping_ratios"}, {"mass_share"}, 2, true},
+    {"measured", {"file"}, {}},
+    {"inerter", {"inertance"}, {"damping", "stiffness"}},
+    {"stiffness", {"stiffness"}, {"damping"}},
+};
+
+/// Null where the device has no known kind.
+const Kind* kind_of(const Device& device) {
+  const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                  [&](const Kind& kind) { return kind.name == device.kind; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+/// In place of which key a list stands, of a tuned mass.
+std::string_view replaced_by(std::string_view list) {
+  return list == "frequencies" ? "stiffness" : list == "damping_ratios" ? "damping" : "";
+}
+
+bool has(const std::set<std::string>& given, std::string_view key) {
+  return given.count(std::string(key)) > 0;
+}
+
+CaseFault missing(std::string_view key, const std::string& of_what) {
+  const DeviceKey& known = *find_device_key(key);
+  return {{},
+          known.name + " is missing" + of_what + ": " + known.description + "; admissible is " +
+              known.admissible()};
+}
+
+CaseFault missing_key_fault(const Device& device, const Kind& kind,
+                            const std::set<std::string>& given) {
+  const std::string of_kind = ", which a " + device.kind + " needs";
+  if (!has(given, "position")) return missing("position", "");
+  for (const std::string_view key : kind.required)
+    if (!has(given, key)) return missing(key, of_kind);
+  if (device.kind == "tuned_mass" && !has(given, "stiffness") && !has(given, "frequencies"))
+    return {{}, "stiffness or frequencies is missing: a tuned_mass needs one of them"};
+  if (device.to == "conductor" && kind.uses("mass") && !has(given, "mass"))
+    return missing("mass", ", which to = \"conductor\" needs");
+  return {};
+}
+
+CaseFault unused_key_fault(const Device& device, const Kind& kind,
+                           const std::set<std::string>& given) {
+  for (const std::string& key : given)
+    if (!kind.uses(key))
+      return {{key}, "a " + device.kind + " does not use it; it uses " + used_keys_text(device)};
+  if (device.to == "ground" && kind.has_own_mass)
+    return {{"to"}, "a " + device.kind + " hangs on the conductor: to must be \"conductor\""};
+  if (device.to == "ground" && has(given, "mass"))
+    return {{"mass", "to"},
+            "nothing hangs on a " + device.kind +
+                " whose other end stands still: mass counts with to = \"conductor\" alone"};
+  return {};
+}
+
+CaseFault contradiction_fault(const Device& device, const std::set<std::string>& given) {
+  if (device.kind != "tuned_mass") return {};
+  for (const std::string list : {"frequencies", "damping_ratios"}) {
+    const std::string other(replaced_by(list));
+    if (has(given, list) && has(given, other))
+      return {{list, other}, list + " stands in place of " + other + ": give one of them"};
+  }
+  return {};
+}
+
+CaseFault value_fault(const Device& device, const Kind& kind) {
+  if (device.stiffness < 0.0 && device.kind != "stiffness")
+    return {{"stiffness"}, "of a " + device.kind + " it must be at least 0 N/m"};
+  if (device.kind == "tuned_mass" && device.frequencies.empty() && !(device.stiffness > 0.0))
+    return {{"stiffness"}, "of a tuned_mass it must be greater than 0 N/m"};
+  for (const auto* list : {&device.frequencies, &device.damping_ratios}) {
+    if (list->empty() || list->size() == kind.resonances) continue;
+    const std::string name = list == &device.frequencies ? "frequencies" : "damping_ratios";
+    return {{name},
+            "a " + device.kind + " has " + std::to_string(kind.resonances) + " of them, not " +
+                std::to_string(list->size())};
+  }
+  const auto& frequencies = device.frequencies;
+  if (frequencies.size() == 2 && !(frequencies[0] < frequencies[1]))
+    return {{"frequencies"}, "they must ascend"};
+  return {};
+}
+
+}  // namespace
+
+std::string DeviceKey::admissible() const {
+  if (file != nullptr) return "the name of a file in quotes";
+  if (numbers != nullptr) return list_in_words(range, unit);
+  if (number != nullptr) return range.in_words(unit);
+  std::string text;
+  for (const std::string& one : words) text += (text.empty() ? "\"" : " or \"") + one + "\"";
+  return text;
+}
+
+const std::vector<DeviceKey>& device_keys() { return listed_keys; }
+
+const DeviceKey* find_device_key(std::string_view name) {
+  const auto found = std::find_if(listed_keys.begin(), listed_keys.end(),
+                                  [&](const DeviceKey& key) { return key.name == name; });
+  return found == listed_keys.end() ? nullptr : &*found;
+}
+
+const DeviceKey& nearest_device_key(std::string_view name) {
+  std::vector<std::string> names;
+  for (const DeviceKey& key : listed_keys) names.push_back(key.name);
+  return *find_device_key(nearest_name(names, name));
+}
+
+std::optional<DeviceKeyName> device_key_name(std::string_view name) {
+  constexpr std::string_view table = "device.";
+  constexpr std::size_t most_digits = 6;
+  if (name.substr(0, table.size()) != table) return {};
+  name.remove_prefix(table.size());
+  const std::size_t dot = name.find('.');
+  const std::string_view digits = name.substr(0, dot);
+  const bool is_number = dot != std::string_view::npos && !digits.empty() &&
+                         digits.size() <= most_digits && digits.front() != '0' &&
+                         digits.find_first_not_of("0123456789") == std::string_view::npos;
+  if (!is_number) return {};
+  return DeviceKeyName{std::stoul(std::string(digits)), std::string(name.substr(dot + 1))};
+}
+
+std::string device_key_text(std::size_t number, std::string_view key) {
+  return "device." + std::to_string(number) + "." + std::string(key);
+}
+
+std::vector<const DeviceKey*> standing_keys(const Device& device) {
+  const Kind* kind = kind_of(device);
+  std::vector<const DeviceKey*> standing;
+  for (const DeviceKey& key : listed_keys) {
+    const bool bare = key.name == "mass" && device.to == "ground";
+    const bool empty = key.numbers != nullptr && (device.*key.numbers).empty();
+    const bool replaced = (key.name == "stiffness" && !device.frequencies.empty()) ||
+                          (key.name == "damping" && !device.damping_ratios.empty());
+    if (kind != nullptr && kind->uses(key.name) && !bare && !empty && !replaced)
+      standing.push_back(&key);
+  }
+  return standing;
+}
+
+std::string used_keys_text(const Device& device) {
+  std::string text;
+  const Kind* kind = kind_of(device);
+  for (const DeviceKey& key : listed_keys)
+    if (kind != nullptr && kind->uses(key.name)) text += (text.empty() ? "" : ", ") + key.name;
+  return text;
+}
+
+void settle_device(Device& device, const std::set<std::string>& given) {
+  const Kind* kind = kind_of(device);
+  if (kind == nullptr || has(given, "to")) return;
+  const bool hangs = kind->has_own_mass || device.kind == "measured";
+  device.to = hangs ? "conductor" : "ground";
+}
+
+CaseFault device_fault(const Device& device, const std::set<std::string>& given) {
+  const Kind* kind = kind_of(device);
+  if (kind == nullptr) return missing("kind", "");
+  CaseFault fault = unused_key_fault(device, *kind, given);
+  if (fault.message.empty()) fault = missing_key_fault(device, *kind, given);
+  if (fault.message.empty()) fault = contradiction_fault(device, given);
+  if (fault.message.empty()) fault = value_fault(device, *kind);
+  return fault;
+}
+
+CaseFault devices_fault(const Case& the_case) {
+  const double span = the_case.conductor.span;
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k) {
+    const double position = the_case.devices[k].position;
+    if (position < span) continue;
+    const std::string key = device_key_text(k + 1, "position");
+    return {{key, "conductor.span"},
+            key + " = " + format_number(position) +
+                " m must be less than conductor.span = " + format_number(span) + " m"};
+  }
+  return {};
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace holdfast::program {
+
+/// The impedance of a device as it was measured at its clamp: force over velocity, whose phase is
+/// by how much the force is ahead.
+struct ImpedanceTable {
+  std::vector<double> frequency_Hz;  // ascending
+  std::vector<double> magnitude;     // N s/m
+  std::vector<double> phase_deg;
+};
+
+/// A table in a CSV file: the columns `frequency_Hz`, `magnitude_N_s_per_m` and `phase_deg`, in any
+/// order and beside any others.
+///
+/// Throws WrongInput, with file and line where there is one: what read_csv() refuses, no such
+/// column, an empty cell, text in a number, a number that is not finite, a frequency that is not
+/// above 0 or does not ascend, a magnitude below 0, a phase beyond 360 degrees, fewer than two
+/// rows, and an impedance whose real part is below 0, since no passive device gives power.
+ImpedanceTable read_impedance_table(const std::filesystem::path& file);
+
+/// The same from a text; `name` stands for the file in messages.
+ImpedanceTable read_impedance_text(const std::string& text, const std::string& name);
+
+/// That the phases are probably in radians: some are beyond half of one, and none beyond 2 pi.
+/// Empty otherwise.
+std::string phase_doubt(const ImpedanceTable& table, const std::string& name);
+
+}  // namespace holdfast::program
