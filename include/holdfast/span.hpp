@@ -15,4 +15,5 @@
 #include "holdfast/span/span_roots.hpp"
 #include "holdfast/span/wind/energy_balance.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"
+#include "holdfast/span/wind/turbulence.hpp"
 #include "holdfast/span/wind/wind_power_law.hpp"

@@ -5,6 +5,7 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/span/span_loop.hpp"
 #include "holdfast/control/late_controller.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
@@ -52,10 +53,12 @@ std::vector<PlantPole> remembered_poles(const std::vector<PlaceMode<double>>& mo
   return memo.of(numbers_of(modes, absorber), [&] { return plant_poles(modes, absorber); });
 }
 
-ConductorWithAbsorber conductor_by(const Case& the_case,
-                                   const std::vector<PlaceMode<double>>& modes) {
+/// With devices on the span their poles are those of all together, of which `modes` are no part.
+ConductorWithAbsorber conductor_by(const Case& the_case, const ConductorModes& conductor) {
   const Absorber<double> absorber = absorber_of(the_case);
-  return {modes, absorber, remembered_poles(modes, absorber), hardware_of(the_case)};
+  auto poles = the_case.devices.empty() ? remembered_poles(conductor.modes, absorber)
+                                        : poles_with_devices(the_case, conductor, absorber);
+  return {conductor.modes, absorber, std::move(poles), hardware_of(the_case)};
 }
 
 /// Without the drift of a string without ends, which the drive neither moves nor sees.
@@ -68,8 +71,7 @@ std::vector<PlantPole> without_drift(const Case& the_case, std::vector<PlantPole
   return poles;
 }
 
-ModalResponse<double> response_of(const Case& the_case,
-                                  const std::vector<PlaceMode<double>>& modes) {
+ModalResponse<double> response_of(const Case& the_case, const ConductorModes& modes) {
   throw_if_interrupted();
   ConductorWithAbsorber conductor = conductor_by(the_case, modes);
   conductor.poles = without_drift(the_case, std::move(conductor.poles));
@@ -81,7 +83,7 @@ ModalResponse<double> response_of(const Case& the_case,
 }  // namespace
 
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
-  ConductorWithAbsorber conductor = conductor_by(the_case, place_modes_of(the_case));
+  ConductorWithAbsorber conductor = conductor_by(the_case, conductor_modes_of(the_case));
   if (conductor.poles.empty())
     throw NoAnswer(
         "two natural motions of conductor and absorber coincide too nearly to be told apart: "
@@ -104,11 +106,11 @@ LinearPlant<double> modal_plant_of(const Case& the_case) {
 }
 
 ResolvedCircle<double> circle_of(const Case& the_case) {
-  return ResolvedCircle<double>(response_of(the_case, place_modes_of(the_case)));
+  return ResolvedCircle<double>(response_of(the_case, conductor_modes_of(the_case)));
 }
 
 ModalRadius::ModalRadius(const Case& the_case)
-    : case_(the_case), response_(response_of(the_case, place_modes_of(the_case))) {}
+    : case_(the_case), response_(response_of(the_case, conductor_modes_of(the_case))) {}
 
 double ModalRadius::operator()(const PdGains<double>& gains) {
   const std::complex<double> root = largest_loop_root(response_, gains);
@@ -120,15 +122,15 @@ double ModalRadius::operator()(const PdGains<double>& gains) {
 }
 
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains) {
-  return largest_loop_root(response_of(the_case, place_modes_of(the_case)), gains);
+  return largest_loop_root(response_of(the_case, conductor_modes_of(the_case)), gains);
 }
 
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
   Case changed = the_case;
   changed.absorber.clamp_mass = clamp_mass;
   constexpr int enough = 60;
-  const auto modes = all_conductor_modes_of(changed, enough).modes;
-  const ModalResponse<double> response = response_of(changed, modes);
+  const ModalResponse<double> response =
+      response_of(changed, all_conductor_modes_of(changed, enough));
   const PdGains<double> gains = gains_of(changed);
   const double radius = std::abs(largest_loop_root(response, gains));
   if (std::isfinite(radius)) return radius < 1.0;
@@ -136,26 +138,25 @@ bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
 }
 
 OtherModes other_modes_of(const Case& the_case) {
-  const auto circle_by = [&](const std::vector<PlaceMode<double>>& modes) {
+  const auto circle_by = [&](const ConductorModes& modes) {
     return ResolvedCircle<double>(response_of(the_case, modes));
   };
   const ConductorModes kept = conductor_modes_of(the_case);
   if (std::isfinite(the_case.plant.modes))
-    return {circle_by(finer_modes_of(the_case, kept).modes), "with all modes"};
+    return {circle_by(finer_modes_of(the_case, kept)), "with all modes"};
   const ConductorModes other = coarser_modes_of(the_case, kept);
   const std::string fewer_bars =
       is_cable(the_case) ? " and " + std::to_string(other.bars) + " bars" : "";
-  return {circle_by(other.modes),
-          "with " + std::to_string(other.apart) + " modes kept apart" + fewer_bars +
-              " instead of " + std::to_string(kept.apart) +
-              (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
+  return {circle_by(other), "with " + std::to_string(other.apart) + " modes kept apart" +
+                                fewer_bars + " instead of " + std::to_string(kept.apart) +
+                                (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
 }
 
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
                                           ForceHold hold, double angular_frequency) {
   if (!is_modal(the_case))
     return steady_response(plant_of(the_case), sampling, hold, angular_frequency);
-  return steady_response(conductor_by(the_case, place_modes_of(the_case)), sampling, hold,
+  return steady_response(conductor_by(the_case, conductor_modes_of(the_case)), sampling, hold,
                          angular_frequency);
 }
 

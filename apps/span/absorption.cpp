@@ -1,0 +1,68 @@
+#include <array>
+#include <cmath>
+
+#include "case/model/modal/conductor_modes.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "holdfast/span/end_response.hpp"
+#include "job.hpp"
+#include "jobs/span/span_words.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Z of one device at the outermost one's place that would send back the same, by what that place
+/// sees of it and of the string behind it.
+std::complex<double> impedance_alone(const TautString<double>& string, const SpanEnd& end,
+                                     const EndResponse& response, double omega) {
+  const double phase = omega * end.distances.back() / string.wave_speed();
+  return response.impedance + std::complex<double>(0.0, string.wave_impedance() / std::tan(phase));
+}
+
+struct AbsorptionQuestion {
+  std::string frequency = "3:150:148";
+  std::string end;
+  bool no_control = false;
+
+  void add_to(const Job& job) {
+    job.add("--frequency", frequency);
+    job.add("--end", end);
+    job.add("--no-control", no_control);
+  }
+
+  /// The end that is asked for, or the one that has devices.
+  SpanEnd chosen(const std::array<SpanEnd, 2>& ends) const {
+    const bool right = end == "right" || (end.empty() && ends[0].devices.empty());
+    if (!ends[right ? 1 : 0].devices.empty()) return ends[right ? 1 : 0];
+    throw WrongInput(end.empty() ? "no device is on the span: give [[device]] or an absorber"
+                                 : "--end " + end + ": no device is in that half of the span");
+  }
+
+  void run(const JobContext& context) const {
+    const Case& the_case = context.case_data;
+    const Axis axis = parse_frequencies("--frequency", frequency);
+    require_measured(the_case, axis.min, axis.max);
+    report_warning(absent_absorber_note(the_case), context.quiet);
+    const TautString<double> string = string_of(the_case);
+    const auto devices = span_devices_of(the_case, !no_control);
+    const auto ends = span_ends(devices, string.span);
+    const SpanEnd asked = chosen(ends);
+    if (end.empty() && !ends[0].devices.empty() && !ends[1].devices.empty())
+      report_warning("devices are at both ends; this is the left one (--end right: the other)",
+                     context.quiet);
+    Table table(context, columns_of("absorption"));
+    for (std::int64_t k = 0; k < axis.count; ++k) {
+      const double omega = 2.0 * pi<double> * axis.at(k);
+      const EndResponse response = end_response(string, asked, omega);
+      const auto z = impedance_alone(string, asked, response, omega);
+      table.row(axis.at(k), z.real(), z.imag(), std::abs(response.reflection),
+                response.absorbed_fraction(), response.inverse_standing_wave_ratio());
+    }
+    table.commit();
+  }
+};
+
+}  // namespace
+
+void add_absorption(CLI::App& program) { add_job<AbsorptionQuestion>(program, "absorption"); }
+
+}  // namespace holdfast::program

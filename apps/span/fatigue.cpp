@@ -1,0 +1,52 @@
+#include "case/axes/axis.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "job.hpp"
+#include "jobs/span/fatigue_life.hpp"
+#include "jobs/span/span_words.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct FatigueQuestion {
+  std::string frequency = "3:150";
+  bool no_control = false;
+
+  void add_to(const Job& job) {
+    job.add("--frequency", frequency);
+    job.add("--no-control", no_control);
+  }
+
+  void run(const JobContext& context) const {
+    const Case& the_case = context.case_data;
+    const Range range = parse_range("--frequency", frequency);
+    require_measured(the_case, range.min, range.max);
+    report_warning(absent_absorber_note(the_case), context.quiet);
+    const FatigueLife life = fatigue_life_of(the_case, !no_control, range.min, range.max);
+    Table table(context, columns_of("fatigue"));
+    const auto row = [&](const char* quantity, const Band& band, const char* unit) {
+      table.row(std::string(quantity), band.value, band.lowest, band.highest, std::string(unit));
+    };
+    const double years = the_case.site.years;
+    const auto served = [&](const Band& damage) {
+      return Band{years * damage.value, years * damage.lowest, years * damage.highest};
+    };
+    row("cycles_per_year", {life.cycles, life.cycles, life.cycles}, "");
+    row("largest_stress_bare", life.stress_bare, "Pa");
+    row("largest_stress", life.stress, "Pa");
+    row("damage_per_year_bare", life.damage_bare, "");
+    row("damage_per_year", life.damage, "");
+    row("damage_in_service_bare", served(life.damage_bare), "");
+    row("damage_in_service", served(life.damage), "");
+    row("life_bare", years_of(life.damage_bare), "year");
+    row("life", years_of(life.damage), "year");
+    report_warning(life_advice(life, years), context.quiet);
+    report_warning(instability_note(the_case, !no_control), context.quiet);
+    table.commit();
+  }
+};
+
+}  // namespace
+
+void add_fatigue(CLI::App& program) { add_job<FatigueQuestion>(program, "fatigue"); }
+
+}  // namespace holdfast::program

@@ -1,0 +1,113 @@
+#include "case/model/span/span_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "holdfast/span/span_poles.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+#include "process/memo.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// The places that something is clamped to, each once, and which of them each device has.
+struct Places {
+  std::vector<double> places;
+
+  std::size_t index(double place) {
+    const auto known = std::find(places.begin(), places.end(), place);
+    if (known != places.end()) return static_cast<std::size_t>(known - places.begin());
+    places.push_back(place);
+    return places.size() - 1;
+  }
+};
+
+void require_loop(const Case& the_case) {
+  if (is_cable(the_case))
+    throw WrongInput(
+        "[[device]] on plant.model = \"cable\": devices beside the absorber are computed on the "
+        "taut string alone; set plant.model=string, from which a span with so many half-waves "
+        "does not differ");
+  for (const case_tables::Device& device : the_case.devices)
+    if (device.table)
+      throw WrongInput("a measured impedance (" + device.file +
+                       ") is known at steady vibrations alone, and whether the computer's loop is "
+                       "stable beside it is not computed: give that device by its masses and "
+                       "frequencies (kind = \"stockbridge\")");
+}
+
+std::vector<double> numbers_of(const Case& the_case, const ConductorModes& conductor,
+                               const Absorber<double>& absorber) {
+  const TautString<double> string = string_of(the_case);
+  std::vector<double> numbers = {string.tension,
+                                 string.mass_per_length,
+                                 string.span,
+                                 string.bending_stiffness,
+                                 absorber.mass,
+                                 absorber.stiffness,
+                                 absorber.damping,
+                                 absorber.clamp_mass,
+                                 the_case.absorber.position,
+                                 static_cast<double>(conductor.apart),
+                                 static_cast<double>(conductor.modes.size())};
+  for (const PlaceMode<double>& mode : conductor.modes)
+    numbers.insert(numbers.end(), {mode.angular_frequency, mode.damping_ratio});
+  for (const case_tables::Device& device : the_case.devices) {
+    numbers.push_back(device.position);
+    const LumpedDevice lumped = lumped_device_of(device);
+    for (const DeviceBranch& branch : lumped.branches)
+      numbers.insert(numbers.end(),
+                     {branch.damping, branch.stiffness, branch.inertance, branch.mass});
+    numbers.push_back(device.clamp_mass);
+  }
+  return numbers;
+}
+
+std::vector<PlantPole> found_poles(const Case& the_case, const ConductorModes& conductor,
+                                   const Absorber<double>& absorber) {
+  TautString<double> string = string_of(the_case);
+  string.damping_ratio = 0.0;
+  Places places;
+  const std::size_t own = places.index(the_case.absorber.position);
+  for (const case_tables::Device& device : the_case.devices) places.index(device.position);
+  // Bundles as far as the conductor has them.
+  const bool is_bundled = conductor.modes.size() > static_cast<std::size_t>(conductor.apart);
+  const double highest = is_bundled ? conductor.modes.back().angular_frequency : 0.0;
+  auto modes = string_modes_at(string, places.places, conductor.apart, highest);
+  for (ModeAtPlaces& mode : modes)
+    mode.damping_ratio =
+        std::hypot(mode.damping_ratio, bare_damping_of(the_case, mode.angular_frequency));
+  SpanPoles span(modes);
+  for (const case_tables::Device& device : the_case.devices) {
+    throw_if_interrupted();
+    span.attach(lumped_device_of(device), places.index(device.position));
+  }
+  return span.attach(absorber, own);
+}
+
+}  // namespace
+
+std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorModes& conductor,
+                                          const Absorber<double>& absorber) {
+  require_loop(the_case);
+  constexpr std::size_t enough = 16;
+  static Memo<std::vector<double>, std::vector<PlantPole>> memo(enough);
+  auto poles = memo.of(numbers_of(the_case, conductor, absorber),
+                       [&] { return found_poles(the_case, conductor, absorber); });
+  if (poles.empty())
+    throw NoAnswer(
+        "two natural motions of the span with its devices coincide too nearly to be told apart: "
+        "change the position or damping of a device by a thousandth");
+  return poles;
+}
+
+bool is_stable_span(const Case& the_case) {
+  Case on_string = the_case;
+  on_string.plant.model = "string";
+  return circle_of(on_string).roots_outside(gains_of(on_string)) == 0;
+}
+
+}  // namespace holdfast::program

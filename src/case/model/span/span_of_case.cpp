@@ -1,0 +1,173 @@
+#include "case/model/span/span_of_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/device/impedance_table.hpp"
+#include "case/model/modal/conductor_modes.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "holdfast/span/wind/self_damping_law.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Whether the user gave one of the keys of the absorber or its computer.
+bool speaks_of_absorber(const Case& the_case) {
+  const auto& places = the_case.places;
+  return std::any_of(places.begin(), places.end(), [](const auto& place) {
+    const std::string& key = place.first;
+    return key.rfind("absorber.", 0) == 0 || key.rfind("plant.absorber", 0) == 0 ||
+           key.rfind("control.", 0) == 0;
+  });
+}
+
+bool is_of_another_cable(const Case& the_case) {
+  return !the_case.devices.empty() || !the_case.conductor.name.empty();
+}
+
+MeasuredImpedance measured(const ImpedanceTable& table) {
+  std::vector<MeasuredImpedance::Row> rows;
+  for (std::size_t k = 0; k < table.frequency_Hz.size(); ++k)
+    rows.push_back({2.0 * pi<double> * table.frequency_Hz[k],
+                    std::polar(table.magnitude[k], table.phase_deg[k] * pi<double> / 180.0)});
+  return MeasuredImpedance(std::move(rows));
+}
+
+}  // namespace
+
+bool has_active_absorber(const Case& the_case) {
+  return the_case.plant.absorber_mass > 0.0 &&
+         (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
+}
+
+std::string absent_absorber_note(const Case& the_case) {
+  if (has_active_absorber(the_case) || !(the_case.plant.absorber_mass > 0.0)) return "";
+  return "the built-in absorber and its computer are of another cable and do not count here: give "
+         "[absorber], plant.absorber_mass or [control] to have one";
+}
+
+LumpedDevice lumped_device_of(const case_tables::Device& device) {
+  if (device.kind == "stockbridge")
+    return stockbridge({device.mass,
+                        {device.frequencies[0], device.frequencies[1]},
+                        {device.damping_ratios[0], device.damping_ratios[1]},
+                        device.mass_share,
+                        device.clamp_mass});
+  DeviceBranch branch;
+  if (device.to == "conductor") branch.mass = device.mass;
+  branch.stiffness = device.stiffness;
+  branch.damping = device.damping;
+  branch.inertance = device.inertance;
+  if (!device.frequencies.empty()) {
+    const double omega = 2.0 * pi<double> * device.frequencies[0];
+    branch.stiffness = device.mass * omega * omega;
+  }
+  if (!device.damping_ratios.empty())
+    branch.damping = 2.0 * device.damping_ratios[0] * std::sqrt(branch.stiffness * device.mass);
+  return {{branch}, device.clamp_mass};
+}
+
+SpanDevice span_device_of(const case_tables::Device& device) {
+  if (device.kind == "measured") return {device.position, measured(*device.table)};
+  return {device.position, lumped_device_of(device)};
+}
+
+SpanDevice active_device_of(const Case& the_case, bool controlled) {
+  // Of two masses the clamp mass is part of the conductor's; on the conductor it is not.
+  Absorber<double> absorber = absorber_of(the_case);
+  absorber.clamp_mass = the_case.absorber.clamp_mass;
+  return {the_case.absorber.position,
+          ActiveAbsorber{absorber, sampling_of(the_case),
+                         controlled ? gains_of(the_case) : PdGains<double>{0.0, 0.0},
+                         hardware_of(the_case)}};
+}
+
+std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled) {
+  std::vector<SpanDevice> devices;
+  for (const case_tables::Device& device : the_case.devices)
+    devices.push_back(span_device_of(device));
+  if (has_active_absorber(the_case)) devices.push_back(active_device_of(the_case, controlled));
+  return in_order(std::move(devices), the_case.conductor.span);
+}
+
+void require_measured(const Case& the_case, double lowest, double highest) {
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k) {
+    const case_tables::Device& device = the_case.devices[k];
+    if (!device.table) continue;
+    const double first = device.table->frequency_Hz.front();
+    const double last = device.table->frequency_Hz.back();
+    if (lowest >= first && highest <= last) continue;
+    throw WrongInput("device " + std::to_string(k + 1) + ": " + device.file +
+                     " has its impedance from " + format_number(first) + " to " +
+                     format_number(last) + " Hz, and " + format_number(lowest) + " to " +
+                     format_number(highest) +
+                     " Hz are asked for: give --frequency within what was measured");
+  }
+}
+
+void require_diameter(const Case& the_case, const std::string& job) {
+  if (std::isfinite(the_case.conductor.diameter)) return;
+  throw WrongInput(job +
+                   " needs the conductor's outside diameter, by which the wind sheds its vortices: "
+                   "give conductor.diameter, or conductor.name of one in the library (holdfast "
+                   "conductors --find TEXT)");
+}
+
+std::vector<LossLaw> loss_laws_of(const Case& the_case) {
+  const auto& conductor = the_case.conductor;
+  const TautString<double> string = string_of(the_case);
+  if (!std::isfinite(conductor.rated_strength) || !std::isfinite(conductor.diameter))
+    return {{"damping_ratio", [string](double frequency, double amplitude) {
+               return damped_power(string.mass_per_length, string.damping_ratio,
+                                   2.0 * pi<double> * frequency, amplitude);
+             }}};
+  const StrandedConductor strand{conductor.mass_per_length, conductor.diameter,
+                                 conductor.rated_strength, string.tension};
+  std::vector<LossLaw> laws;
+  for (const SelfDampingLaw& law : self_damping_laws)
+    laws.push_back({std::string(law.name), [strand, law](double frequency, double amplitude) {
+                      return law.power(strand, frequency, amplitude);
+                    }});
+  return laws;
+}
+
+std::optional<ClampBending> clamp_bending_of(const Case& the_case) {
+  const auto& conductor = the_case.conductor;
+  if (!std::isfinite(conductor.outer_wire_diameter) ||
+      !std::isfinite(conductor.outer_wire_modulus) || !(conductor.bending_stiffness > 0.0))
+    return std::nullopt;
+  const ClampBending bending{string_of(the_case).tension, conductor.mass_per_length,
+                             conductor.bending_stiffness, conductor.outer_wire_diameter,
+                             conductor.outer_wire_modulus};
+  validate(bending);
+  return bending;
+}
+
+SafeBorderLine life_line_of(const Case& the_case) {
+  static_cast<void>(the_case);
+  return several_layers;
+}
+
+std::vector<WindHours> wind_hours_of(const Case& the_case, double lowest, double highest) {
+  const case_tables::Site& site = the_case.site;
+  std::vector<WindHours> rows;
+  for (std::size_t k = 0; k < site.speeds.size(); ++k)
+    rows.push_back({site.speeds[k], site.hours[k]});
+  if (!rows.empty()) return rows;
+  if (!std::isfinite(site.weibull_scale))
+    throw WrongInput(
+        "the case says nothing of the wind of its site: give [site] with weibull_scale (m/s) and "
+        "weibull_shape, or with speeds (m/s) and hours (a year at each)");
+  constexpr double step = 0.05;
+  const int steps = std::max(1, static_cast<int>(std::ceil((highest - lowest) / step)));
+  return weibull_hours(site.weibull_scale, site.weibull_shape, lowest, highest, steps);
+}
+
+double strouhal_of(const Case& the_case) {
+  return the_case.wind ? the_case.wind->strouhal : case_tables::Wind{}.strouhal;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,79 @@
+#include "jobs/span/aeolian_amplitudes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/model/modal/conductor_modes.hpp"
+#include "holdfast/span/wind/turbulence.hpp"
+
+namespace holdfast::program {
+
+AeolianBalance::AeolianBalance(const Case& the_case, bool controlled)
+    : string_(string_of(the_case)),
+      diameter_(the_case.conductor.diameter),
+      strouhal_(strouhal_of(the_case)),
+      wind_share_(turbulent_share(the_case.site.turbulence_intensity)),
+      losses_(loss_laws_of(the_case)),
+      bending_(clamp_bending_of(the_case)),
+      devices_(span_devices_of(the_case, controlled)) {
+  require_diameter(the_case, "the vibration in the wind");
+}
+
+double AeolianBalance::outer_wire_modulus() const {
+  return bending_ ? bending_->outer_wire_modulus : std::nan("");
+}
+
+Vibration AeolianBalance::vibration(const WindPowerLaw& wind, const LossLaw& loss, double frequency,
+                                    const std::array<EndResponse, 2>& ends) const {
+  const double omega = 2.0 * pi<double> * frequency;
+  double of_devices = 0.0, angle = 0.0;
+  for (const EndResponse& end : ends) {
+    of_devices += end.absorbed_power(string_.wave_impedance(), omega) / string_.span;
+    angle = std::max(angle, end.support_angle);
+    // A clamp that turns with the conductor bends it half to each side.
+    for (const double kink : end.kinks) angle = std::max(angle, 0.5 * kink);
+  }
+  const auto lost = [&](double y) {
+    return (loss.power(frequency, y) + of_devices * y * y) / wind_share_;
+  };
+  const BalancedAmplitude found = balanced_amplitude(wind, frequency, diameter_, lost);
+  const double strain =
+      bending_ ? bending_->strain_of_angle(angle * found.amplitude) : std::nan("");
+  return {found, strain};
+}
+
+std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
+  const double omega = 2.0 * pi<double> * frequency;
+  const auto places = span_ends(devices_, string_.span);
+  const std::array<EndResponse, 2> damped = {end_response(string_, places[0], omega),
+                                             end_response(string_, places[1], omega)};
+  const EndResponse support = end_response(string_, {}, omega);
+  std::vector<AeolianRow> rows;
+  for (const WindPowerLaw& wind : wind_power_laws)
+    for (const LossLaw& loss : losses_) {
+      const Vibration bare = vibration(wind, loss, frequency, {support, support});
+      rows.push_back({frequency, speed_of(frequency), std::string(wind.name), loss.name, bare,
+                      has_devices() ? vibration(wind, loss, frequency, damped) : bare});
+    }
+  return rows;
+}
+
+std::string balance_range_warning(const std::vector<AeolianRow>& rows, bool with_devices) {
+  std::int64_t below = 0, above = 0;
+  for (const AeolianRow& row : rows) {
+    const BalanceRange range = with_devices ? row.damped.amplitude.range : row.bare.amplitude.range;
+    below += range == BalanceRange::below ? 1 : 0;
+    above += range == BalanceRange::above ? 1 : 0;
+  }
+  std::string text;
+  if (below > 0)
+    text = std::to_string(below) +
+           " row(s) vibrate less than the law of the wind was measured for, a hundredth of the "
+           "diameter, which is given as their bound (amplitude_range)";
+  if (above > 0)
+    text += (text.empty() ? "" : "; ") + std::to_string(above) +
+            " row(s) more than it was measured for, whose largest amplitude is given as theirs";
+  return text;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,110 @@
+#include "jobs/span/fatigue_life.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "case/model/span/span_of_case.hpp"
+#include "jobs/span/aeolian_amplitudes.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// The year of one pair of laws.
+struct LawYear {
+  std::vector<StressCycles> at_most, at_least;
+  double largest = 0.0, frequency = 0.0;
+
+  void add(const Vibration& vibration, double modulus, double cycles, double at) {
+    const double stress = modulus * vibration.strain;
+    const bool is_bound = vibration.amplitude.range == BalanceRange::below;
+    at_most.push_back({stress, cycles});
+    at_least.push_back({is_bound ? 0.0 : stress, cycles});
+    if (!(stress > largest)) return;
+    largest = stress;
+    frequency = at;
+  }
+};
+
+/// The years of every pair of laws, without the devices or with them.
+struct Years {
+  std::vector<LawYear> of_laws;
+
+  Band damage(const SafeBorderLine& line) const {
+    std::vector<double> most, least;
+    for (const LawYear& year : of_laws) {
+      most.push_back(miner_damage(year.at_most, line));
+      least.push_back(miner_damage(year.at_least, line));
+    }
+    const Band upper = band_of(most);
+    return {upper.value, band_of(least).lowest, upper.highest};
+  }
+
+  Band stress() const {
+    std::vector<double> largest;
+    for (const LawYear& year : of_laws) largest.push_back(year.largest);
+    return band_of(largest);
+  }
+
+  double worst_frequency() const {
+    return std::max_element(
+               of_laws.begin(), of_laws.end(),
+               [](const LawYear& a, const LawYear& b) { return a.largest < b.largest; })
+        ->frequency;
+  }
+};
+
+}  // namespace
+
+Band band_of(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  const std::size_t half = numbers.size() / 2;
+  const double middle =
+      numbers.size() % 2 == 1 ? numbers[half] : 0.5 * (numbers[half - 1] + numbers[half]);
+  return {middle, numbers.front(), numbers.back()};
+}
+
+Band years_of(const Band& damage) {
+  return {1.0 / damage.value, 1.0 / damage.highest, 1.0 / damage.lowest};
+}
+
+FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest, double highest) {
+  const AeolianBalance balance(the_case, controlled);
+  if (!balance.knows_strain())
+    throw WrongInput(
+        "fatigue needs the outer wires of the conductor: give conductor.outer_wire_diameter, "
+        "conductor.outer_wire_modulus and conductor.bending_stiffness (the least one), or "
+        "conductor.name of one in the library");
+  const double modulus = balance.outer_wire_modulus();
+  const auto hours = wind_hours_of(the_case, balance.speed_of(lowest), balance.speed_of(highest));
+  Years bare, damped;
+  FatigueLife life{};
+  constexpr double seconds = 3600.0;
+  for (const WindHours& row : hours) {
+    const double frequency = balance.frequency_of(row.speed);
+    if (!(frequency >= lowest && frequency <= highest) || !(row.hours > 0.0)) continue;
+    const double cycles = seconds * row.hours * frequency;
+    const auto laws = balance.rows(frequency);
+    bare.of_laws.resize(laws.size());
+    damped.of_laws.resize(laws.size());
+    life.cycles += cycles;
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      bare.of_laws[k].add(laws[k].bare, modulus, cycles, frequency);
+      damped.of_laws[k].add(laws[k].damped, modulus, cycles, frequency);
+    }
+  }
+  if (damped.of_laws.empty())
+    throw WrongInput(
+        "no wind of the site sheds vortices at the frequencies that count: give other "
+        "speeds, or a wider --frequency");
+  const SafeBorderLine line = life_line_of(the_case);
+  life.damage_bare = bare.damage(line);
+  life.damage = damped.damage(line);
+  life.stress_bare = bare.stress();
+  life.stress = damped.stress();
+  life.worst_frequency = damped.worst_frequency();
+  return life;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,51 @@
+#include "jobs/span/span_words.hpp"
+
+#include "case/axes/axis.hpp"
+#include "case/model/span/span_loop.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+
+Axis parse_frequencies(std::string_view option, std::string_view text) {
+  const Axis axis = parse_axis(option, text);
+  if (!(axis.min > 0.0))
+    throw WrongInput(std::string(option) + " " + std::string(text) +
+                     ": a frequency must be greater than 0 Hz");
+  return axis;
+}
+
+std::string unknown_strain_note(const AeolianBalance& balance) {
+  if (balance.knows_strain()) return "";
+  return "the strains are nan: conductor.outer_wire_diameter, conductor.outer_wire_modulus or "
+         "conductor.bending_stiffness (the least one) is not known";
+}
+
+std::string instability_note(const Case& the_case, bool controlled) {
+  if (!controlled || !has_active_absorber(the_case)) return "";
+  for (const case_tables::Device& device : the_case.devices)
+    if (device.table)
+      return "whether the computer's loop is stable beside a measured impedance is not computed";
+  if (is_stable_span(the_case)) return "";
+  return "the loop of absorber and computer is unstable on this span: it grows by itself, and what "
+         "is told of its steady vibration does not come to be (modal-damping shows which modes "
+         "grow, place finds gains that hold)";
+}
+
+std::string life_advice(const FatigueLife& life, double years) {
+  const Band served = years_of(life.damage);
+  const std::string asked = format_rounded(years) + " years";
+  const std::string band = format_rounded(served.lowest) + " to " + format_rounded(served.highest);
+  if (served.lowest >= years)
+    return "by every pair of laws the conductor lives longer than the " + asked +
+           " that are asked for (" + band + " years)";
+  if (served.highest < years)
+    return "by no pair of laws does the conductor live the " + asked + " that are asked for (" +
+           band + " years): damp it more, or lower its tension";
+  return "whether the conductor lives the " + asked +
+         " that are asked for depends on the law: " + band +
+         " years; measure its vibration, or damp it until the lowest of them is enough";
+}
+
+}  // namespace holdfast::program

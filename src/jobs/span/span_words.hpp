@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "case/case.hpp"
+#include "holdfast/core/axis.hpp"
+#include "jobs/span/aeolian_amplitudes.hpp"
+#include "jobs/span/fatigue_life.hpp"
+
+namespace holdfast::program {
+
+/// The frequencies of an option, MIN:MAX:COUNT. Throws WrongInput where one is not above 0.
+Axis parse_frequencies(std::string_view option, std::string_view text);
+
+/// That the strains are nan for want of the conductor's wires; empty where they are known.
+std::string unknown_strain_note(const AeolianBalance& balance);
+
+/// That the absorber's loop grows, whose steady vibration is then none; empty where it is stable,
+/// or there is no absorber.
+std::string instability_note(const Case& the_case, bool controlled);
+
+/// What a designer should do about a life, in one honest sentence.
+std::string life_advice(const FatigueLife& life, double years);
+
+}  // namespace holdfast::program
