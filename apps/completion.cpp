@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "case/case_keys.hpp"
+#include "case/device/device_keys.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
@@ -48,9 +49,11 @@ std::vector<OptionWords> options_of(const CLI::App& job) {
   return options;
 }
 
+/// Of the devices those of the first.
 std::string all_keys() {
   std::string keys;
   for (const CaseKey& key : case_keys()) keys += (keys.empty() ? "" : " ") + key.name + "=";
+  for (const DeviceKey& key : device_keys()) keys += " " + device_key_text(1, key.name) + "=";
   return keys;
 }
 

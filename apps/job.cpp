@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "case/device/impedance_table.hpp"
 #include "case/library/named_conductor.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
@@ -99,11 +100,13 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   doubt(context, doubts_about(context.case_data, quantities_of_case()));
   doubt(context, {contradicted_conductor_text(context.case_data)});
   doubt(context, {idle_name_text(context.case_data)});
+  doubt(context, phase_doubts(context.case_data));
   if (needs_plant) report_warning(modes_warning(context.case_data), context.quiet);
   if (needs_plant) context.plant_remark = settle_plant(context.case_data);
   report_warning(context.plant_remark, context.quiet);
   // What follows from one mistake in the plant would look like another.
-  if (context.doubts.empty() && (needs_plant || !plant_is_reduced(context.case_data)))
+  if (context.doubts.empty() && has_absorber(context.case_data) &&
+      (needs_plant || !plant_is_reduced(context.case_data)))
     doubt(context, doubts_about(context.case_data, quantities_of_plant()));
   if (needs_gains) doubt(context, {borrowed_gains_text(context.case_data)});
 }
@@ -182,6 +185,8 @@ JobContext Job::context(const std::optional<std::string>& case_file) const {
   if (common_->output) context.output = *common_->output;
   if (file) require_not_overwritten(*file, context.output);
   require_not_overwritten(context.case_data.excitation.record, context.output);
+  for (const case_tables::Device& device : context.case_data.devices)
+    require_not_overwritten(device.file, context.output);
   if (common_->output && !is_told("writes_folder", false))
     require_output_name(*common_->output, has_picture(context.job));
   if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);

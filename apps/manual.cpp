@@ -4,6 +4,7 @@
 
 #include "case/case_file.hpp"
 #include "case/case_keys.hpp"
+#include "case/device/device_keys.hpp"
 #include "holdfast/core/version.hpp"
 #include "io/text/text.hpp"
 #include "job.hpp"
@@ -68,6 +69,19 @@ std::string text_of_jobs(const CLI::App& program) {
   return text;
 }
 
+std::string text_of_key(const std::string& name, const std::string& unit,
+                        const std::string& meaning) {
+  return item(bold(name) + (unit.empty() ? "" : " (" + roff(unit) + ")"), meaning);
+}
+
+std::string text_of_device_keys() {
+  std::string text = ".SS \"[[device]]\"\n";
+  for (const DeviceKey& key : device_keys())
+    text += text_of_key(key.name, key.unit,
+                        key.description + ". Admissible: " + key.admissible() + ".");
+  return text;
+}
+
 std::string text_of_keys() {
   std::string text, table;
   for (const CaseKey& key : case_keys()) {
@@ -75,10 +89,9 @@ std::string text_of_keys() {
     std::string meaning = key.description + ". Admissible: " + key.admissible() + ".";
     const std::string value = case_default(key);
     if (!value.empty()) meaning += " Default: " + value + ".";
-    text += item(bold(key.short_name()) + (key.unit.empty() ? "" : " (" + roff(key.unit) + ")"),
-                 meaning);
+    text += text_of_key(key.short_name(), key.unit, meaning);
   }
-  return text;
+  return text + text_of_device_keys();
 }
 
 }  // namespace

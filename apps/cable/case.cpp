@@ -4,6 +4,7 @@
 
 #include "case/case_file.hpp"
 #include "case/case_keys.hpp"
+#include "case/device/device_values.hpp"
 #include "case/library/named_conductor.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
@@ -39,6 +40,7 @@ void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>
 
 void add_gains(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
   derived.emplace_back("proportional_gain", gains_of(the_case).proportional);
+  if (!has_absorber(the_case)) return;
   derived.emplace_back("tuned_proportional_gain",
                        tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
                                                excitation_of(the_case).frequency));
@@ -94,7 +96,7 @@ Derivations derivations_of(const Case& the_case) {
   add_gains(derived, the_case, plant);
   if (is_two_masses(the_case)) add_modes(derived, plant);
   add_clock(derived, the_case);
-  add_stability(derived, the_case);
+  if (has_absorber(the_case)) add_stability(derived, the_case);
   return derived;
 }
 
@@ -111,6 +113,19 @@ std::string origin_of(const CaseKey& key, const Case& the_case) {
   return computed ? "computed from the conductor" : "built-in";
 }
 
+void add_devices(Table& table, const Case& the_case) {
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k) {
+    const case_tables::Device& device = the_case.devices[k];
+    for (const DeviceKey* key : standing_keys(device)) {
+      const std::string name = device_key_text(k + 1, key->name);
+      const auto given = the_case.places.find(name);
+      table.row(name, device_value_text(*key, device), key->unit,
+                given == the_case.places.end() ? "built-in" : given->second,
+                key->description + "; admissible: " + key->admissible());
+    }
+  }
+}
+
 /// Every key of the case with its value and where that comes from, then what follows from them.
 void write_case_table(const JobContext& context) {
   const Case& the_case = context.case_data;
@@ -121,6 +136,7 @@ void write_case_table(const JobContext& context) {
     table.row(key.name, value, key.unit, origin_of(key, the_case),
               key.description + "; admissible: " + key.admissible());
   }
+  add_devices(table, the_case);
   for (const auto& [name, value] : derivations_of(the_case)) {
     const toml::array& told = *job_texts()["derived"][name].as_array();
     table.row(name, format_number(value), text_of(told[0]), "derived", text_of(told[1]));

@@ -8,6 +8,7 @@
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
 #include "case/case_file.hpp"
+#include "case/device/impedance_table.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
@@ -99,13 +100,26 @@ void require_room_for_best_gain(const SweepOptions& options, const std::vector<G
   }
 }
 
+std::string_view bytes_of(const std::vector<double>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
+}
+
 /// Of the numbers of a record, so that another record of the same name is noticed.
 std::string checksum_of(const RecordedForce& record) {
-  const auto bytes_of = [](const std::vector<double>& numbers) {
-    return std::string_view(reinterpret_cast<const char*>(numbers.data()),
-                            numbers.size() * sizeof(double));
-  };
   return std::to_string(checksum(bytes_of(record.forces()), checksum(bytes_of(record.times()))));
+}
+
+std::string checksum_of(const ImpedanceTable& table) {
+  return std::to_string(
+      checksum(bytes_of(table.phase_deg),
+               checksum(bytes_of(table.magnitude), checksum(bytes_of(table.frequency_Hz)))));
+}
+
+/// Of each measured device.
+void append_tables(TilePlan& plan, const Case& the_case) {
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
+    if (const auto& table = the_case.devices[k].table)
+      plan.entries.emplace("impedance " + std::to_string(k + 1), checksum_of(*table));
 }
 
 /// Samples of one motion; none where τ is not admissible.
@@ -216,6 +230,7 @@ TilePlan SweepPlan::tile_plan() const {
   entries.emplace("--switching", options_.switching == Switching::exact ? "exact" : "sampled");
   if (context_.case_data.force_record)
     entries.emplace("force record", checksum_of(*context_.case_data.force_record));
+  append_tables(plan, context_.case_data);
   entries.emplace("--best-gain", options_.best_gain ? "yes" : "no");
   if (reduced_cases_) {
     const CaseSource& source = context_.case_source;

@@ -111,6 +111,19 @@ bool has(const std::set<std::string>& given, std::string_view key) {
   return given.count(std::string(key)) > 0;
 }
 
+std::string with_article(const Device& device) {
+  return (device.kind == "inerter" ? "an " : "a ") + device.kind +
+         (device.kind == "measured" ? " device" : "");
+}
+
+/// For a message: `position, to, damping, ...`.
+std::string used_keys_text(const Kind& kind) {
+  std::string text;
+  for (const DeviceKey& key : listed_keys)
+    if (kind.uses(key.name) && key.name != "kind") text += (text.empty() ? "" : ", ") + key.name;
+  return text;
+}
+
 CaseFault missing(std::string_view key, const std::string& of_what) {
   const DeviceKey& known = *find_device_key(key);
   return {{},
@@ -120,7 +133,7 @@ CaseFault missing(std::string_view key, const std::string& of_what) {
 
 CaseFault missing_key_fault(const Device& device, const Kind& kind,
                             const std::set<std::string>& given) {
-  const std::string of_kind = ", which a " + device.kind + " needs";
+  const std::string of_kind = ", which " + with_article(device) + " needs";
   if (!has(given, "position")) return missing("position", "");
   for (const std::string_view key : kind.required)
     if (!has(given, key)) return missing(key, of_kind);
@@ -135,12 +148,12 @@ CaseFault unused_key_fault(const Device& device, const Kind& kind,
                            const std::set<std::string>& given) {
   for (const std::string& key : given)
     if (!kind.uses(key))
-      return {{key}, "a " + device.kind + " does not use it; it uses " + used_keys_text(device)};
+      return {{key}, with_article(device) + " does not use it; it uses " + used_keys_text(kind)};
   if (device.to == "ground" && kind.has_own_mass)
     return {{"to"}, "a " + device.kind + " hangs on the conductor: to must be \"conductor\""};
   if (device.to == "ground" && has(given, "mass"))
     return {{"mass", "to"},
-            "nothing hangs on a " + device.kind +
+            "nothing hangs on " + with_article(device) +
                 " whose other end stands still: mass counts with to = \"conductor\" alone"};
   return {};
 }
@@ -157,7 +170,7 @@ CaseFault contradiction_fault(const Device& device, const std::set<std::string>&
 
 CaseFault value_fault(const Device& device, const Kind& kind) {
   if (device.stiffness < 0.0 && device.kind != "stiffness")
-    return {{"stiffness"}, "of a " + device.kind + " it must be at least 0 N/m"};
+    return {{"stiffness"}, "of " + with_article(device) + " it must be at least 0 N/m"};
   if (device.kind == "tuned_mass" && device.frequencies.empty() && !(device.stiffness > 0.0))
     return {{"stiffness"}, "of a tuned_mass it must be greater than 0 N/m"};
   for (const auto* list : {&device.frequencies, &device.damping_ratios}) {
@@ -228,14 +241,6 @@ std::vector<const DeviceKey*> standing_keys(const Device& device) {
       standing.push_back(&key);
   }
   return standing;
-}
-
-std::string used_keys_text(const Device& device) {
-  std::string text;
-  const Kind* kind = kind_of(device);
-  for (const DeviceKey& key : listed_keys)
-    if (kind != nullptr && kind->uses(key.name)) text += (text.empty() ? "" : ", ") + key.name;
-  return text;
 }
 
 void settle_device(Device& device, const std::set<std::string>& given) {

@@ -50,9 +50,6 @@ std::string device_key_text(std::size_t number, std::string_view key);
 /// another stands in place of, and its mass where nothing hangs on it.
 std::vector<const DeviceKey*> standing_keys(const case_tables::Device& device);
 
-/// The keys that a device uses, for a message: `position, to, damping, ...`.
-std::string used_keys_text(const case_tables::Device& device);
-
 /// Gives a device the `to` of its kind, where nobody gives it.
 void settle_device(case_tables::Device& device, const std::set<std::string>& given);
 

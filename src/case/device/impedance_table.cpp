@@ -90,13 +90,18 @@ ImpedanceTable read_impedance_table(const std::filesystem::path& file) {
   return read_impedance_text(read_input(file), file.string());
 }
 
-std::string phase_doubt(const ImpedanceTable& table, const std::string& name) {
+std::vector<std::string> phase_doubts(const Case& the_case) {
   constexpr double turn = 2.0 * pi<double>, noticeable = 0.5;
-  double largest = 0.0;
-  for (const double phase : table.phase_deg) largest = std::max(largest, std::abs(phase));
-  if (largest < noticeable || largest > turn) return "";
-  return name + ": no phase_deg is beyond " + format_rounded(largest) +
-         ", as if the device were a mere dashpot; are they in radians?";
+  std::vector<std::string> doubts;
+  for (const case_tables::Device& device : the_case.devices) {
+    if (device.table == nullptr) continue;
+    double largest = 0.0;
+    for (const double phase : device.table->phase_deg) largest = std::max(largest, std::abs(phase));
+    if (largest >= noticeable && largest <= turn)
+      doubts.push_back(device.file + ": no phase_deg is beyond " + format_rounded(largest) +
+                       ", as if the device were a mere dashpot; are they in radians?");
+  }
+  return doubts;
 }
 
 }  // namespace holdfast::program

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "case/case.hpp"
+
 namespace holdfast::program {
 
 /// The impedance of a device as it was measured at its clamp: force over velocity, whose phase is
@@ -26,8 +28,8 @@ ImpedanceTable read_impedance_table(const std::filesystem::path& file);
 /// The same from a text; `name` stands for the file in messages.
 ImpedanceTable read_impedance_text(const std::string& text, const std::string& name);
 
-/// That the phases are probably in radians: some are beyond half of one, and none beyond 2 pi.
-/// Empty otherwise.
-std::string phase_doubt(const ImpedanceTable& table, const std::string& name);
+/// Of each measured device whose phases are probably in radians, since none is beyond 2 pi though
+/// some are beyond half of one: a line that says so.
+std::vector<std::string> phase_doubts(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <utility>
 
 #include "io/text/compiled_texts.hpp"
@@ -30,6 +31,7 @@ std::vector<LibraryConductor> parsed_library() {
                        number("diameter"), number("area"), number("rated_strength"),
                        number("youngs_modulus"), number("outer_wire_diameter"),
                        number("outer_wire_modulus"), number("minimum_bending_stiffness"),
+                       one["layers"].value_or(std::numeric_limits<double>::infinity()),
                        text_of(one["source"])});
   }
   return library;
@@ -84,8 +86,8 @@ std::string nearest_conductors(std::string_view name) {
   return text;
 }
 
-const std::array<LibraryKey, 8>& library_keys() {
-  static constexpr std::array<LibraryKey, 8> keys = {{
+const std::array<LibraryKey, 9>& library_keys() {
+  static constexpr std::array<LibraryKey, 9> keys = {{
       {"conductor.mass_per_length", &LibraryConductor::mass_per_length},
       {"conductor.area", &LibraryConductor::area},
       {"conductor.youngs_modulus", &LibraryConductor::youngs_modulus},
@@ -94,6 +96,7 @@ const std::array<LibraryKey, 8>& library_keys() {
       {"conductor.rated_strength", &LibraryConductor::rated_strength},
       {"conductor.outer_wire_diameter", &LibraryConductor::outer_wire_diameter},
       {"conductor.outer_wire_modulus", &LibraryConductor::outer_wire_modulus},
+      {"conductor.layers", &LibraryConductor::layers},
   }};
   return keys;
 }

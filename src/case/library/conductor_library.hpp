@@ -13,6 +13,7 @@ struct LibraryConductor {
   double mass_per_length, diameter, area, rated_strength, youngs_modulus, outer_wire_diameter,
       outer_wire_modulus;
   double minimum_bending_stiffness;  // each wire bends by itself
+  double layers;                     // of aluminium wires; infinity: none
   std::string source;
 };
 
@@ -33,6 +34,6 @@ struct LibraryKey {
   std::string_view name;  // "conductor.area"
   double LibraryConductor::*value;
 };
-const std::array<LibraryKey, 8>& library_keys();
+const std::array<LibraryKey, 9>& library_keys();
 
 }  // namespace holdfast::program

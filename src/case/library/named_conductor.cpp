@@ -21,6 +21,7 @@ std::string idle_name_text(const Case& the_case) {
   if (conductor == nullptr) return "";
   std::string differ;
   for (const LibraryKey& key : library_keys()) {
+    if (key.name == "conductor.layers") continue;  // nothing that a conductor is known by
     if (is_from_library(the_case, key.name)) return "";
     const double given = case_value(the_case, key.name), known = conductor->*key.value;
     const bool tells = key.name == "conductor.mass_per_length" || key.name == "conductor.area" ||

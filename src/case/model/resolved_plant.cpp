@@ -68,6 +68,7 @@ std::string settle_damping(Case& the_case) {
 std::string settle_absorber(Case& the_case) {
   if (the_case.places.count("plant.absorber_mass") == 0)
     the_case.plant.absorber_mass = the_case.absorber.mass;
+  if (!has_absorber(the_case)) return "";
   std::string names;
   for (const char* key : {"plant.absorber_stiffness", "plant.absorber_damping"})
     if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);

@@ -186,7 +186,8 @@ TEST(CaseFile, EveryKeyRefusesAWrongTypeWithFileLineKeyAndWhatIsAdmissible) {
   for (const CaseKey& key : case_keys()) {
     for (const std::string value : {"true", "[1, 2]", "1979-05-27", "{ a = 1 }", "\"nonsense\""}) {
       if (key.file != nullptr && value.front() == '"') continue;  // as good a name as any
-      if (key.interval != nullptr && value.front() == '[') continue;
+      const bool is_list = key.interval != nullptr || key.numbers != nullptr;
+      if (is_list && value.front() == '[') continue;
       const std::string message =
           refusal("\n[" + key.table() + "]\n" + key.short_name() + " = " + value + "\n");
       EXPECT_TRUE(holds(message, "case.toml:3: " + key.name + " = ")) << message;

@@ -43,7 +43,7 @@ TEST(CaseKeys, NamesAreDistinctAndEachHasOnePlaceAndADescription) {
     EXPECT_TRUE(names.insert(key.name).second) << key.name;
     const int places = (key.number != nullptr) + (key.word != nullptr) + (key.file != nullptr) +
                        (key.conductor != nullptr) + (key.harmonics != nullptr) +
-                       (key.interval != nullptr);
+                       (key.interval != nullptr) + (key.numbers != nullptr);
     EXPECT_EQ(places, 1) << key.name;
     EXPECT_EQ(key.word != nullptr, key.number == nullptr && !key.words.empty()) << key.name;
     EXPECT_FALSE(key.description.empty()) << key.name;
@@ -59,6 +59,7 @@ const void* place_of(const CaseKey& key, Case& the_case) {
   if (key.file != nullptr) return key.file(the_case);
   if (key.conductor != nullptr) return key.conductor(the_case);
   if (key.interval != nullptr) return key.interval(the_case);
+  if (key.numbers != nullptr) return key.numbers(the_case);
   return key.harmonics(the_case);
 }
 
@@ -159,7 +160,7 @@ TEST(CaseKeys, WholeNumbersRefuseFractions) {
     }
     EXPECT_EQ(case_value(the_case, key.name), large) << key.name;
   }
-  EXPECT_EQ(whole, 4);
+  EXPECT_EQ(whole, 5);
 }
 
 TEST(CaseKeys, SeedsAreAsLargeAsADoubleTellsThemApart) {

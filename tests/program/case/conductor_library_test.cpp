@@ -45,7 +45,8 @@ TEST(ConductorLibrary, IsTheFileInTheDataFolderWithNothingElseInIt) {
     std::set<std::string> missing = numbers;
     missing.insert({"name", "kind", "wires", "source", "derived"});
     for (const auto& [key, value] : *node.as_table()) {
-      const bool is_known = missing.erase(std::string(key.str())) == 1 || key.str() == "note";
+      const bool is_known = missing.erase(std::string(key.str())) == 1 || key.str() == "note" ||
+                            key.str() == "layers";
       EXPECT_TRUE(is_known) << key.str();
       if (key.str() != "derived") continue;
       for (const toml::node& name : *value.as_array())
@@ -118,6 +119,36 @@ TEST(ConductorLibrary, AgreesWithPublishedTables) {
     EXPECT_NEAR(1e6 * found->area / printed.area, 1.0, 0.005) << printed.name;
     EXPECT_NEAR(1e-3 * found->rated_strength / printed.strength, 1.0, 0.012) << printed.name;
   }
+}
+
+/// Each layer has six wires more than the one within.
+TEST(ConductorLibrary, LayersAreThoseOfTheWires) {
+  const auto file = toml::parse_file(std::string(HOLDFAST_SOURCE_DIR) + "/data/conductors.toml");
+  std::size_t known = 0;
+  for (const toml::node& node : *file["conductor"].as_array()) {
+    const toml::table& one = *node.as_table();
+    const std::string name = one["name"].value<std::string>().value();
+    const std::string wires = one["wires"].value<std::string>().value();
+    const auto layers = one["layers"].value<int>();
+    const bool has_aluminium = holds(wires, "aluminium") || holds(wires, "alloy");
+    EXPECT_EQ(layers.has_value(), has_aluminium) << name;
+    EXPECT_EQ(std::isfinite(find_conductor(name)->layers), has_aluminium) << name;
+    if (!layers) continue;
+    ++known;
+    int count = 0;
+    for (std::size_t at = 0; at != std::string::npos; at = wires.find(", ", at + 1)) {
+      const std::string part = wires.substr(at == 0 ? 0 : at + 2);
+      const bool counts = !holds(part.substr(0, part.find(',')), "steel");
+      count += counts ? std::stoi(part) : 0;
+    }
+    // Of aluminium alone there is one wire within the layers.
+    const int wires_of_layers = holds(wires, "steel") ? count : count - 1;
+    const int innermost = wires_of_layers / *layers - 3 * (*layers - 1);
+    EXPECT_EQ(*layers * innermost + 3 * *layers * (*layers - 1), wires_of_layers) << name;
+    EXPECT_GE(innermost, 6) << name;
+    EXPECT_LE(innermost, 15) << name;
+  }
+  EXPECT_GE(known, 100U);
 }
 
 TEST(ConductorLibrary, EveryConductorMakesACaseThatIsNotDoubted) {
@@ -263,9 +294,10 @@ TEST(ConductorDiameter, AndTheOtherNewKeysRefuseWhatNoConductorHas) {
               std::numeric_limits<double>::infinity());
   }
   EXPECT_TRUE(holds(refusal("", {"conductor.diameter=28.14"}), "is it in mm, 0.02814 m?"));
-  for (const char* setting :
-       {"conductor.rated_strength=140.1", "conductor.rated_strength=31500",
-        "conductor.outer_wire_modulus=69", "conductor.outer_wire_diameter=4.44"})
+  EXPECT_TRUE(holds(refusal("", {"conductor.name=Drake", "conductor.rated_strength=140.1"}),
+                    "is it in kN, 1.401e+05 N?"));
+  for (const char* setting : {"conductor.rated_strength=31500", "conductor.outer_wire_modulus=69",
+                              "conductor.outer_wire_diameter=4.44"})
     EXPECT_EQ(doubts_about(load_case(std::nullopt, {"conductor.name=Drake", setting}),
                            quantities_of_case())
                   .size(),

@@ -20,6 +20,9 @@ namespace holdfast::program {
 
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
+  if (!has_absorber(the_case))
+    throw WrongInput(
+        "plant.absorber_mass = 0: there is no absorber on the conductor, which this asks about");
   // Of a string without ends the clamp is the mode's own mass; one mass has none.
   const bool clamped = !is_two_masses(the_case) && !is_infinite(the_case);
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,

@@ -23,7 +23,7 @@
 
 namespace holdfast::program {
 
-/// The absorber with what of it moves with the conductor.
+/// The absorber with what of it moves with the conductor. Throws WrongInput where there is none.
 Absorber<double> absorber_of(const Case& the_case);
 
 /// Measurement filter and drive.
