@@ -142,6 +142,10 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
     require_in_force(context_.case_data, *find_case_key(axis.column.name));
   shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);
   settle_case();
+  const bool over_absorbers =
+      std::any_of(layout_.axes.begin(), layout_.axes.end(),
+                  [](const GridAxis& axis) { return axis.column.name == "plant.absorber_mass"; });
+  if (!over_absorbers) require_absorber(context_.case_data);
   samples_ = counted_samples();
   tile_cells_ = options_.tile_cells > 0 ? options_.tile_cells : chosen_tile_cells();
 }

@@ -66,6 +66,63 @@ TEST(CaseJob, TellsWhereEachValueComesFrom) {
   EXPECT_NE(told(table, "backlash.width", "meaning").find("at least 0 m"), std::string::npos);
 }
 
+TEST(CaseJob, TellsOfDevicesAndOfTheSite) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "mine.toml").string();
+  write_text(file,
+             "[site]\nspeeds = [1, 2]\nhours = [3, 4]\n[[device]]\nkind = \"dashpot\"\n"
+             "position = 1.5\ndamping = 30\n");
+  const auto table = table_of("case --check '" + file + "' --set device.1.damping=20");
+  EXPECT_EQ(told(table, "site.speeds", "value"), "[1.0, 2.0]");
+  EXPECT_EQ(told(table, "device.1.position", "origin"), file + ":6");
+  EXPECT_EQ(told(table, "device.1.damping", "value"), "20.0");
+  EXPECT_EQ(told(table, "device.1.damping", "origin"), "--set device.1.damping=20");
+  EXPECT_EQ(told(table, "device.1.damping", "unit"), "N s/m");
+  EXPECT_EQ(told(table, "device.1.to", "origin"), "built-in");
+  const auto bare = table_of("case");
+  for (std::size_t row = 0; row < bare.rows(); ++row) {
+    EXPECT_EQ(bare.text(row, "key").rfind("site.", 0), std::string::npos);
+    EXPECT_EQ(bare.text(row, "key").rfind("device.", 0), std::string::npos);
+  }
+}
+
+TEST(CaseJob, TablesOfDevicesAreReadAndNotOverwritten) {
+  const TemporaryFolder folder;
+  const std::string csv = (folder / "shaker.csv").string();
+  const std::string device =
+      "case --set device.1.kind=measured --set device.1.position=1 --set device.1.file='" + csv +
+      "'";
+  EXPECT_NE(run_holdfast(device).errors.find("cannot read"), std::string::npos);
+  write_text(csv, "frequency_Hz,magnitude_N_s_per_m,phase_deg\n5,3,-1.5\n6,3,1.2\n");
+  const Outcome doubted = run_holdfast(device);
+  EXPECT_EQ(doubted.exit_code, 0) << doubted.errors;
+  EXPECT_NE(doubted.errors.find("are they in radians?"), std::string::npos) << doubted.errors;
+  EXPECT_EQ(run_holdfast(device + " --output '" + csv + "'").exit_code, 2);
+  write_text(csv, "frequency_Hz,magnitude_N_s_per_m,phase_deg\n5,3,0\n6,3,120\n");
+  const Outcome active = run_holdfast(device);
+  EXPECT_EQ(active.exit_code, 2);
+  EXPECT_EQ(active.error_lines(), 1U);
+  EXPECT_NE(active.errors.find("would give power"), std::string::npos) << active.errors;
+}
+
+TEST(CaseJob, ASpanWithoutAbsorberIsACaseAndJobsAboutAbsorbersSaySo) {
+  const std::string bare =
+      " --quiet --set plant.model=string --set plant.absorber_mass=0 --set "
+      "control.proportional_gain=0 --set control.differential_gain=0";
+  const auto table = table_of("case" + bare);
+  EXPECT_EQ(number_told(table, "plant.absorber_mass"), 0.0);
+  EXPECT_EQ(number_told(table, "sampling_rate"), 1000.0);
+  for (const std::string job : {"margins", "response --p 0:0:1 --d 0:0:1", "simulate",
+                                "sweep --axis excitation.frequency=1:3:2"}) {
+    const Outcome outcome = run_holdfast(job + bare);
+    EXPECT_EQ(outcome.exit_code, 2) << job;
+    EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("plant.absorber_mass = 0: there is no absorber"),
+              std::string::npos)
+        << outcome.errors;
+  }
+}
+
 TEST(CaseJob, TellsWhatFollowsFromTheCase) {
   const auto table = table_of("case --set control.sampling_period=0.01");
   // Kollár 2022, Fig. 4a: the boundary at P = −557 N/m; Table 1: Eq. 6 at 10 Hz.

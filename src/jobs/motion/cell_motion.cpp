@@ -104,6 +104,7 @@ double divergence_bound(const CellMotion& motion) {
 }  // namespace
 
 CellMotion cell_motion(const Case& the_case, Switching switching, double duration) {
+  require_absorber(the_case);
   CellMotion motion{
       {ideal_loop_of(the_case), initial_state_of(the_case)}, std::nullopt, nullptr, nullptr};
   samples_of(the_case, duration);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/case_file.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "io/file/input.hpp"
 #include "io/file/output.hpp"
@@ -137,6 +138,7 @@ void say_where(const fs::path& page) {
 
 void write_report(const JobContext& context, const Arguments& case_arguments,
                   const CommandRunner& run) {
+  require_absorber(context.case_data);
   const bool builtin = is_builtin(context.case_data);
   const fs::path folder = *context.output;
   const ReportWriter writer(context, case_arguments, run);  // refuses loops that are too stiff

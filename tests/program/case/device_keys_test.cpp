@@ -48,10 +48,18 @@ std::string override_refusal(const std::vector<std::string>& overrides) {
 
 void expect_same(const Device& a, const Device& b) {
   for (const DeviceKey& key : device_keys()) {
-    if (key.number != nullptr) EXPECT_EQ(a.*key.number, b.*key.number) << key.name;
-    if (key.numbers != nullptr) EXPECT_EQ(a.*key.numbers, b.*key.numbers) << key.name;
-    if (key.word != nullptr) EXPECT_EQ(a.*key.word, b.*key.word) << key.name;
-    if (key.file != nullptr) EXPECT_EQ(a.*key.file, b.*key.file) << key.name;
+    if (key.number != nullptr) {
+      EXPECT_EQ(a.*key.number, b.*key.number) << key.name;
+    }
+    if (key.numbers != nullptr) {
+      EXPECT_EQ(a.*key.numbers, b.*key.numbers) << key.name;
+    }
+    if (key.word != nullptr) {
+      EXPECT_EQ(a.*key.word, b.*key.word) << key.name;
+    }
+    if (key.file != nullptr) {
+      EXPECT_EQ(a.*key.file, b.*key.file) << key.name;
+    }
   }
 }
 

@@ -18,11 +18,18 @@
 
 namespace holdfast::program {
 
+void require_absorber(const Case& the_case) {
+  if (has_absorber(the_case)) return;
+  const auto place = the_case.places.find("plant.absorber_mass");
+  const bool in_file = place != the_case.places.end() && place->second.rfind("--set", 0) != 0;
+  throw WrongInput((in_file ? place->second + ": " : "") +
+                   "plant.absorber_mass = 0: there is no absorber on the conductor, which this "
+                   "asks about");
+}
+
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
-  if (!has_absorber(the_case))
-    throw WrongInput(
-        "plant.absorber_mass = 0: there is no absorber on the conductor, which this asks about");
+  require_absorber(the_case);
   // Of a string without ends the clamp is the mode's own mass; one mass has none.
   const bool clamped = !is_two_masses(the_case) && !is_infinite(the_case);
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,

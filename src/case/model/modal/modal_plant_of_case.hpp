@@ -23,6 +23,9 @@
 
 namespace holdfast::program {
 
+/// Throws WrongInput where no absorber hangs on the conductor.
+void require_absorber(const Case& the_case);
+
 /// The absorber with what of it moves with the conductor. Throws WrongInput where there is none.
 Absorber<double> absorber_of(const Case& the_case);
 
