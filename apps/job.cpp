@@ -74,11 +74,11 @@ void doubt(JobContext& context, const std::vector<std::string>& texts) {
   }
 }
 
-/// The names of the jobs that answer on every plant, for a message.
-std::string jobs_on_any_plant() {
+/// The names of the jobs of which a fact is told, for a message.
+std::string jobs_that(const std::string& fact) {
   std::string names;
   for (const auto& [name, told] : *job_texts()["jobs"].as_table())
-    if (told.as_table()->get("any_plant") != nullptr)
+    if (told.as_table()->get(fact) != nullptr)
       names += (names.empty() ? "" : ", ") + std::string(name.str());
   return names;
 }
@@ -91,7 +91,24 @@ void require_two_masses(const Case& the_case, const std::string& job) {
                    modal_words(the_case) + ": " + job +
                    " answers for two_masses under an ideal drive alone; those that answer on the "
                    "conductor itself and for filters, lags and delays are " +
-                   jobs_on_any_plant());
+                   jobs_that("any_plant"));
+}
+
+/// Nothing passes over a device without a word.
+void require_no_devices(const Case& the_case, const std::string& job) {
+  if (the_case.devices.empty()) return;
+  throw WrongInput(job +
+                   " knows the absorber alone, and the case has [[device]] beside it: take "
+                   "the devices away; jobs that count them are " +
+                   jobs_that("counts_devices"));
+}
+
+/// On two masses there is no place for a device.
+void require_place_for_devices(const Case& the_case, const std::string& job) {
+  if (the_case.devices.empty() || !is_two_masses(the_case)) return;
+  throw WrongInput(job +
+                   " of plant.model = \"two_masses\" has no place for [[device]]: add --set "
+                   "plant.model=string");
 }
 
 /// Settles the plant where the job needs it, and warns of what is not plausible.
@@ -101,6 +118,7 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   doubt(context, {contradicted_conductor_text(context.case_data)});
   doubt(context, {idle_name_text(context.case_data)});
   doubt(context, phase_doubts(context.case_data));
+  if (needs_plant) doubt(context, {borrowed_damping_text(context.case_data)});
   if (needs_plant) report_warning(modes_warning(context.case_data), context.quiet);
   if (needs_plant) context.plant_remark = settle_plant(context.case_data);
   report_warning(context.plant_remark, context.quiet);
@@ -190,6 +208,9 @@ JobContext Job::context(const std::optional<std::string>& case_file) const {
   if (common_->output && !is_told("writes_folder", false))
     require_output_name(*common_->output, has_picture(context.job));
   if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
+  if (!is_told("counts_devices", false)) require_no_devices(context.case_data, context.job);
+  if (is_told("needs_string_for_devices", false))
+    require_place_for_devices(context.case_data, context.job);
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
   examine(context, is_told("needs_plant", true), controlled && is_told("needs_gains", false));

@@ -1,32 +1,9 @@
-#include "holdfast/stability/response/modal_damping.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
-#include "case/model/plant_of_case.hpp"
+#include "case/model/span/span_of_case.hpp"
 #include "job.hpp"
+#include "jobs/span/mode_dampings.hpp"
 
 namespace holdfast::program {
 namespace {
-
-/// Which roots of an unstable loop grow: those of the conductor's modes, or the absorber's with its
-/// computer; empty where none does.
-std::string growth_text(const Case& the_case, const std::vector<ModeDamping>& modes) {
-  const int outside = circle_of(the_case).roots_outside(gains_of(the_case));
-  int growing = 0;
-  std::string names;
-  for (std::size_t n = 0; n < modes.size(); ++n) {
-    if (!(modes[n].damping() < 0.0)) continue;
-    if (++growing <= 3) names += (names.empty() ? "mode " : ", ") + std::to_string(n + 1);
-  }
-  if (outside <= 0) return "";
-  std::string text = "the loop is unstable: ";
-  if (growing > 0)
-    text += names + (growing > 3 ? " and others grow" : growing > 1 ? " grow" : " grows");
-  // A pair each.
-  if (outside > 2 * growing || growing == 0)
-    text += std::string(growing > 0 ? ", and " : "") +
-            "a root grows that is no mode of the conductor: the absorber's place with its "
-            "computer, which feels the waves that it sends out and its clamp";
-  return text;
-}
 
 struct ModalDampingQuestion {
   std::int64_t count = 20;
@@ -39,38 +16,46 @@ struct ModalDampingQuestion {
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    if (is_two_masses(the_case) || is_infinite(the_case))
-      throw WrongInput(
-          std::string("modal-damping is of the conductor's modes, and the case's plant ") +
-          (is_infinite(the_case) ? "has none" : "is two masses") + ": add --set plant.model=cable");
-    const PdGains<double> gains = no_control ? PdGains<double>{0.0, 0.0} : gains_of(the_case);
+    const bool has_devices = !the_case.devices.empty();
+    if (has_devices) report_warning(absent_absorber_note(the_case), context.quiet);
     Table table(context, columns_of("modal-damping"));
-    const ConductorModes conductor = conductor_modes_of(the_case);
-    const auto modes = modal_damping(conductor.modes, absorber_of(the_case), sampling_of(the_case),
-                                     gains, hardware_of(the_case));
+    // All that grow are named, not those alone that are shown.
+    constexpr int most = 1000;
+    const int asked = has_devices ? static_cast<int>(count) : most;
+    const auto modes = mode_rows_of(the_case, asked, !no_control);
+    std::int64_t number = 0;
+    for (const ModeRow& mode : modes) {
+      if (++number > count) break;
+      table.row(number, mode.frequency, mode.bare, mode.damping(), mode.first_order,
+                mode.asymptotic);
+    }
+    warn(modes, context.quiet);
+    const bool is_active = !no_control && (!has_devices || has_active_absorber(the_case));
+    if (is_active) report_warning(growth_text(the_case, modes), context.quiet);
+    table.commit();
+  }
+
+ private:
+  void warn(const std::vector<ModeRow>& modes, bool quiet) const {
     std::int64_t number = 0, lost = 0, not_light = 0;
-    for (const ModeDamping& mode : modes) {
+    for (const ModeRow& mode : modes) {
       lost += std::isnan(mode.damping()) ? 1 : 0;
-      if (++number > count || number > conductor.apart) continue;
-      table.row(number, mode.angular_frequency / (2.0 * pi<double>), mode.bare, mode.damping(),
-                mode.first_order);
+      if (++number > count) continue;
       const double added = mode.damping() - mode.bare, promised = mode.first_order - mode.bare;
       // Of what hardly moves round-off decides.
       const bool counts = std::abs(promised) > 0.01 * mode.bare + 1e-9;
       not_light += counts && !(std::abs(added - promised) < 0.5 * std::abs(promised)) ? 1 : 0;
     }
     if (not_light > 0)
-      report_warning("damping_ratio_first_order is the law of a light device; to " +
+      report_warning("damping_ratio_first_order is the law of light devices; to " +
                          std::to_string(not_light) +
-                         " of the modes shown the absorber is not light: it is more than twice off",
-                     context.quiet);
+                         " of the modes shown they are not light: it is more than twice off",
+                     quiet);
     if (lost > 0)
       report_warning(std::to_string(lost) +
-                         " mode(s) could not be followed as the absorber and "
-                         "the gains grow: their damping is nan",
-                     context.quiet);
-    if (!no_control) report_warning(growth_text(the_case, modes), context.quiet);
-    table.commit();
+                         " mode(s) could not be followed as devices and gains grow: their damping "
+                         "is nan",
+                     quiet);
   }
 };
 

@@ -80,14 +80,16 @@ struct SpanRoot {
   double frequency() const { return std::abs(root) / (2.0 * pi<double>); }  ///< |s|/2π (Hz)
 };
 
-namespace detail {
-
-inline SpanRoot span_root(const TautString<double>& string, const std::vector<SpanDevice>& devices,
-                          const SpanWaves& waves, int n) {
+/// What the two laws of few or near devices make of mode n of a taut string, without its root.
+/// @param string   its bending stiffness does not count; its damping is that of mode n
+/// @param devices  inside the span (unchecked)
+/// @param n        number of half-waves, ≥ 1
+inline SpanRoot span_root_laws(const TautString<double>& string,
+                               const std::vector<SpanDevice>& devices, int n) {
   using Complex = std::complex<double>;
   SpanRoot found{};
-  found.bare = waves.bare_root(n);
-  const double omega = std::abs(found.bare), half_waves = n * pi<double>;
+  found.root = {std::nan(""), 0.0};
+  const double half_waves = n * pi<double>, omega = half_waves * string.wave_speed() / string.span;
   found.first_order = found.asymptotic = string.damping_ratio;
   for (const SpanDevice& device : devices) {
     const Complex z = device.impedance(Complex(0.0, omega));
@@ -97,14 +99,23 @@ inline SpanRoot span_root(const TautString<double>& string, const std::vector<Sp
     const Complex turned = Complex(0.0, 1.0) * z / string.wave_impedance() * half_waves * near;
     found.asymptotic += near * (turned / (1.0 + turned)).imag();
   }
-  found.root =
-      devices.empty()
-          ? found.bare
-          : root_from_pole([&](const Complex& s) { return 1.0 - waves.held(s); }, found.bare);
   return found;
 }
 
-}  // namespace detail
+/// What mode n of a taut string becomes with devices, as `span_roots` has it.
+/// @param string   its bending stiffness does not count; its damping is that of mode n
+/// @param devices  `in_order` (unchecked)
+/// @param n        number of half-waves, ≥ 1
+/// @throws InvalidParameter for an inadmissible string
+inline SpanRoot span_root(const TautString<double>& string, const std::vector<SpanDevice>& devices,
+                          int n) {
+  const SpanWaves waves(string, devices);
+  SpanRoot found = span_root_laws(string, devices, n);
+  found.bare = waves.bare_root(n);
+  const auto loop_gain = [&](const std::complex<double>& s) { return 1.0 - waves.held(s); };
+  found.root = devices.empty() ? found.bare : root_from_pole(loop_gain, found.bare);
+  return found;
+}
 
 /// The natural motions of a taut string with devices, all modes at once: roots of
 ///
@@ -127,7 +138,7 @@ inline std::vector<SpanRoot> span_roots(const TautString<double>& string,
   const std::vector<SpanDevice> ordered = in_order(devices, string.span);
   const SpanWaves waves(string, ordered);
   std::vector<SpanRoot> roots;
-  for (int n = 1; n <= count; ++n) roots.push_back(detail::span_root(string, ordered, waves, n));
+  for (int n = 1; n <= count; ++n) roots.push_back(span_root(string, ordered, n));
   return roots;
 }
 

@@ -36,4 +36,12 @@ std::string idle_name_text(const Case& the_case) {
          differ + "; take them away to have those of the library";
 }
 
+std::string borrowed_damping_text(const Case& the_case) {
+  if (the_case.conductor.name.empty() || the_case.places.count("conductor.damping_ratio") > 0)
+    return "";
+  return "conductor.damping_ratio is " + format_number(the_case.conductor.damping_ratio) +
+         ", that of the built-in cable: a stranded conductor at its tension has some 0.0001 to "
+         "0.002, which no library tells; give it";
+}
+
 }  // namespace holdfast::program

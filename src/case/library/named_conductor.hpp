@@ -14,4 +14,7 @@ bool is_from_library(const Case& the_case, std::string_view key);
 /// conductor: mass, area or diameter differ by more than a tenth. Empty otherwise.
 std::string idle_name_text(const Case& the_case);
 
+/// That the damping ratio of a named conductor is the built-in cable's. Empty otherwise.
+std::string borrowed_damping_text(const Case& the_case);
+
 }  // namespace holdfast::program

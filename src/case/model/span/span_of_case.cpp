@@ -28,11 +28,15 @@ bool is_of_another_cable(const Case& the_case) {
   return !the_case.devices.empty() || !the_case.conductor.name.empty();
 }
 
-MeasuredImpedance measured(const ImpedanceTable& table) {
+/// With its clamp, whose iωM runs as straight as the table between its rows.
+MeasuredImpedance measured(const case_tables::Device& device) {
+  const ImpedanceTable& table = *device.table;
   std::vector<MeasuredImpedance::Row> rows;
-  for (std::size_t k = 0; k < table.frequency_Hz.size(); ++k)
-    rows.push_back({2.0 * pi<double> * table.frequency_Hz[k],
-                    std::polar(table.magnitude[k], table.phase_deg[k] * pi<double> / 180.0)});
+  for (std::size_t k = 0; k < table.frequency_Hz.size(); ++k) {
+    const double omega = 2.0 * pi<double> * table.frequency_Hz[k];
+    rows.push_back({omega, std::polar(table.magnitude[k], table.phase_deg[k] * pi<double> / 180.0) +
+                               std::complex<double>(0.0, omega * device.clamp_mass)});
+  }
   return MeasuredImpedance(std::move(rows));
 }
 
@@ -71,7 +75,7 @@ LumpedDevice lumped_device_of(const case_tables::Device& device) {
 }
 
 SpanDevice span_device_of(const case_tables::Device& device) {
-  if (device.kind == "measured") return {device.position, measured(*device.table)};
+  if (device.kind == "measured") return {device.position, measured(device)};
   return {device.position, lumped_device_of(device)};
 }
 
@@ -147,8 +151,7 @@ std::optional<ClampBending> clamp_bending_of(const Case& the_case) {
 }
 
 SafeBorderLine life_line_of(const Case& the_case) {
-  static_cast<void>(the_case);
-  return several_layers;
+  return the_case.conductor.layers == 1.0 ? single_layer : several_layers;
 }
 
 std::vector<WindHours> wind_hours_of(const Case& the_case, double lowest, double highest) {
