@@ -114,7 +114,8 @@ void require_place_for_devices(const Case& the_case, const std::string& job) {
 /// Settles the plant where the job needs it, and warns of what is not plausible.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
-  doubt(context, doubts_about(context.case_data, quantities_of_case()));
+  doubt(context,
+        doubts_about(context.case_data, in_question(context.case_data, quantities_of_case())));
   doubt(context, {contradicted_conductor_text(context.case_data)});
   doubt(context, {idle_name_text(context.case_data)});
   doubt(context, phase_doubts(context.case_data));
@@ -125,7 +126,8 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   // What follows from one mistake in the plant would look like another.
   if (context.doubts.empty() && has_absorber(context.case_data) &&
       (needs_plant || !plant_is_reduced(context.case_data)))
-    doubt(context, doubts_about(context.case_data, quantities_of_plant()));
+    doubt(context,
+          doubts_about(context.case_data, in_question(context.case_data, quantities_of_plant())));
   if (needs_gains) doubt(context, {borrowed_gains_text(context.case_data)});
 }
 
@@ -213,7 +215,10 @@ JobContext Job::context(const std::optional<std::string>& case_file) const {
     require_place_for_devices(context.case_data, context.job);
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
-  examine(context, is_told("needs_plant", true), controlled && is_told("needs_gains", false));
+  // Devices alone need neither absorber nor two masses.
+  const bool has_loop = context.case_data.devices.empty() || has_active_absorber(context.case_data);
+  examine(context, has_loop && is_told("needs_plant", true),
+          has_loop && controlled && is_told("needs_gains", false));
   context.options = given_options(*options_);
   context.progress = common_->progress;
   context.yes = common_->yes;

@@ -8,6 +8,29 @@
 
 namespace holdfast::program {
 
+namespace {
+
+/// Whether the user gave one of the keys of the absorber or its computer.
+bool speaks_of_absorber(const Case& the_case) {
+  const auto& places = the_case.places;
+  return std::any_of(places.begin(), places.end(), [](const auto& place) {
+    const std::string& key = place.first;
+    return key.rfind("absorber.", 0) == 0 || key.rfind("plant.absorber", 0) == 0 ||
+           key.rfind("control.", 0) == 0;
+  });
+}
+
+bool is_of_another_cable(const Case& the_case) {
+  return !the_case.devices.empty() || !the_case.conductor.name.empty();
+}
+
+}  // namespace
+
+bool has_active_absorber(const Case& the_case) {
+  return the_case.plant.absorber_mass > 0.0 &&
+         (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
+}
+
 bool is_two_masses(const Case& the_case) { return the_case.plant.model == "two_masses"; }
 
 bool has_hardware(const Case& the_case) {

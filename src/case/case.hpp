@@ -179,6 +179,10 @@ struct Case {
   bool second_frequency_computed = false;
 };
 
+/// Whether the case has an absorber with a computer on its span. Beside [[device]] or a named
+/// conductor it has one where the user says something of it: the built-in one is of another cable.
+bool has_active_absorber(const Case& the_case);
+
 /// Whether the conductor is one mass.
 bool is_two_masses(const Case& the_case);
 

@@ -177,6 +177,19 @@ CaseFault impossible_fault(const Case& the_case) {
   return {};
 }
 
+std::vector<PlausibleQuantity> in_question(const Case& the_case,
+                                           const std::vector<PlausibleQuantity>& quantities) {
+  const bool has_masses = is_two_masses(the_case), has_absorber = has_active_absorber(the_case);
+  const auto is_out = [&](const std::string& key) {
+    return (!has_masses && key.rfind("plant.conductor", 0) == 0) ||
+           (!has_absorber && key.find("absorber") != std::string::npos);
+  };
+  std::vector<PlausibleQuantity> kept;
+  for (const PlausibleQuantity& quantity : quantities)
+    if (std::none_of(quantity.keys.begin(), quantity.keys.end(), is_out)) kept.push_back(quantity);
+  return kept;
+}
+
 std::vector<std::string> doubts_about(const Case& the_case, const Quantities& quantities) {
   std::vector<std::string> doubts;
   Case read = the_case;  // with the units that are guessed

@@ -14,20 +14,6 @@
 namespace holdfast::program {
 namespace {
 
-/// Whether the user gave one of the keys of the absorber or its computer.
-bool speaks_of_absorber(const Case& the_case) {
-  const auto& places = the_case.places;
-  return std::any_of(places.begin(), places.end(), [](const auto& place) {
-    const std::string& key = place.first;
-    return key.rfind("absorber.", 0) == 0 || key.rfind("plant.absorber", 0) == 0 ||
-           key.rfind("control.", 0) == 0;
-  });
-}
-
-bool is_of_another_cable(const Case& the_case) {
-  return !the_case.devices.empty() || !the_case.conductor.name.empty();
-}
-
 /// With its clamp, whose iωM runs as straight as the table between its rows.
 MeasuredImpedance measured(const case_tables::Device& device) {
   const ImpedanceTable& table = *device.table;
@@ -41,11 +27,6 @@ MeasuredImpedance measured(const case_tables::Device& device) {
 }
 
 }  // namespace
-
-bool has_active_absorber(const Case& the_case) {
-  return the_case.plant.absorber_mass > 0.0 &&
-         (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
-}
 
 std::string absent_absorber_note(const Case& the_case) {
   if (has_active_absorber(the_case) || !(the_case.plant.absorber_mass > 0.0)) return "";

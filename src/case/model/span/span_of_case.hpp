@@ -14,10 +14,6 @@
 
 namespace holdfast::program {
 
-/// Whether the case has an absorber with a computer on its span. Beside [[device]] or a named
-/// conductor it has one where the user says something of it: the built-in one is of another cable.
-bool has_active_absorber(const Case& the_case);
-
 /// That the built-in absorber does not count; empty where nobody could think it does.
 std::string absent_absorber_note(const Case& the_case);
 
