@@ -1,3 +1,4 @@
+#include "case/axes/axis.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "job.hpp"
 #include "jobs/span/mode_dampings.hpp"
@@ -8,14 +9,20 @@ namespace {
 struct ModalDampingQuestion {
   std::int64_t count = 20;
   bool no_control = false;
+  std::optional<std::string> position, damping;
+  std::optional<std::int64_t> device;
 
   void add_to(const Job& job) {
     job.add("--count", count);
     job.add("--no-control", no_control);
+    job.add("--device", device);
+    job.add("--position", position);
+    job.add("--damping", damping);
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
+    if (device || position || damping) return write_chart(context);
     const bool has_devices = !the_case.devices.empty();
     if (has_devices) report_warning(absent_absorber_note(the_case), context.quiet);
     Table table(context, columns_of("modal-damping"));
@@ -36,6 +43,30 @@ struct ModalDampingQuestion {
   }
 
  private:
+  void write_chart(const JobContext& context) const {
+    if (!position || !damping)
+      throw WrongInput(
+          "the place-strength chart of a device needs --position and --damping, each "
+          "MIN:MAX:COUNT");
+    const Axis positions = parse_axis("--position", *position);
+    const Axis dampings = parse_axis("--damping", *damping);
+    require_text_meant(context, positions.count * dampings.count, "cells", "--position, --damping");
+    Table table(context, columns_of("place-strength"));
+    const auto chart = place_strength_chart(context.case_data, static_cast<int>(device.value_or(1)),
+                                            positions, dampings, static_cast<int>(count));
+    const PlaceStrength* best = &chart.front();
+    for (const PlaceStrength& cell : chart) {
+      table.row(cell.position, cell.damping, cell.ratio, cell.mode);
+      if (cell.ratio > best->ratio) best = &cell;
+    }
+    report_warning("the least damping of modes 1 to " + std::to_string(count) + " is largest at " +
+                       format_rounded(best->position) + " m with " + format_rounded(best->damping) +
+                       " N s/m: " + format_rounded(best->ratio) + ", of mode " +
+                       std::to_string(best->mode),
+                   context.quiet);
+    table.commit();
+  }
+
   void warn(const std::vector<ModeRow>& modes, bool quiet) const {
     std::int64_t number = 0, lost = 0, not_light = 0;
     for (const ModeRow& mode : modes) {

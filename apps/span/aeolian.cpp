@@ -2,6 +2,7 @@
 #include "job.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "jobs/span/span_words.hpp"
+#include "jobs/span/wind_history_of_case.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -14,14 +15,19 @@ std::string range_word(BalanceRange range) {
 struct AeolianQuestion {
   std::string frequency = "3:150:148";
   bool no_control = false;
+  std::optional<double> history;
+  double duration = 120.0;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
+    job.add("--history", history);
+    job.add("--duration", duration);
     job.add("--no-control", no_control);
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
+    if (history) return write_history(context);
     const Axis axis = parse_frequencies("--frequency", frequency);
     require_measured(the_case, axis.min, axis.max);
     report_warning(absent_absorber_note(the_case), context.quiet);
@@ -38,6 +44,20 @@ struct AeolianQuestion {
       }
     report_warning(balance_range_warning(all, balance.has_devices()), context.quiet);
     report_warning(instability_note(the_case, !no_control), context.quiet);
+    table.commit();
+  }
+
+ private:
+  void write_history(const JobContext& context) const {
+    const Case& the_case = context.case_data;
+    require_measured(the_case, *history, *history);
+    report_warning(absent_absorber_note(the_case), context.quiet);
+    Table table(context, columns_of("aeolian-history"));
+    const WindHistory found = wind_history_of(the_case, !no_control, *history, duration);
+    for (std::size_t k = 0; k < found.times.size(); ++k)
+      table.row(found.times[k], found.displacements[k]);
+    const AeolianBalance balance(the_case, !no_control);
+    report_warning(history_text(found, balance.rows(*history), balance.diameter()), context.quiet);
     table.commit();
   }
 };
