@@ -14,7 +14,7 @@
 #include "holdfast/span/span_poles.hpp"
 #include "holdfast/span/span_roots.hpp"
 #include "holdfast/span/wind/energy_balance.hpp"
-#include "holdfast/span/wind/modal_motion.hpp"
+#include "holdfast/span/wind/modes_in_step.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"
 #include "holdfast/span/wind/turbulence.hpp"
 #include "holdfast/span/wind/turbulent_wind.hpp"

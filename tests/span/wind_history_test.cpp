@@ -311,10 +311,10 @@ TEST(WindHistory, RefusesWhatIsNoSpanInAWind) {
   refused([](auto& s) { s.modes = 30, s.force = wind_power_laws[0]; });
 }
 
-TEST(ModalMotion, GoesExactly) {
-  using Column = ModalMotion<>::Column;
+TEST(ModesInStep, GoesExactly) {
+  using Column = ModesInStep<>::Column;
   const Column omega = Column::Constant(1, 7.0), zeta = Column::Constant(1, 0.1);
-  ModalMotion<> motion(omega, 0.3);
+  ModesInStep<> motion(omega, 0.3);
   motion.damp(zeta);
   for (int k = 0; k < 9; ++k) motion.step(Column::Constant(1, 4.9));
   const double decay = 0.1 * 7.0, turn = 7.0 * std::sqrt(0.99), time = 2.7;

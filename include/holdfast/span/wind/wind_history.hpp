@@ -13,7 +13,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/span/device/span_device.hpp"
 #include "holdfast/span/end_response.hpp"
-#include "holdfast/span/wind/modal_motion.hpp"
+#include "holdfast/span/wind/modes_in_step.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"
 #include "holdfast/span/wind/turbulence.hpp"
 #include "holdfast/span/wind/turbulent_wind.hpp"
@@ -267,7 +267,7 @@ class WindRun {
   const WindHistorySetting& setting_;
   const WakeOscillatorLaw* wakes_law_;
   double mass_, step_;  // m with the added mass, h
-  ModalMotion<Scalar> motion_;
+  ModesInStep<Scalar> motion_;
   GustField<Scalar> gusts_;
   std::optional<WakeOscillators<Scalar>> wakes_;
   Shapes shapes_;  // stations by modes

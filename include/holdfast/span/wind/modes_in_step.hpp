@@ -14,14 +14,14 @@ namespace holdfast {
 /// over the step they carry no error of their own whatever its length. ζ may change between steps
 /// and may be negative.
 template <class Scalar = double>
-class ModalMotion {
+class ModesInStep {
  public:
   using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;  ///< a number a mode
 
   /// At rest.
   /// @param frequencies  ω (rad/s), > 0
   /// @param step         h (s), > 0
-  ModalMotion(const Column& frequencies, double step)
+  ModesInStep(const Column& frequencies, double step)
       : position(Column::Zero(frequencies.size())),
         velocity(Column::Zero(frequencies.size())),
         omega_(frequencies),
@@ -77,7 +77,7 @@ class AmplitudeRecord {
         counts_(static_cast<std::size_t>(windows), 0),
         velocities_(Column::Zero(modes)) {}
 
-  void add(const ModalMotion<Scalar>& motion) {
+  void add(const ModesInStep<Scalar>& motion) {
     const auto window =
         static_cast<std::size_t>(seen_++ * static_cast<long>(sums_.size()) / samples_);
     if (window >= sums_.size()) return;
