@@ -49,8 +49,10 @@ struct AbsorptionQuestion {
     if (end.empty() && !ends[0].devices.empty() && !ends[1].devices.empty())
       report_warning("devices are at both ends; this is the left one (--end right: the other)",
                      context.quiet);
+    require_text_meant(context, axis.count, "rows", "--frequency");
     Table table(context, columns_of("absorption"));
     for (std::int64_t k = 0; k < axis.count; ++k) {
+      throw_if_interrupted();
       const double omega = 2.0 * pi<double> * axis.at(k);
       const EndResponse response = end_response(string, asked, omega);
       const auto z = impedance_alone(string, asked, response, omega);

@@ -33,16 +33,19 @@ struct AeolianQuestion {
     report_warning(absent_absorber_note(the_case), context.quiet);
     const AeolianBalance balance(the_case, !no_control);
     report_warning(unknown_strain_note(balance), context.quiet);
+    require_text_meant(context, axis.count, "rows", "--frequency");
     Table table(context, columns_of("aeolian"));
-    std::vector<AeolianRow> all;
-    for (std::int64_t k = 0; k < axis.count; ++k)
+    RangeCount ranges;
+    for (std::int64_t k = 0; k < axis.count; ++k) {
+      throw_if_interrupted();
       for (const AeolianRow& row : balance.rows(axis.at(k))) {
         table.row(row.frequency, row.wind_speed, row.wind_law, row.damping_law,
                   row.bare.amplitude.amplitude, row.damped.amplitude.amplitude, row.bare.strain,
                   row.damped.strain, range_word(row.damped.amplitude.range));
-        all.push_back(row);
+        ranges.add(row, balance.has_devices());
       }
-    report_warning(balance_range_warning(all, balance.has_devices()), context.quiet);
+    }
+    report_warning(ranges.text(), context.quiet);
     report_warning(instability_note(the_case, !no_control), context.quiet);
     table.commit();
   }

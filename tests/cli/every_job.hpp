@@ -16,6 +16,12 @@ struct JobToTry {
   bool is_built() const { return both_packages || !needs_packages; }
 };
 
+/// A line with a damper in the wind.
+inline const std::string line_with_dashpot =
+    " --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020"
+    " --set site.weibull_scale=5 --set device.1.kind=dashpot --set device.1.position=1.5"
+    " --set device.1.damping=200";
+
 /// Every job whose result is a table.
 inline const std::vector<JobToTry> jobs_with_table = {
     {"case", ""},
@@ -53,6 +59,11 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"lyapunov --duration 1", "lyapunov --duration 9e6"},
     {"sweep --axis backlash.width=0:0.003:3 --duration 1",
      "sweep --axis backlash.width=0:0.003:3000 --axis initial.z1=0:0.001:3000"},
+    {"absorption --frequency 5:20:4" + line_with_dashpot,
+     "absorption --yes --frequency 3:150:100000000" + line_with_dashpot},
+    {"aeolian --frequency 5:20:4" + line_with_dashpot,
+     "aeolian --yes --frequency 3:150:10000000" + line_with_dashpot},
+    {"fatigue" + line_with_dashpot, ""},
     {"answers", "answers --set excitation.frequency=10.0001"},
 };
 

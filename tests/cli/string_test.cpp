@@ -179,7 +179,7 @@ TEST(String, ModalDampingTellsWhichRootGrows) {
     EXPECT_EQ(table.number(row, "damping_ratio_bare"), 0.02);
     EXPECT_GT(table.number(row, "damping_ratio"), 0.019);
   }
-  EXPECT_NE(run_holdfast(string).errors.find("law of a light device"), std::string::npos);
+  EXPECT_NE(run_holdfast(string).errors.find("law of light devices"), std::string::npos);
   const std::string grows = run_holdfast(string + " --set control.differential_gain=-8").errors;
   EXPECT_NE(grows.find("no mode of the conductor"), std::string::npos) << grows;
   const std::string rests = run_holdfast(string + " --set control.differential_gain=-3").errors;

@@ -40,6 +40,10 @@ a boundary --stable-interval --set plant.model=string --set plant.modes=10
 a modal-damping --set plant.model=string --set plant.modes=10
 a simulate --duration 0.2 --set plant.model=string --set plant.modes=10
 a simulate --duration 0.05 --switching exact --set plant.model=string --set plant.modes=4
+a absorption --frequency 5:20:4 --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020 --set site.weibull_scale=5 --set device.1.kind=dashpot --set device.1.position=1.5 --set device.1.damping=200
+a aeolian --frequency 5:20:4 --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020 --set site.weibull_scale=5 --set device.1.kind=dashpot --set device.1.position=1.5 --set device.1.damping=200
+a fatigue --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020 --set site.weibull_scale=5 --set device.1.kind=dashpot --set device.1.position=1.5 --set device.1.damping=200
+a modal-damping --count 5 --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020 --set site.weibull_scale=5 --set device.1.kind=dashpot --set device.1.position=1.5 --set device.1.damping=200
 a sensitivity
 a simulate --duration 0.5
 a simulate --duration 0.2 --switching exact

@@ -58,20 +58,20 @@ std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
   return rows;
 }
 
-std::string balance_range_warning(const std::vector<AeolianRow>& rows, bool with_devices) {
-  std::int64_t below = 0, above = 0;
-  for (const AeolianRow& row : rows) {
-    const BalanceRange range = with_devices ? row.damped.amplitude.range : row.bare.amplitude.range;
-    below += range == BalanceRange::below ? 1 : 0;
-    above += range == BalanceRange::above ? 1 : 0;
-  }
+void RangeCount::add(const AeolianRow& row, bool with_devices) {
+  const BalanceRange range = with_devices ? row.damped.amplitude.range : row.bare.amplitude.range;
+  below_ += range == BalanceRange::below ? 1 : 0;
+  above_ += range == BalanceRange::above ? 1 : 0;
+}
+
+std::string RangeCount::text() const {
   std::string text;
-  if (below > 0)
-    text = std::to_string(below) +
+  if (below_ > 0)
+    text = std::to_string(below_) +
            " row(s) vibrate less than the law of the wind was measured for, a hundredth of the "
            "diameter, which is given as their bound (amplitude_range)";
-  if (above > 0)
-    text += (text.empty() ? "" : "; ") + std::to_string(above) +
+  if (above_ > 0)
+    text += (text.empty() ? "" : "; ") + std::to_string(above_) +
             " row(s) more than it was measured for, whose largest amplitude is given as theirs";
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,7 +57,14 @@ class AeolianBalance {
   std::vector<SpanDevice> devices_;
 };
 
-/// What the user has to know of rows: where the laws of the wind end.
-std::string balance_range_warning(const std::vector<AeolianRow>& rows, bool with_devices);
+/// How many rows lie beyond the amplitudes that the law of the wind was measured for.
+class RangeCount {
+ public:
+  void add(const AeolianRow& row, bool with_devices);
+  std::string text() const;  ///< what the user has to know of them; empty for none
+
+ private:
+  std::int64_t below_ = 0, above_ = 0;
+};
 
 }  // namespace holdfast::program
