@@ -70,14 +70,15 @@ struct SimulateQuestion {
                        (kick ? "--kick" : "--switching exact"));
     Progress progress(static_cast<std::uint64_t>(samples), "simulate, samples",
                       progress_wanted(context));
-    run_elements(context.case_data, {elements.value_or(200), !no_control, samples},
-                 [&](const auto& sample) {
-                   progress.advance();
-                   if (!not_before(sample.time, from)) return;
-                   write_motion_row(table, switching,
-                                    {sample.time, sample.state, sample.control_force,
-                                     sample.engaged ? ContactMode::engaged : ContactMode::gap});
-                 });
+    const ElementsQuestion question{elements.value_or(200), !no_control, samples};
+    report_warning(coarse_bars_warning(context.case_data, question), context.quiet);
+    run_elements(context.case_data, question, [&](const auto& sample) {
+      progress.advance();
+      if (!not_before(sample.time, from)) return;
+      write_motion_row(table, switching,
+                       {sample.time, sample.state, sample.control_force,
+                        sample.engaged ? ContactMode::engaged : ContactMode::gap});
+    });
   }
 
   std::optional<Kick> parsed_kick() const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "case/case.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
@@ -21,5 +22,8 @@ struct ElementsQuestion {
 /// gives up, or where the program was built without SUNDIALS.
 void run_elements(const Case& the_case, const ElementsQuestion& question,
                   const std::function<void(const MotionSample<double>&)>& visit);
+
+/// That the bars are longer than the waves at half the sampling rate; empty where they are not.
+std::string coarse_bars_warning(const Case& the_case, const ElementsQuestion& question);
 
 }  // namespace holdfast::program

@@ -20,6 +20,10 @@ std::string unknown_strain_note(const AeolianBalance& balance);
 /// or there is no absorber.
 std::string instability_note(const Case& the_case, bool controlled);
 
+/// That the line of life is of other conductors than the case's; empty where it is of its kind or
+/// nobody knows.
+std::string life_line_note(const Case& the_case);
+
 /// What a designer should do about a life, in one honest sentence.
 std::string life_advice(const FatigueLife& life, double years);
 
