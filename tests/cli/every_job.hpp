@@ -64,6 +64,11 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"aeolian --frequency 5:20:4" + line_with_dashpot,
      "aeolian --yes --frequency 3:150:10000000" + line_with_dashpot},
     {"fatigue" + line_with_dashpot, ""},
+    {"place --quiet --for damping --frequency 5:10:3 --set device.1.kind=dashpot"
+     " --set device.1.position=0.5 --set device.1.damping=1",
+     "place --quiet --modes 1:1000 --set device.1.kind=dashpot"
+     " --set device.1.position=0.5 --set device.1.damping=1",
+     true},
     {"answers", "answers --set excitation.frequency=10.0001"},
 };
 

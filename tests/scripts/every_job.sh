@@ -71,6 +71,7 @@ p fit --data decay.csv
 a case
 a case --check case.toml
 a conductors --find drake
+p place --for damping --frequency 5:10:3 --set device.1.kind=dashpot --set device.1.position=0.5 --set device.1.damping=1
 a answers
 l report --output report
 a manual

@@ -58,6 +58,20 @@ std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
   return rows;
 }
 
+Vibration AeolianBalance::largest(double frequency) const {
+  const double omega = 2.0 * pi<double> * frequency;
+  const auto places = span_ends(devices_, string_.span);
+  const std::array<EndResponse, 2> ends = {end_response(string_, places[0], omega),
+                                           end_response(string_, places[1], omega)};
+  std::optional<Vibration> largest;
+  for (const WindPowerLaw& wind : wind_power_laws)
+    for (const LossLaw& loss : losses_) {
+      const Vibration found = vibration(wind, loss, frequency, ends);
+      if (!largest || found.amplitude.amplitude > largest->amplitude.amplitude) largest = found;
+    }
+  return *largest;
+}
+
 void RangeCount::add(const AeolianRow& row, bool with_devices) {
   const BalanceRange range = with_devices ? row.damped.amplitude.range : row.bare.amplitude.range;
   below_ += range == BalanceRange::below ? 1 : 0;

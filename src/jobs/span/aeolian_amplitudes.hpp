@@ -36,6 +36,9 @@ class AeolianBalance {
   /// One row by each pair of laws.
   std::vector<AeolianRow> rows(double frequency) const;
 
+  /// The vibration with the devices by the pair of laws that gives the largest amplitude.
+  Vibration largest(double frequency) const;
+
   /// Hz at which a wind of a speed (m/s) sheds its vortices, and the speed of a frequency.
   double frequency_of(double speed) const { return strouhal_ * speed / diameter_; }
   double speed_of(double frequency) const { return frequency * diameter_ / strouhal_; }

@@ -1,0 +1,255 @@
+#include "jobs/span/placement/placed_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/model/modal/conductor_modes.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "holdfast/core/types.hpp"
+#include "io/text/text.hpp"
+#include "jobs/span/placement/stable_gains.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+#ifdef HOLDFAST_HAS_CERES
+#include "holdfast/ceres/device_placement.hpp"
+#endif
+
+namespace holdfast::program {
+
+#ifdef HOLDFAST_HAS_CERES
+void require_placement_search() {}
+#else
+void require_placement_search() {
+  throw NoAnswer(
+      "place needs Ceres Solver, which this program was built without: install the package "
+      "libceres-dev and build again");
+}
+#endif
+
+namespace {
+
+placement::Placement searched(const std::vector<MovedNumber>& numbers,
+                              const placement::Levels& levels, int runs) {
+  require_placement_search();
+#ifdef HOLDFAST_HAS_CERES
+  std::vector<placement::MovableValue> values;
+  for (const MovedNumber& number : numbers) values.push_back(number.value);
+  placement::PlacementOptions options;
+  options.runs = runs;
+  options.watch = throw_if_interrupted;
+  return placement::best_placement(values, levels, options);
+#else
+  static_cast<void>(numbers);
+  static_cast<void>(levels);
+  static_cast<void>(runs);
+  return {};
+#endif
+}
+
+double worst_of(const std::vector<double>& levels) {
+  return levels.empty() ? std::nan("") : *std::max_element(levels.begin(), levels.end());
+}
+
+/// The gains as numbers that move, over a rectangle; where the case's own are not admissible, those
+/// without control are what the search also begins from.
+/// @param places  of the grid along each gain
+std::vector<MovedNumber> moved_gains(const Case& the_case, const StableGains& stable,
+                                     const PdGains<double>& most, int places) {
+  const GainRectangle around = stable.around(most);
+  const PdGains<double> own = gains_of(the_case);
+  const PdGains<double> present = stable.admits(own) ? own : PdGains<double>{0.0, 0.0};
+  const auto gain = [&](const Interval<double>& range, double now) {
+    placement::MovableValue value{std::min(range.lower, now), std::max(range.upper, now)};
+    value.upper = std::max(value.upper, value.lower + 1e-6);
+    value.present = now;
+    value.places = places;
+    return value;
+  };
+  return {{"proportional_gain", "N/m", gain(around.proportional, present.proportional),
+           [](Case& variant, double p) {
+             variant.control.proportional_gain = p;
+             variant.control.proportional_gain_tuned = false;
+           }},
+          {"differential_gain", "N s/m", gain(around.differential, present.differential),
+           [](Case& variant, double d) { variant.control.differential_gain = d; }}};
+}
+
+/// The placement of the active absorber.
+class AbsorberPlacement {
+ public:
+  AbsorberPlacement(const Case& the_case, const PlacementQuestion& question,
+                    const PlacementLevels& levels)
+      : case_(the_case), question_(question), levels_(levels) {
+    const double match = string_of(the_case).wave_impedance();
+    constexpr double strongest = 1e3;
+    most_ = {strongest * match * 2.0 * pi<double> * levels.frequencies().back(), strongest * match};
+  }
+
+  /// Its gains where it is.
+  PlacedDevice gains() const { return gains_of_variant(case_, thorough); }
+
+  /// And its place: gains at nine places, about the best of them twice at half the step, and at
+  /// the best once more, thoroughly.
+  PlacedDevice gains_and_position() const {
+    const double speed = string_of(case_).wave_speed();
+    const MovedNumber position =
+        moved_position(case_, question_, speed / levels_.frequencies().back(),
+                       speed / levels_.frequencies().front());
+    constexpr int places = 9, halvings = 2;
+    double step = (position.value.upper - position.value.lower) / (places - 1);
+    std::vector<double> distances = {position.value.present};
+    for (int k = 0; k < places; ++k) distances.push_back(position.value.lower + k * step);
+    PlacedDevice best;
+    for (int turn = 0; turn <= halvings; ++turn) {
+      for (const double distance : distances) keep_better(best, position, distance, quick);
+      step *= 0.5;
+      const double middle = best.found.values.back();
+      distances.clear();
+      for (const double distance : {middle - step, middle + step})
+        if (distance > position.value.lower && distance < position.value.upper)
+          distances.push_back(distance);
+    }
+    const double there = best.found.values.back();
+    keep_better(best, position, there, thorough);
+    return best;
+  }
+
+ private:
+  struct Effort {
+    int places, runs;  // of the grid along each gain, and of the search
+  };
+  static constexpr Effort thorough{15, 3}, quick{9, 1};
+
+  PlacedDevice gains_of_variant(const Case& variant, const Effort& effort) const {
+    const StableGains stable(variant, question_.margin);
+    PlacedDevice placed{};
+    placed.numbers = moved_gains(variant, stable, most_, effort.places);
+    placed.found = searched(
+        placed.numbers,
+        [&](const std::vector<double>& values) {
+          if (!stable.admits({values[0], values[1]})) return std::vector<double>();
+          return levels_.of(with_values(variant, placed.numbers, values));
+        },
+        effort.runs);
+    if (placed.found.values.empty())
+      throw NoAnswer("no gains were found, not even 0, with which the loop is stable at --margin " +
+                     format_rounded(question_.margin));
+    placed.the_case = with_values(variant, placed.numbers, placed.found.values);
+    const bool own_is_stable = stable.is_stable(program::gains_of(variant));
+    placed.before = own_is_stable ? levels_.value_of(worst_of(levels_.of(variant))) : std::nan("");
+    return placed;
+  }
+
+  void keep_better(PlacedDevice& best, const MovedNumber& position, double distance,
+                   const Effort& effort) const {
+    const bool is_first = best.found.values.empty();
+    Case variant = is_first ? case_ : best.the_case;  // whose gains the search begins from, too
+    position.put(variant, distance);
+    PlacedDevice here = gains_of_variant(variant, effort);
+    if (!is_first && !(here.found.worst < best.found.worst)) return;
+    here.numbers.push_back(position);
+    here.found.values.push_back(distance);
+    const auto& bounds = position.value;
+    here.found.bounds.push_back(distance <= bounds.lower   ? placement::PlacementBound::lower
+                                : distance >= bounds.upper ? placement::PlacementBound::upper
+                                                           : placement::PlacementBound::none);
+    if (!is_first) here.before = best.before;  // of where it was, which is asked first
+    best = std::move(here);
+  }
+
+  const Case& case_;
+  const PlacementQuestion& question_;
+  const PlacementLevels& levels_;
+  PdGains<double> most_;
+};
+
+PlacedDevice placed_passively(const Case& the_case, const PlacementQuestion& question,
+                              const PlacementLevels& levels) {
+  PlacedDevice placed{};
+  placed.numbers =
+      moved_numbers(the_case, question, levels.frequencies().front(), levels.frequencies().back());
+  placed.found = searched(
+      placed.numbers,
+      [&](const std::vector<double>& values) {
+        return levels.of(with_values(the_case, placed.numbers, values));
+      },
+      4);
+  if (placed.found.values.empty())
+    throw NoAnswer("with none of the places and strengths that were tried does the span rest");
+  placed.the_case = with_values(the_case, placed.numbers, placed.found.values);
+  placed.before = levels.value_of(worst_of(levels.of(the_case)));
+  constexpr double more = 1.01;
+  for (std::size_t k = 0; k < placed.numbers.size(); ++k) {
+    if (!(placed.numbers[k].sign < 0.0)) continue;
+    std::vector<double> values = placed.found.values;
+    values[k] *= more;
+    placed.is_at_limit_of_rest = levels.of(with_values(the_case, placed.numbers, values)).empty();
+  }
+  return placed;
+}
+
+}  // namespace
+
+PlacedDevice placed_device(const Case& the_case, const PlacementQuestion& question) {
+  require_placement_search();
+  const PlacementLevels levels(the_case, question);
+  const AbsorberPlacement absorber(the_case, question, levels);
+  PlacedDevice placed = !question.is_absorber()   ? placed_passively(the_case, question, levels)
+                        : question.moves_position ? absorber.gains_and_position()
+                                                  : absorber.gains();
+  placed.after = levels.value_of(placed.found.worst);
+  placed.worst_frequency = levels.frequency_of(placed.found.worst_at);
+  const double gained = question.goal == PlacementGoal::strain ? placed.before - placed.after
+                                                               : placed.after - placed.before;
+  placed.range_note = levels.range_note(placed.the_case, placed.worst_frequency);
+  placed.is_better = !(gained <= 1e-9 * std::abs(placed.before));
+  return placed;
+}
+
+namespace {
+
+std::string bound_warning(const MovedNumber& number, placement::PlacementBound met) {
+  if (met == placement::PlacementBound::none) return "";
+  const bool is_lower = met == placement::PlacementBound::lower;
+  const double bound = is_lower ? number.value.lower : number.value.upper;
+  return number.quantity + " ends at the " + (is_lower ? "lower" : "upper") +
+         " bound of what was searched, " + format_rounded(number.sign * bound) +
+         (number.unit.empty() ? "" : " " + number.unit) +
+         (number.quantity == "position" ? " from the support" : "") + ": beyond it may be better";
+}
+
+/// That the computer does not see the whole band.
+std::string sampling_warning(const Case& the_case, const PlacementQuestion& question) {
+  const double half_rate = 0.5 / the_case.control.sampling_period;
+  const double highest =
+      std::max(question.frequencies.min, question.frequencies.at(question.frequencies.count - 1));
+  if (!question.is_absorber() || question.goal == PlacementGoal::modes || highest < half_rate)
+    return "";
+  return "from " + format_rounded(half_rate) +
+         " Hz on, half the sampling rate, the samples do not show the vibration, and what the "
+         "drive does to it is not what is told";
+}
+
+}  // namespace
+
+std::vector<std::string> placement_warnings(const PlacedDevice& placed,
+                                            const PlacementQuestion& question) {
+  std::vector<std::string> warnings;
+  if (std::isnan(placed.before) && question.is_absorber())
+    warnings.emplace_back(
+        "with the gains of the case the loop is unstable on this span: the number before is none");
+  if (!placed.is_better) warnings.emplace_back("nothing better was found than what the case has");
+  for (std::size_t k = 0; k < placed.numbers.size(); ++k)
+    warnings.push_back(bound_warning(placed.numbers[k], placed.found.bounds[k]));
+  if (placed.is_at_limit_of_rest)
+    warnings.emplace_back(
+        "the negative stiffness ends where a tenth more would push the conductor away from its "
+        "rest");
+  warnings.push_back(placed.range_note);
+  warnings.push_back(sampling_warning(placed.the_case, question));
+  return warnings;
+}
+
+}  // namespace holdfast::program

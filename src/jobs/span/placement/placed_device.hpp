@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "holdfast/ceres/device_placement_options.hpp"
+#include "jobs/span/placement/moved_numbers.hpp"
+#include "jobs/span/placement/placement_levels.hpp"
+#include "jobs/span/placement/placement_question.hpp"
+
+namespace holdfast::program {
+
+/// A device where it is best, the others staying as they are.
+struct PlacedDevice {
+  Case the_case;                     ///< with the device there
+  std::vector<MovedNumber> numbers;  ///< what was moved
+  placement::Placement found;        ///< their values, in the same order
+  double before;  ///< the goal's number of the case as it was; NaN where its loop is not stable
+  double after;   ///< and with the answer
+  double worst_frequency;  ///< Hz, of the latter
+  bool is_better;          ///< than the case as it was
+  /// Whether with a spring that pushes the conductor on by a hundredth more it would hardly rest.
+  bool is_at_limit_of_rest;
+  std::string range_note;  ///< where the laws of the wind end, of its worst vibration; else empty
+};
+
+/// Throws NoAnswer, naming the package to install, in a program built without Ceres Solver.
+void require_placement_search();
+
+/// Places a device. Gains of the absorber are such that its loop is stable on the string with all
+/// devices, at the margin of the question. Throws WrongInput where nothing may move or the case
+/// lacks what the goal needs, NoAnswer where no gains have the margin.
+PlacedDevice placed_device(const Case& the_case, const PlacementQuestion& question);
+
+/// What the user has to know of an answer, a sentence each: that nothing better was found, that a
+/// value is at the end of what was searched.
+std::vector<std::string> placement_warnings(const PlacedDevice& placed,
+                                            const PlacementQuestion& question);
+
+}  // namespace holdfast::program

@@ -1,0 +1,132 @@
+#include "jobs/span/placement/placement_levels.hpp"
+
+#include <cmath>
+#include <variant>
+
+#include "case/model/modal/conductor_modes.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/span/end_response.hpp"
+#include "holdfast/span/span_roots.hpp"
+#include "jobs/span/aeolian_amplitudes.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// The inverse of a ratio that is to be large; below a ratio that nobody wants, and where it is
+/// negative, its tangent goes on.
+constexpr double poor = 1e-5;
+double level_of_ratio(double ratio) {
+  return ratio >= poor ? 1.0 / ratio : (2.0 * poor - ratio) / (poor * poor);
+}
+double ratio_of_level(double level) {
+  return level <= 1.0 / poor ? 1.0 / level : 2.0 * poor - level * poor * poor;
+}
+
+/// The force over the displacement at rest (N/m) of a device; nothing that hangs on the conductor
+/// has any.
+double stiffness_at_rest(const SpanDevice& device) {
+  double sum = 0.0;
+  if (const auto* lumped = std::get_if<LumpedDevice>(&device.device))
+    for (const DeviceBranch& branch : lumped->branches)
+      if (!std::isfinite(branch.mass)) sum += branch.stiffness;
+  return sum;
+}
+
+/// Whether the string with its devices comes back to rest, with a tenth to spare: from the left
+/// support on it passes through no node before the right one (Sturm).
+bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices) {
+  double y = 0.0, slope = 1.0, at = 0.0;
+  constexpr double spare = 1.1;
+  for (const SpanDevice& device : devices) {
+    y += slope * (device.position - at);
+    if (!(y > 0.0)) return false;
+    const double stiffness = stiffness_at_rest(device);
+    slope += (stiffness < 0.0 ? spare : 1.0) * stiffness * y / string.tension;
+    at = device.position;
+  }
+  return y + slope * (string.span - at) > 0.0;
+}
+
+}  // namespace
+
+PlacementLevels::PlacementLevels(const Case& the_case, const PlacementQuestion& question)
+    : question_(question), knows_strain_(clamp_bending_of(the_case).has_value()) {
+  if (question.goal == PlacementGoal::strain) require_diameter(the_case, "place --for strain");
+  const TautString<double> string = string_of(the_case);
+  if (question.goal == PlacementGoal::modes) {
+    for (int n = question.first_mode; n <= question.last_mode; ++n)
+      frequencies_.push_back(n * string.wave_speed() / (2.0 * string.span));
+  } else {
+    for (std::int64_t k = 0; k < question.frequencies.count; ++k)
+      frequencies_.push_back(question.frequencies.at(k));
+  }
+}
+
+std::vector<double> PlacementLevels::of(const Case& variant) const {
+  const std::vector<SpanDevice> devices = span_devices_of(variant);
+  if (!comes_back(string_of(variant), devices)) return {};
+  if (question_.goal != PlacementGoal::strain) return damping_levels(variant);
+  const AeolianBalance balance(variant, true);
+  std::vector<double> levels;
+  for (const double frequency : frequencies_) {
+    throw_if_interrupted();
+    const Vibration worst = balance.largest(frequency);
+    levels.push_back(knows_strain_ ? worst.strain : worst.amplitude.amplitude * frequency);
+  }
+  return levels;
+}
+
+std::vector<double> PlacementLevels::damping_levels(const Case& variant) const {
+  const TautString<double> string = string_of(variant);
+  const std::vector<SpanDevice> devices = span_devices_of(variant);
+  std::vector<double> levels;
+  if (question_.goal == PlacementGoal::modes) {
+    const auto roots = span_roots(string, devices, question_.last_mode);
+    for (int n = question_.first_mode; n <= question_.last_mode; ++n)
+      levels.push_back(level_of_ratio(roots[static_cast<std::size_t>(n) - 1].damping()));
+    return levels;
+  }
+  const double position = question_.is_absorber() ? variant.absorber.position
+                                                  : variant.devices[question_.device - 1].position;
+  const auto ends = span_ends(devices, string.span);
+  const SpanEnd& end = ends[position > string.span / 2.0 ? 1 : 0];
+  for (const double frequency : frequencies_) {
+    throw_if_interrupted();
+    const EndResponse response = end_response(string, end, 2.0 * pi<double> * frequency);
+    levels.push_back(level_of_ratio(response.inverse_standing_wave_ratio()));
+  }
+  return levels;
+}
+
+double PlacementLevels::value_of(double level) const {
+  return question_.goal == PlacementGoal::strain ? level : ratio_of_level(level);
+}
+
+std::string PlacementLevels::name() const {
+  if (question_.goal == PlacementGoal::ratio) return "least_ratio";
+  if (question_.goal == PlacementGoal::modes) return "least_damping_ratio";
+  return knows_strain_ ? "largest_strain" : "largest_frequency_times_amplitude";
+}
+
+std::string PlacementLevels::unit() const {
+  return question_.goal == PlacementGoal::strain && !knows_strain_ ? "m/s" : "";
+}
+
+std::string PlacementLevels::range_note(const Case& variant, double frequency) const {
+  if (question_.goal != PlacementGoal::strain) return "";
+  switch (AeolianBalance(variant, true).largest(frequency).amplitude.range) {
+    case BalanceRange::below:
+      return "with the answer the vibration is smaller everywhere in the band than the law of the "
+             "wind was measured for, a hundredth of the diameter, which stands for it: other "
+             "places and strengths may do as well";
+    case BalanceRange::above:
+      return "even with the answer the worst vibration is larger than the law of the wind was "
+             "measured for, whose largest amplitude stands for it";
+    default:
+      return "";
+  }
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "jobs/span/placement/placement_question.hpp"
+
+namespace holdfast::program {
+
+/// What a placement makes small, at each frequency of its band or for each of its modes.
+class PlacementLevels {
+ public:
+  /// Throws WrongInput where the case lacks what the goal needs.
+  PlacementLevels(const Case& the_case, const PlacementQuestion& question);
+
+  /// One level (> 0) for each, the same for all variants of the case: the smaller, the better.
+  /// Empty where the devices push the conductor away from its rest.
+  std::vector<double> of(const Case& variant) const;
+
+  /// The number that a level stands for: a strain, a ratio; and what it is called.
+  double value_of(double level) const;
+  std::string name() const;  ///< "largest_strain"
+  std::string unit() const;  ///< of the value
+
+  /// Hz, of a level by its number; of a mode that of the bare conductor.
+  double frequency_of(std::size_t number) const { return frequencies_[number]; }
+  const std::vector<double>& frequencies() const { return frequencies_; }  ///< Hz, ascending
+
+  /// That the vibration at a frequency (Hz) is beyond what the law of the wind was measured for;
+  /// empty where it is not, or the goal is another.
+  std::string range_note(const Case& variant, double frequency) const;
+
+ private:
+  std::vector<double> damping_levels(const Case& variant) const;
+
+  PlacementQuestion question_;
+  bool knows_strain_;
+  std::vector<double> frequencies_;
+};
+
+}  // namespace holdfast::program

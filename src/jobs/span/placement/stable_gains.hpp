@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "case/case.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/interval.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/response/loop_response.hpp"
+
+namespace holdfast::program {
+
+/// A rectangle of gains.
+struct GainRectangle {
+  Interval<double> proportional;  ///< P (N/m)
+  Interval<double> differential;  ///< D (N s/m)
+};
+
+/// The gains with which the computer's loop of a case is stable on the taut string with all its
+/// devices, at a modulus margin: min |1 − P G_z − D G_v| over the unit circle.
+class StableGains {
+ public:
+  /// @param margin  0 … 1; 0: stability alone
+  /// Throws what `circle_of` throws, WrongInput for a measured device.
+  StableGains(const Case& the_case, double margin);
+
+  bool is_stable(const PdGains<double>& gains) const { return circle_.roots_outside(gains) == 0; }
+
+  /// Whether gains are stable and keep the margin.
+  bool admits(const PdGains<double>& gains) const;
+
+  /// The bounded open intervals of one gain, the other being held, that are stable and keep the
+  /// margin, or 0.01 where it is less; ascending.
+  std::vector<Interval<double>> along(FreeGain free, const PdGains<double>& held) const;
+
+  /// About all that are admitted on lines through the gains without control: by turns the D of some
+  /// P and the P of some D, and a tenth beyond.
+  /// @param most  bounds of |P| and |D| where there are no others
+  GainRectangle around(const PdGains<double>& most) const;
+
+ private:
+  ResolvedCircle<double> circle_;
+  std::vector<CommandResponse<double>> responses_;  // at its angles
+  double margin_;
+};
+
+}  // namespace holdfast::program
