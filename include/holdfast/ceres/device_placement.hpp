@@ -172,10 +172,11 @@ inline std::vector<Place> poll_basis(int turn, std::size_t size) {
 
 /// Refines a place by its largest level itself, whose derivative jumps where another frequency
 /// becomes the worst, and which ends where the values are no longer admissible: polls along a basis
-/// that turns, halving the step where nothing is better (OrthoMADS: Abramson, Audet, Dennis & Le
-/// Digabel, SIAM J. Optim. 20 (2009)).
+/// that turns, halving the step where two of them lead to nothing better (OrthoMADS: Abramson,
+/// Audet, Dennis & Le Digabel, SIAM J. Optim. 20 (2009)).
 inline void refine(LevelQuestions& questions, Place place, double step, double resolution) {
-  constexpr int most_turns = 120;
+  constexpr int most_turns = 120, patience = 2;
+  int failed = 0;
   const double widest = step;
   double here = questions.worst(place);
   for (int turn = 0; turn < most_turns && step > resolution; ++turn) {
@@ -190,8 +191,14 @@ inline void refine(LevelQuestions& questions, Place place, double step, double r
         here = level;
         better = there;
       }
-    step = better.empty() ? 0.5 * step : std::min(2.0 * step, widest);
-    if (!better.empty()) place = better;
+    if (!better.empty()) {
+      place = better;
+      step = std::min(2.0 * step, widest);
+      failed = 0;
+    } else if (++failed == patience || place.size() == 1) {
+      step *= 0.5;
+      failed = 0;
+    }
   }
 }
 
