@@ -106,13 +106,13 @@ TEST_F(PlaceJob, AStockbridgeOnDrakeGoesWhereTheBalanceSaysTheSame) {
   const std::string text = std::string(drake) + stockbridge;
   const auto found = answer(text, "--quiet");
   EXPECT_LT(found.at("largest_strain"), 0.4 * found.at("largest_strain_before"));
-  EXPECT_NEAR(largest_strain(text, ""), found.at("largest_strain_before"), 1e-15);
+  EXPECT_NEAR(largest_strain(text, ""), found.at("largest_strain_before"), 1e-12);
   const auto at = [&](double place) {
     return largest_strain(text, "--set device.1.position=" + program::format_number(place));
   };
-  EXPECT_NEAR(at(found.at("position")), found.at("largest_strain"), 1e-15);
+  EXPECT_NEAR(at(found.at("position")), found.at("largest_strain"), 1e-12);
   for (double place = 0.25; place < 6.5; place += 0.25)
-    EXPECT_GE(at(place), found.at("largest_strain")) << place;
+    EXPECT_GE(at(place), found.at("largest_strain") * (1.0 - 1e-9)) << place;
 }
 
 TEST_F(PlaceJob, ADashpotOnAStayIsThatOfTheFormulas) {
@@ -164,7 +164,7 @@ TEST_F(PlaceJob, TheAbsorberOnDrakeHoldsAndTellsWhatItTakes) {
   const std::string gains =
       "--set control.proportional_gain=" + program::format_number(found.at("proportional_gain")) +
       " --set control.differential_gain=" + program::format_number(found.at("differential_gain"));
-  EXPECT_NEAR(largest_strain(text, gains), found.at("largest_strain"), 1e-15);
+  EXPECT_NEAR(largest_strain(text, gains), found.at("largest_strain"), 1e-12);
   EXPECT_EQ(run(text, "aeolian --frequency 20:20:1 " + gains).errors.find("unstable"),
             std::string::npos);
 }

@@ -8,6 +8,24 @@
 
 namespace holdfast::program {
 
+double taken_by_devices(const TautString<double>& string, double angular_frequency,
+                        const std::array<EndResponse, 2>& ends) {
+  double taken = 0.0;
+  for (const EndResponse& end : ends)
+    taken += end.absorbed_power(string.wave_impedance(), angular_frequency) / string.span;
+  return taken;
+}
+
+double sharpest_angle(const std::array<EndResponse, 2>& ends) {
+  double angle = 0.0;
+  for (const EndResponse& end : ends) {
+    angle = std::max(angle, end.support_angle);
+    // A clamp that turns with the conductor bends it half to each side.
+    for (const double kink : end.kinks) angle = std::max(angle, 0.5 * kink);
+  }
+  return angle;
+}
+
 AeolianBalance::AeolianBalance(const Case& the_case, bool controlled)
     : string_(string_of(the_case)),
       diameter_(the_case.conductor.diameter),
@@ -26,19 +44,13 @@ double AeolianBalance::outer_wire_modulus() const {
 Vibration AeolianBalance::vibration(const WindPowerLaw& wind, const LossLaw& loss, double frequency,
                                     const std::array<EndResponse, 2>& ends) const {
   const double omega = 2.0 * pi<double> * frequency;
-  double of_devices = 0.0, angle = 0.0;
-  for (const EndResponse& end : ends) {
-    of_devices += end.absorbed_power(string_.wave_impedance(), omega) / string_.span;
-    angle = std::max(angle, end.support_angle);
-    // A clamp that turns with the conductor bends it half to each side.
-    for (const double kink : end.kinks) angle = std::max(angle, 0.5 * kink);
-  }
+  const double of_devices = taken_by_devices(string_, omega, ends);
   const auto lost = [&](double y) {
     return (loss.power(frequency, y) + of_devices * y * y) / wind_share_;
   };
   const BalancedAmplitude found = balanced_amplitude(wind, frequency, diameter_, lost);
   const double strain =
-      bending_ ? bending_->strain_of_angle(angle * found.amplitude) : std::nan("");
+      bending_ ? bending_->strain_of_angle(sharpest_angle(ends) * found.amplitude) : std::nan("");
   return {found, strain};
 }
 

@@ -27,6 +27,13 @@ struct AeolianRow {
   Vibration bare, damped;
 };
 
+/// What the devices at both ends take of 1 m at the antinodes, over the span (W/m³).
+double taken_by_devices(const TautString<double>& string, double angular_frequency,
+                        const std::array<EndResponse, 2>& ends);
+
+/// The largest angle (rad/m) by which a clamp bends the conductor there: at a support or a device.
+double sharpest_angle(const std::array<EndResponse, 2>& ends);
+
 /// The energy balance of a case's span, one frequency after the other.
 class AeolianBalance {
  public:

@@ -8,6 +8,7 @@
 #include "holdfast/span/end_response.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "jobs/span/placement/absorber_demands.hpp"
+#include "jobs/span/placement/largest_vibration.hpp"
 #include "jobs/span/placement/stable_gains.hpp"
 #include "program/case/case_text.hpp"
 #include "support/testing.hpp"
@@ -151,6 +152,8 @@ TEST(AbsorberDemands, PowersBalance) {
 TEST(AeolianBalance, LargestIsTheLargestOfItsRows) {
   const Case the_case = with_gains(active_drake(), -9000.0, 60.0);
   const AeolianBalance balance(the_case, true);
+  const auto devices = span_devices_of(the_case);
+  const TautString<double> string = string_of(the_case);
   for (const double frequency : {6.0, 18.0, 50.0}) {
     double amplitude = 0.0, strain = 0.0;
     for (const AeolianRow& row : balance.rows(frequency)) {
@@ -159,6 +162,12 @@ TEST(AeolianBalance, LargestIsTheLargestOfItsRows) {
     }
     EXPECT_EQ(balance.largest(frequency).amplitude.amplitude, amplitude);
     EXPECT_EQ(balance.largest(frequency).strain, strain);
+    const auto ends = span_ends(devices, 300.0);
+    const double omega = 2.0 * pi<double> * frequency;
+    const Vibration known =
+        LargestVibration(the_case, {1.0, frequency})
+            .at(1, {end_response(string, ends[0], omega), end_response(string, ends[1], omega)});
+    EXPECT_NEAR(known.strain, strain, 1e-11 * strain);
   }
 }
 

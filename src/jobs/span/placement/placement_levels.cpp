@@ -52,49 +52,55 @@ bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>&
 }  // namespace
 
 PlacementLevels::PlacementLevels(const Case& the_case, const PlacementQuestion& question)
-    : question_(question), knows_strain_(clamp_bending_of(the_case).has_value()) {
+    : question_(question),
+      knows_strain_(clamp_bending_of(the_case).has_value()),
+      string_(string_of(the_case)) {
   if (question.goal == PlacementGoal::strain) require_diameter(the_case, "place --for strain");
-  const TautString<double> string = string_of(the_case);
   if (question.goal == PlacementGoal::modes) {
     for (int n = question.first_mode; n <= question.last_mode; ++n)
-      frequencies_.push_back(n * string.wave_speed() / (2.0 * string.span));
+      frequencies_.push_back(n * string_.wave_speed() / (2.0 * string_.span));
   } else {
     for (std::int64_t k = 0; k < question.frequencies.count; ++k)
       frequencies_.push_back(question.frequencies.at(k));
   }
+  if (question.goal == PlacementGoal::strain) wind_.emplace(the_case, frequencies_);
 }
 
 std::vector<double> PlacementLevels::of(const Case& variant) const {
   const std::vector<SpanDevice> devices = span_devices_of(variant);
-  if (!comes_back(string_of(variant), devices)) return {};
-  if (question_.goal != PlacementGoal::strain) return damping_levels(variant);
-  const AeolianBalance balance(variant, true);
+  if (!comes_back(string_, devices)) return {};
+  return wind_ ? wind_levels(devices) : damping_levels(variant);
+}
+
+std::vector<double> PlacementLevels::wind_levels(const std::vector<SpanDevice>& devices) const {
+  const auto ends = span_ends(devices, string_.span);
   std::vector<double> levels;
-  for (const double frequency : frequencies_) {
+  for (std::size_t k = 0; k < frequencies_.size(); ++k) {
     throw_if_interrupted();
-    const Vibration worst = balance.largest(frequency);
-    levels.push_back(knows_strain_ ? worst.strain : worst.amplitude.amplitude * frequency);
+    const double omega = 2.0 * pi<double> * frequencies_[k];
+    const Vibration worst = wind_->at(
+        k, {end_response(string_, ends[0], omega), end_response(string_, ends[1], omega)});
+    levels.push_back(knows_strain_ ? worst.strain : worst.amplitude.amplitude * frequencies_[k]);
   }
   return levels;
 }
 
 std::vector<double> PlacementLevels::damping_levels(const Case& variant) const {
-  const TautString<double> string = string_of(variant);
   const std::vector<SpanDevice> devices = span_devices_of(variant);
   std::vector<double> levels;
   if (question_.goal == PlacementGoal::modes) {
-    const auto roots = span_roots(string, devices, question_.last_mode);
+    const auto roots = span_roots(string_, devices, question_.last_mode);
     for (int n = question_.first_mode; n <= question_.last_mode; ++n)
       levels.push_back(level_of_ratio(roots[static_cast<std::size_t>(n) - 1].damping()));
     return levels;
   }
   const double position = question_.is_absorber() ? variant.absorber.position
                                                   : variant.devices[question_.device - 1].position;
-  const auto ends = span_ends(devices, string.span);
-  const SpanEnd& end = ends[position > string.span / 2.0 ? 1 : 0];
+  const auto ends = span_ends(devices, string_.span);
+  const SpanEnd& end = ends[position > string_.span / 2.0 ? 1 : 0];
   for (const double frequency : frequencies_) {
     throw_if_interrupted();
-    const EndResponse response = end_response(string, end, 2.0 * pi<double> * frequency);
+    const EndResponse response = end_response(string_, end, 2.0 * pi<double> * frequency);
     levels.push_back(level_of_ratio(response.inverse_standing_wave_ratio()));
   }
   return levels;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "case/case.hpp"
+#include "jobs/span/placement/largest_vibration.hpp"
 #include "jobs/span/placement/placement_question.hpp"
 
 namespace holdfast::program {
@@ -33,11 +35,14 @@ class PlacementLevels {
   std::string range_note(const Case& variant, double frequency) const;
 
  private:
+  std::vector<double> wind_levels(const std::vector<SpanDevice>& devices) const;
   std::vector<double> damping_levels(const Case& variant) const;
 
   PlacementQuestion question_;
   bool knows_strain_;
+  TautString<double> string_;
   std::vector<double> frequencies_;
+  std::optional<LargestVibration> wind_;
 };
 
 }  // namespace holdfast::program
