@@ -83,8 +83,9 @@ class AbsorberPlacement {
                     const PlacementLevels& levels)
       : case_(the_case), question_(question), levels_(levels) {
     const double match = string_of(the_case).wave_impedance();
-    constexpr double strongest = 1e3;
-    most_ = {strongest * match * 2.0 * pi<double> * levels.frequencies().back(), strongest * match};
+    constexpr double beyond_all = 1e3;
+    most_ = {beyond_all * match * 2.0 * pi<double> * levels.frequencies().back(),
+             beyond_all * match};
   }
 
   /// Its gains where it is.
