@@ -51,7 +51,7 @@ Answer asked(const std::string& name, const Values& values) {
 
 /// A loop that is unstable without its play lives on it, and without play it grows: the text says
 /// so.
-std::string help_text(const Question& question, const Vibration& vibration) {
+std::string help_text(const Question& question, const LoopVibration& vibration) {
   const bool unstable = question.is_unstable_without_play();
   const auto& backlash = question.the_case.backlash;
   const bool lives_on_play = unstable && backlash.width > 0.0 && backlash.law != "none";
@@ -86,7 +86,7 @@ std::string held_force_text(const Question& question) {
                                   {"true", millimetres(question.free)}});
 }
 
-std::string force_text(const Vibration& vibration) {
+std::string force_text(const LoopVibration& vibration) {
   return page_text("force asked for", {{"force", rounded(vibration.force, 3)}});
 }
 
@@ -95,7 +95,8 @@ std::string exact_switching_text(const Question& question) {
   // Between the samples a conductor by its modes is followed state by state: too slow for an
   // answer.
   if (!(question.the_case.backlash.width > 0.0) || is_modal(question.the_case)) return "";
-  const Vibration exact = vibrations_of({question.the_case}, question, Switching::exact).front();
+  const LoopVibration exact =
+      vibrations_of({question.the_case}, question, Switching::exact).front();
   if (!std::isfinite(exact.ratio())) return "";
   return page_text("left by exact switching", {{"ratio", percent(exact.ratio())}});
 }
@@ -114,7 +115,7 @@ Answer what_is_doubtful(const std::vector<std::string>& doubts) {
 
 Answer does_it_help(const Question& question) {
   const Case& the_case = question.the_case;
-  const Vibration vibration = vibrations_of({the_case}, question).front();
+  const LoopVibration vibration = vibrations_of({the_case}, question).front();
   Answer answer = asked("help", {{"duration", rounded(duration_of(the_case), 3)},
                                  {"play", millimetres(the_case.backlash.width)},
                                  {"range", range_of(the_case.backlash.width)}});
@@ -175,17 +176,17 @@ std::string gain_of_case_text(const Case& the_case) {
 }
 
 /// The vibration with a gain and the play that the case has; nothing where there is none.
-std::optional<Vibration> in_play(const Question& question, double differential_gain) {
+std::optional<LoopVibration> in_play(const Question& question, double differential_gain) {
   if (!(question.the_case.backlash.width > 0.0)) return std::nullopt;
   const Case changed = case_with(question.the_case, "control.differential_gain", differential_gain);
-  const Vibration vibration = vibrations_of({changed}, question).front();
+  const LoopVibration vibration = vibrations_of({changed}, question).front();
   return std::isfinite(vibration.ratio()) ? std::optional(vibration) : std::nullopt;
 }
 
 /// Adds to the answer what the play makes of a gain; where it spoils the gain, to its first
 /// sentence.
 void add_play(Answer& answer, const Question& question, double differential_gain, double ideal) {
-  const std::optional<Vibration> vibration = in_play(question, differential_gain);
+  const std::optional<LoopVibration> vibration = in_play(question, differential_gain);
   if (!vibration) return;
   const bool spoilt = ideal < worthwhile && !(vibration->ratio() < worthwhile);
   const Values values = {{"play", millimetres(question.the_case.backlash.width)},
@@ -264,7 +265,7 @@ std::vector<char> widths_that_serve(const Question& question, const std::vector<
   cases.reserve(widths.size());
   for (const double width : widths)
     cases.push_back(case_with(question.the_case, "backlash.width", width));
-  const std::vector<Vibration> vibrations = vibrations_of(cases, question);
+  const std::vector<LoopVibration> vibrations = vibrations_of(cases, question);
   std::vector<char> serve(widths.size());
   for (std::size_t k = 0; k < widths.size(); ++k) {
     const bool grows = widths[k] == 0.0 && question.is_unstable_without_play();

@@ -27,13 +27,13 @@ Question question_about(const Case& the_case, InstructionSet set) {
           spectral_radius_of(the_case)};
 }
 
-std::vector<Vibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
-                                     Switching switching) {
+std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
+                                         Switching switching) {
   const double duration = duration_of(cases.front());
   std::vector<CellMotion> motions;
   motions.reserve(cases.size());
   for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
-  std::vector<Vibration> vibrations;
+  std::vector<LoopVibration> vibrations;
   vibrations.reserve(cases.size());
   for (const MotionMetrics& metrics : metrics_of(motions, duration, question.set))
     vibrations.push_back(

@@ -10,7 +10,7 @@
 namespace holdfast::program {
 
 /// Largest |z₁| of the steady motion with control and without it, and what the drive does for it.
-struct Vibration {
+struct LoopVibration {
   double controlled, free;
   double engaged;  ///< share of the samples at which the drive transmits
   double force;    ///< N, the largest that the computer asks for
@@ -37,7 +37,7 @@ Question question_about(const Case& the_case, InstructionSet set);
 double duration_of(const Case& the_case);
 
 /// The vibration of each case, each the question's but for the value of a key.
-std::vector<Vibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
-                                     Switching switching = Switching::sampled);
+std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
+                                         Switching switching = Switching::sampled);
 
 }  // namespace holdfast::program
