@@ -261,7 +261,9 @@ const Quantities listed_of_case = {
      "",
      {"absorber.mass", "conductor.mass_per_length"},
      [](const Case& c) {
-       return has_own_cable(c) ? c.absorber.mass * c.conductor.gravity / weight_of(c) : unknown;
+       return has_own_cable(c) && has_absorber(c)
+                  ? c.absorber.mass * c.conductor.gravity / weight_of(c)
+                  : unknown;
      },
      {2e-5, 3},
      whatever,
