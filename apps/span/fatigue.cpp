@@ -10,10 +10,12 @@ namespace {
 struct FatigueQuestion {
   std::string frequency = "3:150";
   bool no_control = false;
+  bool by_speed = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
     job.add("--no-control", no_control);
+    job.add("--by-speed", by_speed);
   }
 
   void run(const JobContext& context) const {
@@ -22,11 +24,18 @@ struct FatigueQuestion {
     require_measured(the_case, range.min, range.max);
     report_warning(absent_absorber_note(the_case), context.quiet);
     const FatigueLife life = fatigue_life_of(the_case, !no_control, range.min, range.max);
+    report_warning(life_advice(life, the_case.site.years), context.quiet);
+    report_warning(instability_note(the_case, !no_control), context.quiet);
+    by_speed ? write_speeds(context, life) : write_life(context, life);
+  }
+
+ private:
+  static void write_life(const JobContext& context, const FatigueLife& life) {
     Table table(context, columns_of("fatigue"));
     const auto row = [&](const char* quantity, const Band& band, const char* unit) {
       table.row(std::string(quantity), band.value, band.lowest, band.highest, std::string(unit));
     };
-    const double years = the_case.site.years;
+    const double years = context.case_data.site.years;
     const auto served = [&](const Band& damage) {
       return Band{years * damage.value, years * damage.lowest, years * damage.highest};
     };
@@ -39,8 +48,14 @@ struct FatigueQuestion {
     row("damage_in_service", served(life.damage), "");
     row("life_bare", years_of(life.damage_bare), "year");
     row("life", years_of(life.damage), "year");
-    report_warning(life_advice(life, years), context.quiet);
-    report_warning(instability_note(the_case, !no_control), context.quiet);
+    table.commit();
+  }
+
+  static void write_speeds(const JobContext& context, const FatigueLife& life) {
+    Table table(context, columns_of("fatigue by speed"));
+    for (const SpeedDamage& row : life.by_speed)
+      table.row(row.speed, row.hours, row.damage_bare, row.damage.lowest, row.damage.highest,
+                row.damage.value);
     table.commit();
   }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "case/model/span/span_of_case.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
@@ -53,7 +54,57 @@ struct Years {
                [](const LawYear& a, const LawYear& b) { return a.largest < b.largest; })
         ->frequency;
   }
+
+  /// The part that each wind speed has in damage(), by the laws that make up its three numbers.
+  std::vector<Band> parts(const SafeBorderLine& line) const {
+    const auto order =
+        laws_in_order([&](const LawYear& year) { return miner_damage(year.at_most, line); });
+    const std::size_t half = order.size() / 2, other = order.size() % 2 == 1 ? half : half - 1;
+    const LawYear& most = of_laws[order.back()];
+    const LawYear& least = of_laws[laws_in_order([&](const LawYear& year) {
+                                     return miner_damage(year.at_least, line);
+                                   }).front()];
+    std::vector<Band> parts;
+    for (std::size_t k = 0; k < most.at_most.size(); ++k) {
+      const auto part = [&](const std::vector<StressCycles>& year) {
+        return miner_damage({year[k]}, line);
+      };
+      const double middle =
+          0.5 * (part(of_laws[order[half]].at_most) + part(of_laws[order[other]].at_most));
+      parts.push_back({middle, part(least.at_least), part(most.at_most)});
+    }
+    return parts;
+  }
+
+ private:
+  /// The numbers of the laws, ascending by what a law's year has.
+  template <class Measure>
+  std::vector<std::size_t> laws_in_order(const Measure& measure) const {
+    std::vector<double> measures;
+    for (const LawYear& year : of_laws) measures.push_back(measure(year));
+    std::vector<std::size_t> order(of_laws.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return measures[a] < measures[b]; });
+    return order;
+  }
 };
+
+void require_wires(const AeolianBalance& balance) {
+  if (!balance.knows_strain())
+    throw WrongInput(
+        "fatigue needs the outer wires of the conductor: give conductor.outer_wire_diameter, "
+        "conductor.outer_wire_modulus and conductor.bending_stiffness (the least one), or "
+        "conductor.name of one in the library");
+}
+
+/// Gives the parts that each wind speed has in the damages.
+void share_out(const std::vector<Band>& bare, const std::vector<Band>& damped, FatigueLife& life) {
+  for (std::size_t k = 0; k < damped.size(); ++k) {
+    life.by_speed[k].damage_bare = bare[k].value;
+    life.by_speed[k].damage = damped[k];
+  }
+}
 
 }  // namespace
 
@@ -71,11 +122,7 @@ Band years_of(const Band& damage) {
 
 FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest, double highest) {
   const AeolianBalance balance(the_case, controlled);
-  if (!balance.knows_strain())
-    throw WrongInput(
-        "fatigue needs the outer wires of the conductor: give conductor.outer_wire_diameter, "
-        "conductor.outer_wire_modulus and conductor.bending_stiffness (the least one), or "
-        "conductor.name of one in the library");
+  require_wires(balance);
   const double modulus = balance.outer_wire_modulus();
   const auto hours = wind_hours_of(the_case, balance.speed_of(lowest), balance.speed_of(highest));
   Years bare, damped;
@@ -89,6 +136,7 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
     bare.of_laws.resize(laws.size());
     damped.of_laws.resize(laws.size());
     life.cycles += cycles;
+    life.by_speed.push_back({row.speed, row.hours, 0.0, {}});
     for (std::size_t k = 0; k < laws.size(); ++k) {
       bare.of_laws[k].add(laws[k].bare, modulus, cycles, frequency);
       damped.of_laws[k].add(laws[k].damped, modulus, cycles, frequency);
@@ -104,6 +152,7 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
   life.stress_bare = bare.stress();
   life.stress = damped.stress();
   life.worst_frequency = damped.worst_frequency();
+  share_out(bare.parts(line), damped.parts(line), life);
   return life;
 }
 

@@ -14,12 +14,21 @@ struct Band {
 /// The middle, lowest and highest of some numbers, one at least.
 Band band_of(std::vector<double> numbers);
 
+/// What the wind of one speed does in a year: parts of the damages of a life, which they add up to.
+struct SpeedDamage {
+  double speed;  ///< m/s
+  double hours;  ///< a year
+  double damage_bare;
+  Band damage;
+};
+
 /// The life of the conductor at its clamps in the wind of its site.
 struct FatigueLife {
   double cycles;             ///< of vibration, a year
   Band damage_bare, damage;  ///< by Miner's rule, a year
   Band stress_bare, stress;  ///< the largest one (Pa), zero to peak
   double worst_frequency;    ///< Hz, of the largest stress with the devices
+  std::vector<SpeedDamage> by_speed;
 };
 
 /// 1/damage (years); infinity where there is none.
