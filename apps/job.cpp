@@ -187,7 +187,7 @@ bool Job::is_told(const std::string& fact, bool otherwise) const {
   return job_texts()["jobs"][options_->get_name()][fact].value_or(otherwise);
 }
 
-JobContext Job::context(const std::optional<std::string>& case_file) const {
+JobContext Job::context(const std::optional<std::string>& case_file, bool needs_plant) const {
   if (case_file && common_->case_file)
     throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");
   const std::optional<std::string>& file = case_file ? case_file : common_->case_file;
@@ -217,7 +217,7 @@ JobContext Job::context(const std::optional<std::string>& case_file) const {
   const bool controlled = no_control == nullptr || no_control->empty();
   // Devices alone need neither absorber nor two masses.
   const bool has_loop = context.case_data.devices.empty() || has_active_absorber(context.case_data);
-  examine(context, has_loop && is_told("needs_plant", true),
+  examine(context, needs_plant && has_loop && is_told("needs_plant", true),
           has_loop && controlled && is_told("needs_gains", false));
   context.options = given_options(*options_);
   context.progress = common_->progress;

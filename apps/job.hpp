@@ -55,8 +55,10 @@ class Job {
   /// Checked case, output and the options that were given; call once the command line is read.
   /// A plant that the case does not give is reduced from its conductor, unless the job does
   /// without.
-  /// @param case_file  in place of --case, which must not be given then
-  JobContext context(const std::optional<std::string>& case_file = std::nullopt) const;
+  /// @param case_file    in place of --case, which must not be given then
+  /// @param needs_plant  whether what is asked of a job that needs a plant needs it
+  JobContext context(const std::optional<std::string>& case_file = std::nullopt,
+                     bool needs_plant = true) const;
 
   /// The --case, --set and --instructions options as they were given, to be handed to another job.
   std::vector<std::string> case_arguments() const;

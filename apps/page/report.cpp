@@ -1,17 +1,31 @@
 #include "report/page/report.hpp"
 
 #include "job.hpp"
+#include "report/span/span_page.hpp"
 
 namespace holdfast::program {
 namespace {
 
+/// The report of the loop is of absorber and computer alone.
+void require_no_devices(const Case& the_case) {
+  if (the_case.devices.empty()) return;
+  throw WrongInput(
+      "report --for control knows the absorber alone, and the case has [[device]] beside it: take "
+      "the devices away, or ask for --for span");
+}
+
 struct ReportQuestion {
-  void add_to(const Job&) {}
+  std::string reader = "control";
+
+  void add_to(const Job& job) { job.add("--for", reader); }
 
   void run(const Job& job) const {
-    const JobContext context = job.context();
+    const bool of_span = reader == "span";
+    const JobContext context = job.context(std::nullopt, !of_span);
     if (!context.output || *context.output == "-")
       throw WrongInput("--output DIRECTORY is needed: a report is a folder");
+    if (of_span) return write_span_report(context, job.case_arguments(), do_job);
+    require_no_devices(context.case_data);
     write_report(context, job.case_arguments(), do_job);
   }
 };

@@ -74,6 +74,7 @@ a conductors --find drake
 p place --for damping --frequency 5:10:3 --set device.1.kind=dashpot --set device.1.position=0.5 --set device.1.damping=1
 a answers
 l report --output report
+l report --for span --case acsr-drake-300m-dampers.toml --output span-report
 a manual
 a completion bash
 a bill-of-materials
@@ -87,6 +88,7 @@ trap 'rm -rf "$work"' EXIT
 data=$(dirname "$0")/../../data
 cp "$data/kollar2022-decay.csv" "$work/decay.csv"
 cp "$data/kollar2022.toml" "$work/case.toml"
+cp "$data/acsr-drake-300m-dampers.toml" "$work"
 
 missing=$(comm -13 <(asked) <(known) | tr '\n' ' ')
 if [ -n "$missing" ]; then

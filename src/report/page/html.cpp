@@ -53,17 +53,6 @@ std::string motions_part(const Page& page) {
                                        rows)}});
 }
 
-std::string answers_part(const Page& page) {
-  std::string html;
-  for (const Answer& answer : page.answers)
-    html += page_text("answer",
-                      {{"question", escaped(answer.question)},
-                       {"answer", escaped(answer.answer)},
-                       {"detail", escaped(answer.detail)},
-                       {"command", escaped(shell_text(answer.arguments, page.case_arguments))}});
-  return html;
-}
-
 /// Of RFC 4648.
 std::string base64(const std::string& bytes) {
   constexpr const char* alphabet =
@@ -116,6 +105,18 @@ std::string figures_html(const std::vector<DrawnFigure>& figures) {
   return html;
 }
 
+std::string answers_html(const std::vector<Answer>& answers,
+                         const std::vector<std::string>& case_arguments) {
+  std::string html;
+  for (const Answer& answer : answers)
+    html +=
+        page_text("answer", {{"question", escaped(answer.question)},
+                             {"answer", escaped(answer.answer)},
+                             {"detail", escaped(answer.detail)},
+                             {"command", escaped(shell_text(answer.arguments, case_arguments))}});
+  return html;
+}
+
 std::string html_row(const std::vector<std::string>& cells) {
   std::string html = "<tr>";
   for (const std::string& cell : cells) html += "<td>" + cell + "</td>";
@@ -138,11 +139,12 @@ std::string escaped(const std::string& text) {
 
 std::string html_of(const Page& page) {
   return page_text("page",
-                   {{"title", escaped(page.title)},
+                   {{"head", page_text("head", {{"title", escaped(page.title)}})},
+                    {"title", escaped(page.title)},
                     {"introduction", page.introduction},
                     {"to motions", page.motions.empty() ? "" : page_text("to motions")},
                     {"to comparison", page.comparisons.empty() ? "" : page_text("to comparison")},
-                    {"answers", answers_part(page)},
+                    {"answers", answers_html(page.answers, page.case_arguments)},
                     {"figures", figures_html(page.figures)},
                     {"motions", motions_part(page)},
                     {"switching", page.switching},

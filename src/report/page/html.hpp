@@ -40,6 +40,11 @@ std::string page_text(const std::string& name, const Values& values = {});
 /// Figures, each with its caption, its tables and the commands that make them.
 std::string figures_html(const std::vector<DrawnFigure>& figures);
 
+/// Answers, each with the command that shows it.
+/// @param case_arguments  the options that made the case
+std::string answers_html(const std::vector<Answer>& answers,
+                         const std::vector<std::string>& case_arguments);
+
 /// A row of a table. @param cells  HTML
 std::string html_row(const std::vector<std::string>& cells);
 

@@ -19,6 +19,7 @@
 #include "report/figures/gnuplot.hpp"
 #include "report/figures/map_axis.hpp"
 #include "report/figures/table_panels.hpp"
+#include "report/span/span_figures.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -162,7 +163,7 @@ Values picture_values(const PictureRequest& request) {
     const Axis axis = parse_axis("--frequency", option_text(request, "--frequency"));
     values.emplace_back("F", ends_of(axis) + ":" + std::to_string(axis.count));
   }
-  return joined(values, values_of_axes(axes_of(request)));
+  return joined(joined(values, span_values(the_case)), values_of_axes(axes_of(request)));
 }
 
 /// "Stable gains — my-line".

@@ -2,27 +2,22 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "case/case_file.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "io/file/input.hpp"
 #include "io/file/output.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
-#include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/gnuplot.hpp"
+#include "report/figures/figure_writer.hpp"
 #include "report/page/answers.hpp"
-#include "report/page/command_line.hpp"
 #include "report/page/html.hpp"
 #include "report/switching/switching_page.hpp"
 #include "report/switching/switching_study.hpp"
-#include "sweep/tiles/work_folder.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -34,84 +29,11 @@ bool is_builtin(const Case& the_case) {
   return case_to_toml(the_case) == case_to_toml(load_case({}, {}));
 }
 
-void make_folders(const fs::path& folder) {
-  for (const char* part : {"data", "pictures"}) {
-    std::error_code failure;
-    fs::create_directories(folder / part, failure);
-    if (failure) throw WrongInput("--output " + folder.string() + ": " + failure.message());
-  }
-}
-
 /// The unit of the case's displacements.
 LengthUnit unit_of(const Case& the_case) {
   const double duration = std::min(20.0, end_of_force(the_case));
   return length_unit_for(amplitude_without_control(the_case, duration));
 }
-
-class ReportWriter {
- public:
-  ReportWriter(const JobContext& context, Arguments case_arguments, const CommandRunner& run)
-      : folder_(*context.output),
-        case_arguments_(std::move(case_arguments)),
-        run_(run),
-        length_unit_(unit_of(context.case_data)),
-        can_draw_(gnuplot_available()) {}
-
-  DrawnFigure make(const Figure& figure) const {
-    DrawnFigure drawn{figure, {}, "", ""};
-    for (const TableRequest& table : figure.tables) {
-      drawn.commands.push_back(shell_text(table.arguments, case_arguments_) + " --output data/" +
-                               table.name + ".csv");
-    }
-    drawn.reason = write_tables(figure);
-    return drawn.reason.empty() ? with_picture(std::move(drawn)) : drawn;
-  }
-
-  /// A figure whose tables the report has written itself, unless there is a reason not to.
-  DrawnFigure drawn(DrawnFigure own) const {
-    own.commands = {shell_text({"report"}, case_arguments_) + " --output ."};
-    return own.reason.empty() ? with_picture(std::move(own)) : own;
-  }
-
- private:
-  DrawnFigure with_picture(DrawnFigure drawn) const {
-    if (!can_draw_) {
-      drawn.reason = "gnuplot is not installed (Debian package gnuplot-nox)";
-      return drawn;
-    }
-    drawn.figure.length_unit = length_unit_;
-    draw(drawn.figure, folder_);
-    drawn.svg = read_input(folder_ / "pictures" / (drawn.figure.name + ".svg"));
-    return drawn;
-  }
-
-  /// @return why the case has no such tables, as where its record ends too soon; else nothing
-  std::string write_tables(const Figure& figure) const {
-    try {
-      for (const TableRequest& table : figure.tables) write_table(table);
-    } catch (const NoAnswer& reason) {
-      return reason.what();
-    } catch (const WrongInput& reason) {
-      return reason.what();
-    }
-    return "";
-  }
-
-  void write_table(const TableRequest& table) const {
-    const std::string file = (folder_ / "data" / (table.name + ".csv")).string();
-    // A sweep that was interrupted has left its tiles; this report may be one of another case.
-    remove_work_folder(file + ".tiles");
-    Arguments arguments = command_of(table.arguments, case_arguments_);
-    arguments.insert(arguments.end(), {"--quiet", "--output", file});
-    run_(arguments);
-  }
-
-  fs::path folder_;
-  Arguments case_arguments_;
-  const CommandRunner& run_;
-  LengthUnit length_unit_;
-  bool can_draw_;
-};
 
 /// "my-line: 21.3 Hz, τ = 5 ms, r₀ = 0.5 mm".
 std::string title_of(const JobContext& context, bool builtin) {
@@ -122,16 +44,10 @@ std::string title_of(const JobContext& context, bool builtin) {
          rounded(effective_excitation(the_case).frequency, 4) + " Hz, " + loop_text(the_case);
 }
 
-std::string switching_part(const JobContext& context, bool builtin, const ReportWriter& writer) {
+std::string switching_part(const JobContext& context, bool builtin, const FigureWriter& writer) {
   SwitchingPage page = make_switching_page(context, builtin);
   for (DrawnFigure& figure : page.figures) figure = writer.drawn(std::move(figure));
   return html_of(page);
-}
-
-void say_where(const fs::path& page) {
-  OutputFile output(std::nullopt);
-  output.write("Report: " + page.string() + "\n");
-  output.commit();
 }
 
 }  // namespace
@@ -141,7 +57,8 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   require_absorber(context.case_data);
   const bool builtin = is_builtin(context.case_data);
   const fs::path folder = *context.output;
-  const ReportWriter writer(context, case_arguments, run);  // refuses loops that are too stiff
+  // Refuses loops that are too stiff.
+  const FigureWriter writer({folder, case_arguments, run, unit_of(context.case_data)});
   make_folders(folder);
   OutputFile file(folder / "report.html");
   const std::vector<Figure> figures = figures_of(context.case_data, builtin);
@@ -165,11 +82,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
     page.figures.push_back(writer.make(figure));
     progress.advance();
   }
-  file.write(html_of(page));
-  file.commit();
-  if (!context.quiet) say_where(folder / "report.html");
-  if (!gnuplot_available())
-    report_error("the report has no pictures: install gnuplot (Debian package gnuplot-nox)");
+  write_page(context, file, html_of(page));
 }
 
 }  // namespace holdfast::program

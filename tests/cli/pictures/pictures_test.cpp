@@ -11,6 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 using program::gnuplot_available;
 
+/// A line with a dashpot, and the wind of its site.
+const std::string damped_line =
+    " --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020 --set "
+    "plant.model=string --set device.1.kind=dashpot --set device.1.position=1 --set "
+    "device.1.damping=300 --set site.weibull_scale=5";
+
 /// Each table that has a picture, soon made.
 const std::vector<std::string> drawn_commands = {
     "statics --elements 10 --force -0.5:0.5:3",
@@ -24,6 +30,10 @@ const std::vector<std::string> drawn_commands = {
     "design --frequency 5:15:4",
     "max-delay --frequency 5:6:3",
     "modal-damping --set plant.model=string --set plant.modes=9",
+    "absorption --frequency 5:50:10" + damped_line,
+    "aeolian --frequency 5:50:10" + damped_line,
+    "aeolian --frequency 5:50:10 --set plant.model=string --set conductor.diameter=0.03",
+    "fatigue --by-speed --frequency 5:50" + damped_line,
     "simulate --duration 0.5",
     "simulate --duration 0.5 --switching exact --no-control",
     "spectrum --duration 2",
@@ -158,12 +168,13 @@ TEST(Pictures, WithoutGnuplotSayWhatToInstallAndComputeNothing) {
 
 TEST(Pictures, AreRefusedWhereATableHasNone) {
   const TemporaryFolder folder;
-  for (const std::string command :
-       {"reduce", "margins", "answers", "boundary --regions", "boundary --stable-interval",
-        "lyapunov --duration 1", "design", "design --band 9:11", "basins --fractions",
-        "sweep --dry-run --axis backlash.width=0:1:3", "stability --p -557 --d -20:0:11",
-        "sweep --axis backlash.width=0:1:3 --axis initial.z1=0:1:3 --axis initial.z2=0:1:3",
-        "sweep --axis backlash.width=0,1,3 --axis initial.z1=0:1:3"}) {
+  for (const std::string& command : std::vector<std::string>{
+           "reduce", "margins", "answers", "boundary --regions", "boundary --stable-interval",
+           "lyapunov --duration 1", "fatigue" + damped_line, "design", "design --band 9:11",
+           "basins --fractions", "sweep --dry-run --axis backlash.width=0:1:3",
+           "stability --p -557 --d -20:0:11",
+           "sweep --axis backlash.width=0:1:3 --axis initial.z1=0:1:3 --axis initial.z2=0:1:3",
+           "sweep --axis backlash.width=0,1,3 --axis initial.z1=0:1:3"}) {
     expect_refused(command + " --output '" + (folder / "a.svg").string() + "'", {});
     EXPECT_EQ(entries_of(folder.path()), 0U) << command;
   }

@@ -1,0 +1,246 @@
+#include "report/span/span_answers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/model/modal/conductor_modes.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "holdfast/span/end_response.hpp"
+#include "jobs/span/aeolian_amplitudes.hpp"
+#include "jobs/span/fatigue_life.hpp"
+#include "jobs/span/mode_dampings.hpp"
+#include "jobs/span/span_words.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+#include "report/page/html.hpp"
+#include "report/span/span_figures.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// Zero to peak; 150 microstrain peak to peak.
+constexpr double endurance_limit = 75e-6;
+
+/// What the laws say of one frequency, without the devices or with them.
+struct BandAt {
+  double frequency, speed;
+  Vibration lowest, highest;  // of amplitude and of strain, each by itself
+};
+
+std::vector<BandAt> bands_of(const AeolianBalance& balance, const Axis& axis,
+                             Vibration AeolianRow::*which) {
+  std::vector<BandAt> bands;
+  for (std::int64_t k = 0; k < axis.count; ++k) {
+    const auto rows = balance.rows(axis.at(k));
+    BandAt band{axis.at(k), rows.front().wind_speed, rows.front().*which, rows.front().*which};
+    for (const AeolianRow& row : rows) {
+      const Vibration& one = row.*which;
+      if (one.amplitude.amplitude < band.lowest.amplitude.amplitude)
+        band.lowest.amplitude = one.amplitude;
+      if (one.amplitude.amplitude > band.highest.amplitude.amplitude)
+        band.highest.amplitude = one.amplitude;
+      band.lowest.strain = std::min(band.lowest.strain, one.strain);
+      band.highest.strain = std::max(band.highest.strain, one.strain);
+    }
+    bands.push_back(band);
+  }
+  return bands;
+}
+
+/// "0.054 d", "less than 0.01 d" or "0.85 d or more".
+std::string amplitude_text(const BalancedAmplitude& amplitude, double diameter) {
+  const std::string size = rounded(amplitude.amplitude / diameter, 2);
+  if (amplitude.range == BalanceRange::below) return page_text("less than", {{"size", size}});
+  if (amplitude.range == BalanceRange::above) return page_text("or more", {{"size", size}});
+  return page_text("as much as", {{"size", size}});
+}
+
+/// The lowest and highest frequency at which a strain is above the limit; empty where none is.
+std::string beyond_limit(const std::vector<BandAt>& bands, Vibration BandAt::*which) {
+  std::vector<double> beyond;
+  for (const BandAt& band : bands)
+    if ((band.*which).strain > endurance_limit) beyond.push_back(band.frequency);
+  if (beyond.empty()) return "";
+  return rounded(beyond.front(), 3) + " to " + rounded(beyond.back(), 3) + " Hz";
+}
+
+std::string strain_text(const std::vector<BandAt>& bands) {
+  const std::string some = beyond_limit(bands, &BandAt::highest);
+  const std::string every = beyond_limit(bands, &BandAt::lowest);
+  if (some.empty()) return page_text("strain allowed");
+  if (every.empty()) return page_text("strain by some law", {{"some", some}});
+  return page_text("strain by every law", {{"some", some}, {"every", every}});
+}
+
+/// How a span vibrates, in words.
+std::string vibration_text(const AeolianBalance& balance, const std::vector<BandAt>& bands) {
+  const BandAt& worst =
+      *std::max_element(bands.begin(), bands.end(), [](const BandAt& one, const BandAt& other) {
+        return one.highest.amplitude.amplitude < other.highest.amplitude.amplitude;
+      });
+  const bool is_still = worst.highest.amplitude.range == BalanceRange::below;
+  const std::string text =
+      page_text(is_still ? "hardly vibrates" : "vibrates most",
+                {{"lowest", amplitude_text(worst.lowest.amplitude, balance.diameter())},
+                 {"highest", amplitude_text(worst.highest.amplitude, balance.diameter())},
+                 {"frequency", rounded(worst.frequency, 3)},
+                 {"speed", rounded(worst.speed, 2)}});
+  return text + (balance.knows_strain() ? strain_text(bands) : page_text("strain unknown"));
+}
+
+Answer question_of(const std::string& name, const Values& values = {}) {
+  return {page_text(name + " question"), "", page_text(name + " detail", values),
+          words_of(page_text(name + " command", values))};
+}
+
+/// The answer, or why the case has none.
+template <class Tell>
+Answer answered(Answer answer, const Tell& tell) {
+  throw_if_interrupted();
+  try {
+    tell(answer);
+  } catch (const Refusal& reason) {
+    answer.answer = page_text("not told", {{"reason", reason.what()}});
+  }
+  return answer;
+}
+
+Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
+  const Values values = {{"frequencies", frequencies_text(axis)}};
+  return answered(question_of(damped ? "damped" : "bare", values), [&](Answer& answer) {
+    const AeolianBalance balance(the_case, true);
+    if (damped && !balance.has_devices()) {
+      answer.answer = page_text("no device");
+      return;
+    }
+    const auto which = damped ? &AeolianRow::damped : &AeolianRow::bare;
+    answer.answer = vibration_text(balance, bands_of(balance, axis, which));
+  });
+}
+
+std::string years_text(double years) { return rounded(years, 2); }
+
+Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& values) {
+  return answered(question_of("life", values), [&](Answer& answer) {
+    const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
+    const Band damped = years_of(life.damage), bare = years_of(life.damage_bare);
+    const auto told = [&](const std::string& name, const Band& years) {
+      return page_text(name, {{"value", years_text(years.value)},
+                              {"lowest", years_text(years.lowest)},
+                              {"highest", years_text(years.highest)}});
+    };
+    answer.answer = told("life", damped);
+    if (!span_devices_of(the_case).empty()) answer.answer += told("life bare", bare);
+    answer.answer += page_text("advice", {{"advice", life_advice(life, the_case.site.years)}});
+  });
+}
+
+std::string megapascal(double stress) { return rounded(1e-6 * stress, 3); }
+
+Answer which_frequency(const Case& the_case, const Axis& axis, const Values& values) {
+  return answered(question_of("worst", values), [&](Answer& answer) {
+    const AeolianBalance balance(the_case, true);
+    const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
+    const auto& most = *std::max_element(life.by_speed.begin(), life.by_speed.end(),
+                                         [](const SpeedDamage& one, const SpeedDamage& other) {
+                                           return one.damage.value < other.damage.value;
+                                         });
+    answer.answer = page_text("worst frequency",
+                              {{"frequency", rounded(balance.frequency_of(most.speed), 3)},
+                               {"speed", rounded(most.speed, 2)},
+                               {"part", rounded(100.0 * most.damage.value / life.damage.value, 2)},
+                               {"stressed", rounded(life.worst_frequency, 3)},
+                               {"value", megapascal(life.stress.value)},
+                               {"lowest", megapascal(life.stress.lowest)},
+                               {"highest", megapascal(life.stress.highest)}});
+    if (&most == &life.by_speed.front()) answer.answer += page_text("worst at the edge");
+  });
+}
+
+/// What one end takes of the waves, at the least and at the most.
+std::string taken_text(const Case& the_case, const SpanEnd& end, const std::string& name,
+                       const Axis& axis) {
+  if (end.devices.empty()) return page_text("end without device", {{"end", name}});
+  struct Share {
+    double share, frequency;
+  };
+  const TautString<double> string = string_of(the_case);
+  Share least{2.0, 0.0}, most{-1e9, 0.0};
+  for (std::int64_t k = 0; k < axis.count; ++k) {
+    const auto response = end_response(string, end, 2.0 * pi<double> * axis.at(k));
+    const double share = response.absorbed_fraction();
+    if (share < least.share) least = {share, axis.at(k)};
+    if (share > most.share) most = {share, axis.at(k)};
+  }
+  return page_text("taken by an end", {{"end", name},
+                                       {"least", rounded(100.0 * least.share, 2)},
+                                       {"least frequency", rounded(least.frequency, 3)},
+                                       {"most", rounded(100.0 * most.share, 3)},
+                                       {"most frequency", rounded(most.frequency, 3)}});
+}
+
+Answer what_devices_take(const Case& the_case, const Axis& axis) {
+  const auto devices = span_devices_of(the_case);
+  const auto ends = span_ends(devices, the_case.conductor.span);
+  const Values values = {{"frequencies", frequencies_text(axis)},
+                         {"end", ends[0].devices.empty() ? "right" : "left"}};
+  return answered(question_of("taken", values), [&](Answer& answer) {
+    if (ends[0].devices.empty() && ends[1].devices.empty())
+      answer.answer = page_text("no device");
+    else
+      answer.answer = taken_text(the_case, ends[0], "left", axis) + " " +
+                      taken_text(the_case, ends[1], "right", axis);
+  });
+}
+
+Answer how_modes_are_damped(const Case& the_case) {
+  constexpr int count = 20;
+  const Values values = {{"count", std::to_string(count)}};
+  return answered(question_of("modes", values), [&](Answer& answer) {
+    Case on_string = the_case;
+    on_string.plant.model = "string";
+    const auto modes = mode_rows_of(on_string, count, true);
+    const auto ascending = [](const ModeRow& one, const ModeRow& other) {
+      return one.damping() < other.damping();
+    };
+    const auto [least, most] = std::minmax_element(modes.begin(), modes.end(), ascending);
+    const auto number = [&](auto mode) { return std::to_string(mode - modes.begin() + 1); };
+    answer.answer = page_text("modes damped", {{"count", std::to_string(modes.size())},
+                                               {"least", rounded(100.0 * least->damping(), 2)},
+                                               {"least mode", number(least)},
+                                               {"least frequency", rounded(least->frequency, 3)},
+                                               {"most", rounded(100.0 * most->damping(), 2)},
+                                               {"most mode", number(most)},
+                                               {"most frequency", rounded(most->frequency, 3)},
+                                               {"bare", rounded(100.0 * least->bare, 2)}});
+  });
+}
+
+Answer is_loop_stable(const Case& the_case) {
+  return answered(question_of("loop"), [&](Answer& answer) {
+    if (!has_active_absorber(the_case)) {
+      answer.answer = page_text("no loop");
+      return;
+    }
+    const std::string note = instability_note(the_case, true);
+    answer.answer = note.empty() ? page_text("stable loop") : page_text("loop", {{"note", note}});
+  });
+}
+
+}  // namespace
+
+std::vector<Answer> span_answers(const JobContext& context) {
+  const Case& the_case = context.case_data;
+  const Axis axis = vibration_frequencies(the_case);
+  const std::string frequencies = frequencies_text(axis);
+  const Values range = {{"range", frequencies.substr(0, frequencies.rfind(':'))}};
+  std::vector<Answer> answers = {
+      what_vibrates(the_case, axis, false),     what_vibrates(the_case, axis, true),
+      how_long_it_lives(the_case, axis, range), which_frequency(the_case, axis, range),
+      what_devices_take(the_case, axis),        how_modes_are_damped(the_case)};
+  answers.push_back(is_loop_stable(the_case));
+  return answers;
+}
+
+}  // namespace holdfast::program

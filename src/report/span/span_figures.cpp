@@ -1,0 +1,75 @@
+#include "report/span/span_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/device/impedance_table.hpp"
+#include "case/model/modal/conductor_modes.hpp"
+#include "case/model/span/span_of_case.hpp"
+#include "holdfast/span/end_response.hpp"
+#include "io/text/text.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// To so many digits, for a command line.
+double with_digits(double value, double digits) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
+  return std::round(value / unit) * unit;
+}
+
+/// As many modes as vibrate in the wind, twenty at least, and no more than are soon found.
+std::int64_t modes_shown(const Case& the_case, const Axis& frequencies) {
+  const TautString<double> string = string_of(the_case);
+  const double lowest = string.wave_speed() / (2.0 * string.span);
+  return static_cast<std::int64_t>(std::clamp(std::ceil(frequencies.max / lowest), 20.0, 200.0));
+}
+
+}  // namespace
+
+Axis vibration_frequencies(const Case& the_case) {
+  constexpr double calmest = 1.0, strongest = 8.0;  // m/s
+  constexpr std::int64_t count = 200;
+  const double diameter = the_case.conductor.diameter;
+  Axis axis{3.0, 150.0, count};
+  if (std::isfinite(diameter)) {
+    const double per_speed = strouhal_of(the_case) / diameter;
+    axis = {with_digits(calmest * per_speed, 2.0), with_digits(strongest * per_speed, 2.0), count};
+  }
+  for (const case_tables::Device& device : the_case.devices) {
+    if (!device.table) continue;
+    axis.min = std::max(axis.min, device.table->frequency_Hz.front());
+    axis.max = std::min(axis.max, device.table->frequency_Hz.back());
+  }
+  return axis;
+}
+
+std::string frequencies_text(const Axis& axis) {
+  return format_rounded(axis.min) + ":" + format_rounded(axis.max) + ":" +
+         std::to_string(axis.count);
+}
+
+Values span_values(const Case& the_case) {
+  return {{"diameter", format_number(the_case.conductor.diameter)}};
+}
+
+std::vector<Figure> span_figures(const Case& the_case) {
+  const Axis axis = vibration_frequencies(the_case);
+  const std::string range = format_rounded(axis.min) + ":" + format_rounded(axis.max);
+  const Values values =
+      joined(span_values(the_case), {{"frequencies", frequencies_text(axis)},
+                                     {"frequency range", range},
+                                     {"modes", std::to_string(modes_shown(the_case, axis))}});
+  std::vector<Figure> figures = listed_figures("span vibration", values);
+  const auto devices = span_devices_of(the_case);
+  const auto ends = span_ends(devices, the_case.conductor.span);
+  if (!ends[0].devices.empty())
+    figures = joined(std::move(figures), listed_figures("span left end", values));
+  if (!ends[1].devices.empty())
+    figures = joined(std::move(figures), listed_figures("span right end", values));
+  if (ends[0].devices.empty() && ends[1].devices.empty())
+    figures = joined(std::move(figures), listed_figures("span without devices", values));
+  return joined(std::move(figures), listed_figures("span life", values));
+}
+
+}  // namespace holdfast::program
