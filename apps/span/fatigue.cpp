@@ -8,7 +8,7 @@ namespace holdfast::program {
 namespace {
 
 struct FatigueQuestion {
-  std::string frequency = "3:150";
+  std::optional<std::string> frequency;
   bool no_control = false;
   bool by_speed = false;
 
@@ -20,16 +20,23 @@ struct FatigueQuestion {
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    const Range range = parse_range("--frequency", frequency);
+    const Range range = counted(the_case);
     require_measured(the_case, range.min, range.max);
     report_warning(absent_absorber_note(the_case), context.quiet);
     const FatigueLife life = fatigue_life_of(the_case, !no_control, range.min, range.max);
+    report_warning(life_line_note(the_case), context.quiet);
     report_warning(life_advice(life, the_case.site.years), context.quiet);
     report_warning(instability_note(the_case, !no_control), context.quiet);
     by_speed ? write_speeds(context, life) : write_life(context, life);
   }
 
  private:
+  Range counted(const Case& the_case) const {
+    if (frequency) return parse_range("--frequency", *frequency);
+    const Axis usual = aeolian_frequencies(the_case);
+    return {usual.min, usual.max};
+  }
+
   static void write_life(const JobContext& context, const FatigueLife& life) {
     Table table(context, columns_of("fatigue"));
     const auto row = [&](const char* quantity, const Band& band, const char* unit) {

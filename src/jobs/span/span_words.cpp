@@ -1,6 +1,10 @@
 #include "jobs/span/span_words.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "case/axes/axis.hpp"
+#include "case/device/impedance_table.hpp"
 #include "case/library/conductor_library.hpp"
 #include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
@@ -8,6 +12,33 @@
 #include "process/errors.hpp"
 
 namespace holdfast::program {
+
+namespace {
+
+/// To so many digits, for a command line.
+double with_digits(double value, double digits) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
+  return std::round(value / unit) * unit;
+}
+
+}  // namespace
+
+Axis aeolian_frequencies(const Case& the_case) {
+  constexpr double calmest = 1.0, strongest = 8.0;  // m/s
+  constexpr std::int64_t count = 200;
+  const double diameter = the_case.conductor.diameter;
+  Axis axis{3.0, 150.0, count};
+  if (std::isfinite(diameter)) {
+    const double per_speed = strouhal_of(the_case) / diameter;
+    axis = {with_digits(calmest * per_speed, 2.0), with_digits(strongest * per_speed, 2.0), count};
+  }
+  for (const case_tables::Device& device : the_case.devices) {
+    if (!device.table) continue;
+    axis.min = std::max(axis.min, device.table->frequency_Hz.front());
+    axis.max = std::min(axis.max, device.table->frequency_Hz.back());
+  }
+  return axis;
+}
 
 Axis parse_frequencies(std::string_view option, std::string_view text) {
   const Axis axis = parse_axis(option, text);
@@ -37,8 +68,8 @@ std::string instability_note(const Case& the_case, bool controlled) {
 std::string life_line_note(const Case& the_case) {
   const LibraryConductor* conductor = find_conductor(the_case.conductor.name);
   if (conductor == nullptr || conductor->kind == "ACSR") return "";
-  return "the safe border line is of steel-cored aluminium (ACSR), and " + conductor->name + " is " +
-         conductor->kind +
+  return "the safe border line is of steel-cored aluminium (ACSR), and " + conductor->name +
+         " is " + conductor->kind +
          ": conductors of alloy alone broke at 0.4 to 1.5 of its cycles in published tests, other "
          "strands are not in it";
 }

@@ -10,6 +10,10 @@
 
 namespace holdfast::program {
 
+/// The frequencies (Hz) at which a span vibrates in the wind: of winds of 1 to 8 m/s, or those of
+/// the jobs where the diameter is not known, and of them those at which its devices were measured.
+Axis aeolian_frequencies(const Case& the_case);
+
 /// The frequencies of an option, MIN:MAX:COUNT. Throws WrongInput where one is not above 0.
 Axis parse_frequencies(std::string_view option, std::string_view text);
 

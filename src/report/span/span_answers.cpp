@@ -232,7 +232,7 @@ Answer is_loop_stable(const Case& the_case) {
 
 std::vector<Answer> span_answers(const JobContext& context) {
   const Case& the_case = context.case_data;
-  const Axis axis = vibration_frequencies(the_case);
+  const Axis axis = aeolian_frequencies(the_case);
   const std::string frequencies = frequencies_text(axis);
   const Values range = {{"range", frequencies.substr(0, frequencies.rfind(':'))}};
   std::vector<Answer> answers = {

@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/device/impedance_table.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/span/end_response.hpp"
 #include "io/text/text.hpp"
+#include "jobs/span/span_words.hpp"
 
 namespace holdfast::program {
 namespace {
-
-/// To so many digits, for a command line.
-double with_digits(double value, double digits) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
-  return std::round(value / unit) * unit;
-}
 
 /// As many modes as vibrate in the wind, twenty at least, and no more than are soon found.
 std::int64_t modes_shown(const Case& the_case, const Axis& frequencies) {
@@ -26,23 +20,6 @@ std::int64_t modes_shown(const Case& the_case, const Axis& frequencies) {
 }
 
 }  // namespace
-
-Axis vibration_frequencies(const Case& the_case) {
-  constexpr double calmest = 1.0, strongest = 8.0;  // m/s
-  constexpr std::int64_t count = 200;
-  const double diameter = the_case.conductor.diameter;
-  Axis axis{3.0, 150.0, count};
-  if (std::isfinite(diameter)) {
-    const double per_speed = strouhal_of(the_case) / diameter;
-    axis = {with_digits(calmest * per_speed, 2.0), with_digits(strongest * per_speed, 2.0), count};
-  }
-  for (const case_tables::Device& device : the_case.devices) {
-    if (!device.table) continue;
-    axis.min = std::max(axis.min, device.table->frequency_Hz.front());
-    axis.max = std::min(axis.max, device.table->frequency_Hz.back());
-  }
-  return axis;
-}
 
 std::string frequencies_text(const Axis& axis) {
   return format_rounded(axis.min) + ":" + format_rounded(axis.max) + ":" +
@@ -54,7 +31,7 @@ Values span_values(const Case& the_case) {
 }
 
 std::vector<Figure> span_figures(const Case& the_case) {
-  const Axis axis = vibration_frequencies(the_case);
+  const Axis axis = aeolian_frequencies(the_case);
   const std::string range = format_rounded(axis.min) + ":" + format_rounded(axis.max);
   const Values values =
       joined(span_values(the_case), {{"frequencies", frequencies_text(axis)},

@@ -9,10 +9,6 @@
 
 namespace holdfast::program {
 
-/// The frequencies (Hz) at which a span vibrates in the wind: of winds of 1 to 8 m/s, or those of
-/// the jobs where the diameter is not known, and of them those at which its devices were measured.
-Axis vibration_frequencies(const Case& the_case);
-
 /// The same as the jobs read it: MIN:MAX:COUNT.
 std::string frequencies_text(const Axis& axis);
 

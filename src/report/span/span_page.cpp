@@ -6,6 +6,7 @@
 #include "case/case_file.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "io/file/output.hpp"
+#include "jobs/span/span_words.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
 #include "report/figures/figure_writer.hpp"
@@ -26,7 +27,7 @@ std::string title_of(const JobContext& context) {
 }
 
 std::string introduction_of(const Case& the_case) {
-  const Axis axis = vibration_frequencies(the_case);
+  const Axis axis = aeolian_frequencies(the_case);
   const double diameter = the_case.conductor.diameter;
   std::string speeds;
   if (std::isfinite(diameter))
