@@ -3,6 +3,7 @@
 /// Spans of lines and stays with their dampers: waves, damping, wind, bending and life.
 
 #include "holdfast/span/device/active_absorber.hpp"
+#include "holdfast/span/device/dynamic_stiffness.hpp"
 #include "holdfast/span/device/lumped_device.hpp"
 #include "holdfast/span/device/measured_impedance.hpp"
 #include "holdfast/span/device/span_device.hpp"
@@ -10,6 +11,7 @@
 #include "holdfast/span/life/clamp_bending.hpp"
 #include "holdfast/span/life/miner_damage.hpp"
 #include "holdfast/span/life/safe_border_line.hpp"
+#include "holdfast/span/modes_at_places.hpp"
 #include "holdfast/span/perfect_absorption.hpp"
 #include "holdfast/span/span_poles.hpp"
 #include "holdfast/span/span_roots.hpp"

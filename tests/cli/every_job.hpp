@@ -60,9 +60,9 @@ inline const std::vector<JobToTry> jobs_with_table = {
     {"sweep --axis backlash.width=0:0.003:3 --duration 1",
      "sweep --axis backlash.width=0:0.003:3000 --axis initial.z1=0:0.001:3000"},
     {"absorption --frequency 5:20:4" + line_with_dashpot,
-     "absorption --yes --frequency 3:150:100000000" + line_with_dashpot},
+     "absorption --quiet --yes --frequency 3:150:100000000" + line_with_dashpot},
     {"aeolian --frequency 5:20:4" + line_with_dashpot,
-     "aeolian --yes --frequency 3:150:10000000" + line_with_dashpot},
+     "aeolian --quiet --yes --frequency 3:150:10000000" + line_with_dashpot},
     {"fatigue" + line_with_dashpot, ""},
     {"place --quiet --for damping --frequency 5:10:3 --set device.1.kind=dashpot"
      " --set device.1.position=0.5 --set device.1.damping=1",

@@ -133,6 +133,17 @@ TEST(SpanPoles, OfManyModesAreTheRootsOfTheString) {
   }
 }
 
+// Bundles of two places at one frequency begin at the same pole, and two were followed to one.
+TEST(SpanPoles, AreToldApartWhereTwoBundlesBeginTogether) {
+  TautString<double> string = drake_string();
+  auto modes = string_modes_at(string, {1.5, 0.9}, 300, 1e5);
+  for (ModeAtPlaces& mode : modes) mode.damping_ratio = std::hypot(mode.damping_ratio, 5e-4);
+  SpanPoles span(modes);
+  span.attach(damper(), 1);
+  const auto poles = span.attach({5.0, 500.0, 20.0, 0.3}, 0);
+  ASSERT_EQ(poles.size(), 2 * (modes.size() + 3));
+}
+
 TEST(SpanPoles, RefuseWhatIsNoSpan) {
   EXPECT_THROW(SpanPoles({}), InvalidParameter);
   SpanPoles span(string_modes_at(damped_drake(20.0), {1.5}, 5, 0.0));

@@ -8,71 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "holdfast/cable/taut_string.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/span/device/dynamic_stiffness.hpp"
 #include "holdfast/span/device/lumped_device.hpp"
+#include "holdfast/span/modes_at_places.hpp"
 
 namespace holdfast {
-
-/// A mode of a conductor as several places see it.
-struct ModeAtPlaces {
-  double angular_frequency;    ///< ω_n (rad/s), > 0
-  double damping_ratio;        ///< ζ_n, ≥ 0, ≠ 1
-  double mass;                 ///< M_n (kg), > 0
-  std::vector<double> shapes;  ///< φ_n at each place
-};
-
-/// What a device presses back with for a displacement, K = s Z (N/m), and how K changes with s.
-struct DynamicStiffness {
-  std::complex<double> value;  ///< K
-  std::complex<double> slope;  ///< dK/ds
-};
-
-/// K and dK/ds of a device of masses, springs, dashpots and inerters, at s.
-inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
-                                          const std::complex<double>& s) {
-  DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
-  for (const DeviceBranch& branch : device.branches) {
-    const std::complex<double> link =
-        (branch.inertance * s + branch.damping) * s + branch.stiffness;
-    const std::complex<double> link_slope = 2.0 * branch.inertance * s + branch.damping;
-    if (!std::isfinite(branch.mass)) {
-      sum.value += link;
-      sum.slope += link_slope;
-      continue;
-    }
-    // 1/(1/q + 1/p) with p = m s².
-    const std::complex<double> inertia = branch.mass * s * s, both = link + inertia;
-    sum.value += link * inertia / both;
-    sum.slope +=
-        (link_slope * inertia * inertia + 2.0 * branch.mass * s * link * link) / (both * both);
-  }
-  return sum;
-}
-
-/// The natural motions of a device on a clamp that stands still (1/s), of each pair one.
-inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
-  std::vector<std::complex<double>> motions;
-  for (const DeviceBranch& branch : device.branches) {
-    if (!std::isfinite(branch.mass)) continue;
-    const double mass = branch.mass + branch.inertance, decay = branch.damping / (2.0 * mass);
-    const double square = decay * decay - branch.stiffness / mass;
-    if (square < 0.0) {
-      motions.emplace_back(-decay, std::sqrt(-square));
-      continue;
-    }
-    const double larger = decay + std::sqrt(square);
-    if (larger > 0.0) motions.emplace_back(-larger, 0.0);
-    // Of a weight on a dashpot alone nothing brings it back.
-    if (larger > 0.0 && branch.stiffness != 0.0)
-      motions.emplace_back(-branch.stiffness / mass / larger, 0.0);
-  }
-  return motions;
-}
 
 /// The natural motions of a conductor to which one device after the other is attached, as all its
 /// places see them:
@@ -198,21 +143,29 @@ class SpanPoles {
       for (std::size_t l = 0; l < row.size(); ++l) mobility_[i][l] -= share * row[i] * row[l];
   }
 
+  /// Where a motion is with a new device, and where it began without.
+  struct Followed {
+    Complex begin, s;
+    bool is_pair;
+    std::optional<Pole> weak;  // of one that hardly moves
+  };
+
   template <class Stiffness>
   void attach(const Stiffness& stiffness, const std::vector<Complex>& own, std::size_t place) {
-    const auto loop_gain = [&](const Complex& s) {
-      return -receptance(place, place, s) * stiffness(s).value;
-    };
-    std::vector<Pole> found;
+    std::vector<Followed> found;
     for (const Pole& pole : poles_) {
-      if (auto moved = weakly_moved(pole, stiffness, place)) {
-        found.push_back(std::move(*moved));
-        continue;
-      }
-      follow(found, loop_gain, stiffness, pole.s, pole.is_pair, place);
+      auto weak = weakly_moved(pole, stiffness, place);
+      if (weak)
+        found.push_back({pole.s, weak->s, pole.is_pair, std::move(weak)});
+      else
+        follow(found, stiffness, pole.s, pole.is_pair, place);
     }
-    for (const Complex& s : own) follow(found, loop_gain, stiffness, s, s.imag() != 0.0, place);
-    poles_ = std::move(found);
+    for (const Complex& s : own) follow(found, stiffness, s, s.imag() != 0.0, place);
+    separate(found, own, stiffness, place);
+    std::vector<Pole> poles;
+    for (Followed& one : found)
+      poles.push_back(one.weak ? std::move(*one.weak) : at(one.s, one.is_pair, stiffness, place));
+    poles_ = std::move(poles);
   }
 
   /// A pole that the device hardly moves, by its residue alone.
@@ -238,15 +191,75 @@ class SpanPoles {
   }
 
   /// Adds the motion that begins at s; of a pair that meets on the real axis the other one too.
-  template <class LoopGain, class Stiffness>
-  void follow(std::vector<Pole>& found, const LoopGain& loop_gain, const Stiffness& stiffness,
-              const Complex& begin, bool is_pair, std::size_t place) const {
+  template <class Stiffness>
+  void follow(std::vector<Followed>& found, const Stiffness& stiffness, const Complex& begin,
+              bool is_pair, std::size_t place) const {
+    const auto loop_gain = [&](const Complex& s) {
+      return -receptance(place, place, s) * stiffness(s).value;
+    };
     const Complex s = polished(root_from_pole(loop_gain, begin), stiffness, place);
     const bool stays = std::abs(s.imag()) > 1e-9 * std::abs(s);
-    found.push_back(at(s, stays, stiffness, place));
+    found.push_back({begin, stays ? upper(s) : s, stays, std::nullopt});
     if (!is_pair || stays) return;
     const Complex other = polished(root_from_pole(loop_gain, std::conj(begin)), stiffness, place);
-    found.push_back(at(other, false, stiffness, place));
+    found.push_back({std::conj(begin), other, false, std::nullopt});
+  }
+
+  /// Of a pair the one that stands for it.
+  static Complex upper(const Complex& s) { return s.imag() < 0.0 ? std::conj(s) : s; }
+
+  /// Σ 1/(s − s_k) over motions, pairs counted twice.
+  template <class Motions>
+  static Complex pull(const Motions& motions, const Complex& s, std::size_t but) {
+    Complex sum(0.0);
+    for (std::size_t j = 0; j < motions.size(); ++j) {
+      if (j != but) sum += 1.0 / (s - motions[j].s);
+      if (motions[j].is_pair) sum += 1.0 / (s - std::conj(motions[j].s));
+    }
+    return sum;
+  }
+
+  /// Those that came to one motion or to none: each that is not apart from one before it begins
+  /// anew, and goes by Newton's steps for what is left of the polynomial of all motions when the
+  /// others are divided out (Ehrlich 1967, Aberth 1973).
+  template <class Stiffness>
+  void separate(std::vector<Followed>& found, const std::vector<Complex>& own,
+                const Stiffness& stiffness, std::size_t place) const {
+    struct Own {
+      Complex s;
+      bool is_pair;
+    };
+    std::vector<Own> device;
+    for (const Complex& s : own) device.push_back({s, s.imag() != 0.0});
+    const auto all = [&](const Complex& s) {
+      const DynamicStiffness k = stiffness(s);
+      const Complex h = receptance(place, place, s);
+      return (slope(place, s) * k.value + h * k.slope) / (1.0 + h * k.value) +
+             pull(poles_, s, poles_.size()) + pull(device, s, device.size());
+    };
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (found[k].weak || is_apart(found, k)) continue;
+      Complex s = 1.001 * found[k].begin;
+      for (int turn = 0; turn < 100; ++turn) {
+        const Complex step = 1.0 / (all(s) - pull(found, s, k));
+        const double share = std::abs(step) / std::abs(s);
+        if (!std::isfinite(share)) break;
+        s -= step * std::min(1.0, 0.1 / share);
+        if (share < 1e-9) break;
+      }
+      const bool is_pair = std::abs(s.imag()) > 1e-9 * std::abs(s);
+      found[k].s = polished(is_pair ? upper(s) : s, stiffness, place);
+      found[k].is_pair = is_pair;
+    }
+  }
+
+  /// Whether the k-th is known, and no one before it.
+  static bool is_apart(const std::vector<Followed>& found, std::size_t k) {
+    constexpr double same = 1e-7;
+    if (!std::isfinite(std::abs(found[k].s))) return false;
+    for (std::size_t j = 0; j < k; ++j)
+      if (std::abs(found[k].s - found[j].s) < same * std::abs(found[k].s)) return false;
+    return true;
   }
 
   /// By Newton on 1/H + K.
@@ -280,30 +293,5 @@ class SpanPoles {
   std::vector<Pole> poles_;
   std::vector<std::vector<double>> mobility_;  // Σ φ_i φ_l/M with what was clamped
 };
-
-/// The modes of a taut string as several places see them: the sines 1 … count, and what is above
-/// them in bundles (`bundled_string_modes`) that each place has for itself, since waves so short
-/// are damped out between two places.
-/// @param string   any
-/// @param places   m from the left support, inside the span
-/// @param count    sines, 1 … 10⁴
-/// @param highest  ω (rad/s) up to which bundles are formed
-/// @throws InvalidParameter as `bundled_string_modes`
-inline std::vector<ModeAtPlaces> string_modes_at(const TautString<double>& string,
-                                                 const std::vector<double>& places, int count,
-                                                 double highest) {
-  std::vector<ModeAtPlaces> modes;
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    const auto seen = bundled_string_modes(string, places[j], count, highest);
-    for (std::size_t n = 0; n < seen.size(); ++n) {
-      const bool is_sine = n < static_cast<std::size_t>(count);
-      if (!is_sine || j == 0)
-        modes.push_back({seen[n].angular_frequency, seen[n].damping_ratio, seen[n].mass,
-                         std::vector<double>(places.size(), 0.0)});
-      (is_sine ? modes[n] : modes.back()).shapes[j] = seen[n].shape;
-    }
-  }
-  return modes;
-}
 
 }  // namespace holdfast

@@ -180,8 +180,11 @@ CaseFault impossible_fault(const Case& the_case) {
 std::vector<PlausibleQuantity> in_question(const Case& the_case,
                                            const std::vector<PlausibleQuantity>& quantities) {
   const bool has_masses = is_two_masses(the_case), has_absorber = has_active_absorber(the_case);
+  // The mass that a reduction would hang on the conductor is not the one that hangs there.
+  const bool is_given = the_case.places.count("plant.absorber_mass") > 0;
   const auto is_out = [&](const std::string& key) {
-    return (!has_masses && key.rfind("plant.conductor", 0) == 0) ||
+    return (!has_masses && is_given && key == "absorber.mass") ||
+           (!has_masses && key.rfind("plant.conductor", 0) == 0) ||
            (!has_absorber && key.find("absorber") != std::string::npos);
   };
   std::vector<PlausibleQuantity> kept;

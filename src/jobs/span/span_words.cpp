@@ -74,10 +74,16 @@ std::string life_line_note(const Case& the_case) {
          "strands are not in it";
 }
 
+std::string years_text(double years) {
+  constexpr double many = 1000.0;
+  return years > many ? "more than 1000" : format_rounded(with_digits(years, 2.0));
+}
+
 std::string life_advice(const FatigueLife& life, double years) {
   const Band served = years_of(life.damage);
   const std::string asked = format_rounded(years) + " years";
-  const std::string band = format_rounded(served.lowest) + " to " + format_rounded(served.highest);
+  const std::string shortest = years_text(served.lowest), longest = years_text(served.highest);
+  const std::string band = shortest == longest ? shortest : shortest + " to " + longest;
   if (served.lowest >= years)
     return "by every pair of laws the conductor lives longer than the " + asked +
            " that are asked for (" + band + " years)";

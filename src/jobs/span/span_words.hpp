@@ -28,6 +28,9 @@ std::string instability_note(const Case& the_case, bool controlled);
 /// nobody knows.
 std::string life_line_note(const Case& the_case);
 
+/// A life (years) for a sentence; of thousands nobody knows more than that.
+std::string years_text(double years);
+
 /// What a designer should do about a life, in one honest sentence.
 std::string life_advice(const FatigueLife& life, double years);
 

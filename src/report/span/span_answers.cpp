@@ -119,8 +119,6 @@ Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
   });
 }
 
-std::string years_text(double years) { return rounded(years, 2); }
-
 Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& values) {
   return answered(question_of("life", values), [&](Answer& answer) {
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);

@@ -32,7 +32,7 @@ TEST(WrongInput, OptionsAreNamedWithWhatWasExpected) {
   expect_refused("stability --axis control.sampling_period=0.001:0.01:2", {"two axes"});
   expect_refused("stability --axis backlash.width=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",
                  {"does not depend on backlash.width"});
-  expect_refused("stability --axis plant.absorber_mass=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",
+  expect_refused("stability --axis plant.conductor_mass=0:1:2 --axis plant.absorber_mass=0.1:0.2:3",
                  {"greater than 0"});
   expect_refused("stability --axis control.processing_delay=0:1:2 --axis plant.absorber_mass=1:2:3",
                  {"processing delay"});

@@ -89,7 +89,8 @@ TEST(SpanReport, ItsAnswersHaveTheNumbersOfItsTables) {
   const std::string page = page_of(report);
   const auto year = program::read_csv(report / "data/damage-year.csv");
   const auto years = [&](const std::string& quantity, const std::string& column) {
-    return program::rounded(year.number(row_of(year, quantity), column), 2);
+    const double value = year.number(row_of(year, quantity), column);
+    return value > 1000.0 ? "more than 1000" : program::rounded(value, 2);
   };
   expect_holds(page, {years("life", "value") + " years, by the laws from " +
                           years("life", "lowest") + " to " + years("life", "highest"),

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "holdfast/span/device/lumped_device.hpp"
+
+namespace holdfast {
+
+/// What a device presses back with for a displacement, K = s Z (N/m), and how K changes with s.
+struct DynamicStiffness {
+  std::complex<double> value;  ///< K
+  std::complex<double> slope;  ///< dK/ds
+};
+
+/// K and dK/ds of a device of masses, springs, dashpots and inerters, at s.
+inline DynamicStiffness dynamic_stiffness(const LumpedDevice& device,
+                                          const std::complex<double>& s) {
+  DynamicStiffness sum{device.clamp_mass * s * s, 2.0 * device.clamp_mass * s};
+  for (const DeviceBranch& branch : device.branches) {
+    const std::complex<double> link =
+        (branch.inertance * s + branch.damping) * s + branch.stiffness;
+    const std::complex<double> link_slope = 2.0 * branch.inertance * s + branch.damping;
+    if (!std::isfinite(branch.mass)) {
+      sum.value += link;
+      sum.slope += link_slope;
+      continue;
+    }
+    // 1/(1/q + 1/p) with p = m s².
+    const std::complex<double> inertia = branch.mass * s * s, both = link + inertia;
+    sum.value += link * inertia / both;
+    sum.slope +=
+        (link_slope * inertia * inertia + 2.0 * branch.mass * s * link * link) / (both * both);
+  }
+  return sum;
+}
+
+/// The natural motions of a device on a clamp that stands still (1/s), of each pair one.
+inline std::vector<std::complex<double>> own_motions(const LumpedDevice& device) {
+  std::vector<std::complex<double>> motions;
+  for (const DeviceBranch& branch : device.branches) {
+    if (!std::isfinite(branch.mass)) continue;
+    const double mass = branch.mass + branch.inertance, decay = branch.damping / (2.0 * mass);
+    const double square = decay * decay - branch.stiffness / mass;
+    if (square < 0.0) {
+      motions.emplace_back(-decay, std::sqrt(-square));
+      continue;
+    }
+    const double larger = decay + std::sqrt(square);
+    if (larger > 0.0) motions.emplace_back(-larger, 0.0);
+    // Of a weight on a dashpot alone nothing brings it back.
+    if (larger > 0.0 && branch.stiffness != 0.0)
+      motions.emplace_back(-branch.stiffness / mass / larger, 0.0);
+  }
+  return motions;
+}
+
+}  // namespace holdfast
