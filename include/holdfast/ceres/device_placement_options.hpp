@@ -11,7 +11,8 @@ namespace holdfast::placement {
 
 /// One number of a device that may be moved: its place, a damping, a gain.
 struct MovableValue {
-  double lower, upper;  ///< finite, lower < upper; both > 0 with `by_ratio`
+  double lower;  ///< finite, > 0 with `by_ratio`
+  double upper;  ///< finite, above the lower one
   /// Where it stands now, lower … upper; NaN: nowhere that counts
   double present = std::numeric_limits<double>::quiet_NaN();
   bool by_ratio = false;  ///< whether it is searched by its logarithm

@@ -41,8 +41,8 @@ struct EndResponse {
 
 /// An end of a span: the distances of its devices from the support, ascending, and the devices.
 struct SpanEnd {
-  std::vector<double> distances;  ///< m, > 0
-  std::vector<const SpanDevice*> devices;
+  std::vector<double> distances;           ///< m, > 0
+  std::vector<const SpanDevice*> devices;  ///< at these
 };
 
 /// The devices nearer to the left support, and to the right one. They must outlive what is

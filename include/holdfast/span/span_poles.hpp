@@ -49,7 +49,8 @@ class SpanPoles {
   }
 
   /// Attaches a device.
-  /// @param place  its index
+  /// @param device  any
+  /// @param place   index of its place
   /// @throws InvalidParameter where the device is not admissible
   void attach(const LumpedDevice& device, std::size_t place) {
     validate(device);

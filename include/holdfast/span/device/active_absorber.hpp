@@ -19,7 +19,8 @@ struct ActiveAbsorber {
 };
 
 /// Z(s) of `absorber_impedance` (N s/m).
-/// @param s  1/s, ≠ 0
+/// @param device  (unchecked)
+/// @param s       1/s, ≠ 0
 inline std::complex<double> impedance(const ActiveAbsorber& device, const std::complex<double>& s) {
   return absorber_impedance(device.absorber, device.sampling, device.gains, device.hardware, s);
 }

@@ -22,7 +22,8 @@ struct DeviceBranch {
 
 /// Z(s) of a branch, force over velocity of the conductor (N s/m): 1/Z = 1/(b s + c + k/s) +
 /// 1/(m s).
-/// @param s  1/s, ≠ 0
+/// @param branch  (unchecked)
+/// @param s       1/s, ≠ 0
 inline std::complex<double> impedance(const DeviceBranch& branch, const std::complex<double>& s) {
   const std::complex<double> link = branch.inertance * s + branch.damping + branch.stiffness / s;
   if (!std::isfinite(branch.mass)) return link;
@@ -35,12 +36,13 @@ inline std::complex<double> impedance(const DeviceBranch& branch, const std::com
 ///
 ///     Z(s) = M_c s + Σ 1/(1/(b s + c + k/s) + 1/(m s))
 struct LumpedDevice {
-  std::vector<DeviceBranch> branches;
-  double clamp_mass = 0.0;  ///< M_c (kg), ≥ 0
+  std::vector<DeviceBranch> branches;  ///< side by side
+  double clamp_mass = 0.0;             ///< M_c (kg), ≥ 0
 };
 
 /// Z(s) of the device (N s/m).
-/// @param s  1/s, ≠ 0
+/// @param device  (unchecked)
+/// @param s       1/s, ≠ 0
 inline std::complex<double> impedance(const LumpedDevice& device, const std::complex<double>& s) {
   std::complex<double> sum = device.clamp_mass * s;
   for (const DeviceBranch& branch : device.branches) sum += impedance(branch, s);

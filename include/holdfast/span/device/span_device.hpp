@@ -15,7 +15,7 @@ namespace holdfast {
 /// A device clamped on a span.
 struct SpanDevice {
   double position;  ///< m from the left support, inside the span
-  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;
+  std::variant<LumpedDevice, MeasuredImpedance, ActiveAbsorber> device;  ///< what it is
 
   /// Z(s), force over velocity of the conductor (N s/m).
   /// @param s  1/s, ≠ 0

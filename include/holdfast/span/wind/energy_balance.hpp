@@ -15,8 +15,8 @@ enum class BalanceRange {
 
 /// The amplitude at which a wind gives a conductor what it loses.
 struct BalancedAmplitude {
-  double amplitude;  ///< y (m), half the peak-to-peak, at the antinodes
-  BalanceRange range;
+  double amplitude;    ///< y (m), half the peak-to-peak, at the antinodes
+  BalanceRange range;  ///< whether that is it, or a bound
 };
 
 /// The amplitude of aeolian vibration at one frequency by the energy balance: the largest one at

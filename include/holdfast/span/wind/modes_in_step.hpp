@@ -27,7 +27,7 @@ class ModesInStep {
         omega_(frequencies),
         step_(step) {}
 
-  const Column& frequencies() const { return omega_; }
+  const Column& frequencies() const { return omega_; }  ///< ω (rad/s)
 
   /// η² + (η̇/ω)², the square of each mode's present amplitude.
   Column squared_amplitudes() const { return position.square() + (velocity / omega_).square(); }
@@ -70,13 +70,16 @@ class AmplitudeRecord {
   using Column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;                ///< a number a mode
   using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;  ///< modes by modes
 
+  /// @param modes    how many
   /// @param samples  of all windows, ≥ windows
+  /// @param windows  ≥ 1
   AmplitudeRecord(Eigen::Index modes, long samples, int windows)
       : samples_(samples),
         sums_(static_cast<std::size_t>(windows), Square::Zero(modes, modes)),
         counts_(static_cast<std::size_t>(windows), 0),
         velocities_(Column::Zero(modes)) {}
 
+  /// Takes the modes as they are now.
   void add(const ModesInStep<Scalar>& motion) {
     const auto window =
         static_cast<std::size_t>(seen_++ * static_cast<long>(sums_.size()) / samples_);
@@ -101,10 +104,10 @@ class AmplitudeRecord {
     turn_ = std::sqrt(static_cast<double>(velocities_[mode_] / total(mode_, mode_)));
   }
 
-  double antinode() const { return antinode_; }  ///< x/L
-  double amplitude() const { return std::sqrt(2.0 * mean_square_); }
-  int mode() const { return static_cast<int>(mode_) + 1; }  ///< that moves most
-  double angular_frequency() const { return turn_; }        ///< of that mode, rms velocity over rms
+  double antinode() const { return antinode_; }                       ///< x/L
+  double amplitude() const { return std::sqrt(2.0 * mean_square_); }  ///< √2 times the rms there
+  int mode() const { return static_cast<int>(mode_) + 1; }            ///< that moves most
+  double angular_frequency() const { return turn_; }  ///< of that mode, rms velocity over rms
 
   /// The standard deviation of the windows' amplitudes.
   double spread() const {

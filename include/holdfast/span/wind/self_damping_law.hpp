@@ -35,7 +35,7 @@ inline void validate(const StrandedConductor& conductor) {
 /// in the units of the fits: d in mm, RTS and T in kN, m in kg/m, f in Hz; y (m) is half the
 /// peak-to-peak.
 struct SelfDampingLaw {
-  std::string_view name;
+  std::string_view name;      ///< of those who measured it
   double amplitude_exponent;  ///< l
   double frequency_exponent;  ///< m
   double tension_exponent;    ///< n

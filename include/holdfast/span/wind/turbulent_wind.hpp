@@ -32,8 +32,10 @@ inline void validate(const TurbulentWind& wind) {
 /// `std::mt19937_64`: the same for the same seed with every standard library.
 class NormalNumbers {
  public:
+  /// @param seed  any
   explicit NormalNumbers(std::uint64_t seed) : engine_(seed) {}
 
+  /// The next one.
   double next() {
     if (kept_) {
       kept_ = false;
@@ -84,6 +86,7 @@ class GustField {
     }
   }
 
+  /// Whether there are no gusts.
   bool steady() const { return wind_.intensity == 0.0; }
 
   /// @param time  s, ≥ that of the last call

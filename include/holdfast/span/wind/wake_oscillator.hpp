@@ -32,6 +32,7 @@ struct WakeOscillatorLaw {
     return added_mass * fluid_density * pi<double> * diameter * diameter / 4.0;
   }
   /// ζ that the stall gives a mode: γ ρ d² ω_s/(2 m ω).
+  /// @param diameter         d (m)
   /// @param mass_per_length  m (kg/m), with the added mass
   /// @param shedding         ω_s (rad/s)
   /// @param angular_frequency ω of the mode (rad/s)
@@ -71,6 +72,7 @@ class WakeOscillators {
   /// @param law       `validate`d
   /// @param diameter  d (m)
   /// @param strouhal  St
+  /// @param stations  how many
   /// @param wind      its mean speed and seed
   WakeOscillators(const WakeOscillatorLaw& law, double diameter, double strouhal, int stations,
                   const TurbulentWind& wind)

@@ -29,7 +29,7 @@ struct WindHistorySetting {
   double rated_strength = 0.0;  ///< RTS (N), > T; asked for by the law of self-damping only
   std::optional<SelfDampingLaw> self_damping;  ///< its amplitude exponent ≥ 2
   std::vector<SpanDevice> devices;             ///< near the supports
-  TurbulentWind wind;
+  TurbulentWind wind;                          ///< across the span
   /// Wakes that swing with the span, or the power of a wind as measured.
   std::variant<WakeOscillatorLaw, WindPowerLaw> force;
   double strouhal = 0.2;           ///< St, > 0: vortices are shed at St U/d
@@ -43,6 +43,7 @@ struct WindHistorySetting {
   int stride = 10;                 ///< steps from one written down to the next, ≥ 1
 
   double shedding_frequency() const { return strouhal * wind.mean_speed / diameter; }  ///< Hz
+  /// How many steps the duration takes.
   long steps() const {
     return static_cast<long>(std::ceil(duration * steps_per_cycle * shedding_frequency()));
   }

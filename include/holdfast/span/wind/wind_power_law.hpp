@@ -14,9 +14,10 @@ namespace holdfast {
 ///
 /// f (Hz) is the frequency, d (m) the diameter and y (m) the amplitude, half the peak-to-peak.
 struct WindPowerLaw {
-  std::string_view name;
+  std::string_view name;               ///< of those who measured it
   std::array<double, 8> coefficients;  ///< a_k (W s³/m⁵)
-  double lowest, highest;              ///< x for which the fit holds
+  double lowest;                       ///< x from which the fit holds
+  double highest;                      ///< and to which
 
   /// F at x = y/d; NaN outside what the fit holds for.
   double at(double x) const {

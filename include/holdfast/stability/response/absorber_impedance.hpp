@@ -17,8 +17,11 @@ namespace holdfast {
 ///
 /// with the lags F of the measurement filter and D of the drive; sinh(sτ/2)/(sτ/2) = sinc(ωτ/2) at
 /// s = iω. What the hold sends out besides has frequencies ω + 2πk/τ; where the conductor answers
-/// there, only the sampled loop (`ModalResponse`) is exact.
-/// @param s  1/s, ≠ 0
+/// there, only the sampled loop (`ModalResponse`) is exact (unchecked).
+/// @param sampling  τ and δ
+/// @param gains     P and D
+/// @param hardware  measurement filter and drive
+/// @param s         1/s, ≠ 0
 inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
                                             const PdGains<double>& gains,
                                             const LoopHardware& hardware,
@@ -32,8 +35,12 @@ inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
 }
 
 /// Z(s) = (M_c s² + K_p)/s + T_a Z_eff of the absorber with its computer (N s/m), force over
-/// velocity of the conductor; to `drive_impedance` applies what is said there.
-/// @param s  1/s, ≠ 0
+/// velocity of the conductor; to `drive_impedance` applies what is said there (unchecked).
+/// @param absorber  with its clamp
+/// @param sampling  τ and δ
+/// @param gains     P and D
+/// @param hardware  measurement filter and drive
+/// @param s         1/s, ≠ 0
 inline std::complex<double> absorber_impedance(const Absorber<double>& absorber,
                                                const Sampling<double>& sampling,
                                                const PdGains<double>& gains,
