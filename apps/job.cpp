@@ -187,6 +187,21 @@ bool Job::is_told(const std::string& fact, bool otherwise) const {
   return job_texts()["jobs"][options_->get_name()][fact].value_or(otherwise);
 }
 
+void Job::require_output(const JobContext& context) const {
+  require_not_overwritten(context.case_data.excitation.record, context.output);
+  for (const case_tables::Device& device : context.case_data.devices)
+    require_not_overwritten(device.file, context.output);
+  if (common_->output && !is_told("writes_folder", false))
+    require_output_name(*common_->output, has_picture(context.job));
+}
+
+void Job::require_plant(const JobContext& context) const {
+  if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
+  if (!is_told("counts_devices", false)) require_no_devices(context.case_data, context.job);
+  if (is_told("needs_string_for_devices", false))
+    require_place_for_devices(context.case_data, context.job);
+}
+
 JobContext Job::context(const std::optional<std::string>& case_file, bool needs_plant) const {
   if (case_file && common_->case_file)
     throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");
@@ -204,15 +219,8 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   source.attach_record(context.case_data);
   if (common_->output) context.output = *common_->output;
   if (file) require_not_overwritten(*file, context.output);
-  require_not_overwritten(context.case_data.excitation.record, context.output);
-  for (const case_tables::Device& device : context.case_data.devices)
-    require_not_overwritten(device.file, context.output);
-  if (common_->output && !is_told("writes_folder", false))
-    require_output_name(*common_->output, has_picture(context.job));
-  if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
-  if (!is_told("counts_devices", false)) require_no_devices(context.case_data, context.job);
-  if (is_told("needs_string_for_devices", false))
-    require_place_for_devices(context.case_data, context.job);
+  require_output(context);
+  require_plant(context);
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
   // Devices alone need neither absorber nor two masses.

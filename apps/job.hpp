@@ -79,6 +79,8 @@ class Job {
     std::optional<Ticking> ticking;  // from when the context is made to the program's end
   };
 
+  void require_output(const JobContext& context) const;
+  void require_plant(const JobContext& context) const;
   void draw() const;
   CLI::Option* told(CLI::Option* option) const;
   bool is_told(const std::string& fact, bool otherwise) const;

@@ -112,7 +112,7 @@ std::string checksum_of(const RecordedForce& record) {
 std::string checksum_of(const ImpedanceTable& table) {
   return std::to_string(
       checksum(bytes_of(table.phase_deg),
-               checksum(bytes_of(table.magnitude), checksum(bytes_of(table.frequency_Hz)))));
+               checksum(bytes_of(table.magnitude), checksum(bytes_of(table.frequency)))));
 }
 
 /// Of each measured device.

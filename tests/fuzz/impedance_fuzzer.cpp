@@ -14,12 +14,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   try {
     const auto table = holdfast::program::read_impedance_text(text, "fuzz.csv");
-    const std::size_t rows = table.frequency_Hz.size();
+    const std::size_t rows = table.frequency.size();
     require(rows >= 2 && table.magnitude.size() == rows && table.phase_deg.size() == rows,
             "every column has every row");
     for (std::size_t row = 0; row < rows; ++row) {
-      const double before = row == 0 ? 0.0 : table.frequency_Hz[row - 1];
-      require(std::isfinite(table.frequency_Hz[row]) && table.frequency_Hz[row] > before,
+      const double before = row == 0 ? 0.0 : table.frequency[row - 1];
+      require(std::isfinite(table.frequency[row]) && table.frequency[row] > before,
               "frequencies ascend from above 0");
       require(table.magnitude[row] >= 0.0 && std::abs(table.phase_deg[row]) <= 360.0,
               "magnitude and phase are within their ranges");

@@ -164,6 +164,7 @@ class SpanPoles {
     for (const Complex& s : own) follow(found, stiffness, s, s.imag() != 0.0, place);
     separate(found, own, stiffness, place);
     std::vector<Pole> poles;
+    poles.reserve(found.size());
     for (Followed& one : found)
       poles.push_back(one.weak ? std::move(*one.weak) : at(one.s, one.is_pair, stiffness, place));
     poles_ = std::move(poles);
@@ -231,6 +232,7 @@ class SpanPoles {
       bool is_pair;
     };
     std::vector<Own> device;
+    device.reserve(own.size());
     for (const Complex& s : own) device.push_back({s, s.imag() != 0.0});
     const auto all = [&](const Complex& s) {
       const DynamicStiffness k = stiffness(s);

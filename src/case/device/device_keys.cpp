@@ -207,6 +207,7 @@ const DeviceKey* find_device_key(std::string_view name) {
 
 const DeviceKey& nearest_device_key(std::string_view name) {
   std::vector<std::string> names;
+  names.reserve(listed_keys.size());
   for (const DeviceKey& key : listed_keys) names.push_back(key.name);
   return *find_device_key(nearest_name(names, name));
 }

@@ -60,15 +60,15 @@ void append(ImpedanceTable& impedance, const Row& row) {
   const double magnitude = row.number(magnitude_column);
   const double phase = row.number(phase_column);
   if (!(frequency > 0.0)) throw row.fault(frequency_column, frequency, "must be above 0 Hz");
-  if (!impedance.frequency_Hz.empty() && frequency <= impedance.frequency_Hz.back())
+  if (!impedance.frequency.empty() && frequency <= impedance.frequency.back())
     throw row.fault(std::string(frequency_column) + " = " + format_number(frequency) +
-                    " does not come after " + format_number(impedance.frequency_Hz.back()) +
+                    " does not come after " + format_number(impedance.frequency.back()) +
                     " of the row before");
   if (magnitude < 0.0) throw row.fault(magnitude_column, magnitude, "must be at least 0 N s/m");
   if (std::abs(phase) > 360.0)
     throw row.fault(phase_column, phase, "must be at least -360 and at most 360 degrees");
   require_passive(row, frequency, magnitude, phase);
-  impedance.frequency_Hz.push_back(frequency);
+  impedance.frequency.push_back(frequency);
   impedance.magnitude.push_back(magnitude);
   impedance.phase_deg.push_back(phase);
 }

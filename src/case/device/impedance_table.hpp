@@ -11,12 +11,12 @@ namespace holdfast::program {
 /// The impedance of a device as it was measured at its clamp: force over velocity, whose phase is
 /// by how much the force is ahead.
 struct ImpedanceTable {
-  std::vector<double> frequency_Hz;  // ascending
+  std::vector<double> frequency;  // ascending
   std::vector<double> magnitude;     // N s/m
   std::vector<double> phase_deg;
 };
 
-/// A table in a CSV file: the columns `frequency_Hz`, `magnitude_N_s_per_m` and `phase_deg`, in any
+/// A table in a CSV file: the columns `frequency`, `magnitude_N_s_per_m` and `phase_deg`, in any
 /// order and beside any others.
 ///
 /// Throws WrongInput, with file and line where there is one: what read_csv() refuses, no such

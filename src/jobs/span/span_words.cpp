@@ -24,18 +24,18 @@ double with_digits(double value, double digits) {
 }  // namespace
 
 Axis aeolian_frequencies(const Case& the_case) {
-  constexpr double calmest = 1.0, strongest = 8.0;  // m/s
+  constexpr double calmest = 1.0, fastest = 8.0;  // m/s
   constexpr std::int64_t count = 200;
   const double diameter = the_case.conductor.diameter;
   Axis axis{3.0, 150.0, count};
   if (std::isfinite(diameter)) {
     const double per_speed = strouhal_of(the_case) / diameter;
-    axis = {with_digits(calmest * per_speed, 2.0), with_digits(strongest * per_speed, 2.0), count};
+    axis = {with_digits(calmest * per_speed, 2.0), with_digits(fastest * per_speed, 2.0), count};
   }
   for (const case_tables::Device& device : the_case.devices) {
     if (!device.table) continue;
-    axis.min = std::max(axis.min, device.table->frequency_Hz.front());
-    axis.max = std::min(axis.max, device.table->frequency_Hz.back());
+    axis.min = std::max(axis.min, device.table->frequency.front());
+    axis.max = std::min(axis.max, device.table->frequency.back());
   }
   return axis;
 }

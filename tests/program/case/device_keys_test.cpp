@@ -293,7 +293,7 @@ TEST(ImpedanceTable, IsRead) {
       "phase_deg,note,magnitude_N_s_per_m,frequency_Hz\n-90,a,3,5\n"
       "90,b,0,6.5\n360,c,2e3,7\n",
       "shaker.csv");
-  EXPECT_EQ(table.frequency_Hz, (std::vector<double>{5.0, 6.5, 7.0}));
+  EXPECT_EQ(table.frequency, (std::vector<double>{5.0, 6.5, 7.0}));
   EXPECT_EQ(table.magnitude, (std::vector<double>{3.0, 0.0, 2000.0}));
   EXPECT_EQ(table.phase_deg, (std::vector<double>{-90.0, 90.0, 360.0}));
 }

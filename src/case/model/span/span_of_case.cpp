@@ -18,8 +18,8 @@ namespace {
 MeasuredImpedance measured(const case_tables::Device& device) {
   const ImpedanceTable& table = *device.table;
   std::vector<MeasuredImpedance::Row> rows;
-  for (std::size_t k = 0; k < table.frequency_Hz.size(); ++k) {
-    const double omega = 2.0 * pi<double> * table.frequency_Hz[k];
+  for (std::size_t k = 0; k < table.frequency.size(); ++k) {
+    const double omega = 2.0 * pi<double> * table.frequency[k];
     rows.push_back({omega, std::polar(table.magnitude[k], table.phase_deg[k] * pi<double> / 180.0) +
                                std::complex<double>(0.0, omega * device.clamp_mass)});
   }
@@ -82,8 +82,8 @@ void require_measured(const Case& the_case, double lowest, double highest) {
   for (std::size_t k = 0; k < the_case.devices.size(); ++k) {
     const case_tables::Device& device = the_case.devices[k];
     if (!device.table) continue;
-    const double first = device.table->frequency_Hz.front();
-    const double last = device.table->frequency_Hz.back();
+    const double first = device.table->frequency.front();
+    const double last = device.table->frequency.back();
     if (lowest >= first && highest <= last) continue;
     throw WrongInput("device " + std::to_string(k + 1) + ": " + device.file +
                      " has its impedance from " + format_number(first) + " to " +
@@ -112,6 +112,7 @@ std::vector<LossLaw> loss_laws_of(const Case& the_case) {
   const StrandedConductor strand{conductor.mass_per_length, conductor.diameter,
                                  conductor.rated_strength, string.tension};
   std::vector<LossLaw> laws;
+  laws.reserve(self_damping_laws.size());
   for (const SelfDampingLaw& law : self_damping_laws)
     laws.push_back({std::string(law.name), [strand, law](double frequency, double amplitude) {
                       return law.power(strand, frequency, amplitude);

@@ -35,6 +35,7 @@ placement::Placement searched(const std::vector<MovedNumber>& numbers,
   require_placement_search();
 #ifdef HOLDFAST_HAS_CERES
   std::vector<placement::MovableValue> values;
+  values.reserve(numbers.size());
   for (const MovedNumber& number : numbers) values.push_back(number.value);
   placement::PlacementOptions options;
   options.runs = runs;
