@@ -12,7 +12,7 @@ namespace holdfast::program {
 /// by how much the force is ahead.
 struct ImpedanceTable {
   std::vector<double> frequency;  // ascending
-  std::vector<double> magnitude;     // N s/m
+  std::vector<double> magnitude;  // N s/m
   std::vector<double> phase_deg;
 };
 
