@@ -50,6 +50,7 @@ struct AbsorptionQuestion {
       report_warning("devices are at both ends; this is the left one (--end right: the other)",
                      context.quiet);
     require_text_meant(context, axis.count, "rows", "--frequency");
+    report_warning(instability_note(the_case, !no_control), context.quiet);
     Table table(context, columns_of("absorption"));
     for (std::int64_t k = 0; k < axis.count; ++k) {
       throw_if_interrupted();

@@ -41,7 +41,8 @@ struct AeolianQuestion {
       for (const AeolianRow& row : balance.rows(axis.at(k))) {
         table.row(row.frequency, row.wind_speed, row.wind_law, row.damping_law,
                   row.bare.amplitude.amplitude, row.damped.amplitude.amplitude, row.bare.strain,
-                  row.damped.strain, range_word(row.damped.amplitude.range));
+                  row.damped.strain, range_word(row.damped.amplitude.range),
+                  range_word(row.bare.amplitude.range));
         ranges.add(row, balance.has_devices());
       }
     }

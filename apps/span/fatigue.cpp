@@ -32,7 +32,14 @@ struct FatigueQuestion {
 
  private:
   Range counted(const Case& the_case) const {
-    if (frequency) return parse_range("--frequency", *frequency);
+    if (frequency) {
+      const Range range = parse_range("--frequency", *frequency);
+      constexpr double fastest = 1000.0;
+      if (!(range.min > 0.0 && range.max <= fastest))
+        throw WrongInput("--frequency " + *frequency +
+                         ": frequencies are greater than 0 Hz and up to 1000 Hz");
+      return range;
+    }
     const Axis usual = aeolian_frequencies(the_case);
     return {usual.min, usual.max};
   }

@@ -85,6 +85,16 @@ struct PlaceQuestion {
   void run(const JobContext& context) const;
 };
 
+/// That another device sits at the place of the one that moves; empty where none does.
+std::string companion_note(const Case& the_case, std::size_t number) {
+  if (number == 0) return "";
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
+    if (k + 1 != number && the_case.devices[k].position == the_case.devices[number - 1].position)
+      return "device " + std::to_string(k + 1) + " sits at the same place as device " +
+             std::to_string(number) + " and stays there: where both are one damper, move both";
+  return "";
+}
+
 /// Of the goal without the absorber: what it gains over the devices alone.
 double without_absorber(Case the_case, const PlacementQuestion& question) {
   the_case.plant.absorber_mass = 0.0;
@@ -126,6 +136,7 @@ void PlaceQuestion::run(const JobContext& context) const {
   const PlacementLevels levels(the_case, question);
   require_measured(the_case, levels.frequencies().front(), levels.frequencies().back());
   report_warning(absent_absorber_note(the_case), context.quiet);
+  report_warning(companion_note(the_case, question.device), context.quiet);
   Table table(context, columns_of("place"));
   const PlacedDevice placed = placed_device(the_case, question);
   table.row(std::string("position"),

@@ -169,6 +169,13 @@ CaseFault conductor_fault(const Case& the_case) {
             quantity("absorber.position", the_case.absorber.position, "m") + " must be less than " +
                 quantity("conductor.span", span, "m")};
   }
+  const double tension = the_case.conductor.tension;
+  if (!(the_case.conductor.sag < span / 2.0) && std::isfinite(tension) &&
+      the_case.places.count("conductor.sag") == 0)
+    return {{"conductor.tension", "conductor.span"},
+            quantity("conductor.tension", tension, "N") + " leaves a sag of " +
+                format_rounded(the_case.conductor.sag) + " m, which must be less than half of " +
+                quantity("conductor.span", span, "m")};
   if (!(the_case.conductor.sag < span / 2.0)) {
     return {{"conductor.sag", "conductor.span"},
             quantity("conductor.sag", the_case.conductor.sag, "m") + " must be less than half of " +

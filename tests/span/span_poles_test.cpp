@@ -144,6 +144,19 @@ TEST(SpanPoles, AreToldApartWhereTwoBundlesBeginTogether) {
   ASSERT_EQ(poles.size(), 2 * (modes.size() + 3));
 }
 
+// Both ends alike, as lines have them.
+TEST(SpanPoles, AreFoundWhereBothEndsHaveTheSameDampers) {
+  auto modes = string_modes_at(drake_string(), {1.7, 1.0, 299.0}, 300, 1e5);
+  for (ModeAtPlaces& mode : modes) mode.damping_ratio = std::hypot(mode.damping_ratio, 2e-4);
+  SpanPoles span(modes);
+  const LumpedDevice other = stockbridge({0.82, {18.3, 66.2}, {0.067, 0.067}, 0.75, 0.0});
+  for (const std::size_t place : {1, 2}) {
+    span.attach(damper(), place);
+    span.attach(other, place);
+  }
+  EXPECT_EQ(span.attach({1.0, 3553.0, 6.0, 0.0}, 0).size(), 2 * (modes.size() + 9));
+}
+
 TEST(SpanPoles, RefuseWhatIsNoSpan) {
   EXPECT_THROW(SpanPoles({}), InvalidParameter);
   SpanPoles span(string_modes_at(damped_drake(20.0), {1.5}, 5, 0.0));

@@ -155,9 +155,11 @@ class SpanPoles {
   void attach(const Stiffness& stiffness, const std::vector<Complex>& own, std::size_t place) {
     std::vector<Followed> found;
     for (const Pole& pole : poles_) {
-      auto weak = weakly_moved(pole, stiffness, place);
-      if (weak)
-        found.push_back({pole.s, weak->s, pole.is_pair, std::move(weak)});
+      const Moved moved = moved_alone(pole, stiffness, place);
+      if (moved.is_weak)
+        found.push_back({pole.s, pole.s - moved.way, pole.is_pair, weakly(pole, moved)});
+      else if (const auto s = next_to(pole, moved, stiffness, place))
+        found.push_back({pole.s, *s, pole.is_pair, std::nullopt});
       else
         follow(found, stiffness, pole.s, pole.is_pair, place);
     }
@@ -170,13 +172,20 @@ class SpanPoles {
     poles_ = std::move(poles);
   }
 
-  /// A pole that the device hardly moves, by its residue alone.
+  /// How far a pole goes by its own residue, all others staying.
+  struct Moved {
+    Complex way;                  // s_k less where it comes
+    bool is_weak;                 // so little that this is all
+    Complex pressed, held, own;   // K, 1 + bK, φ at the place
+    std::vector<Complex> others;  // of H from the place to each, without the pole
+  };
+
   template <class Stiffness>
-  std::optional<Pole> weakly_moved(const Pole& pole, const Stiffness& stiffness,
-                                   std::size_t place) const {
+  Moved moved_alone(const Pole& pole, const Stiffness& stiffness, std::size_t place) const {
     const Complex s = pole.s, own = pole.shapes[place], pressed = stiffness(s).value;
-    if (!(std::abs(own * own * pressed) < 1e-6 * std::abs(s))) return std::nullopt;
     std::vector<Complex> others(pole.shapes.size());
+    // What has a node there feels nothing, though another may have its very s.
+    if (own == 0.0) return {0.0, true, pressed, 1.0, own, std::move(others)};
     for (const Pole& other : poles_)
       for (std::size_t i = 0; i < others.size(); ++i) {
         if (&other != &pole) others[i] += part(other, i, place, s);
@@ -184,12 +193,34 @@ class SpanPoles {
           others[i] += std::conj(pole.shapes[i] * own) / (s - std::conj(s));
       }
     const Complex held = 1.0 + others[place] * pressed;
-    const Complex moved = own * own * pressed / held;
-    if (!(std::abs(moved) < 1e-8 * std::abs(s))) return std::nullopt;
-    Pole result{s - moved, pole.is_pair, pole.shapes};
-    for (std::size_t i = 0; i < others.size(); ++i)
-      result.shapes[i] -= others[i] * pressed * own / held;
+    const Complex way = own * own * pressed / held;
+    const bool is_weak = std::abs(way) < 1e-8 * std::abs(s);
+    return {way, is_weak, pressed, held, own, std::move(others)};
+  }
+
+  /// A pole that the device hardly moves.
+  static Pole weakly(const Pole& pole, const Moved& moved) {
+    Pole result{pole.s - moved.way, pole.is_pair, pole.shapes};
+    for (std::size_t i = 0; i < result.shapes.size(); ++i)
+      result.shapes[i] -= moved.others[i] * moved.pressed * moved.own / moved.held;
     return result;
+  }
+
+  /// Where a pole comes that moves little beside its distance from all others, by Newton from where
+  /// its residue alone brings it; nothing where that is not sure.
+  template <class Stiffness>
+  std::optional<Complex> next_to(const Pole& pole, const Moved& moved, const Stiffness& stiffness,
+                                 std::size_t place) const {
+    const double way = std::abs(moved.way);
+    double nearest = pole.is_pair ? 2.0 * std::abs(pole.s.imag()) : std::abs(pole.s);
+    for (const Pole& other : poles_)
+      if (&other != &pole && other.shapes[place] != 0.0)
+        nearest = std::min(nearest, std::abs(other.s - pole.s));
+    if (!(way < 0.02 * nearest)) return std::nullopt;
+    const Complex expected = pole.s - moved.way;
+    const Complex s = polished(expected, stiffness, place);
+    if (!(std::abs(s - expected) < 0.1 * way)) return std::nullopt;
+    return s;
   }
 
   /// Adds the motion that begins at s; of a pair that meets on the real axis the other one too.
@@ -260,8 +291,10 @@ class SpanPoles {
   static bool is_apart(const std::vector<Followed>& found, std::size_t k) {
     constexpr double same = 1e-7;
     if (!std::isfinite(std::abs(found[k].s))) return false;
+    // A weak one beside it is a motion of another place.
     for (std::size_t j = 0; j < k; ++j)
-      if (std::abs(found[k].s - found[j].s) < same * std::abs(found[k].s)) return false;
+      if (!found[j].weak && std::abs(found[k].s - found[j].s) < same * std::abs(found[k].s))
+        return false;
     return true;
   }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "case/model/span/span_of_case.hpp"
+#include "io/text/text.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "process/errors.hpp"
 
@@ -124,6 +125,13 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
   const AeolianBalance balance(the_case, controlled);
   require_wires(balance);
   const double modulus = balance.outer_wire_modulus();
+  constexpr double stiffest_alloy = 1e11;
+  if (modulus > stiffest_alloy)
+    throw WrongInput(
+        "the line of life is of wires of aluminium and its alloys, and "
+        "conductor.outer_wire_modulus "
+        "= " +
+        format_number(modulus) + " Pa is of steel: how long such strands live it does not tell");
   const auto hours = wind_hours_of(the_case, balance.speed_of(lowest), balance.speed_of(highest));
   Years bare, damped;
   FatigueLife life{};

@@ -45,6 +45,10 @@ Axis parse_frequencies(std::string_view option, std::string_view text) {
   if (!(axis.min > 0.0))
     throw WrongInput(std::string(option) + " " + std::string(text) +
                      ": a frequency must be greater than 0 Hz");
+  constexpr double fastest = 1000.0;
+  if (!(axis.max <= fastest))
+    throw WrongInput(std::string(option) + " " + std::string(text) +
+                     ": no span vibrates so fast in the wind; frequencies are up to 1000 Hz");
   return axis;
 }
 
@@ -84,6 +88,12 @@ std::string life_advice(const FatigueLife& life, double years) {
   const std::string asked = format_rounded(years) + " years";
   const std::string shortest = years_text(served.lowest), longest = years_text(served.highest);
   const std::string band = shortest == longest ? shortest : shortest + " to " + longest;
+  if (life.damage.lowest == 0.0 && served.lowest < years)
+    return "by some laws the vibration is nowhere as large as they were measured for, and what it "
+           "does to the conductor is not known; the shortest life is that of its bound, a "
+           "hundredth "
+           "of the diameter (" +
+           band + " years)";
   if (served.lowest >= years)
     return "by every pair of laws the conductor lives longer than the " + asked +
            " that are asked for (" + band + " years)";

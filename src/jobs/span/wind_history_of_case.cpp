@@ -64,14 +64,17 @@ WindHistory wind_history_of(const Case& the_case, bool controlled, double freque
 std::string history_text(const WindHistory& history, const std::vector<AeolianRow>& balance,
                          double diameter) {
   double lowest = balance.front().damped.amplitude.amplitude, highest = lowest;
+  bool is_bound = false;
   for (const AeolianRow& row : balance) {
+    is_bound = is_bound || row.damped.amplitude.range == BalanceRange::below;
     lowest = std::min(lowest, row.damped.amplitude.amplitude);
     highest = std::max(highest, row.damped.amplitude.amplitude);
   }
   return "at its largest place it vibrates with " + format_rounded(history.amplitude / diameter) +
          " diameters (root mean square times 1.41) at " + format_rounded(history.frequency) +
          " Hz in mode " + std::to_string(history.mode) + "; the energy balance has " +
-         format_rounded(lowest / diameter) + " to " + format_rounded(highest / diameter);
+         format_rounded(lowest / diameter) + " to " + format_rounded(highest / diameter) +
+         (is_bound ? ", where 0.01 is as little as the laws of the wind were measured for" : "");
 }
 
 }  // namespace holdfast::program
