@@ -69,6 +69,18 @@ TEST(EnergyBalance, SaysWhereTheLawEnds) {
   EXPECT_EQ(dead.amplitude, law.lowest * 0.03);
 }
 
+// (0.85 d)/d is above 0.85 for some diameters.
+TEST(EnergyBalance, KnowsTheEndsOfItsLawForEveryDiameter) {
+  for (double diameter = 0.004; diameter < 0.05; diameter += 1.7e-5)
+    for (const WindPowerLaw& law : wind_power_laws) {
+      const auto free = balanced_amplitude(law, 10.0, diameter, [](double) { return 0.0; });
+      EXPECT_EQ(free.range, BalanceRange::above) << diameter;
+    }
+  const auto unknown =
+      balanced_amplitude(wind_power_laws[0], 10.0, 0.03, [](double) { return std::nan(""); });
+  EXPECT_TRUE(std::isnan(unknown.amplitude));
+}
+
 // What is found loses exactly what it is given.
 TEST(EnergyBalance, Balances) {
   const StrandedConductor drake = drake_strand();

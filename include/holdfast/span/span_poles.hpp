@@ -292,9 +292,12 @@ class SpanPoles {
     constexpr double same = 1e-7;
     if (!std::isfinite(std::abs(found[k].s))) return false;
     // A weak one beside it is a motion of another place.
-    for (std::size_t j = 0; j < k; ++j)
-      if (!found[j].weak && std::abs(found[k].s - found[j].s) < same * std::abs(found[k].s))
-        return false;
+    for (std::size_t j = 0; j < k; ++j) {
+      if (found[j].weak) continue;
+      const double apart =
+          std::min(std::abs(found[k].s - found[j].s), std::abs(found[k].s - std::conj(found[j].s)));
+      if (apart < same * std::abs(found[k].s)) return false;
+    }
     return true;
   }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "io/text/compiled_texts.hpp"
@@ -21,7 +23,16 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
+/// Throws where there is too little memory for a text of such a size: in the midst of one the
+/// parser cannot say so.
+void require_memory_to_parse() {
+  constexpr std::size_t enough = 8U << 20U;
+  const std::vector<char> memory(enough, ' ');
+  if (*std::max_element(memory.begin(), memory.end()) != ' ') throw std::bad_alloc();
+}
+
 std::vector<LibraryConductor> parsed_library() {
+  require_memory_to_parse();
   std::vector<LibraryConductor> library;
   const toml::table parsed = toml::parse(conductors_text);
   for (const toml::node& node : *parsed["conductor"].as_array()) {

@@ -6,6 +6,7 @@
 #include "case/axes/axis.hpp"
 #include "case/device/impedance_table.hpp"
 #include "case/library/conductor_library.hpp"
+#include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "io/text/text.hpp"
@@ -16,9 +17,17 @@ namespace holdfast::program {
 namespace {
 
 /// To so many digits, for a command line.
-double with_digits(double value, double digits) {
+double with_digits(double value, double digits, double (*rounded)(double) = std::round) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
-  return std::round(value / unit) * unit;
+  return rounded(value / unit) * unit;
+}
+
+/// Whether a spring to the ground pushes the string away faster than its tension brings it back:
+/// k <= -T (1/a + 1/(L - a)).
+bool pushes_away(const Case& the_case, const case_tables::Device& device) {
+  const TautString<double> string = string_of(the_case);
+  const double near = device.position, far = string.span - device.position;
+  return device.stiffness <= -string.tension * (1.0 / near + 1.0 / far);
 }
 
 }  // namespace
@@ -30,7 +39,8 @@ Axis aeolian_frequencies(const Case& the_case) {
   Axis axis{3.0, 150.0, count};
   if (std::isfinite(diameter)) {
     const double per_speed = strouhal_of(the_case) / diameter;
-    axis = {with_digits(calmest * per_speed, 2.0), with_digits(fastest * per_speed, 2.0), count};
+    axis = {with_digits(calmest * per_speed, 2.0, std::floor),
+            with_digits(fastest * per_speed, 2.0, std::ceil), count};
   }
   for (const case_tables::Device& device : the_case.devices) {
     if (!device.table) continue;
@@ -59,6 +69,11 @@ std::string unknown_strain_note(const AeolianBalance& balance) {
 }
 
 std::string instability_note(const Case& the_case, bool controlled) {
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
+    if (pushes_away(the_case, the_case.devices[k]))
+      return "the stiffness of device " + std::to_string(k + 1) +
+             " pushes the conductor away faster than its tension brings it back: it does not stay "
+             "where it is, and nothing that is told of its vibration comes to be";
   if (!controlled || !has_active_absorber(the_case)) return "";
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)

@@ -91,6 +91,26 @@ TEST(Span, TurbulenceAndDampersGiveYears) {
               1.0, 1e-9);
 }
 
+// Rows of a site's table at the ends of what counts.
+TEST(Span, WindsOfOneAndEightMetresCount) {
+  const std::string hawk =
+      "fatigue --quiet --set conductor.name=Hawk --set conductor.span=300"
+      " --set conductor.tension=17000 --set conductor.damping_ratio=0.001"
+      " --set site.speeds=[1,4,8] --set site.hours=[500,500,500]";
+  EXPECT_NEAR(value_of(table_of(hawk), "cycles_per_year", "value"),
+              3600.0 * 500.0 * 13.0 * 0.2 / 0.0217932, 1e-3 * 3600.0 * 500.0 * 13.0 * 9.0);
+}
+
+TEST(Span, ASpringThatPushesAwayIsNamed) {
+  const std::string pushes = run_holdfast(
+                                 "aeolian --frequency 20:20:1 --set conductor.name=Drake"
+                                 " --set conductor.span=300 --set conductor.tension=28020"
+                                 " --set device.1.kind=stiffness --set device.1.position=1.5"
+                                 " --set device.1.stiffness=-30000")
+                                 .errors;
+  EXPECT_NE(pushes.find("pushes the conductor away"), std::string::npos) << pushes;
+}
+
 TEST(Span, AStayWithADashpotIsDampedAsKrenkSays) {
   // κ = 1 for mode 1: c = Z_c L/(π a).
   const double impedance = std::sqrt(3.5e6 * 60.0);

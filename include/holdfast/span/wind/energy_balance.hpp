@@ -30,14 +30,15 @@ struct BalancedAmplitude {
 /// @param frequency  f (Hz), > 0
 /// @param diameter   d (m), > 0
 /// @param loss       p: an amplitude (m) to a power a length (W/m), of everything that takes any,
-///                   over the span
+///                   over the span; NaN makes the answer NaN
 /// @throws whatever `loss` throws
 template <class Loss>
 BalancedAmplitude balanced_amplitude(const WindPowerLaw& law, double frequency, double diameter,
                                      const Loss& loss) {
-  const auto excess = [&](double x) {
-    return law.power(frequency, diameter, x * diameter) - loss(x * diameter);
-  };
+  // By x itself: x d/d may lie just outside the law.
+  const double scale = std::pow(frequency, 3.0) * std::pow(diameter, 4.0);
+  const auto excess = [&](double x) { return scale * law.at(x) - loss(x * diameter); };
+  if (std::isnan(excess(law.highest))) return {std::nan(""), BalanceRange::within};
   if (excess(law.highest) >= 0.0) return {law.highest * diameter, BalanceRange::above};
   constexpr int points = 60;
   const double ratio = std::pow(law.lowest / law.highest, 1.0 / points);
