@@ -97,6 +97,13 @@ void require_wires(const AeolianBalance& balance) {
         "fatigue needs the outer wires of the conductor: give conductor.outer_wire_diameter, "
         "conductor.outer_wire_modulus and conductor.bending_stiffness (the least one), or "
         "conductor.name of one in the library");
+  const double modulus = balance.outer_wire_modulus();
+  constexpr double stiffest_alloy = 1e11;
+  if (modulus > stiffest_alloy)
+    throw WrongInput(
+        "the line of life is of wires of aluminium and its alloys, and "
+        "conductor.outer_wire_modulus = " +
+        format_number(modulus) + " Pa is of steel: how long such strands live it does not tell");
 }
 
 /// Gives the parts that each wind speed has in the damages.
@@ -125,13 +132,6 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
   const AeolianBalance balance(the_case, controlled);
   require_wires(balance);
   const double modulus = balance.outer_wire_modulus();
-  constexpr double stiffest_alloy = 1e11;
-  if (modulus > stiffest_alloy)
-    throw WrongInput(
-        "the line of life is of wires of aluminium and its alloys, and "
-        "conductor.outer_wire_modulus "
-        "= " +
-        format_number(modulus) + " Pa is of steel: how long such strands live it does not tell");
   const auto hours = wind_hours_of(the_case, balance.speed_of(lowest), balance.speed_of(highest));
   Years bare, damped;
   FatigueLife life{};
