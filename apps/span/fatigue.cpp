@@ -34,10 +34,7 @@ struct FatigueQuestion {
   Range counted(const Case& the_case) const {
     if (frequency) {
       const Range range = parse_range("--frequency", *frequency);
-      constexpr double fastest = 1000.0;
-      if (!(range.min > 0.0 && range.max <= fastest))
-        throw WrongInput("--frequency " + *frequency +
-                         ": frequencies are greater than 0 Hz and up to 1000 Hz");
+      require_frequencies("--frequency", *frequency, range.min, range.max);
       return range;
     }
     const Axis usual = aeolian_frequencies(the_case);

@@ -54,11 +54,15 @@ Vibration AeolianBalance::vibration(const WindPowerLaw& wind, const LossLaw& los
   return {found, strain};
 }
 
+std::array<EndResponse, 2> AeolianBalance::ends_at(double angular_frequency) const {
+  const auto places = span_ends(devices_, string_.span);
+  return {end_response(string_, places[0], angular_frequency),
+          end_response(string_, places[1], angular_frequency)};
+}
+
 std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
   const double omega = 2.0 * pi<double> * frequency;
-  const auto places = span_ends(devices_, string_.span);
-  const std::array<EndResponse, 2> damped = {end_response(string_, places[0], omega),
-                                             end_response(string_, places[1], omega)};
+  const std::array<EndResponse, 2> damped = ends_at(omega);
   const EndResponse support = end_response(string_, {}, omega);
   std::vector<AeolianRow> rows;
   for (const WindPowerLaw& wind : wind_power_laws)
@@ -71,10 +75,7 @@ std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
 }
 
 Vibration AeolianBalance::largest(double frequency) const {
-  const double omega = 2.0 * pi<double> * frequency;
-  const auto places = span_ends(devices_, string_.span);
-  const std::array<EndResponse, 2> ends = {end_response(string_, places[0], omega),
-                                           end_response(string_, places[1], omega)};
+  const std::array<EndResponse, 2> ends = ends_at(2.0 * pi<double> * frequency);
   std::optional<Vibration> largest;
   for (const WindPowerLaw& wind : wind_power_laws)
     for (const LossLaw& loss : losses_) {

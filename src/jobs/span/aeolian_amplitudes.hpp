@@ -57,6 +57,7 @@ class AeolianBalance {
   double outer_wire_modulus() const;
 
  private:
+  std::array<EndResponse, 2> ends_at(double angular_frequency) const;
   Vibration vibration(const WindPowerLaw& wind, const LossLaw& loss, double frequency,
                       const std::array<EndResponse, 2>& ends) const;
 

@@ -22,14 +22,6 @@ double with_digits(double value, double digits, double (*rounded)(double) = std:
   return rounded(value / unit) * unit;
 }
 
-/// Whether a spring to the ground pushes the string away faster than its tension brings it back:
-/// k <= -T (1/a + 1/(L - a)).
-bool pushes_away(const Case& the_case, const case_tables::Device& device) {
-  const TautString<double> string = string_of(the_case);
-  const double near = device.position, far = string.span - device.position;
-  return device.stiffness <= -string.tension * (1.0 / near + 1.0 / far);
-}
-
 }  // namespace
 
 Axis aeolian_frequencies(const Case& the_case) {
@@ -50,15 +42,19 @@ Axis aeolian_frequencies(const Case& the_case) {
   return axis;
 }
 
+void require_frequencies(std::string_view option, std::string_view text, double lowest,
+                         double highest) {
+  constexpr double fastest = 1000.0;
+  if (lowest > 0.0 && highest <= fastest) return;
+  throw WrongInput(std::string(option) + " " + std::string(text) +
+                   (lowest > 0.0 ? ": no span vibrates so fast in the wind; frequencies are up to "
+                                   "1000 Hz"
+                                 : ": a frequency must be greater than 0 Hz"));
+}
+
 Axis parse_frequencies(std::string_view option, std::string_view text) {
   const Axis axis = parse_axis(option, text);
-  if (!(axis.min > 0.0))
-    throw WrongInput(std::string(option) + " " + std::string(text) +
-                     ": a frequency must be greater than 0 Hz");
-  constexpr double fastest = 1000.0;
-  if (!(axis.max <= fastest))
-    throw WrongInput(std::string(option) + " " + std::string(text) +
-                     ": no span vibrates so fast in the wind; frequencies are up to 1000 Hz");
+  require_frequencies(option, text, axis.min, axis.max);
   return axis;
 }
 
@@ -69,11 +65,9 @@ std::string unknown_strain_note(const AeolianBalance& balance) {
 }
 
 std::string instability_note(const Case& the_case, bool controlled) {
-  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
-    if (pushes_away(the_case, the_case.devices[k]))
-      return "the stiffness of device " + std::to_string(k + 1) +
-             " pushes the conductor away faster than its tension brings it back: it does not stay "
-             "where it is, and nothing that is told of its vibration comes to be";
+  if (!comes_back(string_of(the_case), span_devices_of(the_case, false)))
+    return "a negative stiffness pushes the conductor away faster than its tension brings it back: "
+           "it does not stay where it is, and nothing that is told of its vibration comes to be";
   if (!controlled || !has_active_absorber(the_case)) return "";
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)

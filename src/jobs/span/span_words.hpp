@@ -14,6 +14,11 @@ namespace holdfast::program {
 /// the jobs where the diameter is not known, and of them those at which its devices were measured.
 Axis aeolian_frequencies(const Case& the_case);
 
+/// Throws WrongInput, with what an option was given, where a frequency (Hz) is not above 0 or above
+/// 1000.
+void require_frequencies(std::string_view option, std::string_view text, double lowest,
+                         double highest);
+
 /// The frequencies of an option, MIN:MAX:COUNT. Throws WrongInput where one is not above 0.
 Axis parse_frequencies(std::string_view option, std::string_view text);
 

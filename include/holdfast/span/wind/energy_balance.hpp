@@ -35,9 +35,9 @@ struct BalancedAmplitude {
 template <class Loss>
 BalancedAmplitude balanced_amplitude(const WindPowerLaw& law, double frequency, double diameter,
                                      const Loss& loss) {
-  // By x itself: x d/d may lie just outside the law.
-  const double scale = std::pow(frequency, 3.0) * std::pow(diameter, 4.0);
-  const auto excess = [&](double x) { return scale * law.at(x) - loss(x * diameter); };
+  const auto excess = [&](double x) {
+    return law.power(frequency, diameter, x * diameter) - loss(x * diameter);
+  };
   if (std::isnan(excess(law.highest))) return {std::nan(""), BalanceRange::within};
   if (excess(law.highest) >= 0.0) return {law.highest * diameter, BalanceRange::above};
   constexpr int points = 60;

@@ -27,10 +27,12 @@ struct WindPowerLaw {
     return x * sum;
   }
 
-  /// P_wind (W/m).
+  /// P_wind (W/m); an amplitude that is an end of the fit but for round-off is that end.
   double power(double frequency, double diameter, double amplitude) const {
-    return frequency * frequency * frequency * diameter * diameter * diameter * diameter *
-           at(amplitude / diameter);
+    double x = amplitude / diameter;
+    for (const double end : {lowest, highest})
+      if (std::abs(x - end) <= 1e-14 * end) x = end;
+    return frequency * frequency * frequency * diameter * diameter * diameter * diameter * at(x);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "case/device/impedance_table.hpp"
 #include "case/model/modal/conductor_modes.hpp"
@@ -24,6 +25,16 @@ MeasuredImpedance measured(const case_tables::Device& device) {
                                std::complex<double>(0.0, omega * device.clamp_mass)});
   }
   return MeasuredImpedance(std::move(rows));
+}
+
+/// The force over the displacement at rest (N/m) of a device; nothing that hangs on the conductor
+/// has any.
+double stiffness_at_rest(const SpanDevice& device) {
+  double sum = 0.0;
+  if (const auto* lumped = std::get_if<LumpedDevice>(&device.device))
+    for (const DeviceBranch& branch : lumped->branches)
+      if (!std::isfinite(branch.mass)) sum += branch.stiffness;
+  return sum;
 }
 
 }  // namespace
@@ -76,6 +87,19 @@ std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled) {
     devices.push_back(span_device_of(device));
   if (has_active_absorber(the_case)) devices.push_back(active_device_of(the_case, controlled));
   return in_order(std::move(devices), the_case.conductor.span);
+}
+
+bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices,
+                double times) {
+  double y = 0.0, slope = 1.0, at = 0.0;
+  for (const SpanDevice& device : devices) {
+    y += slope * (device.position - at);
+    if (!(y > 0.0)) return false;
+    const double stiffness = stiffness_at_rest(device);
+    slope += (stiffness < 0.0 ? times : 1.0) * stiffness * y / string.tension;
+    at = device.position;
+  }
+  return y + slope * (string.span - at) > 0.0;
 }
 
 void require_measured(const Case& the_case, double lowest, double highest) {

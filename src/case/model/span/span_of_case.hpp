@@ -27,6 +27,13 @@ SpanDevice active_device_of(const Case& the_case, bool controlled);
 /// What is clamped on the case's span: its devices and, where it has one, its absorber.
 std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled = true);
 
+/// Whether the string with its devices comes back to rest, its springs that push away being so many
+/// times as strong: from the left support on it passes through no node before the right one
+/// (Sturm).
+/// @param devices  `in_order`
+bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices,
+                double times = 1.0);
+
 /// Throws WrongInput where a device was not measured at some frequency (Hz) of a range.
 void require_measured(const Case& the_case, double lowest, double highest);
 

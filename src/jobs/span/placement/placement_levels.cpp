@@ -1,7 +1,6 @@
 #include "jobs/span/placement/placement_levels.hpp"
 
 #include <cmath>
-#include <variant>
 
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
@@ -24,31 +23,6 @@ double ratio_of_level(double level) {
   return level <= 1.0 / poor ? 1.0 / level : 2.0 * poor - level * poor * poor;
 }
 
-/// The force over the displacement at rest (N/m) of a device; nothing that hangs on the conductor
-/// has any.
-double stiffness_at_rest(const SpanDevice& device) {
-  double sum = 0.0;
-  if (const auto* lumped = std::get_if<LumpedDevice>(&device.device))
-    for (const DeviceBranch& branch : lumped->branches)
-      if (!std::isfinite(branch.mass)) sum += branch.stiffness;
-  return sum;
-}
-
-/// Whether the string with its devices comes back to rest, with a tenth to spare: from the left
-/// support on it passes through no node before the right one (Sturm).
-bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices) {
-  double y = 0.0, slope = 1.0, at = 0.0;
-  constexpr double spare = 1.1;
-  for (const SpanDevice& device : devices) {
-    y += slope * (device.position - at);
-    if (!(y > 0.0)) return false;
-    const double stiffness = stiffness_at_rest(device);
-    slope += (stiffness < 0.0 ? spare : 1.0) * stiffness * y / string.tension;
-    at = device.position;
-  }
-  return y + slope * (string.span - at) > 0.0;
-}
-
 }  // namespace
 
 PlacementLevels::PlacementLevels(const Case& the_case, const PlacementQuestion& question)
@@ -68,7 +42,8 @@ PlacementLevels::PlacementLevels(const Case& the_case, const PlacementQuestion& 
 
 std::vector<double> PlacementLevels::of(const Case& variant) const {
   const std::vector<SpanDevice> devices = span_devices_of(variant);
-  if (!comes_back(string_, devices)) return {};
+  constexpr double tenth_to_spare = 1.1;
+  if (!comes_back(string_, devices, tenth_to_spare)) return {};
   return wind_ ? wind_levels(devices) : damping_levels(variant);
 }
 
