@@ -2,6 +2,7 @@
 #include "holdfast/core/types.hpp"
 #include "io/text/csv.hpp"
 #include "io/text/text.hpp"
+#include "support/drake_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::tests {
@@ -9,13 +10,6 @@ namespace {
 
 using program::CsvTable;
 using program::parse_csv;
-
-constexpr const char* drake = R"([conductor]
-name = "Drake"
-span = 300.0
-tension = 28020.0
-damping_ratio = 0.0002
-)";
 
 constexpr const char* stockbridge = R"([[device]]
 kind = "stockbridge"
@@ -25,19 +19,6 @@ frequencies = [9.0, 28.0]
 damping_ratios = [0.2, 0.25]
 mass_share = 0.6
 clamp_mass = 0.5
-)";
-
-constexpr const char* absorber = R"([absorber]
-mass = 5.0
-position = 1.5
-[plant]
-absorber_mass = 5.0
-absorber_stiffness = 78956.8352
-absorber_damping = 125.663706
-[control]
-proportional_gain = 0.0
-differential_gain = 0.0
-sampling_period = 0.001
 )";
 
 constexpr const char* stay = R"([conductor]
@@ -103,7 +84,7 @@ TEST_F(PlaceJob, HasTheColumnsThatOtherProgramsRead) {
 }
 
 TEST_F(PlaceJob, AStockbridgeOnDrakeGoesWhereTheBalanceSaysTheSame) {
-  const std::string text = std::string(drake) + stockbridge;
+  const std::string text = drake_line + stockbridge;
   const auto found = answer(text, "--quiet");
   EXPECT_LT(found.at("largest_strain"), 0.4 * found.at("largest_strain_before"));
   EXPECT_NEAR(largest_strain(text, ""), found.at("largest_strain_before"), 1e-12);
@@ -151,7 +132,7 @@ TEST_F(PlaceJob, ANegativeStiffnessLeavesTheConductorAtRest) {
 }
 
 TEST_F(PlaceJob, TheAbsorberOnDrakeHoldsAndTellsWhatItTakes) {
-  const std::string text = std::string(drake) + absorber;
+  const std::string text = drake_line + drake_absorber;
   const auto found = answer(text, "--quiet");
   EXPECT_EQ(found.at("position"), 1.5);
   EXPECT_LT(found.at("largest_strain"), 0.7 * found.at("largest_strain_before"));
@@ -170,7 +151,7 @@ TEST_F(PlaceJob, TheAbsorberOnDrakeHoldsAndTellsWhatItTakes) {
 }
 
 TEST_F(PlaceJob, RefusesWhatIsNoQuestion) {
-  const std::string passive = std::string(drake) + stockbridge;
+  const std::string passive = drake_line + stockbridge;
   expect_wrong(passive, "--device 2", "--device 2: must be 1");
   expect_wrong(passive, "--device 0", "--device 0: must be 1");
   expect_wrong(passive, "--device first", "--device first: must be 1");
@@ -183,8 +164,8 @@ TEST_F(PlaceJob, RefusesWhatIsNoQuestion) {
   expect_wrong(passive, "--modes 0:2", "FIRST:LAST");
   expect_wrong(passive, "--modes 1.5:2", "FIRST:LAST");
   expect_wrong(stay, "", "diameter");
-  expect_wrong(drake, "", "no device is on the span");
-  expect_wrong(std::string(drake) + absorber, "--device 1", "no [[device]]");
+  expect_wrong(drake_line, "", "no device is on the span");
+  expect_wrong(drake_line + drake_absorber, "--device 1", "no [[device]]");
 }
 
 }  // namespace

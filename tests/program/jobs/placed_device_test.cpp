@@ -11,6 +11,7 @@
 #include "jobs/span/placement/largest_vibration.hpp"
 #include "jobs/span/placement/stable_gains.hpp"
 #include "program/case/case_text.hpp"
+#include "support/drake_case.hpp"
 #include "support/testing.hpp"
 
 #ifdef HOLDFAST_HAS_CERES
@@ -18,27 +19,7 @@
 namespace holdfast::program {
 namespace {
 
-/// Drake at a fifth of its strength with an absorber of 5 kg and 20 Hz, 1.5 m from the support.
-Case active_drake() {
-  return tests::from_text(R"(
-[conductor]
-name = "Drake"
-span = 300.0
-tension = 28020.0
-damping_ratio = 0.0002
-[absorber]
-mass = 5.0
-position = 1.5
-[plant]
-absorber_mass = 5.0
-absorber_stiffness = 78956.8352
-absorber_damping = 125.663706
-[control]
-proportional_gain = 0.0
-differential_gain = 0.0
-sampling_period = 0.001
-)");
-}
+Case active_drake() { return tests::from_text(tests::drake_line + tests::drake_absorber); }
 
 PlacementQuestion gains_for(const Axis& frequencies) {
   PlacementQuestion question;
