@@ -27,8 +27,7 @@ bool is_of_another_cable(const Case& the_case) {
 }  // namespace
 
 bool has_active_absorber(const Case& the_case) {
-  return the_case.plant.absorber_mass > 0.0 &&
-         (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
+  return has_absorber(the_case) && (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
 }
 
 bool is_two_masses(const Case& the_case) { return the_case.plant.model == "two_masses"; }

@@ -143,44 +143,5 @@ TEST(PerfectAbsorption, OfAHeavyAbsorberIsThatOfTheForceAlone) {
                InvalidParameter);
 }
 
-TEST(LumpedDevice, OfOneMassIsThatMass) {
-  const Complex s(-0.3, 40.0);
-  const LumpedDevice rigid{{{1e9, 1e12, 0.0, 3.0}}, 2.0};
-  EXPECT_NEAR(std::abs(impedance(rigid, s) - 5.0 * s), 0.0, 1e-4);
-  // Far above its resonances a damper is its clamp and its dashpots; far below, its whole mass.
-  const LumpedDevice stock = stockbridge({4.0, {9.0, 24.0}, {0.15, 0.2}, 0.55, 0.4});
-  const Complex slow(0.0, turn_of(0.05)), fast(0.0, turn_of(1e5));
-  EXPECT_NEAR(std::abs(impedance(stock, slow) / (4.4 * slow) - 1.0), 0.0, 1e-4);
-  EXPECT_NEAR(impedance(stock, fast).imag() / (0.4 * fast.imag()), 1.0, 1e-4);
-}
-
-TEST(LumpedDevice, RefusesWhatIsNoDevice) {
-  EXPECT_THROW(validate(LumpedDevice{{{-1.0}}, 0.0}), InvalidParameter);
-  EXPECT_THROW(validate(LumpedDevice{{{1.0, 0.0, 0.0, 0.0}}, 0.0}), InvalidParameter);
-  EXPECT_THROW(validate(LumpedDevice{{}, -1.0}), InvalidParameter);
-  EXPECT_THROW(stockbridge({4.0, {9.0, 24.0}, {0.15, 0.0}}), InvalidParameter);
-  EXPECT_THROW(stockbridge({4.0, {9.0, 24.0}, {0.15, 0.1}, 1.5}), InvalidParameter);
-}
-
-TEST(MeasuredImpedance, RunsStraightBetweenItsRows) {
-  const MeasuredImpedance device({{10.0, {1.0, 2.0}}, {20.0, {3.0, 0.0}}, {40.0, {0.0, 8.0}}});
-  EXPECT_EQ(device.at(10.0), Complex(1.0, 2.0));
-  EXPECT_EQ(device.at(40.0), Complex(0.0, 8.0));
-  EXPECT_NEAR(std::abs(device.at(12.5) - Complex(1.5, 1.5)), 0.0, 1e-15);
-  EXPECT_TRUE(std::isnan(device.at(9.0).real()));
-  EXPECT_TRUE(std::isnan(device.at(41.0).real()));
-  EXPECT_EQ(impedance(device, Complex(0.0, -20.0)),
-            std::conj(impedance(device, Complex(0.0, 20.0))));
-}
-
-TEST(MeasuredImpedance, RefusesWhatWasNotMeasuredSo) {
-  EXPECT_THROW(MeasuredImpedance(std::vector<MeasuredImpedance::Row>(1, {10.0, {1.0, 2.0}})),
-               InvalidParameter);
-  EXPECT_THROW(MeasuredImpedance({{10.0, {1.0, 2.0}}, {10.0, {1.0, 2.0}}}), InvalidParameter);
-  EXPECT_THROW(MeasuredImpedance({{10.0, {1.0, 2.0}}, {20.0, {-0.1, 2.0}}}), InvalidParameter);
-  EXPECT_THROW(MeasuredImpedance({{10.0, {1.0, 2.0}}, {20.0, {std::nan(""), 2.0}}}),
-               InvalidParameter);
-}
-
 }  // namespace
 }  // namespace holdfast

@@ -150,7 +150,7 @@ TEST(SpanPoles, AreFoundWhereBothEndsHaveTheSameDampers) {
   for (ModeAtPlaces& mode : modes) mode.damping_ratio = std::hypot(mode.damping_ratio, 2e-4);
   SpanPoles span(modes);
   const LumpedDevice other = stockbridge({0.82, {18.3, 66.2}, {0.067, 0.067}, 0.75, 0.0});
-  for (const std::size_t place : {1, 2}) {
+  for (const std::size_t place : {1u, 2u}) {
     span.attach(damper(), place);
     span.attach(other, place);
   }

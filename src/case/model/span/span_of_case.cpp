@@ -40,7 +40,7 @@ double stiffness_at_rest(const SpanDevice& device) {
 }  // namespace
 
 std::string absent_absorber_note(const Case& the_case) {
-  if (has_active_absorber(the_case) || !(the_case.plant.absorber_mass > 0.0)) return "";
+  if (has_active_absorber(the_case) || !has_absorber(the_case)) return "";
   return "the built-in absorber and its computer are of another cable and do not count here: give "
          "[absorber], plant.absorber_mass or [control] to have one";
 }
