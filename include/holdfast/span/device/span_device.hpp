@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "holdfast/cable/conductor.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/span/device/active_absorber.hpp"
 #include "holdfast/span/device/lumped_device.hpp"
