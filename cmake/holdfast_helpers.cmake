@@ -24,6 +24,9 @@ function(holdfast_add_warnings)
     target_compile_options(holdfast_warnings INTERFACE
       $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)
   endif()
+  if(EMSCRIPTEN)  # its lists are no longer than its 32 bits of memory
+    target_compile_options(holdfast_warnings INTERFACE -Wno-shorten-64-to-32)
+  endif()
 endfunction()
 
 # Compiles a target for one of the levels of x86-64 beyond the compiler's own: x86-64-v3 (AVX2),

@@ -1,16 +1,19 @@
 #pragma once
 
+#ifndef __EMSCRIPTEN__
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
+#endif
 
 #include <algorithm>
 #include <cstdint>
 
 namespace holdfast::simd {
 
-/// Does the rows of a chart in tiles on several threads.
+/// Does the rows of a chart in tiles on several threads; in a browser, whose modules have one thread
+/// each, one after the other.
 ///
 /// Tiles begin at multiples of `tile` for any number of threads, and each is computed by a
 /// copy of `kernel`, so that results do not depend on that number. Exceptions of a tile come out
@@ -28,6 +31,10 @@ void parallel_rows(std::int64_t rows, std::int64_t tile, int threads, const Kern
     Kernel own = kernel;
     compute(own, index * tile, std::min(tile, rows - index * tile));
   };
+#ifdef __EMSCRIPTEN__
+  (void)threads;
+  for (std::int64_t index = 0; index < tiles; ++index) do_tile(index);
+#else
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, tiles),
@@ -36,6 +43,7 @@ void parallel_rows(std::int64_t rows, std::int64_t tile, int threads, const Kern
                           do_tile(index);
                       });
   });
+#endif
 }
 
 }  // namespace holdfast::simd

@@ -8,7 +8,9 @@
 #include "kernels/instruction_set.hpp"
 
 #ifdef HOLDFAST_HAS_SIMD
+#ifndef __EMSCRIPTEN__
 #include <oneapi/tbb/version.h>
+#endif
 #include <xsimd/config/xsimd_config.hpp>
 #endif
 #ifdef HOLDFAST_HAS_SUNDIALS
@@ -60,7 +62,7 @@ std::vector<Dependency> dependencies() {
                  dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                         NLOHMANN_JSON_VERSION_PATCH),
                  "MIT"});
-#ifdef HOLDFAST_HAS_SIMD
+#ifdef TBB_VERSION_MAJOR
   all.push_back(
       {"oneTBB", dotted(TBB_VERSION_MAJOR, TBB_VERSION_MINOR, TBB_VERSION_PATCH), "Apache-2.0"});
 #endif

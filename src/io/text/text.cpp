@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "io/text/double_digits.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -69,7 +70,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 char* put_number(char* place, double value) {
-  if (!std::isnan(value)) return std::to_chars(place, place + longest_number, value).ptr;
+  if (!std::isnan(value)) return shortest_digits(place, place + longest_number, value);
   constexpr std::string_view none = "nan";  // to_chars would tell the sign of a NaN
   return std::copy(none.begin(), none.end(), place);
 }
@@ -81,9 +82,8 @@ std::string format_number(double value) {
 
 std::string format_rounded(double value) {
   std::array<char, 32> digits{};
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                    std::chars_format::general, 5);
-  return std::string(digits.data(), result.ptr);
+  return std::string(digits.data(),
+                     rounded_digits(digits.data(), digits.data() + digits.size(), value, 5));
 }
 
 std::string hexadecimal(std::uint64_t number, std::size_t digits) {
@@ -98,7 +98,7 @@ std::optional<double> parse_number(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   if (plus) text.remove_prefix(1);
   double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto result = read_digits(text, value);
   const bool whole = result.ptr == text.data() + text.size() && !text.empty();
   if (!whole || result.ec == std::errc::invalid_argument) return std::nullopt;
   // Out of a double's range: too small is as good as zero, too large is infinite.

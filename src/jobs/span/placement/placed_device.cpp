@@ -104,7 +104,7 @@ class AbsorberPlacement {
     std::vector<double> distances = {position.value.present};
     for (int k = 0; k < places; ++k) distances.push_back(position.value.lower + k * step);
     PlacedDevice best;
-    for (int turn = 0; turn <= halvings; ++turn) {
+    for (int halving = 0; halving <= halvings; ++halving) {
       for (const double distance : distances) keep_better(best, position, distance, quick);
       step *= 0.5;
       const double middle = best.found.values.back();
