@@ -39,7 +39,7 @@ void add_jobs(CLI::App& program) {
         add_max_delay, add_simulate,   add_spectrum,   add_deviation,     add_coverage,
         add_verdict,   add_orbit,      add_basins,     add_diagram,       add_section,
         add_lyapunov,  add_sweep,      add_absorption, add_aeolian,       add_fatigue,
-        add_place,     add_answers,    add_report})
+        add_place,     add_answers,    add_report,     add_explore})
     add(program);
   add_texts(program);
 }

@@ -53,3 +53,7 @@ if(TARGET holdfast_executable)
 endif()
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/holdfast)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Where it was built.
+install(FILES ${PROJECT_SOURCE_DIR}/build/wasm/explorer.html
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/holdfast OPTIONAL)

@@ -26,6 +26,7 @@ not_run=(
   'cmake *|builds or installs the whole project'
   'apt *|installs packages'
   'sudo apt*|installs packages'
+  'holdfast explore *|its page is built apart: tests/explorer'
   'mpirun *|tests/mpi runs the program under mpirun'
 )
 # Case files that the pages name as the reader's own, and what stands in for them.

@@ -20,7 +20,8 @@ command=("$@")
 program=$(realpath "${command[-1]}")
 command[-1]=$program
 
-# Kind, then the words: t threads, p needs a package, l takes long, a any other.
+# Kind, then the words: t threads, p needs a package, l takes long, w needs the explorer's page, which is
+# built apart, a any other.
 questions='
 t stability --p -600:0:7 --d -20:0:5 --radius
 t stability --axis plant.absorber_mass=0.1:0.2:3 --axis control.differential_gain=-9:0:3
@@ -75,6 +76,7 @@ p place --for damping --frequency 5:10:3 --set device.1.kind=dashpot --set devic
 a answers
 l report --output report
 l report --for span --case acsr-drake-300m-dampers.toml --output span-report
+w explore --output explorer.html
 a manual
 a completion bash
 a bill-of-materials
@@ -99,7 +101,8 @@ fi
 failures=0 count=0
 while read -r kind words; do
   case $only:$kind in
-    *: | threads:[apl] | plain:p | short:l) continue ;;
+    *: | threads:[aplw] | plain:p | short:l) continue ;;
+    *:w) [ -f "$(dirname "$program")/../../wasm/explorer.html" ] || continue ;;
   esac
   read -ra arguments <<<"$words"
   count=$((count + 1))

@@ -1,0 +1,74 @@
+#include "explorer/explorer_page.hpp"
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "case/case_file.hpp"
+#include "io/file/input.hpp"
+#include "io/text/filled.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What stands in the page for the case.
+constexpr const char* empty_case = R"({"name":"","text":""})";
+
+/// Where the page lies beside the program: as installed, and as built.
+std::array<fs::path, 2> places_of_page() {
+  std::error_code ignored;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  return {folder.parent_path() / "share/holdfast/explorer.html",
+          folder.parent_path().parent_path() / "wasm/explorer.html"};
+}
+
+std::optional<fs::path> built_page() {
+  std::error_code ignored;
+  for (const fs::path& place : places_of_page())
+    if (fs::is_regular_file(place, ignored)) return place;
+  return std::nullopt;
+}
+
+void require_no_further_files(const Case& the_case) {
+  if (!the_case.excitation.record.empty())
+    throw WrongInput("excitation.record: the explorer is one page, without the file of a force");
+  for (const case_tables::Device& device : the_case.devices)
+    if (!device.file.empty())
+      throw WrongInput("device.file: the explorer is one page, without the file of an impedance");
+}
+
+/// The case file itself where nothing was set over it; empty for the built-in case.
+std::string text_of_case(const Case& the_case, const CaseSource& source) {
+  if (source.overrides.empty()) return source.text.value_or("");
+  return case_to_toml(the_case);
+}
+
+/// Of a JSON text that stands in a page: its strings may hold no tag.
+std::string json_in_page(const nlohmann::ordered_json& json) {
+  return replaced(json.dump(), "<", "\\u003c");
+}
+
+}  // namespace
+
+bool explorer_is_there() { return built_page().has_value(); }
+
+std::string explorer_page(const Case& the_case, const CaseSource& source) {
+  require_no_further_files(the_case);
+  const std::optional<fs::path> file = built_page();
+  if (!file)
+    throw NoAnswer("the explorer's page was not built: no " + places_of_page()[0].string() +
+                   " and no " + places_of_page()[1].string() +
+                   "; in the project's folder, cmake --preset wasm && cmake --build --preset wasm "
+                   "makes it (Debian packages emscripten, node-d3)");
+  const std::string name =
+      source.overrides.empty() || source.name.empty() ? source.name : source.name + " with --set";
+  return replaced(read_input(*file), empty_case,
+                  json_in_page({{"name", name}, {"text", text_of_case(the_case, source)}}));
+}
+
+}  // namespace holdfast::program

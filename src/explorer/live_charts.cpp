@@ -1,0 +1,67 @@
+#include "explorer/live_charts.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/stability/chart/circle_chart.hpp"
+#include "kernels/pack_kernels.hpp"
+
+namespace holdfast::program {
+namespace {
+
+void fill_on_modes(const Case& the_case, const GainGrid& grid, std::uint8_t* cells) {
+  const ResolvedCircle<double> circle = circle_of(the_case);
+  for (std::int64_t row = 0; row < grid.proportional.count; ++row)
+    fill_stability_row(circle, grid.proportional.at(row), grid.differential,
+                       cells + row * grid.differential.count);
+}
+
+void fill_of_two_masses(const Case& the_case, const GainGrid& grid, std::uint8_t* cells) {
+  const LoopChart chart{operating_point_of(the_case),
+                        {LoopParameter::proportional_gain, grid.proportional},
+                        {LoopParameter::differential_gain, grid.differential}};
+  validate(chart);
+  pack_kernels(InstructionSet::baseline)
+      .chart(chart, false)
+      ->fill(0, grid.proportional.count, cells, nullptr);
+}
+
+/// Without play, of a stable loop.
+double controlled_amplitude(const Case& the_case, double frequency) {
+  const double omega = 2.0 * pi<double> * frequency;
+  const Sampling<double> sampling = sampling_of(the_case);
+  if (!(omega * sampling.period < pi<double>)) return std::numeric_limits<double>::quiet_NaN();
+  return excitation_of(the_case).amplitude *
+         steady_response_of(the_case, sampling, force_hold_of(the_case), omega)
+             .amplitude_per_force(gains_of(the_case));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& grid) {
+  std::vector<std::uint8_t> cells(
+      static_cast<std::size_t>(grid.proportional.count * grid.differential.count));
+  is_modal(the_case) ? fill_on_modes(the_case, grid, cells.data())
+                     : fill_of_two_masses(the_case, grid, cells.data());
+  return cells;
+}
+
+std::vector<AmplitudesAt> amplitudes_over(const Case& the_case, const Axis& frequencies) {
+  const bool stable = spectral_radius_of(the_case) < 1.0;
+  std::vector<AmplitudesAt> amplitudes;
+  for (std::int64_t k = 0; k < frequencies.count; ++k) {
+    const double frequency = frequencies.at(k);
+    const double controlled = stable ? controlled_amplitude(the_case, frequency)
+                                     : std::numeric_limits<double>::quiet_NaN();
+    amplitudes.push_back({frequency, controlled,
+                          excitation_of(the_case).amplitude *
+                              true_amplitude_of(the_case, 2.0 * pi<double> * frequency)});
+  }
+  return amplitudes;
+}
+
+}  // namespace holdfast::program

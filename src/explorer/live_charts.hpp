@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "case/case.hpp"
+#include "holdfast/core/axis.hpp"
+#include "holdfast/stability/chart/chart.hpp"
+
+namespace holdfast::program {
+
+// What the explorer draws anew while the hand still moves: the numbers of the jobs `stability` and
+// `response` without their tables.
+
+/// The cells of the job `stability` over P and D, P slowest: 1 where the loop without play is
+/// stable. On any plant of the case. Throws InvalidParameter, WrongInput.
+std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& grid);
+
+/// Steady amplitudes of the conductor (m) at a frequency (Hz), without play.
+struct AmplitudesAt {
+  double frequency;
+  double controlled;    ///< NaN where the loop is not stable, or sampling does not show the motion
+  double uncontrolled;  ///< under the true force
+};
+
+/// The same under forces of other frequencies than the case's, its gains as they are.
+/// @param frequencies  above 0 Hz
+std::vector<AmplitudesAt> amplitudes_over(const Case& the_case, const Axis& frequencies);
+
+}  // namespace holdfast::program

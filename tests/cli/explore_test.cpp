@@ -1,0 +1,84 @@
+#include "cli/program.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The program in a place of its own, with a page beside it as it is installed, or without one.
+class InstalledProgram {
+ public:
+  explicit InstalledProgram(const std::string& page) {
+    fs::create_directories(folder_ / "bin");
+    fs::create_directories(folder_ / "share/holdfast");
+    fs::copy_file(HOLDFAST_PROGRAM, folder_ / "bin/holdfast");
+    if (!page.empty()) write_text(folder_ / "share/holdfast/explorer.html", page);
+  }
+
+  Outcome run(const std::string& arguments) const {
+    const std::string errors = (folder_ / "err").string();
+    const std::string command = "cd '" + folder_.path().string() + "' && bin/holdfast " +
+                                arguments + " 2>'" + errors + "' </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read_text(errors)};
+  }
+
+  fs::path operator/(const std::string& name) const { return folder_ / name; }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+constexpr const char* skeleton = R"(<script id="case-of-page">{"name":"","text":""}</script>)";
+
+TEST(ExploreJob, PutsTheCaseIntoThePage) {
+  const InstalledProgram program(skeleton);
+  write_text(program / "mine.toml",
+             "# </script><script>alert(1)</script>\n[control]\ndifferential_gain = -9.0\n");
+  ASSERT_EQ(program.run("explore --case mine.toml --output page.html").exit_code, 0);
+  const std::string page = read_text(program / "page.html");
+  EXPECT_NE(page.find(R"("name":"mine.toml")"), std::string::npos) << page;
+  EXPECT_NE(page.find("differential_gain = -9.0"), std::string::npos) << page;
+  EXPECT_EQ(page.find("</script><script>"), std::string::npos) << page;
+}
+
+TEST(ExploreJob, OfTheBuiltInCaseIsThePageAsItIs) {
+  const InstalledProgram program(skeleton);
+  ASSERT_EQ(program.run("explore --output page.html").exit_code, 0);
+  EXPECT_EQ(read_text(program / "page.html"), skeleton);
+}
+
+TEST(ExploreJob, WithValuesSetThePageHasTheWholeCase) {
+  const InstalledProgram program(skeleton);
+  ASSERT_EQ(program.run("explore --set backlash.width=0.0007 --output page.html").exit_code, 0);
+  const std::string page = read_text(program / "page.html");
+  EXPECT_NE(page.find("width = 7e-04"), std::string::npos) << page;
+  EXPECT_NE(page.find("conductor_mass"), std::string::npos) << page;
+}
+
+TEST(ExploreJob, SaysWhatIsMissingWhereThePageWasNotBuilt) {
+  const InstalledProgram program("");
+  const Outcome outcome = program.run("explore --output page.html");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.errors.find("cmake --preset wasm"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("emscripten"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(fs::exists(program / "page.html"));
+}
+
+TEST(ExploreJob, RefusesWhatIsNoPageAndCasesOfSeveralFiles) {
+  const InstalledProgram program(skeleton);
+  write_text(program / "force.csv", "time_s,force_N\n0,0\n1,1\n");
+  const auto expect_refusal = [&](const std::string& arguments, const std::string& mentioned) {
+    const Outcome outcome = program.run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.errors.find(mentioned), std::string::npos) << outcome.errors;
+  };
+  expect_refusal("explore", "--output FILE.html is needed");
+  expect_refusal("explore --output page.csv", "let its name end in .html");
+  expect_refusal("explore --set excitation.record=force.csv --output page.html",
+                 "without the file of a force");
+}
+
+}  // namespace
+}  // namespace holdfast::tests
