@@ -16,6 +16,11 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
+void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+}
+
 void expect_every_figure_as_table_and_picture(const fs::path& report) {
   const std::string page = read_text(report / "report.html");
   std::vector<std::string> figures = {
@@ -36,7 +41,48 @@ void expect_every_figure_as_table_and_picture(const fs::path& report) {
     EXPECT_EQ(picture.find("scale(0.00)"), std::string::npos) << figure;
     EXPECT_NE(page.find("id=\"" + figure + "\""), std::string::npos) << figure;
   }
-  EXPECT_EQ(count_of(page, "data:image/svg+xml;base64,"), figures.size());
+  const std::size_t drawings = count_of(page, "src=\"data:image/svg+xml;charset=utf-8,");
+  const std::size_t dots = count_of(page, "src=\"data:image/png;base64,");
+  EXPECT_EQ(drawings + dots, figures.size());
+  EXPECT_GE(drawings, 30U);
+  EXPECT_GE(dots, 2U);
+}
+
+/// What of a page belongs to a figure.
+std::string figure_named(const std::string& page, const std::string& name) {
+  const std::size_t begin = page.find("<figure id=\"" + name + "\">");
+  if (begin == std::string::npos) return "";
+  return page.substr(begin, page.find("</figure>", begin) - begin);
+}
+
+/// Each figure tells where its panels lie and what their axes are called, and has its command at a
+/// place of its own.
+void expect_every_figure_with_its_panels_and_its_command(const fs::path& report) {
+  const std::string page = read_text(report / "report.html");
+  const std::size_t figures = count_of(page, "<figure id=\"");
+  EXPECT_EQ(count_of(page, " data-panels=\"[{&quot;box&quot;:["), figures);
+  EXPECT_EQ(count_of(page, "-command\"><div class=\"label\"><a href=\"#"), figures);
+  EXPECT_EQ(count_of(page, "<pre>holdfast "), figures + count_of(page, "<div class=\"answer\">"));
+  for (std::size_t at = page.find("<figure id=\""); at != std::string::npos;
+       at = page.find("<figure id=\"", at + 1)) {
+    const std::string name = page.substr(at + 12, page.find('"', at + 12) - at - 12);
+    const std::string figure = figure_named(page, name);
+    EXPECT_NE(figure.find("&quot;x&quot;:{&quot;name&quot;:"), std::string::npos) << name;
+    EXPECT_NE(figure.find("id=\"" + name + "-command\""), std::string::npos) << name;
+    EXPECT_NE(figure.find("href=\"#" + name + "-command\""), std::string::npos) << name;
+    EXPECT_NE(figure.find("href=\"pictures/" + name + ".svg\""), std::string::npos) << name;
+  }
+  const std::string three = figure_named(page, "fig04c");
+  EXPECT_EQ(count_of(three, "&quot;y&quot;:{&quot;name&quot;:&quot;D&quot;"), 3U) << three;
+  EXPECT_EQ(count_of(three, "&quot;unit&quot;:&quot;N s/m&quot;"), 3U);
+  EXPECT_NE(figure_named(page, "fig02b").find("&quot;right&quot;:{&quot;name&quot;:"),
+            std::string::npos);
+  // An axis that counts decades says what it shows.
+  EXPECT_EQ(count_of(figure_named(page, "success-delay-backlash"), "&quot;log&quot;:true"), 2U);
+}
+
+void expect_a_light_page(const fs::path& report) {
+  EXPECT_LE(fs::file_size(report / "report.html"), 3000000U);
 }
 
 void expect_no_partial_file_and_metadata_beside_every_table(const fs::path& report) {
@@ -51,9 +97,14 @@ void expect_no_partial_file_and_metadata_beside_every_table(const fs::path& repo
 
 void expect_nothing_loaded_from_elsewhere(const fs::path& report) {
   const std::string page = read_text(report / "report.html");
-  EXPECT_EQ(count_of(page, "src=\"http"), 0U);
-  EXPECT_EQ(count_of(page, "<script"), 0U);
-  EXPECT_EQ(count_of(page, "<link"), 0U);
+  for (const char* loading :
+       {"src=\"http", "src=\"//", "href=\"http", "url(", "@import", "<link", "<script src",
+        "<iframe", "<object", "fetch(", "XMLHttpRequest", "import("})
+    EXPECT_EQ(count_of(page, loading), 0U) << loading;
+  EXPECT_EQ(count_of(page, "<script"), 1U);
+  EXPECT_EQ(count_of(page, " src=\""), count_of(page, " src=\"data:"));
+  expect_holds(page, {"<html lang=\"en\">",
+                      "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'"});
 }
 
 void expect_verdicts_with_reasons_where_they_differ(const fs::path& report) {
@@ -75,11 +126,6 @@ std::string part_between(const std::string& page, const std::string& from, const
 std::string motion_named(const std::string& page, const std::string& cell) {
   const std::string section = part_between(page, "<h2 id=\"motions\">", "<h2>Figures</h2>");
   return part_between(section, "<td>" + cell + "</td>", "</code>");
-}
-
-void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
 }
 
 // The forcing has 10 Hz. A sample falls on its own phase again after 100 samples of 11 ms, 11
@@ -211,6 +257,8 @@ TEST(Report, OfTheBuiltInCaseIsWholeSelfContainedAndComparesWithThePaper) {
   const Outcome outcome = run_holdfast("report --output '" + report.string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   expect_every_figure_as_table_and_picture(report);
+  expect_every_figure_with_its_panels_and_its_command(report);
+  expect_a_light_page(report);
   expect_no_partial_file_and_metadata_beside_every_table(report);
   expect_nothing_loaded_from_elsewhere(report);
   expect_verdicts_with_reasons_where_they_differ(report);

@@ -3,7 +3,6 @@
 #include <system_error>
 #include <utility>
 
-#include "io/file/input.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "report/figures/gnuplot.hpp"
@@ -17,7 +16,7 @@ FigureWriter::FigureWriter(FigureWork work)
     : work_(std::move(work)), can_draw_(gnuplot_available()) {}
 
 DrawnFigure FigureWriter::make(const Figure& figure) const {
-  DrawnFigure drawn{figure, {}, "", ""};
+  DrawnFigure drawn{figure, {}, {}, ""};
   for (const TableRequest& table : figure.tables)
     drawn.commands.push_back(shell_text(table.arguments, work_.case_arguments) + " --output data/" +
                              table.name + ".csv");
@@ -36,8 +35,7 @@ DrawnFigure FigureWriter::with_picture(DrawnFigure drawn) const {
     return drawn;
   }
   drawn.figure.length_unit = work_.length_unit;
-  draw(drawn.figure, work_.folder);
-  drawn.svg = read_input(work_.folder / "pictures" / (drawn.figure.name + ".svg"));
+  drawn.picture = page_picture(drawn.figure, work_.folder);
   return drawn;
 }
 

@@ -71,7 +71,7 @@ class Messages {
   int descriptor() const { return file_ ? fileno(file_.get()) : -1; }
 
   std::string text() const {
-    std::string text(1000, '\0');
+    std::string text(100000, '\0');
     if (file_) std::rewind(file_.get());
     text.resize(file_ ? std::fread(text.data(), 1, text.size(), file_.get()) : 0);
     return text;
@@ -100,10 +100,27 @@ std::string heading_line(const Figure& figure) {
          replaced(figure.heading, "'", "''") + "' noenhanced\n";
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write(text);
-  file.commit();
+/// What a picture that gnuplot has not drawn is told of, in its first words.
+std::string reason_of(int status, const std::string& messages) {
+  if (status == 0) return "the picture is cut off; is the disk full?";
+  return one_line(without_panels(messages).substr(0, 1000));
+}
+
+/// Draws a figure into a file by the script in another one, and gives what gnuplot says.
+std::string run_script(const Figure& figure, const fs::path& folder, const fs::path& script,
+                       const OutputFile& picture, const std::string& ending) {
+  const std::string commands =
+      "picture = '/dev/stdout'; measure = '" + listed_text("measure") + "'";
+  const Messages messages;
+  const int status = run_gnuplot(folder, commands, fs::absolute(script),
+                                 fs::absolute(picture.temporary()), messages.descriptor());
+  const bool whole = is_whole(read_input(picture.temporary()), ending);
+  if (status != 0 || !whole) {
+    throw_if_interrupted();  // a terminal sends its signal to gnuplot as well
+    throw OutputError("gnuplot could not draw " + figure.name + ": " +
+                      reason_of(status, messages.text()));
+  }
+  return messages.text();
 }
 
 }  // namespace
@@ -119,30 +136,37 @@ std::string gnuplot_script(const Figure& figure, const std::string& ending) {
     values.emplace_back(table.name.substr(figure.name.size()),
                         "'data/" + table.name + ".csv' skip 1");
   const Values height = {{"height", format_number(figure.height)}};
-  return filled(listed_text("script"),
-                {{"name", figure.name},
-                 {"ending", ending},
-                 {"terminal", filled(terminal_text(ending), height)},
-                 {"heading", heading_line(figure)},
-                 {"plot", filled(with_unbroken_labels(figure.plot), values)}});
+  return filled(
+      listed_text("script"),
+      {{"name", figure.name},
+       {"ending", ending},
+       {"terminal", filled(terminal_text(ending), height)},
+       {"heading", heading_line(figure)},
+       {"plot", filled(with_measured_panels(with_unbroken_labels(figure.plot)), values)}});
 }
 
-void draw(const Figure& figure, const fs::path& folder, const std::string& ending) {
+std::vector<PicturePanel> draw(const Figure& figure, const fs::path& folder,
+                               const std::string& ending) {
   const fs::path pictures = folder / "pictures";
-  write_file(pictures / (figure.name + ".gp"), gnuplot_script(figure, ending));
+  const fs::path script = pictures / (figure.name + ".gp");
+  OutputFile written(script);
+  written.write(gnuplot_script(figure, ending));
+  written.commit();
   OutputFile picture(pictures / (figure.name + ending));
-  const Messages messages;
-  const int status =
-      run_gnuplot(folder, "picture = '/dev/stdout'", "pictures/" + figure.name + ".gp",
-                  fs::absolute(picture.temporary()), messages.descriptor());
-  const bool whole = is_whole(read_input(picture.temporary()), ending);
-  if (status != 0 || !whole) {
-    throw_if_interrupted();  // a terminal sends its signal to gnuplot as well
-    throw OutputError(
-        "gnuplot could not draw " + figure.name + ": " +
-        (status != 0 ? one_line(messages.text()) : "the picture is cut off; is the disk full?"));
-  }
+  const std::string said = run_script(figure, folder, script, picture, ending);
   picture.commit();
+  return measured_panels(said);
+}
+
+PassingPicture passing_picture(const Figure& figure, const fs::path& folder,
+                               const std::string& ending) {
+  const fs::path pictures = folder / "pictures";
+  OutputFile script(pictures / (figure.name + ending + ".gp"));
+  script.write(gnuplot_script(figure, ending));
+  script.finish();
+  OutputFile picture(pictures / (figure.name + ending));
+  const std::string said = run_script(figure, folder, script.temporary(), picture, ending);
+  return {read_input(picture.temporary()), measured_panels(said)};
 }
 
 }  // namespace holdfast::program

@@ -9,7 +9,8 @@
 namespace holdfast::program {
 namespace {
 
-/// 1, 2 and 5 times the powers of ten: gnuplot's pictures of cells know no logarithmic axis.
+/// 1, 2 and 5 times the powers of ten: gnuplot's pictures of cells know no logarithmic axis. The
+/// variable tells who measures the panel that its axis counts decades.
 std::string tics_of(const std::string& letter, const MapAxis& axis) {
   if (!axis.logarithmic) return "";
   const double lowest = axis.min * axis.scale, highest = axis.max * axis.scale;
@@ -23,7 +24,7 @@ std::string tics_of(const std::string& letter, const MapAxis& axis) {
       tics += (tics.empty() ? "'" : ", '") + text + "' log10(" + text + ")";
     }
   }
-  return "set " + letter + "tics (" + tics + ")\n";
+  return "set " + letter + "tics (" + tics + ")\n" + letter + "_decades = 1\n";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "io/text/compiled_texts.hpp"
 #include "report/page/command_line.hpp"
+#include "report/page/panels_json.hpp"
 
 namespace holdfast::program {
 
@@ -53,43 +54,48 @@ std::string motions_part(const Page& page) {
                                        rows)}});
 }
 
-/// Of RFC 4648.
-std::string base64(const std::string& bytes) {
-  constexpr const char* alphabet =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result;
-  result.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t present = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < present ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      result += k <= present ? alphabet[group >> (18 - 6 * k) & 63U] : '=';
-    }
+/// What the panels of a picture show: "displacement z₁ over time t".
+std::string axes_text(const std::vector<PicturePanel>& panels) {
+  std::string text;
+  for (const PicturePanel& panel : panels) {
+    if (panel.x.name.empty() || panel.y.name.empty()) continue;
+    const std::string axes = page_text("axes of panel", {{"x", panel.x.name}, {"y", panel.y.name}});
+    if (text.find(axes) == std::string::npos) text += (text.empty() ? "" : "; ") + axes;
   }
-  return result;
+  return text.empty() ? "" : page_text("axes of picture", {{"axes", text}});
 }
 
 std::string picture(const DrawnFigure& drawn) {
   if (!drawn.reason.empty()) return page_text("no picture", {{"reason", escaped(drawn.reason)}});
-  return page_text("picture", {{"title", escaped(drawn.figure.title)},
-                               {"caption", escaped(drawn.figure.caption)},
-                               {"svg", base64(drawn.svg)}});
+  const PagePicture& shown = drawn.picture;
+  return page_text("picture", {{"name", drawn.figure.name},
+                               {"title", escaped(drawn.figure.title)},
+                               {"axes", escaped(axes_text(shown.panels))},
+                               {"height", rounded(drawn.figure.height, 6)},
+                               {"panels", escaped(panels_json(shown.panels))},
+                               {"source", replaced(shown.url, "&", "&amp;")}});
+}
+
+/// Links to the tables of a figure and to what is drawn of them.
+std::string links_to_files(const DrawnFigure& drawn) {
+  std::string links;
+  for (const TableRequest& table : drawn.figure.tables)
+    links += page_text("link to table", {{"name", table.name}});
+  return links +
+         (drawn.reason.empty() ? page_text("links to picture", {{"name", drawn.figure.name}}) : "");
 }
 
 std::string figure_html(const DrawnFigure& drawn) {
-  std::string tables, commands;
-  for (const TableRequest& table : drawn.figure.tables)
-    tables += page_text("link to table", {{"name", table.name}});
+  std::string commands;
   for (const std::string& command : drawn.commands) commands += escaped(command) + "\n";
+  const bool several = drawn.commands.size() > 1;
   return page_text("figure", {{"name", drawn.figure.name},
                               {"title", escaped(drawn.figure.title)},
                               {"picture", picture(drawn)},
                               {"caption", escaped(drawn.figure.caption)},
-                              {"tables", tables},
-                              {"commands", commands}});
+                              {"made by", page_text(several ? "made by several" : "made by one")},
+                              {"commands", commands},
+                              {"files", links_to_files(drawn)}});
 }
 
 }  // namespace
@@ -97,6 +103,29 @@ std::string figure_html(const DrawnFigure& drawn) {
 std::string page_text(const std::string& name, const Values& values) {
   static const toml::table texts = toml::parse(page_texts);
   return text_of(texts[name], values);
+}
+
+std::string page_head(const std::string& title) {
+  static const toml::table style = toml::parse(page_style_texts);
+  return page_text("head", {{"title", escaped(title)}, {"style", text_of(style["style"])}});
+}
+
+std::string page_foot() {
+  static const toml::table script = toml::parse(page_script_texts);
+  return page_text("foot", {{"script", text_of(script["script"])}});
+}
+
+std::string case_html(const std::string& case_text) {
+  return page_text("case", {{"case", escaped(case_text)}});
+}
+
+std::string list_of_figures(const std::vector<DrawnFigure>& figures) {
+  std::string links;
+  for (const DrawnFigure& drawn : figures)
+    links += page_text("link to figure",
+                       {{"name", drawn.figure.name}, {"title", escaped(drawn.figure.title)}});
+  return page_text("list of figures",
+                   {{"count", std::to_string(figures.size())}, {"links", links}});
 }
 
 std::string figures_html(const std::vector<DrawnFigure>& figures) {
@@ -124,9 +153,13 @@ std::string html_row(const std::vector<std::string>& cells) {
 }
 
 std::string html_table(const std::vector<std::string>& headings, const std::string& rows) {
-  std::string html;
-  for (const std::string& heading : headings) html += "<th>" + escaped(heading) + "</th>";
-  return page_text("table", {{"headings", html}, {"rows", rows}});
+  std::string html, all;
+  for (const std::string& heading : headings) {
+    html += "<th scope=\"col\">" + escaped(heading) + "</th>";
+    all += (all.empty() ? "" : ", ") + escaped(heading);
+  }
+  const std::string name = page_text("table named", {{"headings", all}});
+  return page_text("table", {{"name", name}, {"headings", html}, {"rows", rows}});
 }
 
 std::string escaped(const std::string& text) {
@@ -138,18 +171,23 @@ std::string escaped(const std::string& text) {
 }
 
 std::string html_of(const Page& page) {
-  return page_text("page",
-                   {{"head", page_text("head", {{"title", escaped(page.title)}})},
-                    {"title", escaped(page.title)},
-                    {"introduction", page.introduction},
-                    {"to motions", page.motions.empty() ? "" : page_text("to motions")},
-                    {"to comparison", page.comparisons.empty() ? "" : page_text("to comparison")},
-                    {"answers", answers_html(page.answers, page.case_arguments)},
-                    {"figures", figures_html(page.figures)},
-                    {"motions", motions_part(page)},
-                    {"switching", page.switching},
-                    {"comparison", comparison_part(page.comparisons)},
-                    {"case", escaped(page.case_text)}});
+  const auto link_to = [](const std::string& part, bool is_there) {
+    return is_there ? page_text("to " + part) : "";
+  };
+  return page_text("page", {{"head", page_head(page.title)},
+                            {"title", escaped(page.title)},
+                            {"introduction", page.introduction},
+                            {"to motions", link_to("motions", !page.motions.empty())},
+                            {"to switching", link_to("switching", !page.switching.empty())},
+                            {"to comparison", link_to("comparison", !page.comparisons.empty())},
+                            {"answers", answers_html(page.answers, page.case_arguments)},
+                            {"list of figures", list_of_figures(page.figures)},
+                            {"figures", figures_html(page.figures)},
+                            {"motions", motions_part(page)},
+                            {"switching", page.switching},
+                            {"comparison", comparison_part(page.comparisons)},
+                            {"case", case_html(page.case_text)},
+                            {"foot", page_foot()}});
 }
 
 }  // namespace holdfast::program

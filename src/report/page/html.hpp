@@ -5,16 +5,17 @@
 
 #include "report/comparison/comparison.hpp"
 #include "report/figures/figure.hpp"
+#include "report/figures/page_picture.hpp"
 #include "report/page/answers.hpp"
 #include "report/page/motions.hpp"
 
 namespace holdfast::program {
 
-/// A figure as it came out: its picture as SVG text, or the reason why there is none.
+/// A figure as it came out: its picture, or the reason why there is none.
 struct DrawnFigure {
   Figure figure;
   std::vector<std::string> commands;  ///< the command line of each table
-  std::string svg;
+  PagePicture picture;
   std::string reason;  ///< empty when there is a picture
 };
 
@@ -36,6 +37,17 @@ std::string html_of(const Page& page);
 
 /// The text of texts/page.toml, which is compiled in, with its values.
 std::string page_text(const std::string& name, const Values& values = {});
+
+/// What a page begins with, up to its body, and what it ends with: its style and its script.
+std::string page_head(const std::string& title);
+std::string page_foot();
+
+/// The part of a page that shows its whole case.
+/// @param case_text  TOML
+std::string case_html(const std::string& case_text);
+
+/// Links to figures, folded up.
+std::string list_of_figures(const std::vector<DrawnFigure>& figures);
 
 /// Figures, each with its caption, its tables and the commands that make them.
 std::string figures_html(const std::vector<DrawnFigure>& figures);

@@ -57,14 +57,15 @@ void write_span_report(const JobContext& context, const std::vector<std::string>
   }
   const std::vector<Answer> answers = span_answers(context);
   progress.advance();
-  write_page(
-      context, file,
-      page_text("span page", {{"head", page_text("head", {{"title", escaped(title_of(context))}})},
-                              {"title", escaped(title_of(context))},
-                              {"introduction", introduction_of(context.case_data)},
-                              {"answers", answers_html(answers, case_arguments)},
-                              {"figures", figures_html(drawn)},
-                              {"case", escaped(case_to_toml(context.case_data))}}));
+  write_page(context, file,
+             page_text("span page", {{"head", page_head(title_of(context))},
+                                     {"title", escaped(title_of(context))},
+                                     {"introduction", introduction_of(context.case_data)},
+                                     {"answers", answers_html(answers, case_arguments)},
+                                     {"list of figures", list_of_figures(drawn)},
+                                     {"figures", figures_html(drawn)},
+                                     {"case", case_html(case_to_toml(context.case_data))},
+                                     {"foot", page_foot()}}));
 }
 
 }  // namespace holdfast::program

@@ -98,7 +98,7 @@ ContactStrip strip_of(const std::string& name, const StudiedLoop& studied, int i
 
 DrawnFigure without_picture(Figure figure, const std::string& reason) {
   figure.tables.clear();
-  return {std::move(figure), {}, "", reason};
+  return {std::move(figure), {}, {}, reason};
 }
 
 Figure listed_figure(const std::string& name, const Values& values) {
@@ -123,7 +123,7 @@ DrawnFigure write_phases(const JobContext& context, bool builtin) {
     write_strips(context, name, {sampled, exact});
     write_window(context, name + "-motion", exact.window, sampled.window);
     values = joined(values, values_of_window(sampled, exact));
-    return {listed_figure(name, values), {}, "", ""};
+    return {listed_figure(name, values), {}, {}, ""};
   } catch (const NoAnswer& reason) {
     return without_picture(listed_figure(name, values), reason.what());
   }
@@ -193,7 +193,7 @@ DrawnFigure write_laws(const JobContext& context, const std::vector<StudiedLaw>&
   Figure figure = listed_figure("switching-laws", values_of_strips(strips));
   figure.height += 30.0 * static_cast<double>(strips.size());
   write_strips(context, figure.name, strips);
-  return {figure, {}, "", empty ? nowhere : ""};
+  return {figure, {}, {}, empty ? nowhere : ""};
 }
 
 /// The amplitudes that the charts show: up to half as much again as without control, and the case's
@@ -221,7 +221,7 @@ DrawnFigure write_chart(const JobContext& context, Figure figure, const std::str
       filled(figure.plot, {{"first", format_number(1e3 * (first - margin))},
                            {"last", format_number(1e3 * (last + margin))},
                            {"own", format_number(1e3 * case_value(context.case_data, key))}});
-  return {std::move(figure), {}, "", empty ? nowhere : ""};
+  return {std::move(figure), {}, {}, empty ? nowhere : ""};
 }
 
 /// The charts; without their pictures where the force has many harmonics: they take two hundred

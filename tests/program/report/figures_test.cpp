@@ -53,15 +53,45 @@ TEST(Figures, JudgeInWordsHowWellThePlantStandsForItsCable) {
 
 TEST(Page, ShowsPicturesOnATelephoneAtASizeThatCanBeRead) {
   Page page;
-  page.figures.push_back({{"a", "title", "caption", {}, "plot x", 300.0}, {}, "<svg></svg>", ""});
+  page.figures.push_back({{"a", "title", "caption", {}, "plot x", 300.0}, {}, {}, ""});
   const std::string html = html_of(page);
   EXPECT_NE(html.find("name=\"viewport\" content=\"width=device-width"), std::string::npos);
-  EXPECT_NE(html.find("<div class=\"scroll\"><img"), std::string::npos);
+  EXPECT_NE(html.find("<div class=\"scroll\"><a class=\"view\" href=\"pictures/a.svg\"><img"),
+            std::string::npos);
   const std::size_t narrow = html.find("@media screen and (max-width");
   ASSERT_NE(narrow, std::string::npos);
   // Its letters have 13 px where the picture, 640 px wide in itself, is not made narrower.
   const std::size_t width = html.find("width: ", html.find("figure img", narrow)) + 7;
   EXPECT_GE(std::strtod(html.c_str() + width, nullptr) * 16.0, 640.0);
+}
+
+TEST(Page, ShowsAndLinksTheCommandsOfAFigure) {
+  Page page;
+  page.figures.push_back(
+      {{"a", "title", "caption", {}, "plot x", 300.0}, {"holdfast one", "holdfast two"}, {}, ""});
+  page.figures.push_back(
+      {{"b", "other", "caption", {}, "plot x", 300.0}, {"holdfast three"}, {}, "no such thing"});
+  const std::string html = html_of(page);
+  for (const char* part :
+       {"<figure id=\"a\">", "<a class=\"anchor\" href=\"#a\"", "<li><a href=\"#b\">other</a></li>",
+        "id=\"a-command\"><div class=\"label\"><a href=\"#a-command\">The commands that make "
+        "it</a>",
+        "<pre>holdfast one\nholdfast two\n</pre>", "The command that makes it",
+        "<p class=\"none\">No picture: no such thing</p>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("pictures/b.svg"), std::string::npos);
+}
+
+TEST(Page, SaysWhatItsPicturesShowAndWhereTheirAxesAre) {
+  Page page;
+  PagePicture picture{"data:image/svg+xml;charset=utf-8,<svg>&amp;</svg>", {}};
+  picture.panels.push_back({0.1, 0.2, 0.9, 0.8, {"time t", "s", 0, 1}, {"a < b", "", 0, 2}, {}});
+  page.figures.push_back({{"a", "title", "caption", {}, "plot x", 300.0}, {}, picture, ""});
+  const std::string html = html_of(page);
+  for (const char* part :
+       {"alt=\"title: a &lt; b over time t\"", "height=\"300\"",
+        "data-panels=\"[{&quot;box&quot;:[0.1,0.2,0.9,0.8]", "<svg>&amp;amp;</svg>\""})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 }  // namespace

@@ -1,0 +1,131 @@
+#include "report/figures/compact_svg.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "io/text/text.hpp"
+#include "report/figures/svg_curve.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+bool line_begins(const std::string& line, std::string_view beginning) {
+  return line.compare(0, beginning.size(), beginning) == 0;
+}
+
+/// The shapes of points are short, and drawn at any size.
+std::string shortened_curve(const std::string& curve) {
+  constexpr std::size_t longest_shape = 100;
+  if (curve.size() <= longest_shape) return curve;
+  const std::vector<SvgPlace> places = places_of_curve(curve);
+  return places.empty() ? curve : curve_by_steps(places);
+}
+
+/// Every curve in the drawing by steps.
+std::string with_short_curves(const std::string& svg) {
+  const std::string before = " d='";
+  std::string text;
+  std::size_t done = 0;
+  for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, done)) {
+    const std::size_t begin = at + before.size(), end = svg.find('\'', begin);
+    if (end == std::string::npos) break;
+    text += svg.substr(done, begin - done) + shortened_curve(svg.substr(begin, end - begin));
+    done = end;
+  }
+  return text + svg.substr(done);
+}
+
+/// The text without what stands from a beginning to the next end.
+std::string without(std::string text, const std::string& beginning, const std::string& ending) {
+  for (std::size_t at = text.find(beginning); at != std::string::npos;
+       at = text.find(beginning, at)) {
+    const std::size_t end = text.find(ending, at);
+    if (end == std::string::npos) return text;
+    text.erase(at, end + ending.size() - at);
+  }
+  return text;
+}
+
+/// Without indents, blank lines and groups of nothing.
+Lines lines_of(const std::string& svg) {
+  Lines lines;
+  for (const std::string_view part : split(svg, '\n')) {
+    const std::string line(trimmed(part));
+    const bool ends_nothing = line == "</g>" && !lines.empty() &&
+                              line_begins(lines.back(), "<g ") &&
+                              lines.back().find('>') + 1 == lines.back().size();
+    if (ends_nothing)
+      lines.pop_back();
+    else if (!line.empty())
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+/// A filled circle: where it is, how large, and its colour.
+struct Dot {
+  std::vector<SvgPlace> place;  ///< one; none where the line draws something else
+  std::string radius, colour;
+};
+
+/// The text behind a part, up to the next end.
+std::string between(const std::string& line, const std::string& part, const std::string& end) {
+  const std::size_t at = line.find(part);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + part.size();
+  return line.substr(begin, line.find(end, begin) - begin);
+}
+
+/// "<use xlink:href='#gpPt6' transform='translate(219.88,156.12) scale(0.88)' color='…'/>"
+Dot dot_of(const std::string& line) {
+  if (!line_begins(line, "<use xlink:href='#gpPt6' transform='translate(")) return {};
+  return {place_of(between(line, "translate(", ")")), between(line, "scale(", ")"),
+          between(line, "color='", "'")};
+}
+
+bool alike(const Dot& one, const Dot& other) {
+  return one.radius == other.radius && one.colour == other.colour;
+}
+
+/// The dots as one curve whose ends are round and as wide as the dots.
+std::string drawn_dots(const Dot& dot, const std::vector<SvgPlace>& places) {
+  const double width = 2.0 * parse_number(dot.radius).value_or(0.0);
+  return "<path fill='none' stroke='" + dot.colour + "' stroke-linecap='round' stroke-width='" +
+         format_rounded(width) + "' d='" + dots_by_steps(places) + "'/>";
+}
+
+/// Dots that are alike and follow each other as one curve.
+Lines with_joined_dots(const Lines& lines) {
+  Lines joined;
+  for (auto line = lines.begin(); line != lines.end();) {
+    const Dot first = dot_of(*line);
+    std::vector<SvgPlace> places;
+    const auto begin = line;
+    for (Dot dot = first; !dot.place.empty() && alike(dot, first);
+         dot = ++line == lines.end() ? Dot{} : dot_of(*line))
+      places.push_back(dot.place.front());
+    constexpr std::size_t cloud = 8;
+    if (places.size() >= cloud)
+      joined.push_back(drawn_dots(first, places));
+    else if (line == begin)
+      joined.push_back(*line++);
+    else
+      joined.insert(joined.end(), begin, line);
+  }
+  return joined;
+}
+
+}  // namespace
+
+std::string compact_svg(const std::string& svg) {
+  const std::string drawing = without(without(svg, "<title>", "</title>"), "<desc>", "</desc>");
+  const std::string short_curves = with_short_curves(without(drawing, "<?xml", "?>"));
+  std::string text;
+  for (const std::string& line : with_joined_dots(lines_of(short_curves))) text += line + "\n";
+  return text;
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report/figures/figure.hpp"
+#include "report/figures/picture_panels.hpp"
+
+namespace holdfast::program {
+
+/// A picture as a page holds it.
+struct PagePicture {
+  std::string url;  ///< "data:image/svg+xml;charset=utf-8,…"
+  std::vector<PicturePanel> panels;
+};
+
+/// Draws a figure as pictures/NAME.svg, with its script, and gives the picture that the page shows:
+/// the same drawing as long as that is short, else the dots of it, two to a point, if these are
+/// shorter. Curves of ten thousand points and clouds of them are so. Throws what draw() throws.
+PagePicture page_picture(const Figure& figure, const std::filesystem::path& folder);
+
+}  // namespace holdfast::program

@@ -1,0 +1,141 @@
+#include "report/figures/picture_panels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "io/text/text.hpp"
+#include "report/figures/figure.hpp"
+#include "report/figures/plain_label.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr std::string_view of_panel = "panel ", of_logarithms = "logscaling on ";
+
+bool begins(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+/// The numbers behind the word "panel"; none where one of them is no number.
+std::vector<double> numbers_of(std::string_view line) {
+  std::vector<double> numbers;
+  for (const std::string& word : words_of(std::string(line.substr(of_panel.size())))) {
+    const auto number = parse_number(word);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+/// An axis whose ends may be the decades of what it shows.
+PanelAxis axis_of(double from, double to, bool decades) {
+  if (!decades) return {"", "", from, to, false};
+  return {"", "", std::pow(10.0, from), std::pow(10.0, to), true};
+}
+
+/// As `measure` of texts/figures.toml has it, heights from below.
+PicturePanel panel_of(const std::vector<double>& told) {
+  return {told[0],
+          1.0 - told[3],
+          told[1],
+          1.0 - told[2],
+          axis_of(told[4], told[5], told[10] != 0.0),
+          axis_of(told[6], told[7], told[11] != 0.0),
+          axis_of(told[8], told[9], false)};
+}
+
+/// "displacement (mm)"
+void name_axis(PanelAxis& axis, const std::string& label) {
+  const std::size_t unit = label.rfind(" (");
+  const bool has_unit = unit != std::string::npos && label.back() == ')';
+  axis.name = label.substr(0, has_unit ? unit : std::string::npos);
+  if (has_unit) axis.unit = label.substr(unit + 2, label.size() - unit - 3);
+}
+
+/// What a line behind "panel" says of it.
+void tell(PicturePanel& panel, std::string_view line) {
+  if (begins(line, of_logarithms)) {
+    panel.x.logarithmic |= line.find(" x") != std::string_view::npos;
+    panel.y.logarithmic |= line.find(" y") != std::string_view::npos;
+  }
+  const std::array<std::pair<const char*, PanelAxis*>, 3> axes = {
+      {{"xlabel is \"", &panel.x},
+       {"ylabel is \"", &panel.y},
+       {"y2label is \"", &panel.right_axis}}};
+  for (const auto& [beginning, axis] : axes) {
+    const std::size_t end = line.find("\", offset");
+    const std::size_t begin = std::string_view(beginning).size();
+    if (!begins(line, beginning) || end == std::string_view::npos) continue;
+    name_axis(*axis, plain_label(std::string(line.substr(begin, end - begin))));
+  }
+}
+
+bool is_of_panels(std::string_view line) {
+  return begins(line, of_panel) || begins(line, of_logarithms) ||
+         line.find("label is \"") != std::string_view::npos;
+}
+
+void take_name(PanelAxis& axis, const PanelAxis& other) {
+  if (!axis.name.empty()) return;
+  axis.name = other.name;
+  axis.unit = other.unit;
+}
+
+bool same(double one, double other) { return std::abs(one - other) < 1e-3; }
+
+/// Panels one above the other have one abscissa, panels side by side one ordinate.
+void share_names(std::vector<PicturePanel>& panels) {
+  for (PicturePanel& panel : panels) {
+    for (const PicturePanel& other : panels) {
+      if (same(panel.left, other.left) && same(panel.right, other.right))
+        take_name(panel.x, other.x);
+      if (same(panel.top, other.top) && same(panel.bottom, other.bottom))
+        take_name(panel.y, other.y);
+    }
+    // gnuplot gives an axis that is not there ends at the edge of the numbers; without a unit it
+    // shows words.
+    const PanelAxis& right = panel.right_axis;
+    if (right.unit.empty() || !(right.from < right.to)) panel.right_axis = {};
+  }
+}
+
+}  // namespace
+
+std::string with_measured_panels(const std::string& plot) {
+  std::string text;
+  bool in_plot = false;
+  for (const std::string_view line : split(plot, '\n')) {
+    in_plot |= begins(line, "plot ");
+    text += std::string(line) + "\n";
+    if (!in_plot || (!line.empty() && line.back() == '\\')) continue;
+    text += listed_text("measured");
+    in_plot = false;
+  }
+  text.pop_back();
+  return text;
+}
+
+std::vector<PicturePanel> measured_panels(const std::string& messages) {
+  std::vector<PicturePanel> panels;
+  for (const std::string_view line : split(messages, '\n')) {
+    if (begins(line, of_panel)) {
+      const std::vector<double> told = numbers_of(line);
+      if (told.size() == 12) panels.push_back(panel_of(told));
+    } else if (!panels.empty()) {
+      tell(panels.back(), trimmed(line));
+    }
+  }
+  share_names(panels);
+  return panels;
+}
+
+std::string without_panels(const std::string& messages) {
+  std::string others;
+  for (const std::string_view line : split(messages, '\n'))
+    if (!trimmed(line).empty() && !is_of_panels(trimmed(line))) others += std::string(line) + "\n";
+  return others;
+}
+
+}  // namespace holdfast::program

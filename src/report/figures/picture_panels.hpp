@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace holdfast::program {
+
+/// An axis of a panel: what it is called, and what it shows at its two ends. One without a name has
+/// no values to tell.
+struct PanelAxis {
+  std::string name;  ///< "displacement z₁"
+  std::string unit;  ///< "mm", or ""
+  double from = 0.0, to = 0.0;
+  bool logarithmic = false;
+};
+
+/// A panel of a picture: where it lies, in parts of the picture's width and height from its upper
+/// left corner, and its axes.
+struct PicturePanel {
+  double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+  PanelAxis x, y, right_axis;
+};
+
+/// A script's plots, each with a question behind it that gnuplot answers where somebody wants to
+/// know its panels.
+std::string with_measured_panels(const std::string& plot);
+
+/// What gnuplot has said of its panels, among other messages. A panel without a label has that of
+/// the panel below it or left of it, with which it shares the axis.
+std::vector<PicturePanel> measured_panels(const std::string& messages);
+
+/// The other messages.
+std::string without_panels(const std::string& messages);
+
+}  // namespace holdfast::program
