@@ -87,6 +87,12 @@ TEST(SpanReport, ShowsWhatTheJobsTellOfALine) {
   EXPECT_EQ(page.find("No picture"), std::string::npos);
 }
 
+TEST(SpanReport, IsTheSamePageForTheSameCase) {
+  const TemporaryFolder first, second;
+  EXPECT_EQ(read_text(written_report(line, first) / "report.html"),
+            read_text(written_report(line, second) / "report.html"));
+}
+
 // The numbers of the words, by the tables.
 TEST(SpanReport, ItsAnswersHaveTheNumbersOfItsTables) {
   const TemporaryFolder folder;
