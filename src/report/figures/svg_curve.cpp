@@ -97,19 +97,19 @@ std::vector<SvgPlace> place_of(const std::string& pair) {
   return {*place};
 }
 
-std::string curve_by_steps(const std::vector<SvgPlace>& exact) {
+std::string curve_by_steps(const std::vector<SvgPlace>& places) {
   constexpr std::size_t long_curve = 500;
-  const std::vector<SvgPlace> places = exact.size() < long_curve ? exact : at_tenths(exact);
+  const std::vector<SvgPlace> shown = places.size() < long_curve ? places : at_tenths(places);
   std::string text;
   bool draws = false;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const SvgPlace& place = places[k];
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const SvgPlace& place = shown[k];
     if (k == 0 || place.begins) {
       text += "M" + pair_of(place.x, place.y);
       draws = false;
       continue;
     }
-    const std::string step = step_between(places[k - 1], place);
+    const std::string step = step_between(shown[k - 1], place);
     if (draws && step == "0 0") continue;
     text += (!draws ? "l" : step[0] == '-' ? "" : " ") + step;
     draws = true;
@@ -117,12 +117,12 @@ std::string curve_by_steps(const std::vector<SvgPlace>& exact) {
   return text;
 }
 
-std::string dots_by_steps(const std::vector<SvgPlace>& exact) {
-  const std::vector<SvgPlace> places = at_tenths(exact);
+std::string dots_by_steps(const std::vector<SvgPlace>& places) {
+  const std::vector<SvgPlace> shown = at_tenths(places);
   std::string text;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    text += (k == 0 ? "M" + pair_of(places[k].x, places[k].y)
-                    : "m" + step_between(places[k - 1], places[k])) +
+  for (std::size_t k = 0; k < shown.size(); ++k)
+    text += (k == 0 ? "M" + pair_of(shown[k].x, shown[k].y)
+                    : "m" + step_between(shown[k - 1], shown[k])) +
             "h0";
   return text;
 }
