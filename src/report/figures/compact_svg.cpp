@@ -68,7 +68,7 @@ Lines lines_of(const std::string& svg) {
 /// A filled circle: where it is, how large, and its colour.
 struct Dot {
   std::vector<SvgPlace> place;  ///< one; none where the line draws something else
-  std::string radius, colour;
+  std::string scale, colour;
 };
 
 /// The text behind a part, up to the next end.
@@ -87,12 +87,13 @@ Dot dot_of(const std::string& line) {
 }
 
 bool alike(const Dot& one, const Dot& other) {
-  return one.radius == other.radius && one.colour == other.colour;
+  return one.scale == other.scale && one.colour == other.colour;
 }
 
 /// The dots as one curve whose ends are round and as wide as the dots.
 std::string drawn_dots(const Dot& dot, const std::vector<SvgPlace>& places) {
-  const double width = 2.0 * parse_number(dot.radius).value_or(0.0);
+  constexpr double diameter = 2.205;  // of gnuplot's shape, of radius 1 and with an edge
+  const double width = diameter * parse_number(dot.scale).value_or(0.0);
   return "<path fill='none' stroke='" + dot.colour + "' stroke-linecap='round' stroke-width='" +
          format_rounded(width) + "' d='" + dots_by_steps(places) + "'/>";
 }

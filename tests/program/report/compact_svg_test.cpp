@@ -38,7 +38,7 @@ TEST(CompactSvg, DrawsACloudOfDotsAsOneCurve) {
   };
   EXPECT_EQ(compact_svg("<g>\n" + dots(8) + "</g>\n"),
             "<g>\n<path fill='none' stroke='rgb(  0, 114, 178)' stroke-linecap='round' "
-            "stroke-width='1.76' d='M.5 2h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0'/>\n</g>\n");
+            "stroke-width='1.9404' d='M.5 2h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0'/>\n</g>\n");
   const std::string few = compact_svg("<g>\n" + dots(3) + "</g>\n");
   EXPECT_NE(few.find("translate(2.50,2.00)"), std::string::npos) << few;
 }
