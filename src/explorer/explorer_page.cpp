@@ -34,12 +34,12 @@ std::optional<fs::path> built_page() {
   return std::nullopt;
 }
 
-void require_no_further_files(const Case& the_case) {
-  if (!the_case.excitation.record.empty())
-    throw WrongInput("excitation.record: the explorer is one page, without the file of a force");
+/// The key of a further file that the case reads, and what that holds; empty where it reads none.
+std::string further_file(const Case& the_case) {
+  if (!the_case.excitation.record.empty()) return "excitation.record: a force";
   for (const case_tables::Device& device : the_case.devices)
-    if (!device.file.empty())
-      throw WrongInput("device.file: the explorer is one page, without the file of an impedance");
+    if (!device.file.empty()) return "device.file: an impedance";
+  return "";
 }
 
 /// The case file itself where nothing was set over it; empty for the built-in case.
@@ -55,10 +55,15 @@ std::string json_in_page(const nlohmann::ordered_json& json) {
 
 }  // namespace
 
-bool explorer_is_there() { return built_page().has_value(); }
+bool can_explore(const Case& the_case) {
+  return built_page().has_value() && further_file(the_case).empty();
+}
 
 std::string explorer_page(const Case& the_case, const CaseSource& source) {
-  require_no_further_files(the_case);
+  const std::string further = further_file(the_case);
+  if (!further.empty())
+    throw WrongInput(further +
+                     " in a file of its own, which the explorer, one page, does not have");
   const std::optional<fs::path> file = built_page();
   if (!file)
     throw NoAnswer("the explorer's page was not built: no " + places_of_page()[0].string() +

@@ -16,7 +16,7 @@ namespace holdfast::program {
 /// reads further files, which the page cannot.
 std::string explorer_page(const Case& the_case, const CaseSource& source);
 
-/// Whether the page was built.
-bool explorer_is_there();
+/// Whether the page was built and can have the case.
+bool can_explore(const Case& the_case);
 
 }  // namespace holdfast::program

@@ -77,7 +77,7 @@ TEST(ExploreJob, RefusesWhatIsNoPageAndCasesOfSeveralFiles) {
   expect_refusal("explore", "--output FILE.html is needed");
   expect_refusal("explore --output page.csv", "let its name end in .html");
   expect_refusal("explore --set excitation.record=force.csv --output page.html",
-                 "without the file of a force");
+                 "excitation.record: a force in a file of its own");
 }
 
 }  // namespace

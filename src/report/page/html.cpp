@@ -4,7 +4,7 @@
 
 #include "io/text/compiled_texts.hpp"
 #include "report/page/command_line.hpp"
-#include "report/page/panels_json.hpp"
+#include "report/picture/panels_json.hpp"
 
 namespace holdfast::program {
 
@@ -177,6 +177,7 @@ std::string html_of(const Page& page) {
   return page_text("page", {{"head", page_head(page.title)},
                             {"title", escaped(page.title)},
                             {"introduction", page.introduction},
+                            {"to explorer", link_to("explorer", page.explored)},
                             {"to motions", link_to("motions", !page.motions.empty())},
                             {"to switching", link_to("switching", !page.switching.empty())},
                             {"to comparison", link_to("comparison", !page.comparisons.empty())},

@@ -5,9 +5,9 @@
 
 #include "report/comparison/comparison.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/page_picture.hpp"
 #include "report/page/answers.hpp"
 #include "report/page/motions.hpp"
+#include "report/picture/page_picture.hpp"
 
 namespace holdfast::program {
 
@@ -25,6 +25,7 @@ struct Page {
   std::string introduction;
   std::vector<std::string> case_arguments;  ///< the options that made the case
   std::string case_text;                    ///< the full case as TOML
+  bool explored = false;                    ///< explorer.html lies beside the page
   std::vector<Answer> answers;              ///< what a designer asks
   std::vector<Comparison> comparisons;      ///< may be empty
   std::vector<MotionRow> motions;

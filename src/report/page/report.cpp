@@ -7,6 +7,7 @@
 #include "case/case_file.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "explorer/explorer_page.hpp"
 #include "io/file/output.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -50,6 +51,15 @@ std::string switching_part(const JobContext& context, bool builtin, const Figure
   return html_of(page);
 }
 
+/// The explorer of the same case beside the page, where it was built; gives whether it is there.
+bool write_explorer(const JobContext& context, const fs::path& folder) {
+  if (!can_explore(context.case_data)) return false;
+  OutputFile file(folder / "explorer.html");
+  file.write(explorer_page(context.case_data, context.case_source));
+  file.commit();
+  return true;
+}
+
 }  // namespace
 
 void write_report(const JobContext& context, const Arguments& case_arguments,
@@ -65,6 +75,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
 
   Page page;
   page.title = title_of(context, builtin);
+  page.explored = write_explorer(context, folder);
   page.introduction = page_text(builtin ? "introduction of paper" : "introduction of case");
   page.case_arguments = case_arguments;
   page.case_text = case_to_toml(context.case_data);

@@ -1,6 +1,6 @@
-#include "report/figures/compact_svg.hpp"
+#include "report/picture/compact_svg.hpp"
 
-#include "report/figures/data_url.hpp"
+#include "report/picture/data_url.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
@@ -36,9 +36,10 @@ TEST(CompactSvg, DrawsACloudOfDotsAsOneCurve) {
                ".50,2.00) scale(0.88)' color='rgb(  0, 114, 178)'/>\n";
     return lines;
   };
-  EXPECT_EQ(compact_svg("<g>\n" + dots(8) + "</g>\n"),
-            "<g>\n<path fill='none' stroke='rgb(  0, 114, 178)' stroke-linecap='round' "
-            "stroke-width='1.9404' d='M.5 2h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0'/>\n</g>\n");
+  EXPECT_EQ(
+      compact_svg("<g>\n" + dots(8) + "</g>\n"),
+      "<g>\n<path fill='none' stroke='rgb(  0, 114, 178)' stroke-linecap='round' "
+      "stroke-width='1.9404' d='M.5 2h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0m1 0h0'/>\n</g>\n");
   const std::string few = compact_svg("<g>\n" + dots(3) + "</g>\n");
   EXPECT_NE(few.find("translate(2.50,2.00)"), std::string::npos) << few;
 }

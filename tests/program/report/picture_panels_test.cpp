@@ -1,8 +1,8 @@
-#include "report/figures/picture_panels.hpp"
+#include "report/picture/picture_panels.hpp"
 
 #include "report/figures/gnuplot.hpp"
-#include "report/figures/plain_label.hpp"
-#include "report/page/panels_json.hpp"
+#include "report/picture/panels_json.hpp"
+#include "report/picture/plain_label.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
 

@@ -1,4 +1,4 @@
-#include "report/page/panels_json.hpp"
+#include "report/picture/panels_json.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

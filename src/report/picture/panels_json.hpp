@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/figures/picture_panels.hpp"
+#include "report/picture/picture_panels.hpp"
 
 namespace holdfast::program {
 

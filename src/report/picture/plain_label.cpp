@@ -1,4 +1,4 @@
-#include "report/figures/plain_label.hpp"
+#include "report/picture/plain_label.hpp"
 
 #include <algorithm>
 #include <array>

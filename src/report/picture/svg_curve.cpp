@@ -1,4 +1,4 @@
-#include "report/figures/svg_curve.hpp"
+#include "report/picture/svg_curve.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "report/figures/page_picture.hpp"
+#include "report/picture/page_picture.hpp"
 
 #include "io/file/input.hpp"
-#include "report/figures/compact_svg.hpp"
-#include "report/figures/data_url.hpp"
 #include "report/figures/gnuplot.hpp"
+#include "report/picture/compact_svg.hpp"
+#include "report/picture/data_url.hpp"
 
 namespace holdfast::program {
 

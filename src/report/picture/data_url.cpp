@@ -1,4 +1,4 @@
-#include "report/figures/data_url.hpp"
+#include "report/picture/data_url.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,11 +1,11 @@
-#include "report/figures/compact_svg.hpp"
+#include "report/picture/compact_svg.hpp"
 
 #include <cstddef>
 #include <string_view>
 #include <vector>
 
 #include "io/text/text.hpp"
-#include "report/figures/svg_curve.hpp"
+#include "report/picture/svg_curve.hpp"
 
 namespace holdfast::program {
 namespace {

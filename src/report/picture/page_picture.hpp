@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "report/figures/figure.hpp"
-#include "report/figures/picture_panels.hpp"
+#include "report/picture/picture_panels.hpp"
 
 namespace holdfast::program {
 

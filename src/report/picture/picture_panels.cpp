@@ -1,4 +1,4 @@
-#include "report/figures/picture_panels.hpp"
+#include "report/picture/picture_panels.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "io/text/text.hpp"
 #include "report/figures/figure.hpp"
-#include "report/figures/plain_label.hpp"
+#include "report/picture/plain_label.hpp"
 
 namespace holdfast::program {
 namespace {
