@@ -12,8 +12,8 @@
 
 namespace holdfast::simd {
 
-/// Does the rows of a chart in tiles on several threads; in a browser, whose modules have one thread
-/// each, one after the other.
+/// Does the rows of a chart in tiles on several threads; in a browser, whose modules have one
+/// thread each, one after the other.
 ///
 /// Tiles begin at multiples of `tile` for any number of threads, and each is computed by a
 /// copy of `kernel`, so that results do not depend on that number. Exceptions of a tile come out
