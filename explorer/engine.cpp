@@ -52,14 +52,18 @@ int holdfast_stable_cells(const char* settings, double p_min, double p_max, int 
   });
 }
 
-/// @param rows  count times frequency (Hz), amplitude with control and without (m)
+/// @param rows  count times frequency (Hz), amplitude with control and without (m); then 1 where
+/// the
+///              loop is stable
 int holdfast_amplitudes(const char* settings, double f_min, double f_max, int count, double* rows) {
   return run_guarded([&] {
-    for (const AmplitudesAt& at : amplitudes_over(case_of_page(settings), {f_min, f_max, count})) {
+    const Amplitudes amplitudes = amplitudes_over(case_of_page(settings), {f_min, f_max, count});
+    for (const AmplitudesAt& at : amplitudes.at) {
       *rows++ = at.frequency;
       *rows++ = at.controlled;
       *rows++ = at.uncontrolled;
     }
+    *rows = amplitudes.stable ? 1.0 : 0.0;
     return exit_code::done;
   });
 }

@@ -11,7 +11,8 @@ class StabilityFigure extends Figure {
     this.moved = moved;
     this.framed = framed;
     this.svg.attr("role", "group");  // there is something to take hold of in it
-    this.canvas = this.box.insert("canvas", "svg").attr("aria-hidden", "true").node();
+    this.pane = this.box.insert("div", "svg").attr("class", "window").attr("aria-hidden", "true");
+    this.canvas = this.pane.append("canvas").node();
     this.frameLine = this.svg.append("rect").attr("class", "frame");
     this.boundary = this.plot.append("g");
     this.addHandle();
@@ -22,13 +23,26 @@ class StabilityFigure extends Figure {
   /// The cells are pixels of a canvas under the axes.
   place() {
     const {left, right, top, bottom} = this.inner;
-    Object.assign(this.canvas.style, {left: `${left}px`, top: `${top}px`, width: `${right - left}px`,
-      height: `${bottom - top}px`});
+    this.pane.style("left", `${left}px`).style("top", `${top}px`).style("width", `${right - left}px`)
+      .style("height", `${bottom - top}px`);
     this.frameLine.attr("x", left).attr("y", top).attr("width", right - left).attr("height", bottom - top);
+  }
+
+  /// The canvas where its cells belong in the window of now: each reaches half a step about its gains.
+  placeCells() {
+    if (!this.last) return;
+    const {p, d, count} = this.last;
+    const stepP = (p[1] - p[0]) / (count - 1), stepD = (d[1] - d[0]) / (count - 1);
+    const left = this.x(p[0] - stepP / 2), right = this.x(p[1] + stepP / 2);
+    const top = this.y(d[1] + stepD / 2), bottom = this.y(d[0] - stepD / 2);
+    this.cellBox = {left, top, width: right - left, height: bottom - top};
+    Object.assign(this.canvas.style, {left: `${left - this.inner.left}px`, top: `${top - this.inner.top}px`,
+      width: `${right - left}px`, height: `${bottom - top}px`});
   }
 
   redraw() {
     this.place();
+    this.placeCells();
     this.axes();
     this.drawBoundary(this.rows ?? []);
     if (this.gains) this.drawPoint(this.gains);
@@ -69,10 +83,15 @@ class StabilityFigure extends Figure {
       .on("zoom", () => {
         this.x.domain(d3.event.transform.rescaleX(this.x.copy().domain(this.whole.p)).domain());
         this.y.domain(d3.event.transform.rescaleY(this.y.copy().domain(this.whole.d)).domain());
+        this.redraw();
         this.framed();
       });
     this.zoom = zoom;
     this.svg.call(zoom).on("dblclick.zoom", null);
+    this.svg.on("click", () => {  // not after a drag, which d3.zoom keeps from it
+      const place = d3.mouse(this.svg.node());
+      if (this.holds(place)) this.moveTo(...place);
+    });
     this.button("Zoom in", "Zoom in about the point of the chart", () => this.scaleBy(1.6));
     this.button("Zoom out", "Zoom out, to more of the plane of gains", () => this.scaleBy(1 / 1.6));
     this.button("Whole", "Whole window of the chart, as at first", () => this.svg.call(zoom.transform, d3.zoomIdentity));
@@ -91,6 +110,12 @@ class StabilityFigure extends Figure {
     this.x.domain(p);
     this.y.domain(d);
     this.svg.property("__zoom", d3.zoomIdentity);
+  }
+
+  /// The gains P of the window and as many again on each side, so that curves that leave it go on.
+  widerGains() {
+    const {p} = this.window();
+    return [2 * p[0] - p[1], 2 * p[1] - p[0]];
   }
 
   /// To six digits, as it stands in commands too.
@@ -116,7 +141,16 @@ class StabilityFigure extends Figure {
         pixels[(count - 1 - j) * count + i] = cells[i * count + j] ? stable : unstable;
     context.putImageData(image, 0, 0);
     this.last = {cells, count, p, d};
+    this.placeCells();
     this.axes();
+  }
+
+  /// Nothing any more: another case has come.
+  clear() {
+    this.last = null;
+    this.canvas.width = this.canvas.height = 1;
+    this.drawBoundary([]);
+    this.say("");
   }
 
   /// @param rows  of the job `boundary`
@@ -164,15 +198,17 @@ class StabilityFigure extends Figure {
 
   /// With the cells, which lie behind it in the page.
   picture() {
-    const {left, right, top, bottom} = this.inner;
+    const {left, top, width, height} = this.cellBox;
     const image = this.under.append("image").attr("preserveAspectRatio", "none").attr("href", this.canvas.toDataURL())
-      .attr("x", left).attr("y", top).attr("width", right - left).attr("height", bottom - top);
+      .attr("clip-path", this.plot.attr("clip-path"))
+      .attr("x", left).attr("y", top).attr("width", width).attr("height", height);
     const text = standalone(this.svg.node());
     image.remove();
     return text;
   }
 
   saveNumbers() {
+    if (!this.last) return;
     const {cells, count, p, d} = this.last;
     const at = ([low, high], k) => (low * (count - 1 - k) + high * k) / (count - 1);
     const rows = ["proportional_gain,differential_gain,stable"];

@@ -49,7 +49,9 @@ class Figure {
     top.append("h2").text(words.title).attr("id", `${id}-heading`);
     this.tools = top.append("div").attr("class", "tools");
     this.box = this.root.append("div").attr("class", "picture");
-    this.svg = this.box.append("svg").attr("role", "img").attr("aria-labelledby", `${id}-heading ${id}-caption`);
+    this.svg = this.box.append("svg");
+    this.svg.append("title").text(words.title);
+    this.svg.attr("role", "img").attr("aria-labelledby", `${id}-heading ${id}-caption`);
     this.caption = this.root.append("figcaption").attr("id", `${id}-caption`);
     this.clip = this.svg.append("clipPath").attr("id", `${id}-clip`).append("rect");
     this.under = this.svg.append("g");
@@ -62,9 +64,9 @@ class Figure {
     this.x = d3.scaleLinear();
     this.y = d3.scaleLinear();
     this.csv = "";
-    this.button("SVG", `Save the figure “${words.title}” as SVG`, () =>
-      save(`${words.name}.svg`, this.picture(), "image/svg+xml"));
-    this.button("CSV", `Save the numbers of “${words.title}” as CSV`, () => this.saveNumbers());
+    this.savers = [this.button("SVG", `Save the figure “${words.title}” as SVG`, () =>
+      save(`${words.name}.svg`, this.picture(), "image/svg+xml")),
+    this.button("CSV", `Save the numbers of “${words.title}” as CSV`, () => this.saveNumbers())];
     this.layOut();
     new ResizeObserver(() => { if (this.layOut()) this.redraw(); }).observe(this.box.node());
   }
@@ -107,7 +109,12 @@ class Figure {
     this.caption.text(text);
   }
 
-  waiting(is) { this.root.classed("waiting", is); }
+  /// Whether what it shows is not of the settings, for they were refused: then it is dimmed.
+  refused(is) {
+    this.root.classed("waiting", is);
+    for (const button of this.savers) button.attr("disabled", is ? "" : null);
+    if (is) this.caption.text("Not computed: see the settings.");
+  }
 
   /// Whether a place of the picture is inside the axes.
   holds([left, top]) {
@@ -128,6 +135,7 @@ function extentOf(values, around = 0.04) {
 class LineFigure extends Figure {
   constructor(id, words) {
     super(id, words, 310);
+    this.marks = this.plot.append("g");
     this.cross = this.svg.append("line").attr("class", "cross").attr("visibility", "hidden");
     this.svg.on("mousemove", () => this.point(d3.mouse(this.svg.node())))
       .on("mouseleave", () => this.leave());
@@ -135,9 +143,10 @@ class LineFigure extends Figure {
 
   /// @param series  [{name, style, x: [], y: [], byPoint: nearest in both}], NaN breaking a line
   /// @param bands   [[from, to]] of x, shaded
-  draw(series, {x, y, bands = []} = {}) {
+  /// @param mark    {x, y}: a place of x, and a dot there where y is a number
+  draw(series, {x, y, bands = [], mark} = {}) {
     this.series = series;
-    this.drawn = {x, y, bands};
+    this.drawn = {x, y, bands, mark};
     this.x.domain(x ?? extentOf(series.flatMap((one) => Array.from(one.x)), 0));
     this.y.domain(y ?? extentOf(series.flatMap((one) => Array.from(one.y))));
     this.axes();
@@ -153,7 +162,24 @@ class LineFigure extends Figure {
     paths.exit().remove();
     paths.enter().append("path").merge(paths)
       .attr("class", (one) => `line ${one.style}`).attr("d", (one) => line(pairs(one)));
+    this.mark(mark);
     this.name(series.filter((one) => one.name));
+  }
+
+  mark(mark) {
+    this.marks.selectAll("*").remove();
+    if (!mark || !Number.isFinite(this.x(mark.x))) return;
+    this.marks.append("line").attr("class", "cross").attr("x1", this.x(mark.x)).attr("x2", this.x(mark.x))
+      .attr("y1", this.inner.top).attr("y2", this.inner.bottom);
+    if (Number.isFinite(mark.y))
+      this.marks.append("circle").attr("class", "mark").attr("r", 5).attr("cx", this.x(mark.x)).attr("cy", drawable(this.y(mark.y)));
+  }
+
+  /// Nothing any more: another case has come.
+  clear() {
+    this.draw([]);
+    this.csv = "";
+    this.say("");
   }
 
   redraw() {
@@ -177,9 +203,9 @@ class LineFigure extends Figure {
 
   /// The values at the place, in words below the figure.
   point(place) {
-    if (!this.holds(place) || !this.series) return this.leave();
+    if (!this.holds(place) || !this.series?.length || this.root.classed("waiting")) return this.leave();
     const at = this.x.invert(place[0]);
-    const values = this.series.filter((one) => one.name && !one.byPoint)
+    const values = this.series.filter((one) => one.name && one.x.length > 0 && !one.byPoint)
       .map((one) => [one.name, one.y[nearest(one.x, at)]]);
     const words = values.map(([name, value]) => `${name}: ${Number.isFinite(value) ? numbers(value) : "none"}`);
     const second = values.length ? "" : `, ${this.words.y}: ${numbers(this.y.invert(place[1]))}`;
@@ -191,7 +217,7 @@ class LineFigure extends Figure {
 
   leave() {
     this.cross.attr("visibility", "hidden");
-    this.caption.text(this.words.caption);
+    if (!this.root.classed("waiting")) this.caption.text(this.words.caption);
   }
 }
 

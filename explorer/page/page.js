@@ -4,6 +4,12 @@
 const rowsOf = (text) => d3.csvParse(text);
 const column = (rows, name, factor = 1) => rows.map((row) => (row[name] === "" ? NaN : factor * Number(row[name])));
 
+// Words of the job `margins`.
+const outcomes = {none: "no limit", beyond_search: "none that was looked for"};
+const curves = {minus_one: "root at −1", plus_one: "root at 1", complex_pair: "pair of roots"};
+
+const caseText = "case.text", caseName = "case.name"; // in the address
+
 /// Intervals of time in which the flag is set, a sample each at least.
 function bandsOf(times, flags) {
   const bands = [];
@@ -26,10 +32,15 @@ class Explorer {
   }
 
   async open() {
+    const address = new URLSearchParams(location.hash.slice(1));
+    if (address.has(caseText)) this.base = {name: address.get(caseName) ?? "", text: address.get(caseText), opened: true};
     this.module = await compiledModule();
     this.quick = new Engine(this.module, this.base.text);
     this.thorough = new Engine(this.module, this.base.text);
-    await this.readCase();
+    if (!await this.readCase()) {
+      this.byId("verdict").textContent = "This case cannot be computed in a browser.";
+      return;
+    }
     this.state.fromAddress(location.hash.slice(1));
     this.buildFields();
     this.buildFigures();
@@ -37,14 +48,29 @@ class Explorer {
     this.refresh();
   }
 
-  /// The values of the case itself.
+  /// The values of the case itself; false where it is none.
   async readCase() {
     const answer = await this.quick.ask("case", {call: "job", words: ["case"], settings: []});
-    if (answer.code !== 0) return this.refuse(answer.notes);
-    this.state.own = new Map(rowsOf(answer.text).filter((row) => settingOf(row.key))
+    this.tellOfFile(answer.code === 0 ? "" : answer.notes.join(" "));
+    if (answer.code !== 0) return false;
+    const rows = rowsOf(answer.text);
+    this.state.own = new Map(rows.filter((row) => settingOf(row.key))
       .map((row) => [row.key, row.value.replace(/^"(.*)"$/s, "$1")]));
+    this.gains = this.ownGains = this.gainsOf(rows);
     this.byId("case-name").textContent = this.base.name || "the built-in case";
-    return undefined;
+    return true;
+  }
+
+  /// The gains in force by the job `case`: a P that is tuned is a number there.
+  gainsOf(rows) {
+    const value = (key) => Number(rows.find((row) => row.key === key)?.value);
+    return [value("proportional_gain"), value(gainKeys[1])];
+  }
+
+  tellOfFile(words) {
+    const box = this.byId("file-refusal");
+    box.hidden = words === "";
+    box.textContent = words.replaceAll("/case.toml", this.base.name || "the case");
   }
 
   buildFields() {
@@ -67,7 +93,7 @@ class Explorer {
 
   /// About the point, as wide as the built-in case's window is about its own.
   frameChart() {
-    const [p, d] = gainKeys.map((key) => Number(this.state.own.get(key)));
+    const [p, d] = this.ownGains;
     const aboutP = sizeOf(p, 500), aboutD = sizeOf(d, 10);
     this.chart.frame([p - aboutP, p + 1.5 * aboutP], [d - 2.2 * aboutD, d + 2.2 * aboutD]);
   }
@@ -75,33 +101,68 @@ class Explorer {
   wire() {
     const on = (id, action) => this.byId(id).addEventListener("click", action);
     on("save-case", () => this.saveCase());
-    on("copy-link", () => navigator.clipboard?.writeText(location.href));
+    on("copy-link", () => this.copyLink());
     on("reset", () => { this.state.changed.clear(); this.frameChart(); this.showState(); this.refresh(); });
     on("theme", () => this.turnTheme());
-    this.byId("load-case").addEventListener("change", (event) => this.loadCase(event.target.files[0]));
+    this.byId("load-case").addEventListener("change", (event) => {
+      this.loadCase(event.target.files[0]);
+      event.target.value = ""; // so that the same file may come again
+    });
     this.byId("controls").addEventListener("submit", (event) => event.preventDefault());
     addEventListener("hashchange", () => {
-      if (location.hash.slice(1) === this.state.toAddress()) return;
+      if (location.hash.slice(1) === this.address()) return;
       this.state.fromAddress(location.hash.slice(1));
       this.showState();
       this.refresh();
     });
-    const dark = matchMedia("(prefers-color-scheme: dark)");
-    dark.addEventListener("change", () => this.refresh());
-    this.byId("theme").textContent = dark.matches ? "Light" : "Dark";
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.showTheme());
+    this.showTheme();
+  }
+
+  isDark() {
+    const {theme} = document.documentElement.dataset;
+    return theme ? theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
   }
 
   turnTheme() {
-    const root = document.documentElement;
-    const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-    root.dataset.theme = dark ? "light" : "dark";
-    this.byId("theme").textContent = dark ? "Dark" : "Light";
+    document.documentElement.dataset.theme = this.isDark() ? "light" : "dark";
+    this.showTheme();
+  }
+
+  showTheme() {
+    this.byId("theme").textContent = this.isDark() ? "Light" : "Dark";
     if (this.chart.last) this.chart.drawCells(this.chart.last);
+  }
+
+  /// What stands behind the "#": the settings, and the text of a case that was opened here.
+  address() {
+    const own = this.base.opened ? new URLSearchParams([[caseName, this.base.name], [caseText, this.base.text]]).toString() : "";
+    return [this.state.toAddress(), own].filter((part) => part).join("&");
+  }
+
+  showAddress() {
+    const address = this.address();
+    try {
+      history.replaceState(null, "", address ? `#${address}` : location.pathname + location.search);
+    } catch { /* some browsers allow so many changes in a time */ }
+  }
+
+  async copyLink() {
+    this.showAddress();
+    const button = this.byId("copy-link");
+    try {
+      await navigator.clipboard.writeText(location.href);
+      button.textContent = "Copied";
+    } catch {
+      button.textContent = "Take it from the address bar";
+    }
+    setTimeout(() => { button.textContent = "Copy link"; }, 2000);
   }
 
   showState() { this.fields.forEach((field) => field.show()); }
 
   change(key) {
+    this.tellOfFile("");
     if (key === modelKey) this.showState();
     this.refresh();
   }
@@ -114,46 +175,68 @@ class Explorer {
 
   /// Asks for all that the state shows: what follows the hand at once, the rest when it rests.
   refresh() {
-    const address = this.state.toAddress();
-    history.replaceState(null, "", address ? `#${address}` : location.pathname + location.search);
-    this.chart.drawPoint(gainKeys.map((key) => this.state.number(key)));
-    this.chart.axes();
+    this.askGains();
     this.askCells();
     this.askMotion();
     this.askAmplitudes();
     this.showCommand();
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.askThorough(), 250);
+    this.resting = setTimeout(() => { this.showAddress(); this.askThorough(); }, 250);
     this.thorough.abandon();
+    const plane = this.plane();
+    this.chart.boundary.selectAll("path").classed("old", plane !== this.planeOfBoundary);
     for (const id of ["verdict-card", "margins", "answers"]) this.byId(id).classList.add("waiting");
+  }
+
+  /// What the chart depends on beside its window.
+  plane() { return this.state.signature(...gainKeys); }
+
+  /// The point of the chart: its gains as they are written, or by the program where P is tuned.
+  async askGains() {
+    const written = gainKeys.map((key) => this.state.number(key));
+    this.showPoint(written);
+    if (this.state.text(gainKeys[0]) !== "tuned") return;
+    const answer = await this.quick.ask("case", {call: "job", words: ["case"], settings: this.state.list()});
+    if (answer?.code === 0) this.showPoint(this.gainsOf(rowsOf(answer.text)));
+  }
+
+  showPoint(gains) {
+    this.gains = gains;
+    this.chart.drawPoint(gains);
+    this.sayStability();
   }
 
   async askCells() {
     const conductor = this.state.text(modelKey) !== "two_masses";
-    const signature = this.state.signature(...gainKeys) + JSON.stringify(this.chart.window());
-    if (conductor && signature === this.cellsOf) return;  // the gains move, their plane stays
+    const signature = this.plane() + JSON.stringify(this.chart.window());
+    if (conductor && signature === this.cellsOf) { // the gains move, their plane stays
+      this.chart.refused(false);
+      return this.sayStability();
+    }
     const answer = await this.quick.ask("cells", {call: "cells", settings: this.state.list(),
       count: conductor ? 80 : cellsAcross, ...this.chart.window()});
-    if (answer === null) return;
+    if (answer === null) return undefined;
     this.judge(answer);
-    this.chart.waiting(answer.code !== 0);
-    if (answer.code !== 0) return;
-    this.cellsOf = signature;
+    this.chart.refused(answer.code !== 0);
+    this.cellsOf = answer.code === 0 ? signature : null;
+    if (answer.code !== 0) return undefined;
     this.chart.drawCells(answer);
-    this.sayStability();
+    return this.sayStability();
   }
 
   sayStability() {
+    if (!this.chart.last || this.chart.root.classed("waiting")) return;
     const cell = this.chart.cellOfPoint();
     const words = cell === undefined ? "outside the window" : cell ? "stable" : "not stable";
-    this.chart.say(`Shaded: stable without play; the line is the exact boundary. The case's gains: ${words}.`);
+    this.chart.say(`The case's gains: ${words}. Shaded: stable without play; lines: where a root crosses the unit circle. ` +
+      "Drag the point or click; drag beside it to move the window.");
   }
 
   async askMotion() {
     const answer = await this.quick.ask("motion", {call: "job",
       words: ["simulate", "--duration", String(this.duration())], settings: this.state.list()});
     if (answer === null) return;
-    for (const figure of [this.history, this.phase]) figure.waiting(answer.code !== 0);
+    for (const figure of [this.history, this.phase]) figure.refused(answer.code !== 0);
     if (answer.code !== 0) return;
     this.drawMotion(answer.text);
   }
@@ -170,10 +253,13 @@ class Explorer {
     const rows = rowsOf(text);
     const time = column(rows, "time_s"), z = column(rows, "z1_m", 1e3), v = column(rows, "v1_m_per_s", 1e3);
     const inPlay = column(rows, "in_backlash").map((flag) => flag === 1);
-    this.history.draw([{name: "conductor", style: "first", x: time, y: z}], {bands: bandsOf(time, inPlay)});
+    this.history.draw([{name: "conductor", style: "first", x: time, y: z},
+      {name: "in the play", style: "play", x: [], y: []}], {bands: bandsOf(time, inPlay)});
     this.history.say("Shaded: the drive is in the play of its belt and exerts no force.");
-    this.history.csv = this.phase.csv = text;
     const half = time.length >> 1;
+    const lines = text.trimEnd().split("\n");
+    this.history.csv = text;
+    this.phase.csv = [lines[0], ...lines.slice(1 + half), ""].join("\n");
     const where = (flag) => v.map((value, k) => (k >= half && (inPlay[k] === flag || inPlay[k - 1] === flag) ? value : NaN));
     const series = [{name: "force acts", style: "first", x: z, y: where(false), byPoint: true},
       {name: "in the play", style: "play", x: z, y: where(true), byPoint: true}];
@@ -181,39 +267,74 @@ class Explorer {
     this.phase.say("The conductor's displacement and velocity at the samples.");
   }
 
-  async askAmplitudes() {
-    const range = {from: 3, to: 60, count: 115};
-    const ask = (model) => this.quick.ask(`amplitudes of ${model}`, {call: "amplitudes", ...range,
-      settings: this.state.list({[modelKey]: model})});
-    const beside = this.state.text(modelKey) === "two_masses" ? "cable" : this.state.text(modelKey);
-    const [masses, cable] = await Promise.all([ask("two_masses"), ask(beside)]);
-    if (masses === null || cable === null) return;
-    const failed = masses.code !== 0 && cable.code !== 0;
-    this.amplitudes.waiting(failed);
-    if (!failed) this.drawAmplitudes(masses, cable, beside);
+  /// From 3 to 60 Hz, or as far as the case's own force is.
+  frequencies() {
+    const own = this.state.number("excitation.frequency");
+    return own > 0 && own < 1e6 ? [Math.min(3, own / 2), Math.max(60, 1.5 * own)] : [3, 60];
   }
 
-  drawAmplitudes(masses, cable, beside) {
-    const part = (answer, place) => (answer.code === 0 ? Array.from(answer.rows).filter((_, k) => k % 3 === place) : []);
-    const left = (answer) => part(answer, 1).map((value, k) => 100 * value / part(answer, 2)[k]);
-    const x = part(masses.code === 0 ? masses : cable, 0);
-    const names = {cable: "the cable", string: "the taut conductor", infinite_string: "without ends"};
-    const series = [{name: "two masses", style: "first", x, y: left(masses)},
-      {name: names[beside], style: "second dashed", x, y: left(cable)},
-      {name: "without control", style: "third", x, y: x.map(() => 100)}];
+  async askAmplitudes() {
+    const [from, to] = this.frequencies();
+    const ask = (model) => this.quick.ask(`amplitudes of ${model}`, {call: "amplitudes", from, to, count: 115,
+      settings: this.state.list({[modelKey]: model})});
+    const beside = this.state.text(modelKey) === "two_masses" ? "cable" : this.state.text(modelKey);
+    const [masses, conductor] = await Promise.all([ask("two_masses"), ask(beside)]);
+    if (masses === null || conductor === null) return;
+    const failed = masses.code !== 0 && conductor.code !== 0;
+    this.amplitudes.refused(failed);
+    this.withPlay = undefined;
+    if (!failed) this.drawAmplitudes([
+      {...masses, name: "two masses", style: "first"},
+      {...conductor, name: settingOf(modelKey).choices[beside], style: "second dashed"}], [from, to]);
+  }
+
+  drawAmplitudes(answers, range) {
+    const lists = answers.filter((one) => one.code === 0).map((one) => {
+      const part = (place) => Array.from(one.rows.slice(0, -1)).filter((_, k) => k % 3 === place);
+      const [x, controlled, uncontrolled] = [part(0), part(1), part(2)];
+      return {...one, x, controlled, uncontrolled, y: controlled.map((value, k) => 100 * value / uncontrolled[k]),
+        stable: one.rows[one.rows.length - 1] === 1};
+    });
+    const {x} = lists[0];
+    const series = [...lists, {name: "without control", style: "third", x, y: x.map(() => 100)}];
     const largest = Math.min(300, d3.max(series.flatMap((one) => one.y), (value) => (Number.isFinite(value) ? value : 0)));
-    this.amplitudes.draw(series.filter((one) => one.y.length > 0), {x: [3, 60], y: [0, 1.08 * largest]});
-    const unstable = [[masses, "two masses"], [cable, names[beside]]]
-      .filter(([answer]) => answer.code === 0 && part(answer, 1).every(Number.isNaN)).map(([, name]) => name);
-    this.amplitudes.say(unstable.length ? `No steady vibration without play on ${unstable.join(" and ")}: the loop is not stable.`
-      : "Of the steady vibration without play, against that without control.");
-    const rows = x.map((f, k) => [f, part(masses, 1)[k], part(masses, 2)[k], part(cable, 1)[k], part(cable, 2)[k]].join(","));
-    this.amplitudes.csv = ["frequency_Hz,two_masses_m,two_masses_uncontrolled_m,conductor_m,conductor_uncontrolled_m", ...rows, ""].join("\n");
+    this.shownAmplitudes = {series, range: {x: range, y: [0, 1.08 * largest]}};
+    this.markAmplitudes();
+    this.amplitudes.say(this.wordsOfAmplitudes(lists));
+    const rows = x.map((f, k) => [f, ...lists.flatMap((one) => [one.controlled[k], one.uncontrolled[k]])].join(","));
+    const heads = lists.flatMap(({name}) => [`${name}_m`, `${name}_without_control_m`]).map((one) => one.replaceAll(" ", "_"));
+    this.amplitudes.csv = [["frequency_Hz", ...heads].join(","), ...rows, ""].join("\n");
+  }
+
+  wordsOfAmplitudes(lists) {
+    if (this.state.number("excitation.amplitude") === 0) return "No force, hence no vibration.";
+    const unstable = lists.filter((one) => !one.stable).map((one) => one.name);
+    const seen = 0.5 / this.state.number("control.sampling_period");
+    return "Of the steady vibration without play, against that without control; the dot: with play, at the case's frequency." +
+      (unstable.length ? ` No steady vibration without play on ${unstable.join(" and ")}: the loop is not stable there.` : "") +
+      (seen < this.frequencies()[1] ? ` From ${numbers(seen)} Hz on the computer takes fewer than two samples a period.` : "");
+  }
+
+  markAmplitudes() {
+    if (!this.shownAmplitudes) return;
+    const {series, range} = this.shownAmplitudes;
+    this.amplitudes.draw(series, {...range, mark: {x: this.state.number("excitation.frequency"), y: this.withPlay}});
+  }
+
+  /// What is left with play, of the case itself.
+  async askLeft() {
+    const frequency = this.state.text("excitation.frequency");
+    const answer = await this.job("left", ["sweep", "--axis", `excitation.frequency=${frequency}`,
+      "--metric", "ratio_to_uncontrolled", "--threads", "1"]);
+    if (answer === null) return;
+    this.withPlay = answer.code === 0 ? 100 * Number(rowsOf(answer.text)[0]?.ratio_to_uncontrolled) : undefined;
+    this.markAmplitudes();
   }
 
   askThorough() {
     this.askBoundary();
     this.askVerdict();
+    this.askLeft();
     this.askMargins();
     this.askAnswers();
   }
@@ -223,9 +344,10 @@ class Explorer {
   }
 
   async askBoundary() {
-    const {p} = this.chart.window();
+    const p = this.chart.widerGains(), plane = this.plane();
     const answer = await this.job("boundary", ["boundary", `--p=${p[0]}:${p[1]}`]);
     if (answer === null) return;
+    this.planeOfBoundary = plane;
     this.chart.drawBoundary(answer.code === 0 ? rowsOf(answer.text) : []);
   }
 
@@ -235,6 +357,7 @@ class Explorer {
     this.judge(answer);
     this.byId("verdict-card").classList.remove("waiting");
     const row = answer.code === 0 ? rowsOf(answer.text)[0] : null;
+    if (!row && answer.code !== 2) this.byId("verdict-grounds").textContent = answer.notes.join(" ");
     const period = row && Number(row.period_s) > 0 ? `, ${numbers(Number(row.period_s))} s` : "";
     this.byId("verdict").textContent = row ? row.verdict + period + (row.certified === "1" ? " — certified" : "") : "no verdict";
     this.byId("verdict-grounds").textContent = row ? row.rests_on : "";
@@ -250,12 +373,12 @@ class Explorer {
     if (answer === null) return;
     this.byId("margins").classList.remove("waiting");
     const box = this.byId("margins").querySelector(".scrolling");
-    if (answer.code !== 0) return void (box.textContent = answer.notes.join(" "));
+    if (answer.code !== 0) return void (box.textContent = this.wordsOfRefusal(answer));
     box.replaceChildren(this.table(["quantity", "side", "from", "to", "distance", "what happens there"],
-      rowsOf(answer.text).map((row) => [`${row.quantity.replaceAll("_", " ")} (${row.unit})`, row.side,
-        numbers(Number(row.value)), row.outcome === "boundary" ? numbers(Number(row.position)) : "",
-        row.outcome === "boundary" ? numbers(Number(row.distance)) : row.outcome.replaceAll("_", " "),
-        row.curve.replaceAll("_", " ") + (Number(row.frequency_Hz) > 0 ? ` at ${numbers(Number(row.frequency_Hz))} Hz` : "")])));
+      rowsOf(answer.text).map((row) => [`${row.quantity.replaceAll("_", " ")} (${row.unit.replace(".", " ")})`, row.side,
+        numbers(Number(row.value)), row.outcome === "boundary" ? numbers(Number(row.position)) : outcomes[row.outcome] ?? row.outcome,
+        row.outcome === "boundary" ? numbers(Number(row.distance)) : "",
+        (curves[row.curve] ?? row.curve) + (Number(row.frequency_Hz) > 0 ? ` at ${numbers(Number(row.frequency_Hz))} Hz` : "")])));
   }
 
   table(heads, rows) {
@@ -278,7 +401,7 @@ class Explorer {
     const answer = await this.job("answers", ["answers"]);
     if (answer === null) return;
     this.byId("answers").classList.remove("waiting");
-    if (answer.code !== 0) return void (list.textContent = answer.notes.join(" "));
+    if (answer.code !== 0) return void (list.textContent = this.wordsOfRefusal(answer));
     list.replaceChildren(...rowsOf(answer.text).flatMap((row) => [
       Object.assign(document.createElement("dt"), {textContent: row.question}),
       Object.assign(document.createElement("dd"), {textContent: row.answer})]));
@@ -287,13 +410,20 @@ class Explorer {
   /// Shows what is wrong with the settings where the program says so, at the field that it names.
   judge(answer) {
     const words = answer.code === 0 ? "" : answer.notes.filter((note) => !note.startsWith("warning:")).join(" ");
+    const blamed = words.match(/^--set ([\w.]+)=/)?.[1];
+    const own = words.replace(/^--set [^:]*: /, "").replaceAll("/case.toml", this.base.name || "the case");
     let told = false;
     for (const field of this.fields) {
-      const own = words.includes(field.setting.key) ? words : "";
-      field.refuse(own);
-      told = told || own !== "";
+      const its = own !== "" && (blamed ? blamed === field.setting.key : words.includes(field.setting.key));
+      field.refuse(its ? own : "");
+      told = told || (its && !field.element.hidden);
     }
-    this.refuse(words && !told ? [words] : []);
+    this.refuse(own && !told ? [words] : []);
+  }
+
+  /// In place of a result: what is wrong stands at its field already.
+  wordsOfRefusal(answer) {
+    return answer.code === 2 ? "Not computed: see the settings." : answer.notes.join(" ");
   }
 
   refuse(notes) {
@@ -308,8 +438,10 @@ class Explorer {
     const set = this.state.list().map(([key, value]) => `--set ${quoted(`${key}=${value}`)}`);
     const words = this.base.name ? [`--case ${quoted(this.base.name)}`, ...set] : set;
     const {p, d} = this.chart.window();
+    const [gainP, gainD] = this.gains;
     const options = {verdict: "", margins: "", answers: "", simulate: ` --duration ${this.duration()}`,
-      stability: ` --p=${p[0]}:${p[1]}:${cellsAcross} --d=${d[0]}:${d[1]}:${cellsAcross}`};
+      stability: ` --p=${p[0]}:${p[1]}:${cellsAcross} --d=${d[0]}:${d[1]}:${cellsAcross}`,
+      boundary: ` --p=${p[0]}:${p[1]}`, response: ` --p=${gainP}:${gainP}:1 --d=${gainD}:${gainD}:1`};
     this.byId("command").textContent = Object.entries(options)
       .map(([job, own]) => ["holdfast", job].join(" ") + own + (words.length ? " " + words.join(" ") : "")).join("\n");
   }
@@ -324,22 +456,21 @@ class Explorer {
   async loadCase(file) {
     if (!file) return;
     const before = this.base;
-    this.base = {name: file.name, text: await file.text()};
+    this.base = {name: file.name, text: await file.text(), opened: true};
     this.quick.reload(this.base.text);
-    const answer = await this.quick.ask("case", {call: "job", words: ["case"], settings: []});
-    if (answer.code !== 0) {
+    if (!await this.readCase()) {
       this.base = before;
       this.quick.reload(before.text);
-      return void this.refuse(answer.notes);
+      return;
     }
     this.thorough.reload(this.base.text);
     this.state.changed.clear();
-    await this.readCase();
     this.buildFields();
+    for (const figure of [this.chart, this.history, this.phase, this.amplitudes]) figure.clear();
+    this.cellsOf = this.shownAmplitudes = null;
     this.frameChart();
     this.refuse([]);
-    this.cellsOf = null;
-    return this.refresh();
+    this.refresh();
   }
 }
 

@@ -22,7 +22,7 @@ const settings = [
     range: (own) => [0, 4 * sizeOf(own, 1)]},
   {key: "plant.model", label: "What the absorber hangs on", choices: {
     two_masses: "two masses", string: "the taut conductor", cable: "the hanging cable",
-    infinite_string: "a conductor without ends"}},
+    infinite_string: "the conductor without ends"}},
   {key: "plant.modes", label: "Modes of the conductor", unit: "", power: 0, ofConductor: true,
     range: () => [1, 200]},
 ];
@@ -36,9 +36,10 @@ const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 /// The text with the exponent of ten moved, so that no digit is rounded; other texts as they are,
 /// for the program to refuse in its words.
 function shifted(text, power) {
-  if (power === 0 || !decimal.test(text)) return text;
-  const [mantissa, exponent] = text.toLowerCase().split("e");
-  return `${mantissa}e${Number(exponent ?? 0) + power}`;
+  if (!decimal.test(text)) return text;
+  const [written, exponent] = text.toLowerCase().split("e");
+  const mantissa = written.replace(/^([+-]?)\./, "$10.").replace(/\.$/, "");  // as a case file has it
+  return power === 0 && exponent === undefined ? mantissa : `${mantissa}e${Number(exponent ?? 0) + power}`;
 }
 
 /// The case's text of a number as it is shown in a unit.
@@ -62,14 +63,8 @@ class State {
     else this.changed.set(key, text);
   }
 
-  /// [key, value] of what differs; on a taut conductor 40 modes unless said.
-  list(changes = {}) {
-    const all = new Map([...this.changed, ...Object.entries(changes)]);
-    const model = all.get(modelKey) ?? this.own.get(modelKey);
-    const untold = !all.has(modesKey) && this.own.get(modesKey) === "chosen";
-    if (model === "string" && untold) all.set(modesKey, "40");
-    return [...all];
-  }
+  /// [key, value] of what differs.
+  list(changes = {}) { return [...new Map([...this.changed, ...Object.entries(changes)])]; }
 
   /// The same without some keys: what a result depends on if not on them.
   signature(...without) {
@@ -170,8 +165,8 @@ class Field {
     if (this.setting.choices) this.input.value = text;
     else if (document.activeElement !== this.input) this.input.value = shown(text, this.setting.power);
     if (this.slider) this.placeSlider();
-    const conductor = this.state.text(modelKey) !== "two_masses";
-    this.element.hidden = Boolean(this.setting.ofConductor) && !conductor;
+    const hasModes = ["string", "cable"].includes(this.state.text(modelKey));
+    this.element.hidden = Boolean(this.setting.ofConductor) && !hasModes;
   }
 
   /// What the program has against it; nothing where it has nothing.

@@ -55,10 +55,11 @@ const requests = {
     return {code, cells, count, p, d};
   },
   amplitudes({settings, from, to, count}) {
-    const place = engine._malloc(3 * 8 * count);
+    const length = 3 * count + 1;
+    const place = engine._malloc(8 * length);
     const code = engine.ccall("holdfast_amplitudes", "number",
       ["string", "number", "number", "number", "number"], [lines(settings), from, to, count, place]);
-    const rows = engine.HEAPF64.slice(place / 8, place / 8 + 3 * count);
+    const rows = engine.HEAPF64.slice(place / 8, place / 8 + length);
     engine._free(place);
     return {code, rows};
   },

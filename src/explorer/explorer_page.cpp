@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "case/case_file.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "io/file/input.hpp"
 #include "io/text/filled.hpp"
 #include "process/errors.hpp"
@@ -34,17 +35,10 @@ std::optional<fs::path> built_page() {
   return std::nullopt;
 }
 
-/// The key of a further file that the case reads, and what that holds; empty where it reads none.
-std::string further_file(const Case& the_case) {
-  if (!the_case.excitation.record.empty()) return "excitation.record: a force";
-  for (const case_tables::Device& device : the_case.devices)
-    if (!device.file.empty()) return "device.file: an impedance";
-  return "";
-}
-
-/// The case file itself where nothing was set over it; empty for the built-in case.
+/// The case file itself, empty for the built-in case; the whole case where something was set over
+/// it or its plant is reduced, which a browser has not all packages for.
 std::string text_of_case(const Case& the_case, const CaseSource& source) {
-  if (source.overrides.empty()) return source.text.value_or("");
+  if (source.overrides.empty() && !plant_is_reduced(source.load())) return source.text.value_or("");
   return case_to_toml(the_case);
 }
 
@@ -56,14 +50,12 @@ std::string json_in_page(const nlohmann::ordered_json& json) {
 }  // namespace
 
 bool can_explore(const Case& the_case) {
-  return built_page().has_value() && further_file(the_case).empty();
+  return built_page().has_value() && the_case.excitation.record.empty();
 }
 
 std::string explorer_page(const Case& the_case, const CaseSource& source) {
-  const std::string further = further_file(the_case);
-  if (!further.empty())
-    throw WrongInput(further +
-                     " in a file of its own, which the explorer, one page, does not have");
+  if (!the_case.excitation.record.empty())
+    throw WrongInput("excitation.record: the explorer is one page, without the file of a force");
   const std::optional<fs::path> file = built_page();
   if (!file)
     throw NoAnswer("the explorer's page was not built: no " + places_of_page()[0].string() +

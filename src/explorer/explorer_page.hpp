@@ -11,12 +11,13 @@ namespace holdfast::program {
 /// it. It is built apart (preset `wasm`) and read when it is asked for; what the program adds is
 /// the case.
 ///
-/// @return the page with the case in it, for a file
-/// Throws NoAnswer where the page was not built, with what builds it; WrongInput for a case that
-/// reads further files, which the page cannot.
+/// @param the_case  its plant settled, and without devices
+/// @return          the page with the case in it, for a file
+/// Throws NoAnswer where the page was not built, with what builds it; WrongInput for a recorded
+/// force, whose file the page does not have.
 std::string explorer_page(const Case& the_case, const CaseSource& source);
 
-/// Whether the page was built and can have the case.
+/// Whether the page was built and can have a case without devices.
 bool can_explore(const Case& the_case);
 
 }  // namespace holdfast::program

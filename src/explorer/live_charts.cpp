@@ -50,16 +50,15 @@ std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& gri
   return cells;
 }
 
-std::vector<AmplitudesAt> amplitudes_over(const Case& the_case, const Axis& frequencies) {
-  const bool stable = spectral_radius_of(the_case) < 1.0;
-  std::vector<AmplitudesAt> amplitudes;
+Amplitudes amplitudes_over(const Case& the_case, const Axis& frequencies) {
+  Amplitudes amplitudes{spectral_radius_of(the_case) < 1.0, {}};
   for (std::int64_t k = 0; k < frequencies.count; ++k) {
     const double frequency = frequencies.at(k);
-    const double controlled = stable ? controlled_amplitude(the_case, frequency)
-                                     : std::numeric_limits<double>::quiet_NaN();
-    amplitudes.push_back({frequency, controlled,
-                          excitation_of(the_case).amplitude *
-                              true_amplitude_of(the_case, 2.0 * pi<double> * frequency)});
+    const double controlled = amplitudes.stable ? controlled_amplitude(the_case, frequency)
+                                                : std::numeric_limits<double>::quiet_NaN();
+    amplitudes.at.push_back({frequency, controlled,
+                             excitation_of(the_case).amplitude *
+                                 true_amplitude_of(the_case, 2.0 * pi<double> * frequency)});
   }
   return amplitudes;
 }

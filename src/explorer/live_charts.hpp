@@ -19,12 +19,17 @@ std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& gri
 /// Steady amplitudes of the conductor (m) at a frequency (Hz), without play.
 struct AmplitudesAt {
   double frequency;
-  double controlled;    ///< NaN where the loop is not stable, or sampling does not show the motion
+  double controlled;    ///< NaN where the loop is not stable, or there are two samples a period
   double uncontrolled;  ///< under the true force
 };
 
 /// The same under forces of other frequencies than the case's, its gains as they are.
+struct Amplitudes {
+  bool stable;  ///< the loop without play
+  std::vector<AmplitudesAt> at;
+};
+
 /// @param frequencies  above 0 Hz
-std::vector<AmplitudesAt> amplitudes_over(const Case& the_case, const Axis& frequencies);
+Amplitudes amplitudes_over(const Case& the_case, const Axis& frequencies);
 
 }  // namespace holdfast::program

@@ -77,7 +77,23 @@ TEST(ExploreJob, RefusesWhatIsNoPageAndCasesOfSeveralFiles) {
   expect_refusal("explore", "--output FILE.html is needed");
   expect_refusal("explore --output page.csv", "let its name end in .html");
   expect_refusal("explore --set excitation.record=force.csv --output page.html",
-                 "excitation.record: a force in a file of its own");
+                 "without the file of a force");
+  expect_refusal(
+      "explore --set device.1.kind=dashpot --set device.1.position=0.5 --set device.1.damping=1 "
+      "--output page.html",
+      "[[device]]");
+  expect_refusal("explore --set plant.model=string --set plant.absorber_mass=0 --output page.html",
+                 "absorber");
+}
+
+// A browser has no package to fit the damping with.
+TEST(ExploreJob, APlantThatIsReducedStandsInThePage) {
+  if (!both_packages) GTEST_SKIP() << "the fit needs Ceres Solver";
+  const InstalledProgram program(skeleton);
+  const std::string line = HOLDFAST_SOURCE_DIR "/data/acsr-drake-300m.toml";
+  ASSERT_EQ(program.run("explore --case '" + line + "' --output page.html").exit_code, 0);
+  EXPECT_EQ(read_text(line).find("conductor_mass = "), std::string::npos);
+  EXPECT_NE(read_text(program / "page.html").find("conductor_mass = "), std::string::npos);
 }
 
 }  // namespace

@@ -179,6 +179,7 @@ const tests = {
 
   async "the address holds the state"(browser) {
     await typeInto(browser, "control.sampling_period", "5");
+    assert.ok(await settled(browser));
     const address = await browser.run(`() => location.href`);
     assert.ok(address.endsWith("#control.sampling_period=5e-3"), address);
     await browser.go("about:blank");

@@ -1,10 +1,11 @@
 #include "report/picture/svg_curve.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+
+#include "io/text/double_digits.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -35,7 +36,7 @@ class CurveReader {
  private:
   std::optional<long> hundredths() {
     double value = 0.0;
-    const auto [behind, error] = std::from_chars(at_, end_, value);
+    const auto [behind, error] = read_digits({at_, static_cast<std::size_t>(end_ - at_)}, value);
     if (error != std::errc()) return std::nullopt;
     at_ = behind;
     return std::lround(100.0 * value);

@@ -44,20 +44,23 @@ TEST(LiveCharts, WithoutGainsTheControlLeavesEverything) {
   for (const char* model : {"two_masses", "string"}) {
     const Case idle = on(model, {"control.proportional_gain=0", "control.differential_gain=0",
                                  "excitation.hold=exact"});
-    for (const program::AmplitudesAt& at : program::amplitudes_over(idle, {3.0, 60.0, 20}))
+    for (const program::AmplitudesAt& at : program::amplitudes_over(idle, {3.0, 60.0, 20}).at)
       EXPECT_NEAR(at.controlled, at.uncontrolled, 1e-9 * at.uncontrolled) << at.frequency;
   }
 }
 
 TEST(LiveCharts, AmplitudesAreNoneWhereThereIsNoSteadyMotionOrTooFewSamples) {
-  for (const program::AmplitudesAt& at :
-       program::amplitudes_over(on("two_masses", {"control.differential_gain=50"}), {3.0, 60.0, 5}))
+  const program::Amplitudes growing =
+      program::amplitudes_over(on("two_masses", {"control.differential_gain=50"}), {3.0, 60.0, 5});
+  EXPECT_FALSE(growing.stable);
+  for (const program::AmplitudesAt& at : growing.at)
     EXPECT_TRUE(std::isnan(at.controlled) && at.uncontrolled > 0.0);
   const auto slow = program::amplitudes_over(
       on("two_masses", {"control.sampling_period=0.01", "control.differential_gain=-5"}),
       {20.0, 60.0, 2});
-  EXPECT_TRUE(std::isfinite(slow[0].controlled));
-  EXPECT_TRUE(std::isnan(slow[1].controlled));
+  EXPECT_TRUE(slow.stable);
+  EXPECT_TRUE(std::isfinite(slow.at[0].controlled));
+  EXPECT_TRUE(std::isnan(slow.at[1].controlled));
 }
 
 TEST(LiveCharts, RefuseWindowsThatAreNone) {
