@@ -104,6 +104,12 @@ class Figure {
     this.yAxis.call(ticked(d3.axisLeft(this.y), 6));
   }
 
+  label(x, y) {
+    Object.assign(this.words, {x, y});
+    this.xLabel.text(x);
+    this.yLabel.text(y);
+  }
+
   say(text) {
     this.words.caption = text;
     this.caption.text(text);

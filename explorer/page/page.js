@@ -57,6 +57,10 @@ class Explorer {
     this.state.own = new Map(rows.filter((row) => settingOf(row.key))
       .map((row) => [row.key, row.value.replace(/^"(.*)"$/s, "$1")]));
     this.gains = this.ownGains = this.gainsOf(rows);
+    this.windForce = {}; // of a case with wind, which has no keys for it
+    for (const part of ["frequency", "amplitude"])
+      if (!this.state.own.has(`excitation.${part}`))
+        this.windForce[part] = Number(rows.find((row) => row.key === `force_${part}`)?.value);
     this.byId("case-name").textContent = this.base.name || "the built-in case";
     return true;
   }
@@ -67,10 +71,16 @@ class Explorer {
     return [value("proportional_gain"), value(gainKeys[1])];
   }
 
+  /// The frequency (Hz) or amplitude (N) of the force.
+  force(part) { return this.windForce[part] ?? this.state.number(`excitation.${part}`); }
+
+  /// The program's words with the name of the case for that of the file which it reads here.
+  named(words) { return words.replace(/\/case\.toml(:\d+)?/g, this.base.name || "the case"); }
+
   tellOfFile(words) {
     const box = this.byId("file-refusal");
     box.hidden = words === "";
-    box.textContent = words.replaceAll("/case.toml", this.base.name || "the case");
+    box.textContent = this.named(words);
   }
 
   buildFields() {
@@ -243,7 +253,7 @@ class Explorer {
 
   /// Twenty periods of the force, of two thousand samples at most.
   duration() {
-    const period = 1 / this.state.number("excitation.frequency");
+    const period = 1 / this.force("frequency");
     const most = 2000 * this.state.number("control.sampling_period");
     const wanted = Math.min(20 * period, most);
     return Number.isFinite(wanted) && wanted > 0 ? Number(wanted.toPrecision(6)) : 1;
@@ -251,7 +261,11 @@ class Explorer {
 
   drawMotion(text) {
     const rows = rowsOf(text);
-    const time = column(rows, "time_s"), z = column(rows, "z1_m", 1e3), v = column(rows, "v1_m_per_s", 1e3);
+    const largest = d3.max(column(rows, "z1_m"), Math.abs);
+    const [unit, factor] = largest > 0 && largest < 5e-5 ? ["µm", 1e6] : ["mm", 1e3];
+    const time = column(rows, "time_s"), z = column(rows, "z1_m", factor), v = column(rows, "v1_m_per_s", factor);
+    this.history.label("time (s)", `conductor z₁ (${unit})`);
+    this.phase.label(`z₁ (${unit})`, `ż₁ (${unit}/s)`);
     const inPlay = column(rows, "in_backlash").map((flag) => flag === 1);
     this.history.draw([{name: "conductor", style: "first", x: time, y: z},
       {name: "in the play", style: "play", x: [], y: []}], {bands: bandsOf(time, inPlay)});
@@ -269,7 +283,7 @@ class Explorer {
 
   /// From 3 to 60 Hz, or as far as the case's own force is.
   frequencies() {
-    const own = this.state.number("excitation.frequency");
+    const own = this.force("frequency");
     return own > 0 && own < 1e6 ? [Math.min(3, own / 2), Math.max(60, 1.5 * own)] : [3, 60];
   }
 
@@ -307,10 +321,11 @@ class Explorer {
   }
 
   wordsOfAmplitudes(lists) {
-    if (this.state.number("excitation.amplitude") === 0) return "No force, hence no vibration.";
+    if (this.force("amplitude") === 0) return "No force, hence no vibration.";
     const unstable = lists.filter((one) => !one.stable).map((one) => one.name);
     const seen = 0.5 / this.state.number("control.sampling_period");
-    return "Of the steady vibration without play, against that without control; the dot: with play, at the case's frequency." +
+    const dot = this.windForce.frequency ? "" : "; the dot: with play, at the case's frequency";
+    return `Of the steady vibration without play, against that without control${dot}.` +
       (unstable.length ? ` No steady vibration without play on ${unstable.join(" and ")}: the loop is not stable there.` : "") +
       (seen < this.frequencies()[1] ? ` From ${numbers(seen)} Hz on the computer takes fewer than two samples a period.` : "");
   }
@@ -318,7 +333,7 @@ class Explorer {
   markAmplitudes() {
     if (!this.shownAmplitudes) return;
     const {series, range} = this.shownAmplitudes;
-    this.amplitudes.draw(series, {...range, mark: {x: this.state.number("excitation.frequency"), y: this.withPlay}});
+    this.amplitudes.draw(series, {...range, mark: {x: this.force("frequency"), y: this.withPlay}});
   }
 
   /// What is left with play, of the case itself.
@@ -363,7 +378,7 @@ class Explorer {
     this.byId("verdict-grounds").textContent = row ? row.rests_on : "";
     this.byId("notes").replaceChildren(...(answer.code === 0 ? answer.notes : []).map((note) => {
       const item = document.createElement("li");
-      item.textContent = note;
+      item.textContent = this.named(note);
       return item;
     }));
   }
@@ -404,14 +419,14 @@ class Explorer {
     if (answer.code !== 0) return void (list.textContent = this.wordsOfRefusal(answer));
     list.replaceChildren(...rowsOf(answer.text).flatMap((row) => [
       Object.assign(document.createElement("dt"), {textContent: row.question}),
-      Object.assign(document.createElement("dd"), {textContent: row.answer})]));
+      Object.assign(document.createElement("dd"), {textContent: this.named(row.answer)})]));
   }
 
   /// Shows what is wrong with the settings where the program says so, at the field that it names.
   judge(answer) {
     const words = answer.code === 0 ? "" : answer.notes.filter((note) => !note.startsWith("warning:")).join(" ");
     const blamed = words.match(/^--set ([\w.]+)=/)?.[1];
-    const own = words.replace(/^--set [^:]*: /, "").replaceAll("/case.toml", this.base.name || "the case");
+    const own = this.named(words.replace(/^--set [^:]*: /, ""));
     let told = false;
     for (const field of this.fields) {
       const its = own !== "" && (blamed ? blamed === field.setting.key : words.includes(field.setting.key));

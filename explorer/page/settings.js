@@ -166,7 +166,8 @@ class Field {
     else if (document.activeElement !== this.input) this.input.value = shown(text, this.setting.power);
     if (this.slider) this.placeSlider();
     const hasModes = ["string", "cable"].includes(this.state.text(modelKey));
-    this.element.hidden = Boolean(this.setting.ofConductor) && !hasModes;
+    const given = this.setting.choices || this.state.own.has(this.setting.key); // with wind no force is
+    this.element.hidden = !given || (Boolean(this.setting.ofConductor) && !hasModes);
   }
 
   /// What the program has against it; nothing where it has nothing.
