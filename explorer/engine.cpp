@@ -52,9 +52,8 @@ int holdfast_stable_cells(const char* settings, double p_min, double p_max, int 
   });
 }
 
-/// @param rows  count times frequency (Hz), amplitude with control and without (m); then 1 where
-/// the
-///              loop is stable
+/// @param rows  count times frequency (Hz), amplitude with control and without (m); at last 1 where
+///              the loop is stable
 int holdfast_amplitudes(const char* settings, double f_min, double f_max, int count, double* rows) {
   return run_guarded([&] {
     const Amplitudes amplitudes = amplitudes_over(case_of_page(settings), {f_min, f_max, count});

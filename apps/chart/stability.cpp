@@ -70,10 +70,7 @@ void StabilityQuestion::run_over_gains(const JobContext& context) const {
   } else if (continuous) {
     append_continuous_chart(context, plant_of(context.case_data), grid, radius, output);
   } else {
-    const LoopChart chart{operating_point_of(context.case_data),
-                          {LoopParameter::proportional_gain, grid.proportional},
-                          {LoopParameter::differential_gain, grid.differential}};
-    append_sampled_chart(context, chart, radius, output);
+    append_sampled_chart(context, chart_over_gains(context.case_data, grid), radius, output);
   }
   output.commit();
 }

@@ -1,6 +1,5 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "explorer/explorer_page.hpp"
-#include "io/file/output.hpp"
 #include "job.hpp"
 
 namespace holdfast::program {
@@ -13,9 +12,7 @@ void explore(const JobContext& context) {
     throw WrongInput("--output " + context.output->string() +
                      ": the explorer is a page for a browser; let its name end in .html");
   require_absorber(context.case_data);
-  OutputFile file(context.output);
-  file.write(explorer_page(context.case_data, context.case_source));
-  file.commit();
+  write_explorer_page(*context.output, context.case_data, context.case_source);
 }
 
 }  // namespace

@@ -65,10 +65,14 @@ class Engine {
     this.restart();
   }
 
-  /// Gives up what it does and what waits.
-  abandon() {
+  dropWaiting() {
     for (const {resolve} of this.waiting.values()) resolve(null);
     this.waiting.clear();
+  }
+
+  /// Gives up what it does and what waits.
+  abandon() {
+    this.dropWaiting();
     if (this.running) this.giveUp();
   }
 
@@ -80,8 +84,7 @@ class Engine {
   /// Another case for all that follows.
   reload(caseText) {
     this.caseText = caseText;
-    for (const {resolve} of this.waiting.values()) resolve(null);
-    this.waiting.clear();
+    this.dropWaiting();
     this.running?.resolve(null);
     this.restart();
   }

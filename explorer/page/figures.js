@@ -147,7 +147,8 @@ class LineFigure extends Figure {
       .on("mouseleave", () => this.leave());
   }
 
-  /// @param series  [{name, style, x: [], y: [], byPoint: nearest in both}], NaN breaking a line
+  /// @param series  [{name, style, x: [], y: [], byPoint}], NaN breaking a line;
+  ///                byPoint: no function of x, so that it tells no value there
   /// @param bands   [[from, to]] of x, shaded
   /// @param mark    {x, y}: a place of x, and a dot there where y is a number
   draw(series, {x, y, bands = [], mark} = {}) {

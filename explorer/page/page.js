@@ -189,7 +189,6 @@ class Explorer {
     this.askCells();
     this.askMotion();
     this.askAmplitudes();
-    this.showCommand();
     clearTimeout(this.resting);
     this.resting = setTimeout(() => { this.showAddress(); this.askThorough(); }, 250);
     this.thorough.abandon();
@@ -203,9 +202,9 @@ class Explorer {
 
   /// The point of the chart: its gains as they are written, or by the program where P is tuned.
   async askGains() {
-    const written = gainKeys.map((key) => this.state.number(key));
-    this.showPoint(written);
-    if (this.state.text(gainKeys[0]) !== "tuned") return;
+    const tuned = this.state.text(gainKeys[0]) === "tuned";
+    this.showPoint(tuned ? this.gains : gainKeys.map((key) => this.state.number(key)));
+    if (!tuned) return;
     const answer = await this.quick.ask("case", {call: "job", words: ["case"], settings: this.state.list()});
     if (answer?.code === 0) this.showPoint(this.gainsOf(rowsOf(answer.text)));
   }
@@ -214,6 +213,7 @@ class Explorer {
     this.gains = gains;
     this.chart.drawPoint(gains);
     this.sayStability();
+    this.showCommand();
   }
 
   async askCells() {

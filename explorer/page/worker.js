@@ -1,6 +1,6 @@
 // One module of the program in a worker: does one request after the other and posts what came of it.
 let engine = null;
-let printed = "", complained = "";
+let complained = "";
 const casePath = "/case.toml", tablePath = "/table.csv", savedPath = "/saved.toml";
 
 const bytesInto = (take) => { // gathers a stream of the program
@@ -13,8 +13,8 @@ const bytesInto = (take) => { // gathers a stream of the program
 
 async function start(module, caseText) {
   engine = await createHoldfast({
-    preRun: [(self) => self.FS.init(() => null, bytesInto((text) => { printed += text; }),
-      bytesInto((text) => { complained += text; }))],
+    // Tables come by a file; nothing is read, and what else is printed nobody asks for.
+    preRun: [(self) => self.FS.init(() => null, () => {}, bytesInto((text) => { complained += text; }))],
     instantiateWasm(imports, receive) {
       WebAssembly.instantiate(module, imports).then((instance) => receive(instance, module));
       return {};
@@ -68,7 +68,7 @@ const requests = {
 const lines = (settings) => settings.map(([key, value]) => `${key}=${value}`).join("\n");
 
 function answered(request) {
-  printed = ""; complained = "";
+  complained = "";
   try {
     return {...requests[request.call](request), notes: complaints()};
   } catch (fault) {

@@ -9,6 +9,7 @@
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "io/file/input.hpp"
+#include "io/file/output.hpp"
 #include "io/text/filled.hpp"
 #include "process/errors.hpp"
 
@@ -53,7 +54,7 @@ bool can_explore(const Case& the_case) {
   return built_page().has_value() && the_case.excitation.record.empty();
 }
 
-std::string explorer_page(const Case& the_case, const CaseSource& source) {
+void write_explorer_page(const fs::path& output, const Case& the_case, const CaseSource& source) {
   if (!the_case.excitation.record.empty())
     throw WrongInput("excitation.record: the explorer is one page, without the file of a force");
   const std::optional<fs::path> file = built_page();
@@ -64,8 +65,10 @@ std::string explorer_page(const Case& the_case, const CaseSource& source) {
                    "makes it (Debian packages emscripten, node-d3)");
   const std::string name =
       source.overrides.empty() || source.name.empty() ? source.name : source.name + " with --set";
-  return replaced(read_input(*file), empty_case,
-                  json_in_page({{"name", name}, {"text", text_of_case(the_case, source)}}));
+  OutputFile page(output);
+  page.write(replaced(read_input(*file), empty_case,
+                      json_in_page({{"name", name}, {"text", text_of_case(the_case, source)}})));
+  page.commit();
 }
 
 }  // namespace holdfast::program

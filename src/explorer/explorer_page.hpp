@@ -1,21 +1,20 @@
 #pragma once
 
-#include <string>
+#include <filesystem>
 
 #include "case/case.hpp"
 #include "case/case_source.hpp"
 
 namespace holdfast::program {
 
-/// The explorer: one page that computes in a browser, with the program compiled to WebAssembly in
-/// it. It is built apart (preset `wasm`) and read when it is asked for; what the program adds is
-/// the case.
-///
+/// Writes the explorer: one page that computes in a browser, with the program compiled to
+/// WebAssembly in it. It is built apart (preset `wasm`) and read when it is asked for; what the
+/// program adds is the case.
 /// @param the_case  its plant settled, and without devices
-/// @return          the page with the case in it, for a file
 /// Throws NoAnswer where the page was not built, with what builds it; WrongInput for a recorded
-/// force, whose file the page does not have.
-std::string explorer_page(const Case& the_case, const CaseSource& source);
+/// force, whose file the page does not have; what OutputFile throws.
+void write_explorer_page(const std::filesystem::path& output, const Case& the_case,
+                         const CaseSource& source);
 
 /// Whether the page was built and can have a case without devices.
 bool can_explore(const Case& the_case);

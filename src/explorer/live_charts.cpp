@@ -8,6 +8,7 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
+#include "jobs/charts/chart_rows.hpp"
 #include "kernels/pack_kernels.hpp"
 
 namespace holdfast::program {
@@ -21,9 +22,7 @@ void fill_on_modes(const Case& the_case, const GainGrid& grid, std::uint8_t* cel
 }
 
 void fill_of_two_masses(const Case& the_case, const GainGrid& grid, std::uint8_t* cells) {
-  const LoopChart chart{operating_point_of(the_case),
-                        {LoopParameter::proportional_gain, grid.proportional},
-                        {LoopParameter::differential_gain, grid.differential}};
+  const LoopChart chart = chart_over_gains(the_case, grid);
   validate(chart);
   pack_kernels(InstructionSet::baseline)
       .chart(chart, false)

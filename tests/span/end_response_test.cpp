@@ -20,8 +20,6 @@ EndResponse one_end(const TautString<double>& string, std::vector<SpanDevice> de
   return end_response(string, span_ends(ordered, string.span)[0], turn_of(frequency));
 }
 
-LumpedDevice dashpot_of(double damping) { return {{{damping}}, 0.0}; }
-
 /// One of every kind, near a support.
 std::vector<SpanDevice> every_device(double place) {
   const LumpedDevice tuned{{tuned_branch(5.0, 20.0, 0.1)}, 0.2};

@@ -18,6 +18,11 @@ std::string shortened(std::string text, std::size_t longest);
 /// Whether the bytes are UTF-8 (RFC 3629).
 bool is_utf8(std::string_view text);
 
+/// Whether the text begins so.
+inline bool begins_with(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
 /// The text without blanks at its two ends.
 std::string_view trimmed(std::string_view text);
 

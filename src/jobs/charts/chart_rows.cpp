@@ -106,6 +106,12 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid) {
   return {{columns[0], grid.proportional}, {columns[1], grid.differential}};
 }
 
+LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid) {
+  return {operating_point_of(the_case),
+          {LoopParameter::proportional_gain, grid.proportional},
+          {LoopParameter::differential_gain, grid.differential}};
+}
+
 void append_sampled_chart(const JobContext& context, const LoopChart& chart, bool radius,
                           GridOutput& output) {
   using Kernel = CopiedKernel<ChartKernel>;

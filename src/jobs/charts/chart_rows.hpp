@@ -12,6 +12,9 @@ namespace holdfast::program {
 /// The axes of a chart over P and D.
 std::vector<GridAxis> gain_axes(const GainGrid& grid);
 
+/// The chart of the sampled loop of a case on two masses over P, the slow axis, and D.
+LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid);
+
 /// Each computes a chart on the threads that the job was given and appends its cells to the output
 /// in order, a block of rows in memory at a time; progress goes to standard error. They do not
 /// commit. Throw Interrupted, InvalidParameter, and what GridOutput throws.

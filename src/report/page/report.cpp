@@ -54,9 +54,7 @@ std::string switching_part(const JobContext& context, bool builtin, const Figure
 /// The explorer of the same case beside the page, where it was built; gives whether it is there.
 bool write_explorer(const JobContext& context, const fs::path& folder) {
   if (!can_explore(context.case_data)) return false;
-  OutputFile file(folder / "explorer.html");
-  file.write(explorer_page(context.case_data, context.case_source));
-  file.commit();
+  write_explorer_page(folder / "explorer.html", context.case_data, context.case_source);
   return true;
 }
 

@@ -12,10 +12,6 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-bool line_begins(const std::string& line, std::string_view beginning) {
-  return line.compare(0, beginning.size(), beginning) == 0;
-}
-
 /// The shapes of points are short, and drawn at any size.
 std::string shortened_curve(const std::string& curve) {
   constexpr std::size_t longest_shape = 100;
@@ -55,7 +51,7 @@ Lines lines_of(const std::string& svg) {
   for (const std::string_view part : split(svg, '\n')) {
     const std::string line(trimmed(part));
     const bool ends_nothing = line == "</g>" && !lines.empty() &&
-                              line_begins(lines.back(), "<g ") &&
+                              begins_with(lines.back(), "<g ") &&
                               lines.back().find('>') + 1 == lines.back().size();
     if (ends_nothing)
       lines.pop_back();
@@ -81,7 +77,7 @@ std::string between(const std::string& line, const std::string& part, const std:
 
 /// "<use xlink:href='#gpPt6' transform='translate(219.88,156.12) scale(0.88)' color='…'/>"
 Dot dot_of(const std::string& line) {
-  if (!line_begins(line, "<use xlink:href='#gpPt6' transform='translate(")) return {};
+  if (!begins_with(line, "<use xlink:href='#gpPt6' transform='translate(")) return {};
   return {place_of(between(line, "translate(", ")")), between(line, "scale(", ")"),
           between(line, "color='", "'")};
 }

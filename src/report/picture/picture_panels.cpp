@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::string_view of_panel = "panel ", of_logarithms = "logscaling on ";
 
-bool begins(std::string_view text, std::string_view beginning) {
-  return text.substr(0, beginning.size()) == beginning;
-}
-
 /// The numbers behind the word "panel"; none where one of them is no number.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
@@ -56,7 +52,7 @@ void name_axis(PanelAxis& axis, const std::string& label) {
 
 /// What a line behind "panel" says of it.
 void tell(PicturePanel& panel, std::string_view line) {
-  if (begins(line, of_logarithms)) {
+  if (begins_with(line, of_logarithms)) {
     panel.x.logarithmic |= line.find(" x") != std::string_view::npos;
     panel.y.logarithmic |= line.find(" y") != std::string_view::npos;
   }
@@ -67,13 +63,13 @@ void tell(PicturePanel& panel, std::string_view line) {
   for (const auto& [beginning, axis] : axes) {
     const std::size_t end = line.find("\", offset");
     const std::size_t begin = std::string_view(beginning).size();
-    if (!begins(line, beginning) || end == std::string_view::npos) continue;
+    if (!begins_with(line, beginning) || end == std::string_view::npos) continue;
     name_axis(*axis, plain_label(std::string(line.substr(begin, end - begin))));
   }
 }
 
 bool is_of_panels(std::string_view line) {
-  return begins(line, of_panel) || begins(line, of_logarithms) ||
+  return begins_with(line, of_panel) || begins_with(line, of_logarithms) ||
          line.find("label is \"") != std::string_view::npos;
 }
 
@@ -107,7 +103,7 @@ std::string with_measured_panels(const std::string& plot) {
   std::string text;
   bool in_plot = false;
   for (const std::string_view line : split(plot, '\n')) {
-    in_plot |= begins(line, "plot ");
+    in_plot |= begins_with(line, "plot ");
     text += std::string(line) + "\n";
     if (!in_plot || (!line.empty() && line.back() == '\\')) continue;
     text += listed_text("measured");
@@ -120,7 +116,7 @@ std::string with_measured_panels(const std::string& plot) {
 std::vector<PicturePanel> measured_panels(const std::string& messages) {
   std::vector<PicturePanel> panels;
   for (const std::string_view line : split(messages, '\n')) {
-    if (begins(line, of_panel)) {
+    if (begins_with(line, of_panel)) {
       const std::vector<double> told = numbers_of(line);
       if (told.size() == 12) panels.push_back(panel_of(told));
     } else if (!panels.empty()) {
