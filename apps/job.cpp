@@ -21,8 +21,8 @@ namespace {
 // Options that are kept elsewhere in the context, or do not shape the result.
 bool is_common(const CLI::Option& option) {
   const std::string name = option.get_name();
-  return option.get_group() == question::every_job || name == "--help" || name == "--tile" ||
-         name == "--resume";
+  return option.get_group() == question::every_job || name == "--help" || name == "--chunk" ||
+         name == "--resume" || name == "--zarr-format";
 }
 
 std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& options) {
@@ -152,6 +152,7 @@ Job::Job(CLI::App& program, const std::string& name)
   add("--threads", common_->threads);
   add("--instructions", common_->instructions);
   options_->option_defaults()->group("Options");
+  if (is_told("writes_cells", false)) add("--zarr-format", common_->zarr_format);
 }
 
 CLI::Option* Job::told(CLI::Option* option) const {
@@ -230,6 +231,7 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   context.options = given_options(*options_);
   context.progress = common_->progress;
   context.yes = common_->yes;
+  context.zarr_format = common_->zarr_format;
   context.threads = at_most_cores(common_->threads.value_or(0));
   context.on_packs = is_told("on_packs", false);
   context.instructions = chosen_instruction_set(common_->instructions);

@@ -74,6 +74,7 @@ class Job {
     bool quiet = false;
     bool progress = false;
     bool yes = false;
+    int zarr_format = 3;
     std::optional<int> threads;      // none, 0: all
     std::string instructions;        // empty: the best that the processor has
     std::optional<Ticking> ticking;  // from when the context is made to the program's end
@@ -127,7 +128,8 @@ AddJob add_case, add_conductors, add_reduce, add_statics, add_modes, add_decay, 
     add_stability, add_boundary, add_response, add_design, add_margins, add_modal_damping,
     add_sensitivity, add_max_delay, add_simulate, add_spectrum, add_deviation, add_coverage,
     add_verdict, add_orbit, add_basins, add_diagram, add_section, add_lyapunov, add_sweep,
-    add_absorption, add_aeolian, add_fatigue, add_place, add_answers, add_report, add_explore;
+    add_convert, add_absorption, add_aeolian, add_fatigue, add_place, add_answers, add_report,
+    add_explore;
 
 /// Heading of the help where the options stand that every job has.
 namespace question {

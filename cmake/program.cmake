@@ -56,6 +56,23 @@ function(holdfast_use_netcdf target)
   target_link_libraries(${target} PRIVATE ${CMAKE_DL_LIBS})
 endfunction()
 
+# Stores whose chunks are compressed.
+function(holdfast_use_zstd target)
+  if(NOT HOLDFAST_WITH_ZSTD)
+    return()
+  endif()
+  find_path(HOLDFAST_ZSTD_INCLUDE_DIR zstd.h)
+  find_library(HOLDFAST_ZSTD_LIBRARY zstd)
+  mark_as_advanced(HOLDFAST_ZSTD_INCLUDE_DIR HOLDFAST_ZSTD_LIBRARY)
+  if(NOT HOLDFAST_ZSTD_INCLUDE_DIR OR NOT HOLDFAST_ZSTD_LIBRARY)
+    holdfast_report_missing("compressed stores" "Zstandard" libzstd-dev)
+    return()
+  endif()
+  target_include_directories(${target} SYSTEM PUBLIC ${HOLDFAST_ZSTD_INCLUDE_DIR})
+  target_compile_definitions(${target} PUBLIC HOLDFAST_HAS_ZSTD)
+  target_link_libraries(${target} PRIVATE ${HOLDFAST_ZSTD_LIBRARY})
+endfunction()
+
 # Sweeps over many machines. Without MPI the sources of src/process/mpi are left out.
 function(holdfast_use_mpi target)
   if(NOT HOLDFAST_WITH_MPI)
@@ -125,6 +142,7 @@ function(holdfast_add_program)
   endforeach()
 
   holdfast_use_netcdf(holdfast_program)
+  holdfast_use_zstd(holdfast_program)
   holdfast_use_mpi(holdfast_program)
   holdfast_use_kernels(holdfast_program)  # last of what is linked
 

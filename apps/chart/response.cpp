@@ -28,9 +28,8 @@ struct ResponseQuestion {
                                       "is held, ratios to the true force's"),
                    context.quiet);
     const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
-    GridOutput output(context, {gain_axes(grid), cell_columns_of("response")});
-    append_response_chart(context, response, excitation.amplitude, grid, output);
-    output.commit();
+    write_chart(context, {gain_axes(grid), cell_columns_of("response")},
+                response_chart(context, response, excitation.amplitude, grid));
   }
 };
 

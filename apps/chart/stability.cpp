@@ -64,15 +64,12 @@ struct StabilityQuestion {
 
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
   const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
-  GridOutput output(context, {gain_axes(grid), columns()});
-  if (is_modal(context.case_data)) {
-    append_modal_chart(context, grid, radius, output);
-  } else if (continuous) {
-    append_continuous_chart(context, plant_of(context.case_data), grid, radius, output);
-  } else {
-    append_sampled_chart(context, chart_over_gains(context.case_data, grid), radius, output);
-  }
-  output.commit();
+  const auto rows = [&] {
+    if (is_modal(context.case_data)) return modal_chart(context, grid, radius);
+    if (continuous) return continuous_chart(plant_of(context.case_data), grid, radius);
+    return sampled_chart(context, chart_over_gains(context.case_data, grid), radius);
+  };
+  write_chart(context, {gain_axes(grid), columns()}, rows());
 }
 
 /// A sampling period on an axis takes the processing delay with it in proportion; a tuned P stays
@@ -87,9 +84,8 @@ void StabilityQuestion::run_over_axes(const JobContext& context) const {
                         {parameter_of(slow.key), slow.axis},
                         {parameter_of(fast.key), fast.axis}};
   validate(chart);
-  GridOutput output(context, {{grid_axis(slow), grid_axis(fast)}, columns()});
-  append_sampled_chart(context, chart, radius, output);
-  output.commit();
+  write_chart(context, {{grid_axis(slow), grid_axis(fast)}, columns()},
+              sampled_chart(context, chart, radius));
 }
 
 }  // namespace

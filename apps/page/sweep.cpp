@@ -14,7 +14,7 @@ struct SweepQuestion : SweepOptions {
     job.add("--duration", duration);
     job.add("--max-period", largest_period);
     job.add("--best-gain", best_gain);
-    job.add("--tile", tile_cells);
+    job.add("--chunk", chunk_cells);
     job.add("--resume", resume);
     job.add("--dry-run", dry_run);
     job.add("--switching", switching);

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <holdfast/core/errors.hpp>
 #include <new>
@@ -63,6 +64,20 @@ void tell_lack_of_memory() {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+/// What a library's destructor throws for want of memory comes here uncaught.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr fault = std::current_exception()) std::rethrow_exception(fault);
+  } catch (const std::bad_alloc&) {
+    tell_lack_of_memory();
+    remove_unfinished_files();
+    _exit(exit_code::no_answer);
+  } catch (...) {
+    // A fault of the program, which ends as such.
+  }
+  std::abort();
+}
+
 }  // namespace
 
 void report_error(const std::string& message) {
@@ -96,6 +111,7 @@ int exit_code_of(const std::exception_ptr& fault) {
 
 int run_guarded(const std::function<int()>& work) {
   install_signal_handlers();
+  std::set_terminate(end_without_memory);
   try {
     return work();
   } catch (...) {

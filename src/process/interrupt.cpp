@@ -37,9 +37,7 @@ bool handed_on(int signal_number) {
 }
 
 [[noreturn]] void end_at_once() {
-  for (const Slot& slot : slots) {
-    if (slot.state.load() == 2) unlink(slot.path);
-  }
+  remove_unfinished_files();
   _exit(130);
 }
 
@@ -73,6 +71,12 @@ bool is_ignored(int signal_number) {
 }
 
 }  // namespace
+
+void remove_unfinished_files() {
+  for (const Slot& slot : slots) {
+    if (slot.state.load() == 2) unlink(slot.path);
+  }
+}
 
 void install_signal_handlers() {
   taker = pthread_self();

@@ -18,6 +18,9 @@ class Interrupted : public std::exception {
 /// at the flag, as a library's cannot; unfinished files are removed even then.
 void install_signal_handlers();
 
+/// Removes what RemovedBySignal names, for an end without any further step. A signal handler may.
+void remove_unfinished_files();
+
 /// For a child process before it becomes another program, which would keep ignoring what this one
 /// ignores.
 void restore_signals_of_child();

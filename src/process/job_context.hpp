@@ -14,7 +14,8 @@ namespace holdfast::program {
 
 /// What a job was asked: everything that its result depends on, and how to show it.
 struct JobContext {
-  std::string job;  // "stability"
+  std::string job;      // "stability"
+  std::string version;  // of the program that computed the numbers; empty: this one
   Case case_data;
   CaseSource case_source;  // of case_data, for a job that needs variants of it
   /// Options that the user gave and that shape the result, name and text: {"--p", "-600:0:41"}.
@@ -26,8 +27,14 @@ struct JobContext {
   bool progress = false;  // even where standard error is no terminal
   bool yes = false;       // a table as large as it becomes is meant
   int threads = 0;        // 0: all
+  int zarr_format = 3;    // of a store, 2 or 3
   bool on_packs = false;  // the job computes on packs: its metadata name the instruction set
   InstructionSet instructions = InstructionSet::baseline;  // of the packs
 };
+
+/// The version of the program that computed what is written.
+inline std::string computed_by(const JobContext& context) {
+  return context.version.empty() ? HOLDFAST_VERSION : context.version;
+}
 
 }  // namespace holdfast::program

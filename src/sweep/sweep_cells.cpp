@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -47,15 +48,15 @@ auto all_numbers_of(const CellMotion& motion) {
                     poles_of(motion));
 }
 
-/// The admissible cells of a tile as motions, and what is found of each.
-class TileCells {
+/// The admissible ones of some cells in a run as motions, and what is found of each.
+class SweepCells {
  public:
-  TileCells(const SweepPlan& plan, std::int64_t tile)
-      : plan_(plan), results_(static_cast<std::size_t>(plan.cells_of(tile))) {
+  SweepCells(const SweepPlan& plan, std::int64_t first, std::int64_t count)
+      : plan_(plan), results_(static_cast<std::size_t>(count)) {
     BestGains gains(plan.options().duration);
     for (std::size_t i = 0; i < results_.size(); ++i) {
       throw_if_interrupted();
-      add(i, plan.first_cell(tile) + static_cast<std::int64_t>(i), gains);
+      add(i, first + static_cast<std::int64_t>(i), gains);
     }
   }
 
@@ -69,19 +70,19 @@ class TileCells {
     }
   }
 
-  TileResult tile_result() const {
-    TileResult tile;
-    tile.cells = static_cast<std::int64_t>(results_.size());
-    tile.first_fault = first_fault_;
-    for (const CellResult& result : results_) {
-      tile.samples += result.motion.samples;
-      tile.diverging += result.outcome == CellOutcome::diverges ? 1 : 0;
-      tile.without_motion += has_motion(result.outcome) ? 0 : 1;
+  /// Appends what was found to the columns of the plan's store.
+  void append_to(ChunkResult& chunk) const {
+    chunk.values.resize(plan_.metrics().size() + (plan_.wants(SweepMetric::outcome) ? 0 : 1));
+    for (std::size_t k = 0; k < chunk.values.size(); ++k) {
+      const SweepMetric metric =
+          k < plan_.metrics().size() ? plan_.metrics()[k] : SweepMetric::outcome;
+      for (const CellResult& result : results_)
+        chunk.values[k].push_back(metric_value(metric, result));
     }
-    for (const SweepMetric metric : plan_.metrics())
-      for (const CellResult& result : results_) tile.values.push_back(metric_value(metric, result));
-    return tile;
+    for (const CellResult& result : results_) chunk.samples += result.motion.samples;
   }
+
+  const std::string& first_fault() const { return first_fault_; }
 
  private:
   void add(std::size_t place, std::int64_t cell, BestGains& gains) {
@@ -169,16 +170,27 @@ class TileCells {
   const SweepPlan& plan_;
   std::vector<CellResult> results_;
   std::vector<CellMotion> motions_;  // of the admissible cells
-  std::vector<std::size_t> cells_;   // their places in the tile
+  std::vector<std::size_t> cells_;   // their places in the run
   std::string first_fault_;
 };
 
 }  // namespace
 
-TileResult compute_tile(const SweepPlan& plan, std::int64_t tile) {
-  TileCells cells(plan, tile);
+ChunkResult compute_cells(const SweepPlan& plan, std::int64_t first, std::int64_t count) {
+  constexpr std::int64_t most_at_once = 4096;  // their motions are all in memory
+  ChunkResult chunk;
+  for (std::int64_t done = 0; done < count; done += most_at_once) {
+    SweepCells cells(plan, first + done, std::min(most_at_once, count - done));
+    cells.compute();
+    cells.append_to(chunk);
+  }
+  return chunk;
+}
+
+std::string fault_of_cell(const SweepPlan& plan, std::int64_t cell) {
+  SweepCells cells(plan, cell, 1);
   cells.compute();
-  return cells.tile_result();
+  return cells.first_fault();
 }
 
 }  // namespace holdfast::program

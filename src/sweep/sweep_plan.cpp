@@ -1,24 +1,21 @@
 #include "sweep/sweep_plan.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cmath>
 #include <set>
 #include <string_view>
 
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
-#include "case/case_file.hpp"
-#include "case/device/impedance_table.hpp"
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/plausibility/doubts.hpp"
-#include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/motion/trajectory.hpp"
-#include "io/text/checksum.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
+#include "store/stored_grid.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -100,28 +97,6 @@ void require_room_for_best_gain(const SweepOptions& options, const std::vector<G
   }
 }
 
-std::string_view bytes_of(const std::vector<double>& numbers) {
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
-}
-
-/// Of the numbers of a record, so that another record of the same name is noticed.
-std::string checksum_of(const RecordedForce& record) {
-  return std::to_string(checksum(bytes_of(record.forces()), checksum(bytes_of(record.times()))));
-}
-
-std::string checksum_of(const ImpedanceTable& table) {
-  return std::to_string(
-      checksum(bytes_of(table.phase_deg),
-               checksum(bytes_of(table.magnitude), checksum(bytes_of(table.frequency)))));
-}
-
-/// Of each measured device.
-void append_tables(TilePlan& plan, const Case& the_case) {
-  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
-    if (const auto& table = the_case.devices[k].table)
-      plan.entries.emplace("impedance " + std::to_string(k + 1), checksum_of(*table));
-}
-
 /// Samples of one motion; none where τ is not admissible.
 double samples_of(double duration, double sampling_period) {
   const bool countable = sampling_period > 0.0 && duration / sampling_period < 9e15;
@@ -147,7 +122,10 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
                   [](const GridAxis& axis) { return axis.column.name == "plant.absorber_mass"; });
   if (!over_absorbers) require_absorber(context_.case_data);
   samples_ = counted_samples();
-  tile_cells_ = options_.tile_cells > 0 ? options_.tile_cells : chosen_tile_cells();
+  for (const GridAxis& axis : layout_.axes) grid_.shape.push_back(axis.count());
+  const auto most =
+      options_.chunk_cells > 0 ? static_cast<double>(options_.chunk_cells) : chosen_chunk_cells();
+  grid_.chunk = chunk_shape(grid_.shape, static_cast<std::size_t>(most));
 }
 
 void SweepPlan::settle_case() {
@@ -160,10 +138,6 @@ void SweepPlan::settle_case() {
   } else {
     reduced_cases_ = std::make_shared<const ReducedCases>(context_.case_source);
   }
-}
-
-std::int64_t SweepPlan::cells_of(std::int64_t tile) const {
-  return std::min(tile_cells_, cells() - first_cell(tile));
 }
 
 bool SweepPlan::wants(SweepMetric metric) const {
@@ -201,11 +175,11 @@ double SweepPlan::counted_samples() const {
          samples_of(options_.duration, context_.case_data.control.sampling_period);
 }
 
-/// Tiles that take some tenths of a second, so that little is lost with one and much is done by
+/// Chunks that take some tenths of a second, so that little is lost with one and much is done by
 /// each, and enough of them for many cores, but none with fewer cells than fill the lanes of a
 /// processor. They depend on the plan alone, as they must be found again.
-std::int64_t SweepPlan::chosen_tile_cells() const {
-  constexpr double samples_of_tile = 1e8, most_cells_of_tile = 4096.0, most_tiles_wanted = 64.0;
+double SweepPlan::chosen_chunk_cells() const {
+  constexpr double samples_of_chunk = 1e8, most_chunks_wanted = 64.0;
   const bool orbits = wants(SweepMetric::period_samples) || wants(SweepMetric::verdict);
   const bool exponents = wants(SweepMetric::largest_exponent);
   const auto all = static_cast<double>(cells());
@@ -214,17 +188,26 @@ std::int64_t SweepPlan::chosen_tile_cells() const {
   if (orbits) cost += 20.0 * static_cast<double>(options_.largest_period);
   // A reduction takes some tenths of a second, and every cell may need one.
   const bool reductions = !shaping_axes_.empty();
-  if (reductions) cost += 0.1 * samples_of_tile;
+  if (reductions) cost += 0.1 * samples_of_chunk;
   const double fewest = orbits || exponents || reductions ? 8.0 : 64.0;
-  const double share = std::max(all / most_tiles_wanted, fewest);
-  const double fitting = std::clamp(samples_of_tile / cost, 1.0, most_cells_of_tile);
-  return static_cast<std::int64_t>(std::min({fitting, share, all}));
+  const double share = std::max(all / most_chunks_wanted, fewest);
+  const double fitting =
+      std::clamp(samples_of_chunk / cost, 1.0, static_cast<double>(values_in_chunk));
+  return std::floor(std::min({fitting, share, all}));
 }
 
-TilePlan SweepPlan::tile_plan() const {
-  TilePlan plan{{{"version", HOLDFAST_VERSION}}, tiles()};
-  auto& entries = plan.entries;
-  entries.emplace("--tile", std::to_string(tile_cells_));
+StoreDescription SweepPlan::store() const {
+  StoreDescription store = store_description(context_, layout_);
+  store.grid = grid_;
+  if (!wants(SweepMetric::outcome)) store.columns.push_back(metric_column(SweepMetric::outcome));
+  store.plan = store_plan();
+  return store;
+}
+
+StorePlan SweepPlan::store_plan() const {
+  StorePlan entries = {{"version", HOLDFAST_VERSION}, {"job", context_.job}};
+  entries.emplace("--instructions", name_of(context_.instructions));
+  entries.emplace("--chunk", std::to_string(grid_.cells_of_file()));
   for (std::size_t k = 0; k < options_.axes.size(); ++k)
     entries.emplace("--axis " + std::to_string(k + 1), options_.axes[k]);
   for (std::size_t k = 0; k < metrics_.size(); ++k)
@@ -232,9 +215,7 @@ TilePlan SweepPlan::tile_plan() const {
   entries.emplace("--duration", format_number(options_.duration));
   entries.emplace("--max-period", std::to_string(options_.largest_period));
   entries.emplace("--switching", options_.switching == Switching::exact ? "exact" : "sampled");
-  if (context_.case_data.force_record)
-    entries.emplace("force record", checksum_of(*context_.case_data.force_record));
-  append_tables(plan, context_.case_data);
+  append_case(entries, context_.case_data);
   entries.emplace("--best-gain", options_.best_gain ? "yes" : "no");
   if (reduced_cases_) {
     const CaseSource& source = context_.case_source;
@@ -242,11 +223,7 @@ TilePlan SweepPlan::tile_plan() const {
     for (std::size_t k = 0; k < source.overrides.size(); ++k)
       entries.emplace("--set " + std::to_string(k + 1), source.overrides[k]);
   }
-  const nlohmann::ordered_json json = case_to_json(context_.case_data);
-  for (const auto& [table, keys] : json.items()) {
-    for (const auto& [key, value] : keys.items()) entries.emplace(table + "." + key, value.dump());
-  }
-  return plan;
+  return entries;
 }
 
 }  // namespace holdfast::program

@@ -9,9 +9,10 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "process/job_context.hpp"
+#include "store/fill_store.hpp"
+#include "store/store_description.hpp"
 #include "sweep/reduced_cases.hpp"
 #include "sweep/sweep_metric.hpp"
-#include "sweep/tiles/tile_store.hpp"
 
 namespace holdfast::program {
 
@@ -23,14 +24,14 @@ struct SweepOptions {
   std::int64_t largest_period =
       OrbitLimits{}.largest_period;  // samples, of the search for an orbit
   Switching switching = Switching::sampled;
-  bool best_gain = false;       // D of each cell is that of least steady amplitude
-  std::int64_t tile_cells = 0;  // cells of a tile; 0: chosen from the plan
+  bool best_gain = false;        // D of each cell is that of least steady amplitude
+  std::int64_t chunk_cells = 0;  // most cells of a chunk; 0: chosen from the plan
   bool resume = false;
   bool instructions_given = false;  // --instructions was: they are not to be chosen
 };
 
 /// The cells of a sweep: the product of any number of axes over keys of a case, numbered with the
-/// first axis slowest, in tiles of equally many. Nothing in it grows with the number of cells.
+/// first axis slowest, in the chunks of a store. Nothing in it grows with the number of cells.
 ///
 /// Throws WrongInput from the constructor for axes that are not admissible or are none, for an
 /// unknown metric, and for more than 2⁵³ cells; a value that its key does not admit is no fault of
@@ -40,9 +41,7 @@ class SweepPlan {
   SweepPlan(const JobContext& context, const SweepOptions& options);
 
   std::int64_t cells() const { return layout_.cells(); }
-  std::int64_t tiles() const { return (cells() + tile_cells_ - 1) / tile_cells_; }
-  std::int64_t first_cell(std::int64_t tile) const { return tile * tile_cells_; }
-  std::int64_t cells_of(std::int64_t tile) const;
+  const ChunkGrid& grid() const { return grid_; }
 
   const GridLayout& layout() const { return layout_; }
   const std::vector<SweepMetric>& metrics() const { return metrics_; }
@@ -63,13 +62,15 @@ class SweepPlan {
   /// admissible count as none. To a few digits where the sampling periods are more than a million.
   double samples() const { return samples_; }
 
-  /// What the bytes of a tile depend on.
-  TilePlan tile_plan() const;
+  /// The store of the cells: the metrics that were asked for and, if it is not one of them, the
+  /// outcome.
+  StoreDescription store() const;
 
  private:
   void settle_case();
   double counted_samples() const;
-  std::int64_t chosen_tile_cells() const;
+  double chosen_chunk_cells() const;
+  StorePlan store_plan() const;
   double axis_value(std::size_t axis, std::int64_t cell) const;
 
   JobContext context_;
@@ -79,23 +80,29 @@ class SweepPlan {
   std::vector<std::size_t> shaping_axes_;  // those that change what the plant is reduced from
   std::shared_ptr<const ReducedCases> reduced_cases_;  // where there are such axes
   double samples_ = 0.0;
-  std::int64_t tile_cells_ = 1;
+  ChunkGrid grid_;
 };
 
-/// Computes the cells of one tile; a cell that diverges or is not admissible is a value among the
-/// others. What a cell gets does not depend on its neighbours; its last digits do on the
-/// instruction set of the plan's context. Throws Interrupted.
-TileResult compute_tile(const SweepPlan& plan, std::int64_t tile);
+/// Computes cells in a run, the columns of the plan's store(); a cell that diverges or is not
+/// admissible is a value among the others. What a cell gets does not depend on its neighbours; its
+/// last digits do on the instruction set of the plan's context. Throws Interrupted.
+ChunkResult compute_cells(const SweepPlan& plan, std::int64_t first, std::int64_t count);
 
-/// Computes a sweep and writes it: tiles are handed out to the threads of all processes, kept in a
-/// work folder beside the output as they finish, and put together at the end.
+/// Why a cell has no motion, or one that cannot be followed; empty where neither is so. Computes
+/// it.
+std::string fault_of_cell(const SweepPlan& plan, std::int64_t cell);
+
+/// Computes a sweep and writes it. Its cells are a store from the first chunk on, the output itself
+/// where that is a `.zarr`; else a work store beside the output, of which table or netCDF file are
+/// made at the end. Any number of processes fill a `.zarr` together.
 ///
-/// Throws WrongInput for what SweepPlan, GridOutput and TileStore refuse, NoAnswer and OutputError
-/// as they do, Interrupted; where tiles are left for --resume, standard error says so.
+/// Throws WrongInput for what SweepPlan, GridOutput and StoreFolder refuse, NoAnswer and
+/// OutputError as they do, Interrupted; where chunks are left to be gone on with, standard error
+/// says so.
 void write_sweep(const JobContext& context, const SweepOptions& options);
 
-/// Writes to standard output how large a sweep would be, and computes nothing: axes, cells, tiles,
-/// samples, bytes of the tiles. Of several processes the first one writes.
+/// Writes to standard output how large a sweep would be, and computes nothing: axes, cells, chunks,
+/// samples, bytes of the cells. Of several processes the first one writes.
 void write_sweep_size(const JobContext& context, const SweepOptions& options);
 
 }  // namespace holdfast::program

@@ -1,11 +1,11 @@
 #include "sweep/sweep_plan.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,7 +13,6 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "io/text/table.hpp"
-#include "jobs/charts/row_blocks.hpp"
 #include "jobs/columns.hpp"
 #include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
@@ -21,25 +20,20 @@
 #include "process/group/mpi_launch.hpp"
 #include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
-#include "process/progress.hpp"
 #include "process/system_words.hpp"
 #include "process/worker_threads.hpp"
-#include "sweep/tiles/tile_file.hpp"
-#include "sweep/tiles/tile_plan_file.hpp"
-#include "sweep/tiles/tile_store.hpp"
-#include "sweep/tiles/work_folder.hpp"
+#include "store/stored_grid.hpp"
+#include "store/work_store.hpp"
 
 namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The instruction set of the tiles, on which their last digits depend, in their plan.
-constexpr const char* instructions_entry = "--instructions";
-
 /// Whether the result goes to a file of that name, beside which a work folder can lie.
 bool has_named_output(const JobContext& context) {
   if (!context.output || *context.output == "-") return false;
+  if (is_store_name(context.output)) return true;
   const std::string path = fs::absolute(*context.output).lexically_normal().string();
   if (path.rfind("/dev/", 0) == 0 || path.rfind("/proc/", 0) == 0) return false;
   std::error_code error;
@@ -48,60 +42,62 @@ bool has_named_output(const JobContext& context) {
 
 constexpr const char* passing_folder = "holdfast-sweep-";
 
-/// What was left by sweeps for one run alone that were killed: nobody goes on with their tiles.
-void remove_left_work_folders() {
+/// What was left by sweeps for one run alone that were killed: nobody goes on with them.
+void remove_left_work_stores() {
   std::error_code error;
   fs::directory_iterator entry(fs::temp_directory_path(error), error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error))
     if (entry->path().filename().string().rfind(passing_folder, 0) == 0)
-      remove_work_folder(entry->path());
+      remove_left_work_store(entry->path());
 }
 
-/// Beside a named output, where an interrupted sweep is gone on with; else one for this run alone.
-fs::path work_folder(const JobContext& context, bool named) {
-  if (named) return fs::path(context.output->string() + ".tiles");
-  remove_left_work_folders();
+/// The output itself, or the work store beside it, where an interrupted sweep is gone on with; else
+/// one for this run alone.
+fs::path store_folder(const JobContext& context, bool named) {
+  if (is_store_name(context.output)) return *context.output;
+  if (named) return fs::path(context.output->string() + ".zarr");
+  remove_left_work_stores();
   std::string name = (fs::temp_directory_path() / passing_folder).string() + "XXXXXX";
   if (mkdtemp(name.data()) == nullptr)
     throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
   return name;
 }
 
-/// What the tiles are parts of: the plan, computed by this program.
-TilePlan tile_plan_of(const SweepPlan& plan) {
-  TilePlan tiles = plan.tile_plan();
-  tiles.entries.emplace(instructions_entry, name_of(plan.context().instructions));
-  return tiles;
-}
-
-/// The instruction set of the tiles in a folder; empty where there are none or nothing says it.
+/// The instruction set on which the last digits in a store depend; empty where there is none.
 std::string recorded_instructions(const fs::path& folder) {
-  const std::optional<TilePlan> plan = plan_of_work_folder(folder);
-  if (!plan || plan->entries.count(instructions_entry) == 0) return "";
-  return plan->entries.at(instructions_entry);
+  const std::optional<StoreDescription> there = store_in(folder);
+  if (!there || there->plan.count("--instructions") == 0) return "";
+  return there->plan.at("--instructions");
 }
 
-/// What the faults of all tiles together are.
-struct SweepFaults {
-  std::int64_t diverging = 0;
-  std::int64_t without_motion = 0;
-  std::string first;
-
-  void add(const TileResult& tile) {
-    diverging += tile.diverging;
-    without_motion += tile.without_motion;
-    if (first.empty()) first = tile.first_fault;
+/// What is wrong with the cells of a store, for a warning; empty where nothing is.
+std::string faults_of(const SweepPlan& plan, const StoreFolder& store) {
+  const auto& columns = store.description().columns;
+  const auto outcome = static_cast<std::size_t>(
+      std::find_if(columns.begin(), columns.end(),
+                   [](const CellColumn& cells) {
+                     return cells.column.name == metric_column(SweepMetric::outcome).column.name;
+                   }) -
+      columns.begin());
+  std::int64_t diverging = 0, without_motion = 0, first = 0;
+  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
+    throw_if_interrupted();
+    const std::vector<double> outcomes = whole_chunk(store, chunk)[outcome];
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      const auto of_cell = static_cast<CellOutcome>(outcomes[i]);
+      diverging += of_cell == CellOutcome::diverges ? 1 : 0;
+      if (has_motion(of_cell)) continue;
+      if (without_motion++ == 0)
+        first = store.grid().first_cell(chunk) + static_cast<std::int64_t>(i);
+    }
   }
-
-  std::string warning(std::int64_t cells) const {
-    std::string text;
-    if (diverging > 0) text = std::to_string(diverging) + " diverge";
-    if (without_motion > 0)
-      text += (text.empty() ? "" : ", ") + std::to_string(without_motion) +
-              " have no motion, the first because: " + first;
-    return text.empty() ? text : "of " + std::to_string(cells) + " cells " + text;
-  }
-};
+  std::string text;
+  if (diverging > 0) text = std::to_string(diverging) + " diverge";
+  if (without_motion > 0)
+    text += (text.empty() ? "" : ", ") + std::to_string(without_motion) +
+            " have no motion, the first because: " + fault_of_cell(plan, first);
+  return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
+}
 
 /// The warning of the force as it is held, of the corner of a sweep where that matters most.
 std::string held_force_warning_of(const SweepPlan& plan) {
@@ -139,16 +135,15 @@ class SweepRun {
       : plan_(context, options), named_(has_named_output(context)), group_(join_process_group()) {}
 
   void run() {
-    threads_ = worker_threads(context().threads, *group_);
+    const int threads = worker_threads(context().threads, *group_);
     agree_on_instructions();
     make_collective_call(*group_, [this] { begin(); });
     make_collective_call(*group_, [this] { join(); });
     try {
-      make_collective_call(*group_, [this] { compute_tiles(); });
-      end_progress();
-      make_collective_call(*group_, [this] { assemble(); });
+      make_collective_call(*group_, [&] { fill(threads); });
+      make_collective_call(*group_, [this] { conclude(); });
     } catch (...) {
-      leave_tiles();
+      leave();
       throw;
     }
   }
@@ -156,157 +151,110 @@ class SweepRun {
  private:
   const JobContext& context() const { return plan_.context(); }
   bool is_first() const { return group_->rank() == 0; }
+  bool is_to_stay() const { return is_store_name(context().output); }
+  const StoreFolder& store() const { return work_ ? work_->store() : *store_; }
 
-  /// All processes compute alike: with the set that was asked for, else with that of the tiles
-  /// which are gone on with where all have it, else with the smallest of theirs.
+  /// All processes compute alike: with the set that was asked for, else with that of the store
+  /// which is gone on with where all have it, else with the smallest of theirs.
   void agree_on_instructions() {
-    const bool looks = is_first() && named_ && plan_.options().resume;
+    const bool looks = is_first() && named_ && (plan_.options().resume || is_to_stay());
     const std::string recorded =
-        looks ? recorded_instructions(work_folder(context(), named_)) : std::string();
+        looks ? recorded_instructions(store_folder(context(), named_)) : std::string();
     const auto texts =
         group_->exchange(std::string(name_of(context().instructions)) + " " + recorded);
     if (plan_.options().instructions_given) return;
     InstructionSet smallest = context().instructions;
     for (const std::string& text : texts)
       smallest = std::min(smallest, instruction_set_named(text.substr(0, text.find(' '))));
-    const std::string of_tiles = texts.front().substr(texts.front().find(' ') + 1);
+    const std::string of_store = texts.front().substr(texts.front().find(' ') + 1);
     for (const InstructionSet set : available_instruction_sets())
-      if (set <= smallest && name_of(set) == of_tiles) return plan_.use(set);
+      if (set <= smallest && name_of(set) == of_store) return plan_.use(set);
     plan_.use(smallest);
   }
 
   void begin() {
     if (!is_first()) return;
-    open_output();
+    if (is_to_stay()) {
+      store_ = StoreFolder::enter(*context().output, plan_.store());
+      return;
+    }
+    output_.emplace(context(), plan_.layout());
     // What can be written is known now; a process that is killed shall leave nothing of it.
     if (named_) output_.reset();
-    const fs::path folder = work_folder(context(), named_);
-    store_ = TileStore::open(folder, tile_plan_of(plan_), plan_.options().resume);
-    tiles_found_ = contents_of_work_folder(folder).tiles;
-  }
-
-  void open_output() {
-    if (!output_) output_.emplace(context(), plan_.layout());
+    const fs::path folder = store_folder(context(), named_);
+    try {
+      work_.emplace(folder, plan_.store(), plan_.options().resume);
+    } catch (...) {
+      std::error_code ignored;
+      if (!named_) fs::remove_all(folder, ignored);
+      throw;
+    }
   }
 
   void join() {
-    if (!is_first()) store_ = TileStore::join(work_folder(context(), named_), tile_plan_of(plan_));
+    if (is_first()) return;
+    const fs::path folder = store_folder(context(), named_);
+    if (!store_in(folder))
+      throw WrongInput("no store in " + folder.string() +
+                       "; all processes need a file system that they share");
+    store_ = StoreFolder::enter(folder, plan_.store());
   }
 
-  void compute_tiles() {
-    progress_.emplace(static_cast<std::uint64_t>(plan_.cells()), "sweep, cells",
-                      is_first() && progress_wanted(context()));
-    progress_->skip(cells_in(tiles_found_));
-    std::atomic<bool> stop{false};
-    parallel_rows(threads_, 1, threads_, 0, [&](int&, std::int64_t, std::int64_t) {
-      try {
-        work(stop);
-      } catch (...) {
-        if (!stop.exchange(true)) give_up_tiles();
-        throw;
-      }
-    });
+  void fill(int threads) {
+    const ChunkGrid& grid = plan_.grid();
+    const auto compute = [this, &grid](std::int64_t chunk) {
+      return compute_cells(plan_, grid.first_cell(chunk), grid.cells_of(chunk));
+    };
+    fill_store(context(), store(), *group_, threads,
+               {"sweep, cells", compute, plan_.options().resume});
   }
 
-  /// The other processes need not go on.
-  void give_up_tiles() noexcept {
-    try {
-      group_->skip_tickets(plan_.tiles());
-    } catch (...) {
-      // They go on in vain; the fault that brought us here is the one to be told.
-    }
-  }
-
-  /// What one thread does: the next tile, until there is none.
-  void work(const std::atomic<bool>& stop) {
-    while (!stop) {
-      throw_if_interrupted();
-      const std::int64_t tile = group_->take_ticket();
-      if (tile >= plan_.tiles()) return;
-      if (store_->has(tile)) continue;
-      const TileResult result = compute_tile(plan_, tile);
-      store_->put(tile, tile_bytes(result));
-      ++tiles_computed_;
-      show_others();
-      progress_->advance(static_cast<std::uint64_t>(result.cells),
-                         static_cast<std::uint64_t>(result.samples));
-    }
-  }
-
-  /// Those handed out that were neither found nor computed here: the others have or compute them.
-  void show_others() {
-    if (!is_first() || group_->size() == 1) return;
-    const std::int64_t taken = std::min(group_->tickets_taken(), plan_.tiles());
-    progress_->set_elsewhere(cells_in(taken - std::min(taken, tiles_found_) - tiles_computed_));
-  }
-
-  /// All is computed.
-  void end_progress() {
-    progress_->set_elsewhere(cells_in(plan_.tiles() - tiles_found_ - tiles_computed_));
-    progress_.reset();
-  }
-
-  std::uint64_t cells_in(std::int64_t tiles) const {
-    return static_cast<std::uint64_t>(
-        std::clamp(tiles * plan_.cells_of(0), std::int64_t{0}, plan_.cells()));
-  }
-
-  /// Puts the tiles together in their order, one at a time.
-  void assemble() {
+  void conclude() {
     if (!is_first()) return;
-    SweepFaults faults;
-    open_output();
-    const std::size_t columns = plan_.metrics().size();
-    std::vector<const double*> values(columns);
-    for (std::int64_t tile = 0; tile < plan_.tiles(); ++tile) {
-      throw_if_interrupted();
-      const TileResult result = tile_of_bytes(store_->get(tile), plan_.cells_of(tile), columns);
-      for (std::size_t k = 0; k < columns; ++k) values[k] = result.column(k);
-      output_->append(result.cells, values);
-      faults.add(result);
+    const std::string faults = faults_of(plan_, store());
+    if (work_) {
+      if (!output_) output_.emplace(context(), plan_.layout());
+      append_stored(store(), *output_);
+      output_->commit();
+      work_->remove();
     }
-    output_->commit();
-    store_->remove();
-    report_warning(faults.warning(plan_.cells()), context().quiet);
+    report_warning(faults, context().quiet);
     report_warning(held_force_warning_of(plan_), context().quiet);
   }
 
   /// After a fault: says how to go on, or removes what cannot be gone on with.
-  void leave_tiles() noexcept {
-    if (!is_first() || !store_) return;
+  void leave() noexcept {
+    if (!is_first()) return;
+    if (!named_) return remove_work_store();
+    report_kept_chunks(
+        store(), std::string("the same command") + (work_ ? " with --resume" : "") + " goes on");
+  }
+
+  void remove_work_store() noexcept {
     try {
-      if (!named_) {
-        store_->remove();
-      } else {
-        const std::int64_t kept = contents_of_work_folder(store_->folder()).tiles;
-        report_error(finished_tiles(kept) + " of " + std::to_string(plan_.tiles()) +
-                     " are kept in " + store_->folder().string() +
-                     "; the same command with --resume goes on");
-      }
+      work_->remove();
     } catch (...) {
-      // The fault that brought us here is the one to be told.
+      // It stays until another sweep finds it.
     }
   }
 
   SweepPlan plan_;
-  bool named_;  // the output is a file, and the work folder stays beside it for --resume
+  bool named_;  // the output is a file, and the work store stays beside it for --resume
   std::unique_ptr<ProcessGroup> group_;
-  int threads_ = 1;  // of this process
   std::optional<GridOutput> output_;
-  std::optional<TileStore> store_;
-  std::optional<Progress> progress_;
-  std::int64_t tiles_found_ = 0;  // by the first process, of an earlier run
-  std::atomic<std::int64_t> tiles_computed_{0};
+  std::optional<StoreFolder> store_;  // one that stays, or that the first process has made
+  std::optional<WorkStore> work_;
 };
 
 }  // namespace
 
 void write_sweep(const JobContext& context, const SweepOptions& options) {
   if (options.resume && !has_named_output(context))
-    throw WrongInput("--resume needs --output, the file whose tiles are left");
+    throw WrongInput("--resume needs --output, the file beside which chunks are left");
   if (mpi_launch().size > 1 && !has_named_output(context))
     throw WrongInput(
-        "--output: a sweep on several processes needs a file, beside which they share their tiles");
+        "--output: a sweep on several processes needs a file, beside which they share their "
+        "chunks");
   SweepRun(context, options).run();
 }
 
@@ -320,10 +268,10 @@ void write_sweep_size(const JobContext& context, const SweepOptions& options) {
   const auto numbers_of_cell = static_cast<double>(plan.metrics().size());
   table.row("axes", static_cast<double>(plan.layout().axes.size()), "");
   table.row("cells", cells, "");
-  table.row("tiles", static_cast<double>(plan.tiles()), "");
-  table.row("cells_of_tile", static_cast<double>(plan.cells_of(0)), "");
+  table.row("chunks", static_cast<double>(plan.grid().chunks()), "");
+  table.row("cells_of_chunk", static_cast<double>(plan.grid().cells_of_file()), "");
   table.row("samples", plan.samples(), "");
-  table.row("tile_bytes", cells * numbers_of_cell * sizeof(double), "B");
+  table.row("cell_bytes", cells * numbers_of_cell * sizeof(double), "B");
   table.commit();
 }
 

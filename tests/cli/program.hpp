@@ -80,4 +80,11 @@ inline program::CsvTable table_of(const std::string& arguments) {
   return program::parse_csv(outcome.output, arguments);
 }
 
+/// What a command prints that succeeds without a word of errors.
+inline std::string printed_by(const std::string& arguments) {
+  const Outcome outcome = run_holdfast(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
+  return outcome.output;
+}
+
 }  // namespace holdfast::tests

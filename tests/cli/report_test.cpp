@@ -2,7 +2,6 @@
 #include "io/text/csv.hpp"
 #include "jobs/cable/cable_decay.hpp"
 #include "support/testing.hpp"
-#include "sweep/tiles/tile_plan_file.hpp"
 
 namespace holdfast::tests {
 namespace {
@@ -289,11 +288,11 @@ TEST(Report, OfAnotherCaseShowsItsOwnFigures) {
 
 TEST(Report, BeginsSweepsAnewThatAnInterruptedOneHasLeft) {
   const TemporaryFolder folder;
-  const fs::path left = folder / "mine/data/success-delay-backlash-1.csv.tiles";
-  fs::create_directories(left);
-  write_text(left / "plan", program::tile_plan_text({{{"version", "of another report"}}, 9}));
-  for (const char* name : {"lock", "tile-000000000003", ".tile-000000000004-71-0.tmp"})
-    write_text(left / name, "");
+  const fs::path left = folder / "mine/data/success-delay-backlash-1.csv.zarr";
+  ASSERT_EQ(
+      run_holdfast("sweep --axis backlash.width=0,1 --output '" + left.string() + "'").exit_code,
+      0);
+  write_text(left / "lock", "");
   const Outcome outcome = run_holdfast("report --set control.processing_delay=0.001 --output '" +
                                        (folder / "mine").string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;

@@ -136,7 +136,8 @@ std::vector<std::string> some_option(Random& random) {
       "--set --case --output --threads --p --d --force --elements --count --absorber --duration "
       "--interval --data --parameters --target --axis --frequency --band --largest-radius "
       "--criterion --from --kick --switching --discard --window --offset --durations --cells "
-      "--max-period --follow --transient --strobes --standard-error --tangent --metric --tile "
+      "--max-period --follow --transient --strobes --standard-error --tangent --metric --chunk "
+      "--zarr-format "
       "--init --check --resume --dry-run --quiet --progress --radius --continuous --plain "
       "--largest --history --trace --certificate --fractions --details --best-gain --no-control "
       "--tuned --help --version --regions --features --stable-interval --both-gains "
@@ -388,33 +389,35 @@ HostileInput hostile_file(Random& random) {
   return input;
 }
 
-/// The tiles that a sweep left which was killed, by name, as they lie beside its output.
-const std::map<std::string, std::string>& left_tiles() {
-  static const auto tiles = [] {
+/// The store that a sweep left which was killed, by the names of its files.
+const std::map<std::string, std::string>& left_store() {
+  static const auto files = [] {
     const StoppedSweep stopped(SIGKILL);
     auto contents = contents_of(stopped.folder().path());
-    for (auto entry = contents.begin(); entry != contents.end();)
-      entry =
-          entry->first.find('/') == std::string::npos ? contents.erase(entry) : std::next(entry);
+    for (auto entry = contents.begin(); entry != contents.end();) {
+      const bool file = std::filesystem::is_regular_file(stopped.folder() / entry->first);
+      entry = file ? std::next(entry) : contents.erase(entry);
+    }
     return contents;
   }();
-  return tiles;
+  return files;
 }
 
-HostileInput hostile_tile_folder(Random& random) {
+HostileInput hostile_store(Random& random) {
   static const std::vector<std::string> names = between_bars(
-      "plan|lock|tile-000000000001|tile-999999999999|tile-000000000099|tile-1|.plan-1-0.tmp|"
-      ".tile-000000000002-7-0.tmp|notes.txt|new\nline|\xFF");
-  const std::string folder = "sweep.csv.tiles/";
+      "zarr.json|lock|steady_peak/c/1/0|steady_peak/c/99/0|outcome/c/1/0|steady_peak/zarr.json|"
+      "steady_peak/c/1/.0.claim|.zarr.json-1-0.tmp|steady_peak/c/2/.0-7-0.tmp|initial_z1/c/0|"
+      "notes.txt|new\nline|\xFF");
+  const std::string folder = "sweep.csv.zarr/";
   HostileInput input;
   input.words = sweep_words("sweep.csv", happens(random, 0.9) ? "--resume" : "");
   if (happens(random, 0.1)) damage_words(random, input.words);
   for (std::string& word : input.words) word = as_argument(word);
-  input.files = left_tiles();
+  input.files = left_store();
   for (std::size_t k = 1 + random.index(3); k > 0; --k) {
     auto file = std::next(input.files.begin(),
                           static_cast<std::ptrdiff_t>(random.index(input.files.size())));
-    if (happens(random, 0.3)) file = input.files.find(folder + "plan");
+    if (happens(random, 0.3)) file = input.files.find(folder + "zarr.json");
     if (file == input.files.end()) continue;
     const std::string name = file->first;
     switch (random.index(6)) {
@@ -462,9 +465,9 @@ const Kind kinds[] = {{"command lines", hostile_command_line},
                       {"axes", hostile_axes},
                       {"records", hostile_record},
                       {"files", hostile_file},
-                      {"tile folders", hostile_tile_folder}};
+                      {"stores", hostile_store}};
 
-/// Finished tiles stay beside the output on purpose, and a report is a folder of many results.
+/// Finished chunks stay beside the output on purpose, and a report is a folder of many results.
 bool may_leave_something(const HostileInput& input, const LimitedEnding& ending) {
   // Before the job stand options, of which two take no value.
   std::size_t job = 0;
@@ -488,7 +491,7 @@ std::string fault_of(const HostileInput& input, const LimitedEnding& ending,
     return "gave the exit code " + std::to_string(code);
   const ErrorLines lines = error_lines_of(ending.errors, input.words);
   if (!lines.strange.empty()) return "wrote a strange line: " + shown(lines.strange, 200);
-  // A sweep that stops says beside the reason where its tiles are.
+  // A sweep that stops says beside the reason where its chunks are.
   const std::size_t kept = ending.errors.find("--resume goes on") != std::string::npos ? 1 : 0;
   const std::size_t expected = code == 0 ? 0 : 1;
   if (code != 2 ? lines.others > expected + kept || lines.others < expected : lines.others != 1)

@@ -89,7 +89,7 @@ class HostileScene {
   const std::filesystem::path& place() const { return folder_.path(); }
 
   /// What the program has changed in the folder it ran in, in words; empty for nothing. The lock of
-  /// a folder of tiles may stay with them.
+  /// a work store may stay with them.
   std::string changes() const {
     const auto after = contents_of(work());
     std::string text;
@@ -118,7 +118,7 @@ class HostileScene {
  private:
   bool is_lock(const std::string& name) const {
     const std::filesystem::path path = name;
-    return path.filename() == "lock" && path.parent_path().extension() == ".tiles" &&
+    return path.filename() == "lock" && path.parent_path().extension() == ".zarr" &&
            before_.count(path.parent_path().string()) > 0;
   }
 

@@ -120,12 +120,12 @@ TEST(Instructions, MetadataNameTheChoice) {
   EXPECT_FALSE(origin_of(other).contains("instructions"));
 }
 
-/// A sweep on the baseline that was stopped after some tiles.
+/// A sweep on the baseline that was stopped after some chunks.
 class BaselineSweep {
  public:
   BaselineSweep() {
     RunningProgram program(sweep_words(output(), "--instructions baseline"));
-    wait_for_tiles(program, output(), 4);
+    wait_for_chunks(program, output(), 4);
     program.send(SIGKILL);
     program.wait();
   }

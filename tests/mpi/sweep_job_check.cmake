@@ -3,9 +3,9 @@
 # `FORMATS` are the endings of the outputs, "csv;nc" where the program writes netCDF.
 cmake_minimum_required(VERSION 3.22)
 
-# Unequal numbers of samples, cells that diverge and cells that are not admissible: tiles that take
-# unequal times.
-set(sweep sweep --quiet --tile 3 --duration 10
+# Unequal numbers of samples, cells that diverge and cells that are not admissible: chunks that
+# take unequal times.
+set(sweep sweep --quiet --chunk 3 --duration 10
   --axis control.sampling_period=0.001,0.004 --axis control.differential_gain=-13,900
   --axis control.processing_delay=0:0.0015:3 --axis backlash.width=0:0.002:7
   --metric steady_peak --metric ratio_to_uncontrolled --metric reversals_per_s
@@ -24,8 +24,8 @@ function(require_success way)
 endfunction()
 
 function(require_same_files way)
-  file(GLOB expected RELATIVE ${WORK}/alone ${WORK}/alone/*)
-  file(GLOB found RELATIVE ${WORK}/${way} ${WORK}/${way}/*)
+  file(GLOB_RECURSE expected RELATIVE ${WORK}/alone ${WORK}/alone/*)
+  file(GLOB_RECURSE found RELATIVE ${WORK}/${way} ${WORK}/${way}/*)
   if(NOT found STREQUAL expected)
     message(FATAL_ERROR "${way} leaves ${found} in place of ${expected}")
   endif()
@@ -56,7 +56,7 @@ foreach(processes IN ITEMS 1 2 3)
   require_same_files(${way})
 endforeach()
 
-# Killed at whatever moment that is, even before its first tile or after its last one.
+# Killed at whatever moment that is, even before its first chunk or after its last one.
 file(MAKE_DIRECTORY ${WORK}/resumed)
 foreach(format IN LISTS FORMATS)
   set(output_file ${WORK}/resumed/sweep.${format})
@@ -118,21 +118,21 @@ require_refused(2 "--output" ${sweep})
 # Faults that one process finds when all have come together.
 require_refused(3 "absent/sweep.csv" ${sweep} --output ${WORK}/absent/sweep.csv)
 
-# A sweep that is too long to end is killed once it has finished a tile.
+# A sweep that is too long to end is killed once it has finished a chunk.
 set(kept ${WORK}/kept)
 file(MAKE_DIRECTORY ${kept})
-set(long_sweep sweep --quiet --tile 1 --duration 10 --axis backlash.width=0:0.002:1000000)
+set(long_sweep sweep --quiet --chunk 1 --duration 10 --axis backlash.width=0:0.002:1000000)
 foreach(seconds IN ITEMS 0.3 1 4 16 64)
   execute_process(COMMAND ${PROGRAM} ${long_sweep} --output ${kept}/sweep.csv TIMEOUT ${seconds}
     RESULT_VARIABLE ignored OUTPUT_QUIET ERROR_QUIET)
-  file(GLOB tiles ${kept}/sweep.csv.tiles/tile-*)
-  if(tiles)
+  file(GLOB chunks ${kept}/sweep.csv.zarr/steady_peak/c/*)
+  if(chunks)
     break()
   endif()
 endforeach()
 require_refused(3 "--resume" ${long_sweep} --output ${kept}/sweep.csv)
-file(GLOB tiles_after ${kept}/sweep.csv.tiles/tile-*)
-if(NOT tiles OR NOT tiles_after STREQUAL tiles)
-  message(FATAL_ERROR "a refused sweep leaves ${tiles_after} in place of ${tiles}")
+file(GLOB chunks_after ${kept}/sweep.csv.zarr/steady_peak/c/*)
+if(NOT chunks OR NOT chunks_after STREQUAL chunks)
+  message(FATAL_ERROR "a refused sweep leaves ${chunks_after} in place of ${chunks}")
 endif()
 file(REMOVE_RECURSE ${kept})

@@ -25,6 +25,9 @@
 #ifdef HOLDFAST_HAS_MPI
 #include <mpi.h>
 #endif
+#ifdef HOLDFAST_HAS_ZSTD
+#include <zstd.h>
+#endif
 
 #ifndef HOLDFAST_VERSION
 #error "the build defines HOLDFAST_VERSION"
@@ -80,6 +83,9 @@ std::vector<Dependency> dependencies() {
 #ifdef HOLDFAST_HAS_SIMD
   all.push_back({"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH),
                  "BSD-3-Clause"});
+#endif
+#ifdef HOLDFAST_HAS_ZSTD
+  all.push_back({"Zstandard", ZSTD_VERSION_STRING, "BSD-3-Clause"});
 #endif
   return all;
 }

@@ -7,10 +7,6 @@
 #include "io/file/build_record.hpp"
 #include "io/text/text.hpp"
 
-#ifndef HOLDFAST_VERSION
-#error "the build defines HOLDFAST_VERSION"
-#endif
-
 namespace holdfast::program {
 namespace {
 
@@ -57,7 +53,7 @@ Json origin(const JobContext& context) {
   Json built_with = Json::object();
   for (const Dependency& dependency : dependencies())
     built_with[dependency.name] = dependency.version;
-  Json json = {{"version", HOLDFAST_VERSION},
+  Json json = {{"version", computed_by(context)},
                {"compiler", compiler_text()},
                {"built_with", built_with},
                {"job", context.job},

@@ -91,6 +91,10 @@ bool is_netcdf_name(const std::optional<fs::path>& path) {
          name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+bool is_store_name(const std::optional<fs::path>& path) {
+  return path && (path->has_filename() ? *path : path->parent_path()).extension() == ".zarr";
+}
+
 bool is_picture_name(const fs::path& path) {
   const std::string ending = path.extension().string();
   return ending == ".svg" || ending == ".png" || ending == ".pdf";
@@ -98,10 +102,10 @@ bool is_picture_name(const fs::path& path) {
 
 void require_output_name(const fs::path& path, bool drawn) {
   const std::string ending = path.extension().string();
-  if (ending.empty() || ending == ".csv" || is_netcdf_name(path)) return;
+  if (ending.empty() || ending == ".csv" || is_netcdf_name(path) || is_store_name(path)) return;
   if (drawn && is_picture_name(path)) return;
   throw WrongInput("--output " + path.string() +
-                   ": tables are written as .csv, those of cells as .nc too, and " +
+                   ": tables are written as .csv, those of cells as .nc and .zarr too, and " +
                    (drawn ? "the picture as .svg, .png or .pdf" : "this job has no picture") +
                    "; " + ending + " is none of these");
 }

@@ -14,6 +14,10 @@ namespace holdfast::program {
 /// Whether a result of that name is asked for as netCDF: the name ends in `.nc`.
 bool is_netcdf_name(const std::optional<std::filesystem::path>& path);
 
+/// Whether a result of that name is asked for as a Zarr store: the name ends in `.zarr`, with or
+/// without a slash behind.
+bool is_store_name(const std::optional<std::filesystem::path>& path);
+
 /// Whether the name ends in `.svg`, `.png` or `.pdf`, which asks for a picture.
 bool is_picture_name(const std::filesystem::path& path);
 

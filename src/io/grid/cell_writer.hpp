@@ -43,14 +43,10 @@ std::unique_ptr<CellWriter> csv_cells(const JobContext& context, const GridLayou
 /// OutputError where a call of the library fails, and what OutputFile throws.
 std::unique_ptr<CellWriter> netcdf_cells(const JobContext& context, const GridLayout& layout);
 
-/// A unit of the program's columns, `N.s/m`, as UDUNITS likes it: `N s m-1`; "1" for none.
-std::string udunits(const std::string& unit);
-
-/// Most values of a chunk: enough for the compression to pay and few enough to keep in memory.
-constexpr std::size_t values_in_chunk = std::size_t{1} << 16;
-
-/// A chunk that is contiguous when cells are written in order, the last axis fastest: whole along
-/// the last axes, one cell along the first ones, in part along one between them.
-std::vector<std::size_t> chunk_shape(const std::vector<std::size_t>& shape);
+/// A Zarr store as StoreFolder has it, a chunk_shape() at a time; cells of a store that is there
+/// already are written over.
+///
+/// Throws what StoreFolder::enter() and put() throw.
+std::unique_ptr<CellWriter> zarr_cells(const JobContext& context, const GridLayout& layout);
 
 }  // namespace holdfast::program

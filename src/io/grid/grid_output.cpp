@@ -55,8 +55,9 @@ bool fits(const CellColumn& column, const double* values, std::int64_t cells) {
 
 /// Throws WrongInput where the cells would be more text than anybody reads.
 void require_meant(const JobContext& context, std::int64_t cells) {
-  if (!is_netcdf_name(context.output))
-    require_text_meant(context, cells, "cells", "--output FILE.nc writes them as netCDF");
+  if (!is_netcdf_name(context.output) && !is_store_name(context.output))
+    require_text_meant(context, cells, "cells",
+                       "--output FILE.zarr writes them as a Zarr store, FILE.nc as netCDF");
 }
 
 }  // namespace
@@ -75,8 +76,12 @@ std::int64_t GridLayout::cells() const {
 GridOutput::GridOutput(const JobContext& context, const GridLayout& layout)
     : columns_(require_writable(layout).columns), cells_(layout.cells()) {
   require_meant(context, cells_);
-  writer_ =
-      is_netcdf_name(context.output) ? netcdf_cells(context, layout) : csv_cells(context, layout);
+  if (is_store_name(context.output))
+    writer_ = zarr_cells(context, layout);
+  else if (is_netcdf_name(context.output))
+    writer_ = netcdf_cells(context, layout);
+  else
+    writer_ = csv_cells(context, layout);
 }
 
 GridOutput::~GridOutput() = default;

@@ -26,8 +26,6 @@
 
 namespace holdfast::program {
 
-std::string cf_name(std::string name) { return replaced(std::move(name), ".", "_"); }
-
 #ifdef HOLDFAST_HAS_NETCDF
 
 namespace {

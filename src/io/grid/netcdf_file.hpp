@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/file/output.hpp"
-#include "io/text/csv.hpp"
+#include "io/grid/grid_attributes.hpp"
 
 namespace holdfast::program {
 
@@ -57,8 +57,5 @@ class NetcdfFile {
   std::string shown_, path_;
   int id_ = 0;
 };
-
-/// A name as the file has it.
-std::string cf_name(std::string name);
 
 }  // namespace holdfast::program

@@ -7,13 +7,14 @@
 namespace holdfast::program {
 namespace {
 
-/// A name that promises netCDF would lie about what stands in the file. Charts and sweeps keep the
-/// promise elsewhere.
+/// A name that promises netCDF or a store would lie about what stands in the file. Charts and
+/// sweeps keep the promise elsewhere.
 const std::optional<std::filesystem::path>& csv_target(
     const std::optional<std::filesystem::path>& path) {
-  if (is_netcdf_name(path)) {
+  if (is_netcdf_name(path) || is_store_name(path)) {
     throw WrongInput("--output " + path->string() +
-                     ": only stability, response, basins and sweep write netCDF; give a name that "
+                     ": only stability, response, basins and sweep write netCDF and Zarr stores; "
+                     "give a name that "
                      "ends in .csv");
   }
   return path;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,6 +23,8 @@
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"
+#include "store/fill_store.hpp"
+#include "store/stored_grid.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -47,59 +51,82 @@ std::int64_t rows_of_block(std::int64_t columns) {
   return rows_of_tile(columns) * std::clamp(tiles, std::int64_t{1}, std::int64_t{16});
 }
 
-/// The values of a block of rows: flags, then as many columns of numbers as the chart has.
-class Block {
- public:
-  Block(std::int64_t columns, std::size_t number_columns)
-      : columns_(row_length(columns)),
-        flags_(columns_ * static_cast<std::size_t>(rows_of_block(columns))),
-        numbers_(number_columns, std::vector<double>(flags_.size())) {}
-
-  std::uint8_t* flags(std::int64_t row) { return flags_.data() + start(row); }
-  double* numbers(std::size_t column, std::int64_t row) {
-    return numbers_[column].data() + start(row);
-  }
-
-  std::int64_t columns() const { return static_cast<std::int64_t>(columns_); }
-
-  void append_to(GridOutput& output, std::int64_t rows) const {
-    std::vector<double> stable(flags_.size());
-    std::transform(flags_.begin(), flags_.end(), stable.begin(),
-                   [](std::uint8_t flag) { return flag != 0 ? 1.0 : 0.0; });
-    std::vector<const double*> values = {stable.data()};
-    for (const std::vector<double>& numbers : numbers_) values.push_back(numbers.data());
-    output.append(rows * columns(), values);
-  }
-
- private:
-  std::size_t start(std::int64_t row) const { return static_cast<std::size_t>(row) * columns_; }
-
-  std::size_t columns_;
-  std::vector<std::uint8_t> flags_;
-  std::vector<std::vector<double>> numbers_;
-};
-
-/// Computes and appends all rows block by block: `compute(kernel, first, count, offset, block)` on
-/// many threads, `offset` being the first row's place in the block. Throws Interrupted.
-template <class Kernel, class Compute>
-void append_rows(const JobContext& context, std::int64_t rows, Block block, const Kernel& kernel,
-                 GridOutput& output, const Compute& compute) {
-  Progress progress(static_cast<std::uint64_t>(rows), context.job, progress_wanted(context));
-  const std::int64_t block_rows = rows_of_block(block.columns());
-  for (std::int64_t begin = 0; begin < rows; begin += block_rows) {
+/// Computes and appends all rows, a block in memory at a time.
+void append_rows(const JobContext& context, const ChartRows& chart, GridOutput& output) {
+  Progress progress(static_cast<std::uint64_t>(chart.rows), context.job, progress_wanted(context));
+  const std::int64_t block_rows = rows_of_block(chart.columns);
+  ChartBlock block(chart.columns, chart.number_columns, block_rows);
+  for (std::int64_t begin = 0; begin < chart.rows; begin += block_rows) {
     throw_if_interrupted();
-    const std::int64_t count = std::min(block_rows, rows - begin);
-    parallel_rows(count, rows_of_tile(block.columns()), context.threads, kernel,
-                  [&](Kernel& own, std::int64_t first, std::int64_t tile) {
-                    if (!interrupted()) compute(own, begin + first, tile, first, block);
+    const std::int64_t count = std::min(block_rows, chart.rows - begin);
+    parallel_rows(count, rows_of_tile(chart.columns), context.threads, chart.fill,
+                  [&](const auto& fill, std::int64_t first, std::int64_t tile) {
+                    if (!interrupted()) fill(begin + first, tile, first, block);
                   });
     throw_if_interrupted();
-    block.append_to(output, count);
+    const auto values = block.values(count);
+    std::vector<const double*> columns;
+    for (const std::vector<double>& column : values) columns.push_back(column.data());
+    output.append(count * chart.columns, columns);
     progress.advance(static_cast<std::uint64_t>(count));
   }
 }
 
+/// Cells of a chunk: whole tiles of rows, and enough chunks for many cores.
+std::size_t cells_of_chunk(const ChartRows& chart) {
+  constexpr std::int64_t chunks_wanted = 64, most = values_in_chunk;
+  const std::int64_t of_tile = rows_of_tile(chart.columns) * chart.columns;
+  const std::int64_t share = std::min(chart.rows * chart.columns / chunks_wanted, most);
+  return static_cast<std::size_t>(of_tile * std::max(share / of_tile, std::int64_t{1}));
+}
+
+/// Rows of which the first begins a tile, by the tiles in which append_rows() has them: they begin
+/// anew, and what a cell gets depends on where that is.
+ChartBlock computed_rows(const ChartRows& chart, std::int64_t first, std::int64_t count) {
+  ChartBlock block(chart.columns, chart.number_columns, count);
+  const std::int64_t tile = rows_of_tile(chart.columns);
+  for (std::int64_t row = 0; row < count; row += tile) {
+    throw_if_interrupted();
+    auto fill = chart.fill;
+    fill(first + row, std::min(tile, count - row), row, block);
+  }
+  throw_if_interrupted();
+  return block;
+}
+
+void fill_chart(const JobContext& context, const StoreDescription& store, const ChartRows& chart) {
+  const auto compute = [&](std::int64_t chunk) {
+    const std::int64_t rows = store.grid.cells_of(chunk) / chart.columns;
+    const std::int64_t first = store.grid.first_cell(chunk) / chart.columns;
+    return ChunkResult{computed_rows(chart, first, rows).values(rows)};
+  };
+  fill_store(context, store, {context.job + ", cells", compute, true});
+}
+
 }  // namespace
+
+ChartBlock::ChartBlock(std::int64_t columns, std::size_t number_columns, std::int64_t rows)
+    : columns_(row_length(columns)),
+      flags_(columns_ * static_cast<std::size_t>(rows)),
+      numbers_(number_columns, std::vector<double>(flags_.size())) {}
+
+std::vector<std::vector<double>> ChartBlock::values(std::int64_t rows) const {
+  const auto end = static_cast<std::ptrdiff_t>(start(rows));
+  std::vector<std::vector<double>> all(1);
+  std::transform(flags_.begin(), flags_.begin() + end, std::back_inserter(all.front()),
+                 [](std::uint8_t flag) { return flag != 0 ? 1.0 : 0.0; });
+  for (const std::vector<double>& numbers : numbers_)
+    all.emplace_back(numbers.begin(), numbers.begin() + end);
+  return all;
+}
+
+void write_chart(const JobContext& context, const GridLayout& layout, const ChartRows& chart) {
+  if (is_store_name(context.output))
+    return fill_chart(context, store_description(context, layout, cells_of_chunk(chart)), chart);
+  GridOutput output(context, layout);
+  append_rows(context, chart, output);
+  output.commit();
+}
 
 std::vector<GridAxis> gain_axes(const GainGrid& grid) {
   const std::vector<Column> columns = columns_of("gain axes");
@@ -112,88 +139,86 @@ LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid) {
           {LoopParameter::differential_gain, grid.differential}};
 }
 
-void append_sampled_chart(const JobContext& context, const LoopChart& chart, bool radius,
-                          GridOutput& output) {
+ChartRows sampled_chart(const JobContext& context, const LoopChart& chart, bool radius) {
   using Kernel = CopiedKernel<ChartKernel>;
-  append_rows(
-      context, chart.slow.values.count, Block(chart.fast.values.count, radius ? 1 : 0),
-      Kernel(pack_kernels(context.instructions).chart(chart, radius)), output,
-      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-        own->fill(first, count, block.flags(offset), radius ? block.numbers(0, offset) : nullptr);
-      });
+  Kernel kernel(pack_kernels(context.instructions).chart(chart, radius));
+  const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
+                        ChartBlock& block) mutable {
+    kernel->fill(first, count, block.flags(offset), radius ? block.numbers(0, offset) : nullptr);
+  };
+  return {chart.slow.values.count, chart.fast.values.count, radius ? 1U : 0U, fill};
 }
 
-void append_modal_chart(const JobContext& context, const GainGrid& grid, bool radius,
-                        GridOutput& output) {
-  using Kernel = std::optional<ModalRadius>;
-  const ResolvedCircle<double> circle = circle_of(context.case_data);
-  append_rows(
-      context, grid.proportional.count, Block(grid.differential.count, radius ? 1 : 0),
-      radius ? Kernel(context.case_data) : Kernel(), output,
-      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-        for (std::int64_t row = 0; row < count; ++row) {
-          fill_stability_row(circle, grid.proportional.at(first + row), grid.differential,
-                             block.flags(offset + row));
-          for (std::int64_t j = 0; own && j < grid.differential.count && !interrupted(); ++j)
-            block.numbers(0, offset + row)[j] = (*own)(grid.at(first + row, j));
-        }
-      });
+ChartRows modal_chart(const JobContext& context, const GainGrid& grid, bool radius) {
+  const auto circle = std::make_shared<const ResolvedCircle<double>>(circle_of(context.case_data));
+  std::optional<ModalRadius> largest_modulus;
+  if (radius) largest_modulus.emplace(context.case_data);
+  const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
+                        ChartBlock& block) mutable {
+    for (std::int64_t row = 0; row < count; ++row) {
+      fill_stability_row(*circle, grid.proportional.at(first + row), grid.differential,
+                         block.flags(offset + row));
+      for (std::int64_t j = 0; radius && j < grid.differential.count && !interrupted(); ++j)
+        block.numbers(0, offset + row)[j] = (*largest_modulus)(grid.at(first + row, j));
+    }
+  };
+  return {grid.proportional.count, grid.differential.count, radius ? 1U : 0U, fill};
 }
 
-void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,
-                             const GainGrid& grid, bool abscissa, GridOutput& output) {
-  using Kernel = StabilityRows<4>;
-  const auto abscissa_at = [&](const PdGains<double>& gains) {
+ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa) {
+  const auto abscissa_at = [plant](const PdGains<double>& gains) {
     const Matrix<double, 4> closed =
         plant.state_matrix() + plant.control_input() * gains.feedback_row();
     return spectral_abscissa<double, 4>(closed);
   };
-  append_rows(
-      context, grid.proportional.count, Block(grid.differential.count, abscissa ? 1 : 0),
-      Kernel(characteristic_polynomial(plant), grid.differential), output,
-      [&](Kernel& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-        for (std::int64_t row = 0; row < count; ++row) {
-          own.fill(grid.proportional.at(first + row), block.flags(offset + row));
-          if (!abscissa) continue;
-          double* values = block.numbers(0, offset + row);
-          for (std::int64_t j = 0; j < grid.differential.count; ++j) {
-            values[j] = abscissa_at(grid.at(first + row, j));
-          }
-        }
-      });
+  StabilityRows<4> rows(characteristic_polynomial(plant), grid.differential);
+  const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
+                        ChartBlock& block) mutable {
+    for (std::int64_t row = 0; row < count; ++row) {
+      rows.fill(grid.proportional.at(first + row), block.flags(offset + row));
+      for (std::int64_t j = 0; abscissa && j < grid.differential.count; ++j)
+        block.numbers(0, offset + row)[j] = abscissa_at(grid.at(first + row, j));
+    }
+  };
+  return {grid.proportional.count, grid.differential.count, abscissa ? 1U : 0U, fill};
 }
 
-void append_response_chart(const JobContext& context, const SteadyResponse<double>& response,
-                           double force_amplitude, const GainGrid& grid, GridOutput& output) {
-  // @param fill  (kernel, P, flags): the stable cells of a row
-  const auto append = [&](const auto& kernel, const auto& fill) {
-    append_rows(
-        context, grid.proportional.count, Block(grid.differential.count, 2), kernel, output,
-        [&](auto& own, std::int64_t first, std::int64_t count, std::int64_t offset, Block& block) {
-          for (std::int64_t row = offset; row < offset + count; ++row) {
-            const std::int64_t i = first + row - offset;
-            fill(own, grid.proportional.at(i), block.flags(row));
-            for (std::int64_t j = 0; j < grid.differential.count; ++j) {
-              const bool stable = block.flags(row)[j] != 0;
-              constexpr double none = std::numeric_limits<double>::quiet_NaN();
-              const PdGains<double> gains = grid.at(i, j);
-              block.numbers(0, row)[j] =
-                  stable ? force_amplitude * response.amplitude_per_force(gains) : none;
-              block.numbers(1, row)[j] = stable ? response.ratio_to_uncontrolled(gains) : none;
-            }
-          }
-        });
-  };
-  if (is_modal(context.case_data)) {
-    const ResolvedCircle<double> circle = circle_of(context.case_data);
-    append(nullptr, [&](std::nullptr_t, double p, std::uint8_t* flags) {
-      fill_stability_row(circle, p, grid.differential, flags);
-    });
-  } else {
-    const auto polynomial = characteristic_polynomial(loop_of(context.case_data));
-    append(StabilityRows<5>(in_half_plane(polynomial), grid.differential),
-           [](StabilityRows<5>& rows, double p, std::uint8_t* flags) { rows.fill(p, flags); });
+namespace {
+
+/// The flags of the stable cells of a row, on either kind of plant.
+std::function<void(double, std::uint8_t*)> stable_rows(const Case& the_case, const GainGrid& grid) {
+  if (is_modal(the_case)) {
+    const auto circle = std::make_shared<const ResolvedCircle<double>>(circle_of(the_case));
+    return [=](double p, std::uint8_t* flags) {
+      fill_stability_row(*circle, p, grid.differential, flags);
+    };
   }
+  StabilityRows<5> rows(in_half_plane(characteristic_polynomial(loop_of(the_case))),
+                        grid.differential);
+  return [=](double p, std::uint8_t* flags) mutable { rows.fill(p, flags); };
+}
+
+}  // namespace
+
+ChartRows response_chart(const JobContext& context, const SteadyResponse<double>& response,
+                         double force_amplitude, const GainGrid& grid) {
+  const auto stable = stable_rows(context.case_data, grid);
+  const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
+                        ChartBlock& block) {
+    for (std::int64_t row = 0; row < count; ++row) {
+      std::uint8_t* flags = block.flags(offset + row);
+      stable(grid.proportional.at(first + row), flags);
+      for (std::int64_t j = 0; j < grid.differential.count; ++j) {
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        const PdGains<double> gains = grid.at(first + row, j);
+        block.numbers(0, offset + row)[j] =
+            flags[j] != 0 ? force_amplitude * response.amplitude_per_force(gains) : none;
+        block.numbers(1, offset + row)[j] =
+            flags[j] != 0 ? response.ratio_to_uncontrolled(gains) : none;
+      }
+    }
+  };
+  return {grid.proportional.count, grid.differential.count, 2, fill};
 }
 
 }  // namespace holdfast::program

@@ -6,7 +6,7 @@
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "report/figures/gnuplot.hpp"
-#include "sweep/tiles/work_folder.hpp"
+#include "store/work_store.hpp"
 
 namespace holdfast::program {
 
@@ -52,8 +52,8 @@ std::string FigureWriter::write_tables(const Figure& figure) const {
 
 void FigureWriter::write_table(const TableRequest& table) const {
   const std::string file = (work_.folder / "data" / (table.name + ".csv")).string();
-  // A sweep that was interrupted has left its tiles; this report may be one of another case.
-  remove_work_folder(file + ".tiles");
+  // A sweep that was interrupted has left its chunks; this report may be one of another case.
+  remove_left_work_store(file + ".zarr");
   std::vector<std::string> arguments = command_of(table.arguments, work_.case_arguments);
   arguments.insert(arguments.end(), {"--quiet", "--output", file});
   work_.run(arguments);

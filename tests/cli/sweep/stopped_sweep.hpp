@@ -7,10 +7,10 @@
 
 namespace holdfast::tests {
 
-/// Sixty tiles, each of many times the work that it takes to look whether it is there.
-inline const std::string tiled_sweep =
+/// Eighty chunks, each of many times the work that it takes to look whether it is there.
+inline const std::string chunked_sweep =
     "sweep --axis initial.z1=0:0.001:40 --axis backlash.width=0.0005:0.002:12 --duration 100"
-    " --tile 8 --metric steady_peak --metric reversals_per_s --metric engaged_fraction";
+    " --chunk 8 --metric steady_peak --metric reversals_per_s --metric engaged_fraction";
 
 /// Tells a file from another one of the same name that was written later.
 struct FileStamp {
@@ -23,29 +23,34 @@ struct FileStamp {
   }
 };
 
-using TileStamps = std::map<std::string, FileStamp>;
+using ChunkStamps = std::map<std::string, FileStamp>;
 
-inline std::filesystem::path tile_folder_of(const std::filesystem::path& output) {
-  return output.string() + ".tiles";
+/// The store beside the output, or the output itself.
+inline std::filesystem::path store_of(const std::filesystem::path& output) {
+  return output.extension() == ".zarr" ? output : std::filesystem::path(output.string() + ".zarr");
 }
 
-/// The tiles that are kept for an output; files may come and go meanwhile.
-inline TileStamps tiles_kept_for(const std::filesystem::path& output) {
-  TileStamps tiles;
+/// The chunks that are done, by their files in the store; files may come and go meanwhile.
+inline ChunkStamps chunks_kept_for(const std::filesystem::path& output) {
+  namespace fs = std::filesystem;
+  ChunkStamps chunks;
   std::error_code gone;
-  for (std::filesystem::directory_iterator entry(tile_folder_of(output), gone), end;
-       !gone && entry != end; entry.increment(gone)) {
-    const std::string name = entry->path().filename().string();
+  const fs::path values = store_of(output) / "steady_peak/c";
+  for (fs::recursive_directory_iterator entry(values, gone), end; !gone && entry != end;
+       entry.increment(gone)) {
     struct stat found = {};
-    if (name.rfind("tile-", 0) != 0 || stat(entry->path().c_str(), &found) != 0) continue;
-    tiles[name] = {found.st_ino, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+    const bool is_chunk = stat(entry->path().c_str(), &found) == 0 && S_ISREG(found.st_mode) &&
+                          entry->path().filename().string().front() != '.';
+    if (!is_chunk) continue;
+    chunks[fs::relative(entry->path(), values).string()] = {found.st_ino, found.st_mtim.tv_sec,
+                                                            found.st_mtim.tv_nsec};
   }
-  return tiles;
+  return chunks;
 }
 
 inline std::vector<std::string> sweep_words(const std::filesystem::path& output,
                                             const std::string& more) {
-  std::vector<std::string> words = words_of(tiled_sweep + " " + more);
+  std::vector<std::string> words = words_of(chunked_sweep + " " + more);
   words.insert(words.end(), {"--output", output.string()});
   return words;
 }
@@ -73,39 +78,40 @@ inline SweepResult undisturbed_result(const std::string& name) {
   const Ending ending = swept(folder / name);
   EXPECT_EQ(ending.exit_code, 0) << ending.errors;
   EXPECT_EQ(ending.errors, "");
-  EXPECT_FALSE(std::filesystem::exists(tile_folder_of(folder / name)));
+  EXPECT_FALSE(std::filesystem::exists(store_of(folder / name)));
   return result_at(folder / name);
 }
 
-/// Until so many tiles are there, or the program has ended.
-inline void wait_for_tiles(const RunningProgram& program, const std::filesystem::path& output,
-                           std::size_t tiles) {
-  while (program.runs() && tiles_kept_for(output).size() < tiles)
+/// Until so many chunks are there, or the program has ended.
+inline void wait_for_chunks(const RunningProgram& program, const std::filesystem::path& output,
+                            std::size_t chunks) {
+  while (program.runs() && chunks_kept_for(output).size() < chunks)
     std::this_thread::sleep_for(std::chrono::microseconds(200));
 }
 
-/// A sweep that a signal ended after some of its tiles.
+/// A sweep that a signal ended after some of its chunks.
 class StoppedSweep {
  public:
   explicit StoppedSweep(int signal_number, const std::string& name = "sweep.csv")
       : output_(folder_ / name) {
     RunningProgram program(sweep_words(output_, ""));
-    wait_for_tiles(program, output_, 8);
+    wait_for_chunks(program, output_, 8);
     program.send(signal_number);
     ending_ = program.wait();
-    tiles_ = tiles_kept_for(output_);
-    EXPECT_GE(tiles_.size(), 8U) << ending_.errors;
+    chunks_ = chunks_kept_for(output_);
+    EXPECT_GE(chunks_.size(), 8U) << ending_.errors;
     EXPECT_FALSE(std::filesystem::exists(output_));
   }
 
   const TemporaryFolder& folder() const { return folder_; }
   const std::filesystem::path& output() const { return output_; }
   const Ending& ending() const { return ending_; }
-  const TileStamps& tiles() const { return tiles_; }
+  const ChunkStamps& chunks() const { return chunks_; }
 
-  /// The file of a tile, counted among those that are there.
-  std::filesystem::path tile(std::size_t number) const {
-    return tile_folder_of(output_) / std::next(tiles_.begin(), static_cast<int>(number))->first;
+  /// The file of a chunk, counted among those that are there.
+  std::filesystem::path chunk(std::size_t number) const {
+    return store_of(output_) / "steady_peak/c" /
+           std::next(chunks_.begin(), static_cast<int>(number))->first;
   }
 
   /// Goes on with it, and expects the result of one that nothing disturbed.
@@ -113,14 +119,14 @@ class StoppedSweep {
     const Ending resumed = swept(output_, "--resume");
     EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
     EXPECT_TRUE(result_at(output_) == undisturbed_result(output_.filename().string()));
-    EXPECT_FALSE(std::filesystem::exists(tile_folder_of(output_)));
+    EXPECT_FALSE(std::filesystem::exists(store_of(output_)));
   }
 
  private:
   TemporaryFolder folder_;
   std::filesystem::path output_;
   Ending ending_{};
-  TileStamps tiles_;
+  ChunkStamps chunks_;
 };
 
 }  // namespace holdfast::tests

@@ -97,7 +97,7 @@ TEST(SweepJob, RefusesOtherOptionsThatCannotBe) {
   expect_sweep_refused(axis + "--resume", "--output");
   expect_sweep_refused(axis + "--duration -1", "duration");
   expect_sweep_refused(axis + "--duration nan", "duration");
-  expect_sweep_refused(axis + "--tile -1", "tile");
+  expect_sweep_refused(axis + "--chunk -1", "chunk");
   expect_sweep_refused(axis + "--max-period 0", "max-period");
   expect_sweep_refused(axis + "--output /no/such/folder/sweep.csv", "sweep.csv");
 }

@@ -17,12 +17,6 @@ const std::string gridded_sweep =
     "sweep --axis control.sampling_period=0.001,0.004 --axis control.differential_gain=-13,900"
     " --axis control.processing_delay=0:0.0015:3 --axis backlash.width=0:0.002:5 --duration 1.5";
 
-std::string printed_by(const std::string& arguments) {
-  const Outcome outcome = run_holdfast(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.errors;
-  return outcome.output;
-}
-
 void expect_same_number(double one, double other, const std::string& name) {
   EXPECT_TRUE(one == other || (std::isnan(one) && std::isnan(other)))
       << name << ": " << one << " and " << other;
@@ -60,7 +54,7 @@ TEST(SweepJob, ItsNetcdfFileHoldsTheValuesOfTheTable) {
   }
 }
 
-TEST(SweepJob, ItsNetcdfFileIsTheSameForAnyTileAndThreads) {
+TEST(SweepJob, ItsNetcdfFileIsTheSameForAnyChunkAndThreads) {
   const TemporaryFolder folder;
   const auto written = [&](const std::string& name, const std::string& way) {
     const std::string file = (folder / name).string();
@@ -68,8 +62,8 @@ TEST(SweepJob, ItsNetcdfFileIsTheSameForAnyTileAndThreads) {
     return read_text(file);
   };
   const std::string bytes = written("one.nc", "");
-  EXPECT_TRUE(written("other.nc", " --threads 1 --tile 7") == bytes);
-  EXPECT_TRUE(written("third.nc", " --threads 5 --tile 1") == bytes);
+  EXPECT_TRUE(written("other.nc", " --threads 1 --chunk 7") == bytes);
+  EXPECT_TRUE(written("third.nc", " --threads 5 --chunk 1") == bytes);
 }
 
 }  // namespace

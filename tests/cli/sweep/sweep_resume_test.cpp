@@ -7,43 +7,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Starts or goes on with the sweep, and kills it some tiles and up to 3 ms later.
+/// Starts or goes on with the sweep, and kills it some chunks and up to 3 ms later.
 Ending killed_sweep(const fs::path& output, const std::string& more, std::mt19937& random) {
-  const std::size_t tiles = tiles_kept_for(output).size() + random() % 15;
+  const std::size_t chunks = chunks_kept_for(output).size() + random() % 15;
   RunningProgram program(sweep_words(output, more));
-  wait_for_tiles(program, output, tiles);
+  wait_for_chunks(program, output, chunks);
   std::this_thread::sleep_for(std::chrono::microseconds(random() % 3000));
   program.send(SIGKILL);
   return program.wait();
 }
 
-void expect_still_there(const TileStamps& kept, const TileStamps& now) {
+void expect_still_there(const ChunkStamps& kept, const ChunkStamps& now) {
   for (const auto& [name, stamp] : kept) {
     const auto found = now.find(name);
     EXPECT_TRUE(found != now.end() && found->second == stamp) << name << " was computed again";
   }
 }
 
-TEST(SweepResume, KilledTwentyTimesItGivesTheSameBytesAndComputesNoFinishedTileAgain) {
+TEST(SweepResume, KilledTwentyTimesItGivesTheSameBytesAndComputesNoFinishedChunkAgain) {
   const SweepResult expected = undisturbed_result("sweep.csv");
   std::mt19937 random(20);
   for (int round = 0; round < 5; ++round) {
     const TemporaryFolder folder;
     const fs::path output = folder / "sweep.csv";
     const std::string threads = "--threads " + std::to_string(1 + round % 3);
-    TileStamps kept;
+    ChunkStamps kept;
     for (int kill = 0; kill < 4 && !fs::exists(output); ++kill) {
       const Ending ending = killed_sweep(output, threads + (kill == 0 ? "" : " --resume"), random);
       EXPECT_TRUE(ending.ended_by_signal == SIGKILL || ending.exit_code == 0) << ending.errors;
-      const TileStamps now = tiles_kept_for(output);
-      // Once the output is there its tiles go.
+      const ChunkStamps now = chunks_kept_for(output);
+      // Once the output is there its store goes.
       if (!fs::exists(output)) expect_still_there(kept, now);
       kept = now;
     }
     const Ending resumed = swept(output, threads + " --resume");
     EXPECT_EQ(resumed.exit_code, 0) << resumed.errors;
     EXPECT_TRUE(result_at(output) == expected) << "round " << round;
-    EXPECT_FALSE(fs::exists(tile_folder_of(output)));
+    EXPECT_FALSE(fs::exists(store_of(output)));
   }
 }
 
@@ -52,10 +52,10 @@ void expect_interrupted_and_resumed(int signal_number) {
   const Ending& ending = stopped.ending();
   EXPECT_EQ(ending.exit_code, 130) << ending.errors;
   EXPECT_NE(ending.errors.find("--resume"), std::string::npos) << ending.errors;
-  EXPECT_NE(ending.errors.find(std::to_string(stopped.tiles().size())), std::string::npos)
-      << stopped.tiles().size() << " tiles: " << ending.errors;
+  EXPECT_NE(ending.errors.find(std::to_string(stopped.chunks().size())), std::string::npos)
+      << stopped.chunks().size() << " chunks: " << ending.errors;
   // No half a table, whole or hidden.
-  EXPECT_EQ(stopped.folder().names(), std::vector<std::string>{"sweep.csv.tiles"});
+  EXPECT_EQ(stopped.folder().names(), std::vector<std::string>{"sweep.csv.zarr"});
   stopped.expect_resumes();
 }
 
@@ -71,15 +71,15 @@ void flip_bit(const fs::path& file, std::size_t byte, unsigned bit) {
   write_text(file, text);
 }
 
-TEST(SweepResume, DamagedTilesAreComputedAgain) {
+TEST(SweepResume, DamagedChunksAreComputedAgain) {
   const StoppedSweep stopped(SIGKILL);
-  ASSERT_GE(stopped.tiles().size(), 7U);
-  fs::resize_file(stopped.tile(0), fs::file_size(stopped.tile(0)) / 2);
-  flip_bit(stopped.tile(1), fs::file_size(stopped.tile(1)) - 9, 0);
-  fs::copy_file(stopped.tile(3), stopped.tile(2), fs::copy_options::overwrite_existing);
-  fs::resize_file(stopped.tile(4), 0);
-  fs::remove(stopped.tile(5));
-  write_text(stopped.tile(6), read_text(stopped.tile(6)) + "more");
+  ASSERT_GE(stopped.chunks().size(), 7U);
+  fs::resize_file(stopped.chunk(0), fs::file_size(stopped.chunk(0)) / 2);
+  flip_bit(stopped.chunk(1), fs::file_size(stopped.chunk(1)) - 9, 0);
+  flip_bit(stopped.chunk(2), fs::file_size(stopped.chunk(2)) / 2, 5);
+  fs::resize_file(stopped.chunk(4), 0);
+  fs::remove(stopped.chunk(5));
+  write_text(stopped.chunk(6), read_text(stopped.chunk(6)) + "more");
   stopped.expect_resumes();
 }
 
@@ -97,7 +97,7 @@ void expect_not_resumed(const StoppedSweep& stopped, const std::string& more,
   EXPECT_EQ(ending.exit_code, 2) << more << '\n' << ending.errors;
   for (const std::string& part : mentioned)
     EXPECT_NE(ending.errors.find(part), std::string::npos) << part << '\n' << ending.errors;
-  expect_still_there(stopped.tiles(), tiles_kept_for(stopped.output()));
+  expect_still_there(stopped.chunks(), chunks_kept_for(stopped.output()));
   EXPECT_FALSE(fs::exists(stopped.output()));
 }
 
@@ -114,11 +114,11 @@ TEST(SweepResume, OfAnotherSweepIsRefusedWithWhatDiffers) {
 
 TEST(SweepResume, OfAnotherDurationIsRefused) {
   const TemporaryFolder folder;
-  const std::string sweep = "sweep --axis initial.z1=0:0.001:300 --tile 1 --output " +
+  const std::string sweep = "sweep --axis initial.z1=0:0.001:300 --chunk 1 --output " +
                             (folder / "sweep.csv").string() + " --duration ";
   {
     RunningProgram program(words_of(sweep + "100"));
-    wait_for_tiles(program, folder / "sweep.csv", 4);
+    wait_for_chunks(program, folder / "sweep.csv", 4);
     program.send(SIGKILL);
     program.wait();
   }

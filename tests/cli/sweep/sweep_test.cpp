@@ -43,8 +43,8 @@ TEST(SweepJob, ThreadsAndTilesDoNotChangeAnyByte) {
                             "reversals_per_s --metric ratio_to_uncontrolled --metric outcome";
   const std::string bytes = bytes_of(sweep);
   EXPECT_EQ(lines_of(bytes).size(), 61U);
-  for (const std::string way :
-       {" --threads 1", " --threads 2", " --threads 5", " --tile 1", " --tile 7", " --tile 1000"}) {
+  for (const std::string way : {" --threads 1", " --threads 2", " --threads 5", " --chunk 1",
+                                " --chunk 7", " --chunk 1000"}) {
     EXPECT_EQ(bytes_of(sweep + way), bytes) << way;
   }
 }
@@ -93,18 +93,18 @@ TEST(SweepJob, ADryRunOfAHundredMillionCellsComputesNothingAndLeavesNothing) {
   const CsvTable table = table_of(sweep + " --output '" + (folder / "sweep.csv").string() + "'");
   EXPECT_EQ(table.names(), (std::vector<std::string>{"quantity", "value", "unit"}));
   EXPECT_EQ(quantity_of(table, "cells"), 1e8);
-  EXPECT_GE(quantity_of(table, "tiles"), 1.0);
-  EXPECT_LE(quantity_of(table, "tiles"), 1e8);
+  EXPECT_GE(quantity_of(table, "chunks"), 1.0);
+  EXPECT_LE(quantity_of(table, "chunks"), 1e8);
   // 20 s at 1 ms, the first sample and the last one counted.
   EXPECT_GE(quantity_of(table, "samples"), 1e8 * 20001.0);
-  EXPECT_EQ(quantity_of(table_of(sweep + " --tile 1000"), "tiles"), 1e5);
+  EXPECT_EQ(quantity_of(table_of(sweep + " --chunk 1000"), "chunks"), 1e5);
   EXPECT_TRUE(folder.names().empty());
 }
 
 long peak_memory_of(const std::string& cells) {
   const TemporaryFolder folder;
   RunningProgram sweep(words_of(
-      "sweep --threads 2 --duration 0.004 --axis initial.z1=0:0.001:" + cells +
+      "sweep --threads 2 --chunk 4096 --duration 0.004 --axis initial.z1=0:0.001:" + cells +
       " --metric first_peak --metric steady_peak --metric steady_rms --metric engaged_fraction"
       " --metric force_peak --metric force_rms --metric reversals_per_s --metric absorber_stroke"
       " --metric outcome --output " +
@@ -118,7 +118,6 @@ TEST(SweepJob, MemoryDoesNotGrowWithTheNumberOfCells) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer keeps freed memory back";
 #endif
-  // From some 260 000 cells on tiles are of the largest size.
   const auto some = static_cast<double>(peak_memory_of("300000"));
   const auto many = static_cast<double>(peak_memory_of("1000000"));
   EXPECT_LE(many, 1.2 * some);

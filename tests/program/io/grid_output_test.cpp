@@ -6,7 +6,8 @@
 
 #include "case/case_file.hpp"
 #include "io/file/output.hpp"
-#include "io/grid/cell_writer.hpp"
+#include "io/grid/chunk_grid.hpp"
+#include "io/grid/grid_attributes.hpp"
 #include "io/grid/netcdf_library.hpp"
 #include "io/text/table.hpp"
 #include "process/errors.hpp"
@@ -301,7 +302,7 @@ TEST(ChunkShape, IsContiguousInTheOrderOfCellsAndAboutAsLargeAsItMayBe) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<std::size_t> shape(1 + random() % 5);
     for (std::size_t& count : shape) count = 1 + random() % (std::size_t{1} << (random() % 20));
-    const std::vector<std::size_t> chunk = chunk_shape(shape);
+    const std::vector<std::size_t> chunk = chunk_shape(shape, values_in_chunk);
     std::size_t axis = 0, values = 1, cells = 1;
     while (axis < shape.size() && chunk[axis] == 1) ++axis;
     for (std::size_t behind = axis + 1; behind < shape.size(); ++behind)
@@ -393,7 +394,7 @@ TEST(GridNetcdf, HoldsManyChunksAndIsTheSameInAnyPortions) {
       EXPECT_TRUE(read_text(folder / "out.nc") == read_text(folder / "whole.nc")) << portion;
     }
     const NetcdfVariable variable(folder / "out.nc", "kind");
-    EXPECT_EQ(variable.chunk(), chunk_shape({shape.begin(), shape.end()}));
+    EXPECT_EQ(variable.chunk(), chunk_shape({shape.begin(), shape.end()}, values_in_chunk));
     EXPECT_TRUE(variable.is_compressed());
   }
 }

@@ -16,10 +16,10 @@
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "program/child_process.hpp"
+#include "program/store/small_store.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/testing.hpp"
-#include "sweep/tiles/tile_store.hpp"
 
 namespace {
 
@@ -171,23 +171,24 @@ TEST(Table, ThatIsInterruptedIsTheOldOneOrTheNewOneWithItsMetadata) {
   }
 }
 
-// ---- tiles ------------------------------------------------------------------------------------
+// ---- chunks -----------------------------------------------------------------------------------
 
 std::vector<std::string> calls;
 
-TEST(TileStore, FinishesATileOnTheDiskBeforeItHasItsName) {
+TEST(StoreFolder, FinishesAChunkOnTheDiskBeforeItHasItsName) {
   const TemporaryFolder folder;
-  const TileStore store = TileStore::open(folder / "tiles", {{{"version", "1"}}, 2}, false);
+  const StoreFolder store = StoreFolder::enter(folder / "small.zarr", small_store());
   calls.clear();
   before_call = [](const char* name) {
     calls.emplace_back(name);
     return 0;
   };
-  store.put(0, "content");
+  store.put(0, values_of_small_store(0));
   before_call = [](const char* name) { return std::string(name) == "fsync" ? EIO : 0; };
-  const std::string words = message_of<OutputError>([&] { store.put(1, "content"); });
+  const std::string words =
+      message_of<OutputError>([&] { store.put(1, values_of_small_store(1)); });
   before_call = nullptr;
-  EXPECT_EQ(calls, (std::vector<std::string>{"fsync", "rename"}));
+  EXPECT_EQ(calls, (std::vector<std::string>{"fsync", "rename", "fsync", "rename", "fsync", "rename"}));
   EXPECT_NE(words.find("Input/output error"), std::string::npos) << words;
   EXPECT_TRUE(store.has(0));
   EXPECT_FALSE(store.has(1));

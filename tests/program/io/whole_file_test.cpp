@@ -61,7 +61,7 @@ TEST(WholeFile, IsOneOfThoseThatThreadsWriteAtOnce) {
 
 TEST(WholeFile, KnowsTheTemporariesOfWhichFile) {
   EXPECT_EQ(name_behind_temporary(".plan-12-0.tmp"), "plan");
-  EXPECT_EQ(name_behind_temporary(".tile-000000000003-4711-22.tmp"), "tile-000000000003");
+  EXPECT_EQ(name_behind_temporary(".chunk-3-4711-22.tmp"), "chunk-3");
   for (const char* name :
        {"", ".", ".tmp", "plan-12-0.tmp", ".plan-12-0", ".plan-12.tmp", ".plan-12-.tmp",
         ".plan--0.tmp", ".plan-a-0.tmp", ".plan-12-0x.tmp", ".-12-0.tmp", ".plan-12-0.tmp~"}) {

@@ -46,21 +46,6 @@ TEST(SweepPlan, NumbersItsCellsWithTheFirstAxisSlowest) {
   }
 }
 
-TEST(SweepPlan, TilesCoverEveryCellOnce) {
-  for (const std::int64_t size : {1, 5, 7, 35, 36, 1000}) {
-    SweepOptions options = sweep_over({"backlash.width=0:0.003:36"});
-    options.tile_cells = size;
-    const SweepPlan plan(sweep_context(), options);
-    std::int64_t next = 0;
-    for (std::int64_t tile = 0; tile < plan.tiles(); ++tile) {
-      EXPECT_EQ(plan.first_cell(tile), next);
-      EXPECT_GE(plan.cells_of(tile), 1);
-      next += plan.cells_of(tile);
-    }
-    EXPECT_EQ(next, 36);
-  }
-}
-
 TEST(SweepPlan, CountsTheSamplesOfItsMotions) {
   SweepOptions options = sweep_over({"control.sampling_period=0.001,0.01", "backlash.width=0,1"});
   options.duration = 2.0;
@@ -103,10 +88,10 @@ TEST(SweepPlan, AValueThatItsKeyDoesNotAdmitIsAFaultOfItsCellAlone) {
   EXPECT_THROW(plan.case_of(1), WrongInput);
 }
 
-TEST(SweepPlan, PlanOfTheTilesTellsAllThatTheyDependOn) {
+TEST(SweepPlan, PlanOfTheStoreTellsAllThatTheyDependOn) {
   const SweepOptions options = sweep_over({"backlash.width=0,1"});
   const auto entries = [&](const std::vector<std::string>& settings, const SweepOptions& asked) {
-    return SweepPlan(sweep_context(settings), asked).tile_plan().entries;
+    return SweepPlan(sweep_context(settings), asked).store().plan;
   };
   const auto usual = entries({}, options);
   EXPECT_EQ(usual, entries({}, options));
@@ -120,20 +105,20 @@ TEST(SweepPlan, PlanOfTheTilesTellsAllThatTheyDependOn) {
   others[2].duration = 20.000000000000004;
   others[3].largest_period = 99'999;
   others[4].best_gain = true;
-  others[5].tile_cells = 1;
+  others[5].chunk_cells = 1;
   for (const SweepOptions& other : others) EXPECT_NE(usual, entries({}, other));
 }
 
-TEST(SweepPlan, PlanOfTilesWithTheirOwnPlantsTellsWhatTheyAreReducedFrom) {
+TEST(SweepPlan, PlanOfCellsWithTheirOwnPlantsTellsWhatTheyAreReducedFrom) {
   const SweepOptions options = sweep_over({"conductor.sag=0.285,0.29"});
   const auto entries = [&](const std::vector<std::string>& settings) {
-    return SweepPlan(sweep_context(settings), options).tile_plan().entries;
+    return SweepPlan(sweep_context(settings), options).store().plan;
   };
   // The value of the built-in case, but given: the plant is no longer reduced.
   EXPECT_NE(entries({}), entries({"plant.conductor_mass=0.0767"}));
   JobContext of_file = sweep_context();
   of_file.case_source.text = "[conductor]\n";
-  EXPECT_NE(entries({}), SweepPlan(of_file, options).tile_plan().entries);
+  EXPECT_NE(entries({}), SweepPlan(of_file, options).store().plan);
 }
 
 TEST(SweepPlan, WithTheBestGainHasNoOtherAndTimeToSettle) {

@@ -1,0 +1,42 @@
+#include <memory>
+
+#include "io/file/output.hpp"
+#include "job.hpp"
+#include "store/stored_grid.hpp"
+
+namespace holdfast::program {
+namespace {
+
+struct ConvertQuestion {
+  std::string store, file;
+  JobContext context;
+
+  void run() {
+    if (!is_store_name(file)) require_output_name(file, false);
+    context.output = file;
+    convert_store(context, store);
+  }
+};
+
+}  // namespace
+
+/// It takes no case: the store has its own.
+void add_convert(CLI::App& program) {
+  CLI::App* options = add_subcommand(program, "convert");
+  const auto question = std::make_shared<ConvertQuestion>();
+  options->add_option("IN", question->store, "A store that holdfast has written")
+      ->type_name("STORE.zarr")
+      ->required();
+  options->add_option("OUT", question->file, "What it becomes: .csv, .nc or .zarr")
+      ->type_name("FILE")
+      ->required();
+  options->add_option("--zarr-format", question->context.zarr_format, "Of a .zarr: 2 or 3")
+      ->check(CLI::Range(2, 3))
+      ->capture_default_str();
+  options->add_flag("--quiet", question->context.quiet, "No warnings");
+  options->add_flag("--yes", question->context.yes,
+                    "Write a table of more than ten million cells as text");
+  options->final_callback([question] { question->run(); });
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,105 @@
+#include "store/chunk_packing.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <new>
+
+#include "process/errors.hpp"
+
+#ifdef HOLDFAST_HAS_ZSTD
+#include <zstd.h>
+#endif
+
+namespace holdfast::program {
+namespace {
+
+/// CRC-32C (Castagnoli), as the Zarr codec crc32c and iSCSI (RFC 3720) have it.
+std::uint32_t crc32c(std::string_view bytes) {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> remainders{};
+    for (std::uint32_t byte = 0; byte < remainders.size(); ++byte) {
+      std::uint32_t remainder = byte;
+      for (int bit = 0; bit < 8; ++bit)
+        remainder = (remainder >> 1U) ^ ((remainder & 1U) != 0 ? 0x82F63B78U : 0U);
+      remainders[byte] = remainder;
+    }
+    return remainders;
+  }();
+  std::uint32_t sum = ~std::uint32_t{0};
+  for (const char character : bytes)
+    sum = table[(sum ^ static_cast<unsigned char>(character)) & 0xFFU] ^ (sum >> 8U);
+  return ~sum;
+}
+
+/// Little-endian, as the codec wants it.
+std::string bytes_of(std::uint32_t number) {
+  std::string bytes;
+  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xFFU);
+  return bytes;
+}
+
+std::optional<std::string> without_checksum(std::string_view file, std::size_t size) {
+  if (file.size() != size + 4) return std::nullopt;
+  const std::string_view bytes = file.substr(0, size);
+  if (file.substr(size) != bytes_of(crc32c(bytes))) return std::nullopt;
+  return std::string(bytes);
+}
+
+#ifdef HOLDFAST_HAS_ZSTD
+
+std::string compressed(std::string_view bytes) {
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                     &ZSTD_freeCCtx);
+  if (!context) throw std::bad_alloc();
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, zstd_level);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  std::string file(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t length =
+      ZSTD_compress2(context.get(), file.data(), file.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(length) != 0) throw std::bad_alloc();
+  file.resize(length);
+  return file;
+}
+
+std::optional<std::string> expanded(std::string_view file, std::size_t size) {
+  // Of a damaged size nothing is allocated.
+  if (ZSTD_getFrameContentSize(file.data(), file.size()) != size) return std::nullopt;
+  std::string bytes(size, '\0');
+  if (ZSTD_decompress(bytes.data(), size, file.data(), file.size()) != size) return std::nullopt;
+  return bytes;
+}
+
+#else
+
+[[noreturn]] void refuse_zstd() {
+  throw NoAnswer(
+      "chunks compressed by Zstandard cannot be had: this program was built without it (Debian "
+      "package libzstd-dev)");
+}
+std::string compressed(std::string_view) { refuse_zstd(); }
+std::optional<std::string> expanded(std::string_view, std::size_t) { refuse_zstd(); }
+
+#endif
+
+}  // namespace
+
+ChunkPacking usual_packing() {
+#ifdef HOLDFAST_HAS_ZSTD
+  return ChunkPacking::zstd;
+#else
+  return ChunkPacking::checksum;
+#endif
+}
+
+std::string packed_chunk(std::string_view bytes, ChunkPacking packing) {
+  if (packing == ChunkPacking::zstd) return compressed(bytes);
+  return std::string(bytes) + bytes_of(crc32c(bytes));
+}
+
+std::optional<std::string> unpacked_chunk(std::string_view file, std::size_t size,
+                                          ChunkPacking packing) {
+  return packing == ChunkPacking::zstd ? expanded(file, size) : without_checksum(file, size);
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,190 @@
+#include "store/fill_store.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "io/text/checksum.hpp"
+#include "jobs/charts/row_blocks.hpp"
+#include "process/errors.hpp"
+#include "process/exit.hpp"
+#include "process/interrupt.hpp"
+#include "process/progress.hpp"
+#include "process/worker_threads.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// A number in which two processes hardly agree.
+std::uint64_t number_of_this_process() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  return checksum(std::to_string(now) + "-" + std::to_string(getpid()));
+}
+
+/// One process at work on a store.
+class StoreFilling {
+ public:
+  StoreFilling(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
+               const ChunkWork& work)
+      : context_(context),
+        store_(store),
+        group_(group),
+        work_(work),
+        chunks_(store.grid().chunks()),
+        first_chunk_(common_first_chunk()),
+        progress_(static_cast<std::uint64_t>(store.grid().cells()), work.steps,
+                  group.rank() == 0 && progress_wanted(context)) {}
+
+  void run(int threads) {
+    std::atomic<bool> stop{false};
+    parallel_rows(threads, 1, threads, 0, [&](int&, std::int64_t, std::int64_t) {
+      try {
+        take_chunks(stop);
+      } catch (...) {
+        if (!stop.exchange(true)) give_up_tickets();
+        throw;
+      }
+    });
+  }
+
+ private:
+  /// The first process goes in order; one that joins later begins elsewhere, so that they rarely
+  /// meet.
+  std::int64_t common_first_chunk() {
+    const bool begun = group_.rank() == 0 && store_.has(0);
+    const std::uint64_t chosen =
+        begun ? number_of_this_process() % static_cast<std::uint64_t>(chunks_) : 0;
+    return std::stoll(group_.exchange(std::to_string(chosen)).front());
+  }
+
+  /// The other processes need not go on.
+  void give_up_tickets() noexcept {
+    try {
+      group_.skip_tickets(chunks_);
+    } catch (...) {
+      // They go on in vain; the fault that brought us here is the one to be told.
+    }
+  }
+
+  /// What one thread does: the next chunk, until there is none; then what others have not done.
+  void take_chunks(const std::atomic<bool>& stop) {
+    std::vector<std::int64_t> elsewhere;
+    while (!stop) {
+      throw_if_interrupted();
+      const std::int64_t ticket = group_.take_ticket();
+      if (ticket >= chunks_) break;
+      const std::int64_t chunk = (first_chunk_ + ticket) % chunks_;
+      if (!see_to(chunk, false)) elsewhere.push_back(chunk);
+      show_others();
+    }
+    while (!stop && !elsewhere.empty()) see_to_others(elsewhere);
+  }
+
+  /// Waits for what others have, and does what they leave.
+  void see_to_others(std::vector<std::int64_t>& elsewhere) {
+    const std::size_t before = elsewhere.size();
+    elsewhere.erase(std::remove_if(elsewhere.begin(), elsewhere.end(),
+                                   [&](std::int64_t chunk) { return see_to(chunk, true); }),
+                    elsewhere.end());
+    if (elsewhere.size() == before) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    throw_if_interrupted();
+  }
+
+  /// Whether the chunk is done, here or elsewhere.
+  /// @param last  nobody comes to it any more
+  bool see_to(std::int64_t chunk, bool last) {
+    throw_if_interrupted();
+    const bool done = is_done(chunk);
+    const bool left = done && work_.verify && ChunkClaim::exists(store_.file_of(chunk));
+    if (done && !left) return count_found(chunk);
+    const ChunkClaim claim(store_.file_of(chunk));
+    if (claim.was_left()) store_.remove_leftovers(chunk);
+    if (claim.answer() == ChunkClaim::Answer::elsewhere) return false;
+    if (claim.answer() == ChunkClaim::Answer::unknown && !last) return false;
+    // Its last holder may have finished it before it was ours.
+    if (is_done(chunk)) return count_found(chunk);
+    const ChunkResult result = work_.compute(chunk);
+    store_.put(chunk, result.values);
+    ++seen_;
+    progress_.advance(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)),
+                      static_cast<std::uint64_t>(result.samples));
+    return true;
+  }
+
+  bool is_done(std::int64_t chunk) const {
+    if (!store_.has(chunk)) return false;
+    if (!work_.verify || store_.read(chunk)) return true;
+    report_warning(
+        store_.file_of(chunk).string() + " or what belongs to it is damaged, and is computed anew",
+        context_.quiet);
+    return false;
+  }
+
+  bool count_found(std::int64_t chunk) {
+    ++seen_;
+    progress_.skip(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)));
+    return true;
+  }
+
+  /// Those handed out that were not seen here.
+  void show_others() {
+    if (group_.rank() != 0 || group_.size() == 1) return;
+    const std::int64_t taken = std::min(group_.tickets_taken(), chunks_);
+    const std::int64_t others = std::max(taken - seen_, std::int64_t{0});
+    progress_.set_elsewhere(static_cast<std::uint64_t>(
+        std::min(others * store_.grid().cells_of_file(), store_.grid().cells())));
+  }
+
+  const JobContext& context_;
+  const StoreFolder& store_;
+  ProcessGroup& group_;
+  const ChunkWork& work_;
+  std::int64_t chunks_;
+  std::int64_t first_chunk_;
+  Progress progress_;
+  std::atomic<std::int64_t> seen_{0};  // chunks done or found here
+};
+
+}  // namespace
+
+void fill_store(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
+                int threads, const ChunkWork& work) {
+  StoreFilling(context, store, group, work).run(threads);
+}
+
+void report_kept_chunks(const StoreFolder& store, const std::string& how_to_go_on) noexcept {
+  try {
+    const std::int64_t kept = store.chunks_done();
+    report_error(std::to_string(kept) + " of " + std::to_string(store.grid().chunks()) +
+                 (kept == 1 ? " chunk is" : " chunks are") + " kept in " + store.folder().string() +
+                 "; " + how_to_go_on);
+  } catch (...) {
+    // The fault that brought us here is the one to be told.
+  }
+}
+
+void fill_store(const JobContext& context, const StoreDescription& description,
+                const ChunkWork& work) {
+  const std::unique_ptr<ProcessGroup> group = join_process_group();
+  std::optional<StoreFolder> store;
+  make_collective_call(*group, [&] {
+    if (group->rank() == 0) store = StoreFolder::enter(*context.output, description);
+  });
+  make_collective_call(*group, [&] {
+    if (!store) store = StoreFolder::enter(*context.output, description);
+  });
+  try {
+    const int threads = worker_threads(context.threads, *group);
+    make_collective_call(*group, [&] { fill_store(context, *store, *group, threads, work); });
+  } catch (...) {
+    if (group->rank() == 0) report_kept_chunks(*store, "the same command goes on");
+    throw;
+  }
+}
+
+}  // namespace holdfast::program

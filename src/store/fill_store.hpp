@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "process/group/process_group.hpp"
+#include "process/job_context.hpp"
+#include "store/store_folder.hpp"
+
+namespace holdfast::program {
+
+/// What was computed of a chunk.
+struct ChunkResult {
+  ChunkValues values;
+  std::int64_t samples = 0;  ///< of the motions of its cells
+};
+
+/// How the missing chunks of a store come to be.
+struct ChunkWork {
+  std::string steps;  ///< of the progress: "sweep, cells"
+  /// Computes a chunk, on any thread. What a chunk becomes depends on its number alone.
+  std::function<ChunkResult(std::int64_t)> compute;
+  bool verify = false;  ///< chunks that are there are read, and those that are damaged made anew
+};
+
+/// Computes what a store lacks. The threads of all processes of the group take one chunk after the
+/// other; so do other processes that fill the same store by themselves: none takes what a living
+/// one has, and at the end each waits for what the others have, or does what they leave. All chunks
+/// are there when it returns.
+///
+/// Throws Interrupted, what a computation throws, and what StoreFolder::put() throws; every
+/// finished chunk stays.
+void fill_store(const JobContext& context, const StoreFolder& store, ProcessGroup& group,
+                int threads, const ChunkWork& work);
+
+/// The same by this process alone, and whatever its launcher started beside it, on the threads of
+/// the context. Says on standard error how much is kept where it does not come to its end.
+void fill_store(const JobContext& context, const StoreDescription& description,
+                const ChunkWork& work);
+
+/// Says on standard error how much of a store is kept, after a fault.
+void report_kept_chunks(const StoreFolder& store, const std::string& how_to_go_on) noexcept;
+
+}  // namespace holdfast::program

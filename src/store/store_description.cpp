@@ -1,0 +1,332 @@
+#include "store/store_description.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <stdexcept>
+
+#include "case/case_file.hpp"
+#include "case/device/impedance_table.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
+#include "io/grid/grid_attributes.hpp"
+#include "io/text/checksum.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string shown(const StorePlan& plan, const std::string& name) {
+  const auto entry = plan.find(name);
+  return entry == plan.end() ? "not given" : entry->second;
+}
+
+std::string_view bytes_of(const std::vector<double>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
+}
+
+/// Of the numbers of a record, so that another record of the same name is noticed.
+std::string checksum_of(const RecordedForce& record) {
+  return std::to_string(checksum(bytes_of(record.forces()), checksum(bytes_of(record.times()))));
+}
+
+std::string checksum_of(const ImpedanceTable& table) {
+  return std::to_string(
+      checksum(bytes_of(table.phase_deg),
+               checksum(bytes_of(table.magnitude), checksum(bytes_of(table.frequency)))));
+}
+
+Json json_of(const Column& column) {
+  return {{"name", column.name},
+          {"unit", column.unit},
+          {"description", column.description},
+          {"datatype", column.datatype}};
+}
+
+Column column_of(const Json& json) {
+  return {json.at("name").get<std::string>(), json.at("unit").get<std::string>(),
+          json.at("description").get<std::string>(), json.at("datatype").get<std::string>()};
+}
+
+/// What a holdfast needs to go on with the store or to convert it, beside the CF attributes.
+Json holdfast_attribute(const StoreDescription& store) {
+  const JobContext& origin = store.origin;
+  Json json = {{"version", computed_by(origin)}, {"job", origin.job}};
+  json["options"] = origin.options;
+  if (origin.case_source.text) json["case_file"] = origin.case_source.name;
+  json["set"] = origin.case_source.overrides;
+  if (origin.on_packs) json["instructions"] = name_of(origin.instructions);
+  json["axes"] = Json::array();
+  for (const GridAxis& axis : store.axes) json["axes"].push_back(json_of(axis.column));
+  json["columns"] = Json::array();
+  for (const CellColumn& cells : store.columns) {
+    Json column = json_of(cells.column);
+    if (!cells.words.empty()) column["words"] = cells.words;
+    json["columns"].push_back(column);
+  }
+  json["table_columns"] = store.table_columns;
+  json["shape"] = store.grid.shape;
+  json["chunk"] = store.grid.chunk;
+  json["packing"] = store.packing == ChunkPacking::zstd ? "zstd" : "crc32c";
+  json["plan"] = store.plan;
+  return json;
+}
+
+Json root_attributes(const StoreDescription& store) {
+  Json attributes = Json::object();
+  for (const auto& [name, text] : origin_attributes(store.origin)) attributes[name] = text;
+  attributes["holdfast"] = holdfast_attribute(store);
+  return attributes;
+}
+
+/// One array of a store, of either format.
+struct ArrayDescription {
+  std::string name;
+  ElementType type;
+  std::vector<std::size_t> shape, chunk;
+  std::vector<std::string> dimensions;
+  Json attributes;
+};
+
+std::vector<ArrayDescription> arrays_of(const StoreDescription& store) {
+  std::vector<ArrayDescription> arrays;
+  std::vector<std::string> dimensions;
+  for (const GridAxis& axis : store.axes) {
+    const std::string name = cf_name(axis.column.name);
+    const std::size_t count = axis.count();
+    Json attributes = Json::object();
+    for (const auto& [key, text] : axis_attributes(axis.column)) attributes[key] = text;
+    arrays.push_back(
+        {name, ElementType::real, {count}, {coordinates_in_chunk(count)}, {name}, attributes});
+    dimensions.push_back(name);
+  }
+  for (const CellColumn& column : store.columns) {
+    Json attributes = Json::object();
+    for (const auto& [key, text] : column_attributes(column)) attributes[key] = text;
+    if (!column.words.empty()) {
+      std::vector<int> numbers(column.words.size());
+      std::iota(numbers.begin(), numbers.end(), 0);
+      attributes["flag_values"] = numbers;
+    }
+    arrays.push_back({cf_name(column.column.name), element_type_of(column), store.grid.shape,
+                      store.grid.chunk, dimensions, attributes});
+  }
+  return arrays;
+}
+
+Json fill_value(ElementType type) {
+  if (type == ElementType::real) return "NaN";
+  if (type == ElementType::integer) return std::numeric_limits<std::int64_t>::min();
+  return -1;
+}
+
+Json codecs_of(ElementType type, ChunkPacking packing) {
+  Json bytes = {{"name", "bytes"}};
+  if (type != ElementType::byte) bytes["configuration"] = {{"endian", "little"}};
+  Json last = {{"name", "crc32c"}};
+  if (packing == ChunkPacking::zstd)
+    last = {{"name", "zstd"}, {"configuration", {{"level", zstd_level}, {"checksum", true}}}};
+  return Json::array({bytes, last});
+}
+
+Json array_of_format_3(const ArrayDescription& array, ChunkPacking packing) {
+  constexpr std::array<const char*, 3> names = {"float64", "int64", "int8"};
+  Json json = {{"zarr_format", 3}, {"node_type", "array"}};
+  json["shape"] = array.shape;
+  json["data_type"] = names.at(static_cast<std::size_t>(array.type));
+  json["chunk_grid"] = {{"name", "regular"}, {"configuration", {{"chunk_shape", array.chunk}}}};
+  json["chunk_key_encoding"] = {{"name", "default"}, {"configuration", {{"separator", "/"}}}};
+  json["fill_value"] = fill_value(array.type);
+  json["codecs"] = codecs_of(array.type, packing);
+  json["attributes"] = array.attributes;
+  json["dimension_names"] = array.dimensions;
+  json["storage_transformers"] = Json::array();
+  return json;
+}
+
+Json array_of_format_2(const ArrayDescription& array) {
+  constexpr std::array<const char*, 3> names = {"<f8", "<i8", "|i1"};
+  Json json = {{"zarr_format", 2}};
+  json["shape"] = array.shape;
+  json["chunks"] = array.chunk;
+  json["dtype"] = names.at(static_cast<std::size_t>(array.type));
+  json["compressor"] = {{"id", "zstd"}, {"level", zstd_level}};
+  json["fill_value"] = fill_value(array.type);
+  json["order"] = "C";
+  json["filters"] = nullptr;
+  json["dimension_separator"] = "/";
+  return json;
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+using Documents = std::vector<std::pair<fs::path, std::string>>;
+
+Documents documents_of_format_3(const StoreDescription& store) {
+  Documents documents;
+  Json consolidated = Json::object();
+  for (const ArrayDescription& array : arrays_of(store)) {
+    const Json json = array_of_format_3(array, store.packing);
+    documents.emplace_back(fs::path(array.name) / root_of_format_3, text_of(json));
+    consolidated[array.name] = json;
+  }
+  Json root = {{"zarr_format", 3}, {"node_type", "group"}};
+  root["attributes"] = root_attributes(store);
+  root["consolidated_metadata"] = {
+      {"kind", "inline"}, {"must_understand", false}, {"metadata", consolidated}};
+  documents.emplace_back(root_of_format_3, text_of(root));
+  return documents;
+}
+
+Documents documents_of_format_2(const StoreDescription& store) {
+  if (store.packing != ChunkPacking::zstd)
+    throw NoAnswer(
+        "--zarr-format 2: this program was built without Zstandard (Debian package libzstd-dev); "
+        "format 3 needs nothing");
+  Documents documents;
+  Json consolidated = Json::object();
+  const auto add = [&](const std::string& path, const Json& json) {
+    documents.emplace_back(path, text_of(json));
+    consolidated[path] = json;
+  };
+  for (const ArrayDescription& array : arrays_of(store)) {
+    Json attributes = array.attributes;
+    attributes["_ARRAY_DIMENSIONS"] = array.dimensions;
+    add(array.name + "/.zarray", array_of_format_2(array));
+    add(array.name + "/.zattrs", attributes);
+  }
+  add(".zgroup", {{"zarr_format", 2}});
+  const Json root = root_attributes(store);
+  consolidated[root_of_format_2] = root;
+  documents.emplace_back(".zmetadata",
+                         text_of({{"zarr_consolidated_format", 1}, {"metadata", consolidated}}));
+  documents.emplace_back(root_of_format_2, text_of(root));
+  return documents;
+}
+
+void require(bool holds) {
+  if (!holds) throw std::invalid_argument("not described as holdfast describes a store");
+}
+
+CellColumn cells_of(const Json& json) {
+  CellColumn cells{column_of(json), {}};
+  if (json.contains("words")) cells.words = json["words"].get<std::vector<std::string>>();
+  return cells;
+}
+
+JobContext origin_of(const Json& attributes, const Json& json) {
+  JobContext origin;
+  origin.version = json.at("version").get<std::string>();
+  origin.job = json.at("job").get<std::string>();
+  origin.options = json.at("options").get<decltype(origin.options)>();
+  if (json.contains("case_file")) {
+    origin.case_source.name = json["case_file"].get<std::string>();
+    origin.case_source.text = "";
+  }
+  origin.case_source.overrides = json.at("set").get<std::vector<std::string>>();
+  if (json.contains("instructions")) {
+    origin.on_packs = true;
+    origin.instructions = instruction_set_named(json["instructions"].get<std::string>());
+  }
+  origin.case_data =
+      load_case_text(attributes.at("case").get<std::string>(), "the case of the store", {});
+  return origin;
+}
+
+/// Whether the chunks are as chunk_shape() makes them: cells in a run.
+bool is_sound(const ChunkGrid& grid) {
+  const auto positive = [](std::size_t count) { return count > 0; };
+  if (grid.shape.empty() || grid.shape.size() != grid.chunk.size()) return false;
+  if (!std::all_of(grid.shape.begin(), grid.shape.end(), positive)) return false;
+  if (!std::all_of(grid.chunk.begin(), grid.chunk.end(), positive)) return false;
+  constexpr double most_cells = 9007199254740992.0, most_of_file = 16777216.0;  // 2^53, 2^24
+  double cells = 1.0, of_file = 1.0;
+  for (std::size_t axis = 0; axis < grid.shape.size(); ++axis) {
+    cells *= static_cast<double>(grid.shape[axis]);
+    of_file *= static_cast<double>(grid.chunk[axis]);
+    if (grid.chunk[axis] > grid.shape[axis]) return false;
+  }
+  if (cells > most_cells || of_file > most_of_file) return false;
+  return grid.chunk == chunk_shape(grid.shape, static_cast<std::size_t>(of_file));
+}
+
+StoreDescription description_of(const Json& attributes, int format) {
+  const Json& json = attributes.at("holdfast");
+  StoreDescription store;
+  store.format = format;
+  store.origin = origin_of(attributes, json);
+  for (const Json& axis : json.at("axes")) store.axes.push_back({column_of(axis), {}});
+  for (const Json& column : json.at("columns")) store.columns.push_back(cells_of(column));
+  store.table_columns = json.at("table_columns").get<std::size_t>();
+  store.grid.shape = json.at("shape").get<std::vector<std::size_t>>();
+  store.grid.chunk = json.at("chunk").get<std::vector<std::size_t>>();
+  store.plan = json.at("plan").get<StorePlan>();
+  const auto packing = json.at("packing").get<std::string>();
+  require(packing == "zstd" || packing == "crc32c");
+  store.packing = packing == "zstd" ? ChunkPacking::zstd : ChunkPacking::checksum;
+  require(is_sound(store.grid) && store.axes.size() == store.grid.shape.size());
+  require(store.table_columns > 0 && store.table_columns <= store.columns.size());
+  return store;
+}
+
+}  // namespace
+
+std::string plan_differences(const StorePlan& before, const StorePlan& now) {
+  StorePlan all = before;
+  all.insert(now.begin(), now.end());
+  std::string differences;
+  for (const auto& [name, text] : all) {
+    const std::string was = shown(before, name), is = shown(now, name);
+    if (before.count(name) == now.count(name) && was == is) continue;
+    differences += (differences.empty() ? "" : "; ") + name + " was " + was + ", is " + is;
+  }
+  return differences;
+}
+
+void append_case(StorePlan& plan, const Case& the_case) {
+  if (the_case.force_record) plan.emplace("force record", checksum_of(*the_case.force_record));
+  for (std::size_t k = 0; k < the_case.devices.size(); ++k)
+    if (const auto& table = the_case.devices[k].table)
+      plan.emplace("impedance " + std::to_string(k + 1), checksum_of(*table));
+  const Json json = case_to_json(the_case);
+  for (const auto& [table, keys] : json.items())
+    for (const auto& [key, value] : keys.items()) plan.emplace(table + "." + key, value.dump());
+}
+
+ElementType element_type_of(const CellColumn& column) {
+  if (!column.words.empty()) return ElementType::byte;
+  return column.column.datatype == "integer" ? ElementType::integer : ElementType::real;
+}
+
+std::size_t size_of(ElementType type) { return type == ElementType::byte ? 1 : 8; }
+
+std::vector<std::pair<fs::path, std::string>> store_documents(const StoreDescription& store) {
+  return store.format == 2 ? documents_of_format_2(store) : documents_of_format_3(store);
+}
+
+StoreDescription read_description(std::string_view root, int format) {
+  try {
+    const Json json = Json::parse(root);
+    return description_of(format == 2 ? json : json.at("attributes"), format);
+  } catch (const Json::exception& fault) {
+    throw std::invalid_argument(fault.what());
+  } catch (const Refusal& fault) {
+    throw std::invalid_argument(fault.what());
+  }
+}
+
+fs::path chunk_file(const std::string& array, const std::vector<std::int64_t>& place, int format) {
+  fs::path file = array;
+  if (format == 3) file /= "c";
+  for (const std::int64_t index : place) file /= std::to_string(index);
+  return file;
+}
+
+std::size_t coordinates_in_chunk(std::size_t count) { return std::min(count, values_in_chunk); }
+
+}  // namespace holdfast::program

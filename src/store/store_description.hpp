@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/grid/chunk_grid.hpp"
+#include "io/grid/grid_output.hpp"
+#include "process/job_context.hpp"
+#include "store/chunk_packing.hpp"
+
+namespace holdfast::program {
+
+/// Everything that the numbers of a store depend on, name and text: {"version", "0.9.0"},
+/// {"--axis 1", "backlash.width=0:0.003:61"}. Processes that agree in it may fill one store.
+using StorePlan = std::map<std::string, std::string>;
+
+/// What differs, each entry with both texts: "--duration was 20, is 60; --kick was 1:0.1, is not
+/// given". Empty for the same plan.
+std::string plan_differences(const StorePlan& before, const StorePlan& now);
+
+/// Appends the case, key by key, and what it reads from files, by their checksums.
+void append_case(StorePlan& plan, const Case& the_case);
+
+/// The kind of the numbers of an array.
+enum class ElementType {
+  real,     ///< doubles, NaN where nothing is computed yet
+  integer,  ///< 64 bits, −2⁶³ there
+  byte,     ///< 8 bits, the numbers of words, −1 there
+};
+
+ElementType element_type_of(const CellColumn& column);
+std::size_t size_of(ElementType type);
+
+/// What a store of cells holds.
+struct StoreDescription {
+  JobContext origin;  ///< job, options and case that made it
+  std::vector<GridAxis> axes;
+  std::vector<CellColumn> columns;  ///< those of the job's table first
+  std::size_t table_columns = 0;    ///< so many of them
+  ChunkGrid grid;
+  StorePlan plan;
+  int format = 3;  ///< of Zarr, 2 or 3
+  ChunkPacking packing = usual_packing();
+};
+
+/// The files that describe a store and their texts, relative to its folder, the root last, without
+/// which there is no store. After them readers find all in one file, the consolidated metadata.
+/// Throws NoAnswer where format 2 is asked for and the program has no codec that it knows.
+std::vector<std::pair<std::filesystem::path, std::string>> store_documents(
+    const StoreDescription& store);
+
+/// The root documents of the formats, of which every store has one.
+inline constexpr const char* root_of_format_3 = "zarr.json";
+inline constexpr const char* root_of_format_2 = ".zattrs";
+
+/// The description in such a root. The values of the axes are not in it. Throws
+/// std::invalid_argument, and nothing else, where it is none of holdfast's.
+StoreDescription read_description(std::string_view root, int format);
+
+/// The file of a chunk of an array, relative to the store.
+std::filesystem::path chunk_file(const std::string& array, const std::vector<std::int64_t>& place,
+                                 int format);
+
+/// The shape of the chunks of an axis' coordinates.
+std::size_t coordinates_in_chunk(std::size_t count);
+
+}  // namespace holdfast::program

@@ -1,0 +1,96 @@
+#include "store/stored_grid.hpp"
+
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "io/file/output.hpp"
+#include "io/text/text.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+StorePlan plan_of(const JobContext& context) {
+  StorePlan plan = {{"version", computed_by(context)}, {"job", context.job}};
+  std::map<std::string, int> given;
+  for (const auto& [name, text] : context.options) {
+    const int number = ++given[name];
+    plan.emplace(number == 1 ? name : name + " " + std::to_string(number), text);
+  }
+  if (context.on_packs) plan.emplace("--instructions", name_of(context.instructions));
+  append_case(plan, context.case_data);
+  return plan;
+}
+
+}  // namespace
+
+StoreDescription store_description(const JobContext& context, const GridLayout& layout,
+                                   std::size_t most) {
+  StoreDescription store;
+  store.origin = context;
+  store.axes = layout.axes;
+  store.columns = layout.columns;
+  store.table_columns = layout.columns.size();
+  for (const GridAxis& axis : layout.axes) store.grid.shape.push_back(axis.count());
+  store.grid.chunk = chunk_shape(store.grid.shape, most);
+  store.plan = plan_of(context);
+  store.format = context.zarr_format;
+  return store;
+}
+
+ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk) {
+  auto values = store.read(chunk);
+  if (values) return std::move(*values);
+  throw NoAnswer("the chunk " + store.file_of(chunk).string() + " or one beside it is " +
+                 (store.has(chunk) ? "damaged" : "missing") +
+                 ": the command that made the store computes it, with --resume where it has that");
+}
+
+void append_stored(const StoreFolder& store, GridOutput& output) {
+  std::vector<const double*> columns(store.description().table_columns);
+  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
+    throw_if_interrupted();
+    const ChunkValues values = whole_chunk(store, chunk);
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = values[k].data();
+    output.append(store.grid().cells_of(chunk), columns);
+  }
+}
+
+namespace {
+
+/// Another format or packing of the same store, which can be gone on with as well.
+void copy_store(const StoreFolder& store, const JobContext& context) {
+  StoreDescription description = store.description();
+  description.format = context.zarr_format;
+  description.packing = usual_packing();
+  const StoreFolder copy = StoreFolder::enter(*context.output, description);
+  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
+    throw_if_interrupted();
+    copy.put(chunk, whole_chunk(store, chunk));
+  }
+}
+
+}  // namespace
+
+void convert_store(const JobContext& context, const std::filesystem::path& folder) {
+  const StoreFolder store = StoreFolder::open(folder);
+  std::error_code error;
+  if (std::filesystem::equivalent(folder, *context.output, error))
+    throw WrongInput("convert: " + folder.string() + " would be written over itself");
+  if (is_store_name(context.output)) return copy_store(store, context);
+  const StoreDescription& description = store.description();
+  JobContext of_job = description.origin;
+  of_job.output = context.output;
+  of_job.quiet = context.quiet;
+  of_job.yes = context.yes;
+  GridLayout layout{description.axes, description.columns};
+  layout.columns.resize(description.table_columns);
+  GridOutput output(of_job, layout);
+  append_stored(store, output);
+  output.commit();
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,108 @@
+#include "store/fill_store.hpp"
+
+#include <atomic>
+#include <thread>
+
+#include "process/errors.hpp"
+#include "program/store/small_store.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::program {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::TemporaryFolder;
+using tests::write_text;
+
+/// Counts how often each chunk is computed.
+struct CountedWork {
+  std::array<std::atomic<int>, 4> computed{};
+
+  ChunkWork work(bool verify = false) {
+    const auto compute = [this](std::int64_t chunk) {
+      ++computed.at(static_cast<std::size_t>(chunk));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return ChunkResult{values_of_small_store(chunk), 1};
+    };
+    return {"sweep, cells", compute, verify};
+  }
+};
+
+void fill(const StoreFolder& store, const ChunkWork& work, int threads) {
+  JobContext context;
+  context.quiet = true;
+  fill_store(context, store, *single_process(), threads, work);
+}
+
+void expect_complete(const StoreFolder& store) {
+  for (std::int64_t chunk = 0; chunk < 4; ++chunk)
+    EXPECT_EQ(store.read(chunk), values_of_small_store(chunk));
+}
+
+TEST(FillStore, ComputesWhatIsMissingOnce) {
+  for (const int threads : {1, 3}) {
+    const TemporaryFolder folder;
+    const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
+    store.put(2, values_of_small_store(2));
+    CountedWork counted;
+    fill(store, counted.work(), threads);
+    expect_complete(store);
+    for (std::size_t chunk = 0; chunk < 4; ++chunk)
+      EXPECT_EQ(counted.computed.at(chunk), chunk == 2 ? 0 : 1);
+  }
+}
+
+TEST(FillStore, TwoThatKnowNothingOfEachOtherShareTheWork) {
+  const TemporaryFolder folder;
+  const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
+  CountedWork counted;
+  std::thread other([&] { fill(store, counted.work(), 1); });
+  fill(store, counted.work(), 1);
+  expect_complete(store);  // also while the other may still be at its end
+  other.join();
+  for (const auto& times : counted.computed) EXPECT_EQ(times, 1);
+}
+
+TEST(FillStore, TakesOverWhatAProcessThatIsGoneHasClaimed) {
+  const TemporaryFolder folder;
+  const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
+  const fs::path place = store.file_of(1).parent_path();
+  fs::create_directories(place);
+  write_text(place / ".0.claim", "");
+  write_text(place / ".0-4711-3.tmp", "half a chu");
+  CountedWork counted;
+  fill(store, counted.work(), 1);
+  expect_complete(store);
+  EXPECT_FALSE(fs::exists(place / ".0.claim"));
+  EXPECT_FALSE(fs::exists(place / ".0-4711-3.tmp"));
+}
+
+TEST(FillStore, VerifyingItComputesDamagedChunksAnew) {
+  const TemporaryFolder folder;
+  const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
+  CountedWork counted;
+  fill(store, counted.work(), 2);
+  write_text(store.file_of(3), "damaged");
+  fill(store, counted.work(), 2);
+  EXPECT_FALSE(store.read(3));
+  fill(store, counted.work(true), 2);
+  expect_complete(store);
+  EXPECT_EQ(counted.computed.at(3), 2);
+  EXPECT_EQ(counted.computed.at(0), 1);
+}
+
+TEST(FillStore, AFaultOfOneChunkLeavesTheOthers) {
+  const TemporaryFolder folder;
+  const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
+  const auto compute = [](std::int64_t chunk) {
+    if (chunk == 2) throw NoAnswer("no such motion");
+    return ChunkResult{values_of_small_store(chunk)};
+  };
+  EXPECT_THROW(fill(store, {"sweep, cells", compute}, 1), NoAnswer);
+  EXPECT_EQ(store.chunks_done(), 2);
+  EXPECT_FALSE(ChunkClaim::exists(store.file_of(2)));
+}
+
+}  // namespace
+}  // namespace holdfast::program

@@ -1,0 +1,87 @@
+#include "store/store_description.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "program/store/small_store.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::program {
+namespace {
+
+std::vector<int> formats() {
+  if (usual_packing() == ChunkPacking::zstd) return {3, 2};
+  return {3};
+}
+
+StoreDescription read_back(const StoreDescription& store) {
+  return read_description(store_documents(store).back().second, store.format);
+}
+
+TEST(StoreDescription, ReadsWhatItsRootTells) {
+  for (const int format : formats()) {
+    const StoreDescription store = small_store(format);
+    StoreDescription read = read_back(store);
+    EXPECT_EQ(read.format, format);
+    EXPECT_EQ(read.origin.job, "sweep");
+    EXPECT_EQ(read.origin.options, store.origin.options);
+    EXPECT_EQ(read.origin.case_source.name, "my.toml");
+    EXPECT_EQ(read.origin.case_source.overrides, store.origin.case_source.overrides);
+    EXPECT_EQ(case_to_toml(read.origin.case_data), case_to_toml(store.origin.case_data));
+    EXPECT_EQ(read.grid.shape, store.grid.shape);
+    EXPECT_EQ(read.grid.chunk, store.grid.chunk);
+    EXPECT_EQ(read.table_columns, 2U);
+    EXPECT_EQ(read.plan, store.plan);
+    ASSERT_EQ(read.columns.size(), 3U);
+    EXPECT_EQ(read.columns[0].column.unit, "N.s/m");
+    EXPECT_EQ(read.columns[2].words, store.columns[2].words);
+    read.axes = store.axes;  // whose values lie in arrays of their own
+    EXPECT_EQ(store_documents(read).back().second, store_documents(store).back().second);
+  }
+}
+
+TEST(StoreDescription, ItsRootLastHoldsWhatTheArraysSay) {
+  const auto documents = store_documents(small_store());
+  EXPECT_EQ(documents.back().first, "zarr.json");
+  const auto root = nlohmann::json::parse(documents.back().second);
+  const auto& all = root["consolidated_metadata"]["metadata"];
+  EXPECT_EQ(all.size(), documents.size() - 1);
+  for (std::size_t k = 0; k + 1 < documents.size(); ++k)
+    EXPECT_EQ(all[documents[k].first.parent_path().string()],
+              nlohmann::json::parse(documents[k].second));
+  EXPECT_EQ(all["steady_peak"]["attributes"]["units"], "N s m-1");
+  EXPECT_EQ(all["steady_peak"]["chunk_grid"]["configuration"]["chunk_shape"],
+            (std::vector<int>{2, 5}));
+  EXPECT_EQ(all["kind"]["attributes"]["flag_meanings"], "periodic chaotic");
+  EXPECT_EQ(all["backlash_width"]["attributes"]["key"], "backlash.width");
+}
+
+TEST(StoreDescription, OfAnythingElseIsRefused) {
+  const std::string root = store_documents(small_store()).back().second;
+  EXPECT_NO_THROW(read_description(root, 3));
+  for (const std::string& text :
+       {std::string(), std::string("{}"), std::string("[1,2"), root.substr(0, root.size() / 2)})
+    EXPECT_THROW(read_description(text, 3), std::invalid_argument) << text.substr(0, 40);
+  const auto with = [&](const std::string& key, const nlohmann::ordered_json& value) {
+    auto json = nlohmann::ordered_json::parse(root);
+    json["attributes"]["holdfast"][key] = value;
+    return json.dump();
+  };
+  EXPECT_NO_THROW(read_description(with("chunk", {2, 5}), 3));
+  EXPECT_THROW(read_description(with("chunk", {2, 4}), 3), std::invalid_argument);
+  EXPECT_THROW(read_description(with("chunk", {2}), 3), std::invalid_argument);
+  EXPECT_THROW(read_description(with("chunk", {0, 5}), 3), std::invalid_argument);
+  EXPECT_THROW(read_description(with("shape", {7, 5000000000000000000}), 3), std::invalid_argument);
+  EXPECT_THROW(read_description(with("table_columns", 4), 3), std::invalid_argument);
+  EXPECT_THROW(read_description(with("packing", "gzip"), 3), std::invalid_argument);
+  EXPECT_THROW(read_description(with("plan", 3), 3), std::invalid_argument);
+}
+
+TEST(StorePlan, TellsEachEntryThatDiffers) {
+  const StorePlan before = {{"--duration", "20"}, {"--kick", "1:0.1"}, {"version", "1"}};
+  EXPECT_EQ(plan_differences(before, before), "");
+  EXPECT_EQ(plan_differences(before, {{"--duration", "60"}, {"version", "1"}, {"x", "y"}}),
+            "--duration was 20, is 60; --kick was 1:0.1, is not given; x was not given, is y");
+}
+
+}  // namespace
+}  // namespace holdfast::program
