@@ -22,7 +22,7 @@ namespace {
 bool is_common(const CLI::Option& option) {
   const std::string name = option.get_name();
   return option.get_group() == question::every_job || name == "--help" || name == "--chunk" ||
-         name == "--resume" || name == "--zarr-format";
+         name == "--resume" || name == "--part" || name == "--zarr-format";
 }
 
 std::vector<std::pair<std::string, std::string>> given_options(const CLI::App& options) {

@@ -16,6 +16,7 @@ struct SweepQuestion : SweepOptions {
     job.add("--best-gain", best_gain);
     job.add("--chunk", chunk_cells);
     job.add("--resume", resume);
+    job.add("--part", part);
     job.add("--dry-run", dry_run);
     job.add("--switching", switching);
   }

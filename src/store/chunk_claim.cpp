@@ -25,9 +25,6 @@ fs::path claim_beside(const fs::path& chunk_file) {
 }  // namespace
 
 ChunkClaim::ChunkClaim(const fs::path& chunk_file) : file_(claim_beside(chunk_file)) {
-  std::error_code error;
-  fs::create_directories(file_.parent_path(), error);
-  if (error) refuse(file_.parent_path(), error.value());
   for (;;) {
     Descriptor opened(open_new_file(file_));
     const bool made = opened.is_open();

@@ -35,9 +35,9 @@ class StoreFilling {
         store_(store),
         group_(group),
         work_(work),
-        chunks_(store.grid().chunks()),
-        first_chunk_(common_first_chunk()),
-        progress_(static_cast<std::uint64_t>(store.grid().cells()), work.steps,
+        tickets_((store.grid().chunks() - work.part.number) / work.part.of + 1),
+        first_ticket_(common_first_ticket()),
+        progress_(static_cast<std::uint64_t>(store.grid().cells() / work.part.of), work.steps,
                   group.rank() == 0 && progress_wanted(context)) {}
 
   void run(int threads) {
@@ -55,17 +55,21 @@ class StoreFilling {
  private:
   /// The first process goes in order; one that joins later begins elsewhere, so that they rarely
   /// meet.
-  std::int64_t common_first_chunk() {
-    const bool begun = group_.rank() == 0 && store_.has(0);
+  std::int64_t common_first_ticket() {
+    const bool begun = group_.rank() == 0 && store_.has(chunk_of(0));
     const std::uint64_t chosen =
-        begun ? number_of_this_process() % static_cast<std::uint64_t>(chunks_) : 0;
+        begun ? number_of_this_process() % static_cast<std::uint64_t>(tickets_) : 0;
     return std::stoll(group_.exchange(std::to_string(chosen)).front());
+  }
+
+  std::int64_t chunk_of(std::int64_t ticket) const {
+    return work_.part.number - 1 + ticket * work_.part.of;
   }
 
   /// The other processes need not go on.
   void give_up_tickets() noexcept {
     try {
-      group_.skip_tickets(chunks_);
+      group_.skip_tickets(tickets_);
     } catch (...) {
       // They go on in vain; the fault that brought us here is the one to be told.
     }
@@ -77,8 +81,8 @@ class StoreFilling {
     while (!stop) {
       throw_if_interrupted();
       const std::int64_t ticket = group_.take_ticket();
-      if (ticket >= chunks_) break;
-      const std::int64_t chunk = (first_chunk_ + ticket) % chunks_;
+      if (ticket >= tickets_) break;
+      const std::int64_t chunk = chunk_of((first_ticket_ + ticket) % tickets_);
       if (!see_to(chunk, false)) elsewhere.push_back(chunk);
       show_others();
     }
@@ -127,6 +131,7 @@ class StoreFilling {
 
   bool count_found(std::int64_t chunk) {
     ++seen_;
+    if (work_.found) work_.found(chunk);
     progress_.skip(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)));
     return true;
   }
@@ -134,7 +139,7 @@ class StoreFilling {
   /// Those handed out that were not seen here.
   void show_others() {
     if (group_.rank() != 0 || group_.size() == 1) return;
-    const std::int64_t taken = std::min(group_.tickets_taken(), chunks_);
+    const std::int64_t taken = std::min(group_.tickets_taken(), tickets_);
     const std::int64_t others = std::max(taken - seen_, std::int64_t{0});
     progress_.set_elsewhere(static_cast<std::uint64_t>(
         std::min(others * store_.grid().cells_of_file(), store_.grid().cells())));
@@ -144,8 +149,8 @@ class StoreFilling {
   const StoreFolder& store_;
   ProcessGroup& group_;
   const ChunkWork& work_;
-  std::int64_t chunks_;
-  std::int64_t first_chunk_;
+  std::int64_t tickets_;  // one a chunk of the part
+  std::int64_t first_ticket_;
   Progress progress_;
   std::atomic<std::int64_t> seen_{0};  // chunks done or found here
 };

@@ -16,18 +16,26 @@ struct ChunkResult {
   std::int64_t samples = 0;  ///< of the motions of its cells
 };
 
+/// Every `of`-th chunk from number `number` on, both counted from 1: one of `of` parts of a store.
+struct StorePart {
+  std::int64_t number = 1;
+  std::int64_t of = 1;
+};
+
 /// How the missing chunks of a store come to be.
 struct ChunkWork {
   std::string steps;  ///< of the progress: "sweep, cells"
   /// Computes a chunk, on any thread. What a chunk becomes depends on its number alone.
   std::function<ChunkResult(std::int64_t)> compute;
+  std::function<void(std::int64_t)> found = nullptr;  ///< told of each that was there; any thread
   bool verify = false;  ///< chunks that are there are read, and those that are damaged made anew
+  StorePart part = {};  ///< the others are left
 };
 
 /// Computes what a store lacks. The threads of all processes of the group take one chunk after the
 /// other; so do other processes that fill the same store by themselves: none takes what a living
 /// one has, and at the end each waits for what the others have, or does what they leave. All chunks
-/// are there when it returns.
+/// of the part are there when it returns.
 ///
 /// Throws Interrupted, what a computation throws, and what StoreFolder::put() throws; every
 /// finished chunk stays.

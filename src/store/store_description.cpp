@@ -138,7 +138,7 @@ Json array_of_format_3(const ArrayDescription& array, ChunkPacking packing) {
   json["shape"] = array.shape;
   json["data_type"] = names.at(static_cast<std::size_t>(array.type));
   json["chunk_grid"] = {{"name", "regular"}, {"configuration", {{"chunk_shape", array.chunk}}}};
-  json["chunk_key_encoding"] = {{"name", "default"}, {"configuration", {{"separator", "/"}}}};
+  json["chunk_key_encoding"] = {{"name", "default"}, {"configuration", {{"separator", "."}}}};
   json["fill_value"] = fill_value(array.type);
   json["codecs"] = codecs_of(array.type, packing);
   json["attributes"] = array.attributes;
@@ -157,7 +157,7 @@ Json array_of_format_2(const ArrayDescription& array) {
   json["fill_value"] = fill_value(array.type);
   json["order"] = "C";
   json["filters"] = nullptr;
-  json["dimension_separator"] = "/";
+  json["dimension_separator"] = ".";
   return json;
 }
 
@@ -321,10 +321,9 @@ StoreDescription read_description(std::string_view root, int format) {
 }
 
 fs::path chunk_file(const std::string& array, const std::vector<std::int64_t>& place, int format) {
-  fs::path file = array;
-  if (format == 3) file /= "c";
-  for (const std::int64_t index : place) file /= std::to_string(index);
-  return file;
+  std::string file = format == 3 ? "c" : "";
+  for (const std::int64_t index : place) file += (file.empty() ? "" : ".") + std::to_string(index);
+  return fs::path(array) / file;
 }
 
 std::size_t coordinates_in_chunk(std::size_t count) { return std::min(count, values_in_chunk); }

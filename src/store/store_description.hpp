@@ -62,7 +62,8 @@ inline constexpr const char* root_of_format_2 = ".zattrs";
 /// std::invalid_argument, and nothing else, where it is none of holdfast's.
 StoreDescription read_description(std::string_view root, int format);
 
-/// The file of a chunk of an array, relative to the store.
+/// The file of a chunk of an array, relative to the store. All of an array lie in one folder: each
+/// costs a file system as little as can be.
 std::filesystem::path chunk_file(const std::string& array, const std::vector<std::int64_t>& place,
                                  int format);
 

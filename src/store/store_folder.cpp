@@ -94,7 +94,10 @@ bool is_empty_or_missing(const fs::path& folder) {
 
 bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& known) {
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+  fs::directory_iterator entries(folder, error);
+  // What is missing holds nothing; what cannot be read may be anything.
+  if (error) return error == std::errc::no_such_file_or_directory;
+  for (const fs::directory_entry& entry : entries) {
     const std::string name = entry.path().filename().string();
     if (std::count(known.begin(), known.end(), name) == 0 && !name_behind_temporary(name))
       return false;
@@ -226,7 +229,8 @@ bool StoreFolder::has(std::int64_t chunk) const {
   return fs::is_regular_file(file_of(0, chunk), error);
 }
 
-std::optional<std::vector<double>> StoreFolder::read(std::size_t column, std::int64_t chunk) const {
+std::optional<std::vector<double>> StoreFolder::read_column(std::size_t column,
+                                                            std::int64_t chunk) const {
   int ignored = 0;  // a file that cannot be read is as good as none
   const std::optional<std::string> file = read_whole_file(file_of(column, chunk), ignored);
   if (!file) return std::nullopt;
@@ -245,7 +249,7 @@ std::optional<std::vector<double>> StoreFolder::read(std::size_t column, std::in
 std::optional<ChunkValues> StoreFolder::read(std::int64_t chunk) const {
   ChunkValues values;
   for (std::size_t column = 0; column < description_.columns.size(); ++column) {
-    auto of_column = read(column, chunk);
+    auto of_column = read_column(column, chunk);
     if (!of_column) return std::nullopt;
     values.push_back(std::move(*of_column));
   }
@@ -255,8 +259,6 @@ std::optional<ChunkValues> StoreFolder::read(std::int64_t chunk) const {
 void StoreFolder::put(std::int64_t chunk, const ChunkValues& values) const {
   for (std::size_t column = values.size(); column-- > 0;) {
     const fs::path file = file_of(column, chunk);
-    std::error_code ignored;  // write_whole_file() says what is wrong
-    fs::create_directories(file.parent_path(), ignored);
     const ElementType type = element_type_of(description_.columns[column]);
     const auto of_file = static_cast<std::size_t>(grid().cells_of_file());
     const int error = write_whole_file(
@@ -292,7 +294,7 @@ void StoreFolder::remove() const {
     fs::remove_all(folder_ / cf_name(cells.column.name), ignored);
   for (const char* name : {".zmetadata", ".zgroup", root_of_format_2, root_of_format_3})
     fs::remove(folder_ / name, ignored);
-  fs::remove(folder_, ignored);
+  rmdir(folder_.c_str());
 }
 
 }  // namespace holdfast::program

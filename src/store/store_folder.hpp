@@ -43,6 +43,8 @@ class StoreFolder {
 
   /// The values of a chunk; nothing where it is missing or damaged.
   std::optional<ChunkValues> read(std::int64_t chunk) const;
+  /// The same of one column.
+  std::optional<std::vector<double>> read_column(std::size_t column, std::int64_t chunk) const;
 
   /// Keeps a chunk. Throws OutputError, which names the file, where it cannot be written; what was
   /// there stays whole.
@@ -65,7 +67,6 @@ class StoreFolder {
   StoreFolder(std::filesystem::path folder, StoreDescription description)
       : folder_(std::move(folder)), description_(std::move(description)) {}
   std::filesystem::path file_of(std::size_t column, std::int64_t chunk) const;
-  std::optional<std::vector<double>> read(std::size_t column, std::int64_t chunk) const;
   void read_axes();
   void begin() const;
   void write_documents() const;

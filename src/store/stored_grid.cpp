@@ -41,12 +41,16 @@ StoreDescription store_description(const JobContext& context, const GridLayout& 
   return store;
 }
 
-ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk) {
-  auto values = store.read(chunk);
-  if (values) return std::move(*values);
+void refuse_chunk(const StoreFolder& store, std::int64_t chunk) {
   throw NoAnswer("the chunk " + store.file_of(chunk).string() + " or one beside it is " +
                  (store.has(chunk) ? "damaged" : "missing") +
                  ": the command that made the store computes it, with --resume where it has that");
+}
+
+ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk) {
+  auto values = store.read(chunk);
+  if (!values) refuse_chunk(store, chunk);
+  return std::move(*values);
 }
 
 void append_stored(const StoreFolder& store, GridOutput& output) {

@@ -17,6 +17,9 @@ namespace holdfast::program {
 StoreDescription store_description(const JobContext& context, const GridLayout& layout,
                                    std::size_t most = values_in_chunk);
 
+/// Throws NoAnswer, which names the chunk's file and says that it is missing or damaged.
+[[noreturn]] void refuse_chunk(const StoreFolder& store, std::int64_t chunk);
+
 /// The values of a chunk. Throws NoAnswer, which names its file, where it is missing or damaged.
 ChunkValues whole_chunk(const StoreFolder& store, std::int64_t chunk);
 

@@ -27,6 +27,7 @@ struct SweepOptions {
   bool best_gain = false;        // D of each cell is that of least steady amplitude
   std::int64_t chunk_cells = 0;  // most cells of a chunk; 0: chosen from the plan
   bool resume = false;
+  std::string part;                 // K/N: the K-th of N parts of a store; empty: all
   bool instructions_given = false;  // --instructions was: they are not to be chosen
 };
 

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "case/model/held_force.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "io/text/table.hpp"
+#include "io/text/text.hpp"
 #include "jobs/columns.hpp"
 #include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
@@ -70,33 +74,63 @@ std::string recorded_instructions(const fs::path& folder) {
   return there->plan.at("--instructions");
 }
 
-/// What is wrong with the cells of a store, for a warning; empty where nothing is.
-std::string faults_of(const SweepPlan& plan, const StoreFolder& store) {
-  const auto& columns = store.description().columns;
-  const auto outcome = static_cast<std::size_t>(
-      std::find_if(columns.begin(), columns.end(),
-                   [](const CellColumn& cells) {
-                     return cells.column.name == metric_column(SweepMetric::outcome).column.name;
-                   }) -
-      columns.begin());
-  std::int64_t diverging = 0, without_motion = 0, first = 0;
-  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
-    throw_if_interrupted();
-    const std::vector<double> outcomes = whole_chunk(store, chunk)[outcome];
+/// The cells whose motion is none or diverges. Any thread may add some.
+class SweepFaults {
+ public:
+  void add(std::int64_t first_cell, const std::vector<double>& outcomes) {
+    std::int64_t diverging = 0, without_motion = 0, first = no_cell;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      const auto of_cell = static_cast<CellOutcome>(outcomes[i]);
-      diverging += of_cell == CellOutcome::diverges ? 1 : 0;
-      if (has_motion(of_cell)) continue;
-      if (without_motion++ == 0)
-        first = store.grid().first_cell(chunk) + static_cast<std::int64_t>(i);
+      const auto outcome = static_cast<CellOutcome>(outcomes[i]);
+      diverging += outcome == CellOutcome::diverges ? 1 : 0;
+      if (has_motion(outcome)) continue;
+      if (without_motion++ == 0) first = first_cell + static_cast<std::int64_t>(i);
+    }
+    add(diverging, without_motion, first);
+  }
+
+  void add(std::int64_t diverging, std::int64_t without_motion, std::int64_t first) {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    diverging_ += diverging;
+    without_motion_ += without_motion;
+    first_ = std::min(first_, first);
+  }
+
+  /// Brings those of all processes together.
+  void share(ProcessGroup& group) {
+    std::ostringstream own;
+    own << diverging_ << ' ' << without_motion_ << ' ' << first_;
+    const std::vector<std::string> texts = group.exchange(own.str());
+    diverging_ = without_motion_ = 0;
+    for (const std::string& text : texts) {
+      std::istringstream numbers(text);
+      std::int64_t diverging = 0, without_motion = 0, first = no_cell;
+      numbers >> diverging >> without_motion >> first;
+      add(diverging, without_motion, first);
     }
   }
-  std::string text;
-  if (diverging > 0) text = std::to_string(diverging) + " diverge";
-  if (without_motion > 0)
-    text += (text.empty() ? "" : ", ") + std::to_string(without_motion) +
-            " have no motion, the first because: " + fault_of_cell(plan, first);
-  return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
+
+  /// For a warning; empty where there are none.
+  std::string text(const SweepPlan& plan) const {
+    std::string text;
+    if (diverging_ > 0) text = std::to_string(diverging_) + " diverge";
+    if (without_motion_ > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(without_motion_) +
+              " have no motion, the first because: " + fault_of_cell(plan, first_);
+    return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
+  }
+
+ private:
+  static constexpr std::int64_t no_cell = std::numeric_limits<std::int64_t>::max();
+  std::int64_t diverging_ = 0, without_motion_ = 0, first_ = no_cell;
+  std::mutex mutex_;
+};
+
+/// The place of the outcome among the columns of a sweep's store.
+std::size_t outcome_column(const StoreDescription& store) {
+  const std::string& name = metric_column(SweepMetric::outcome).column.name;
+  std::size_t place = 0;
+  while (store.columns[place].column.name != name) ++place;
+  return place;
 }
 
 /// The warning of the force as it is held, of the corner of a sweep where that matters most.
@@ -128,11 +162,30 @@ std::string held_force_warning_of(const SweepPlan& plan) {
   return warning;
 }
 
+/// The part that K/N stands for.
+StorePart part_of(const SweepPlan& plan, const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t bar = text.find('/');
+  const double number = parse_number(text.substr(0, bar)).value_or(0.0);
+  const double of = bar == std::string::npos ? 0.0 : parse_number(text.substr(bar + 1)).value_or(0);
+  const bool whole = number == std::floor(number) && of == std::floor(of);
+  const auto chunks = static_cast<double>(plan.grid().chunks());
+  if (!whole || number < 1.0 || number > of || of > chunks)
+    throw WrongInput("--part " + text + ": expected K/N with 1 <= K <= N, N at most the " +
+                     format_number(chunks) + " chunks of the store");
+  if (!is_store_name(plan.context().output))
+    throw WrongInput("--part is of a store: give --output NAME.zarr");
+  return {static_cast<std::int64_t>(number), static_cast<std::int64_t>(of)};
+}
+
 /// One sweep in one of the processes that work on it.
 class SweepRun {
  public:
   SweepRun(const JobContext& context, const SweepOptions& options)
-      : plan_(context, options), named_(has_named_output(context)), group_(join_process_group()) {}
+      : plan_(context, options),
+        part_(part_of(plan_, options.part)),
+        named_(has_named_output(context)),
+        group_(join_process_group()) {}
 
   void run() {
     const int threads = worker_threads(context().threads, *group_);
@@ -141,6 +194,7 @@ class SweepRun {
     make_collective_call(*group_, [this] { join(); });
     try {
       make_collective_call(*group_, [&] { fill(threads); });
+      faults_.share(*group_);
       make_collective_call(*group_, [this] { conclude(); });
     } catch (...) {
       leave();
@@ -202,23 +256,30 @@ class SweepRun {
 
   void fill(int threads) {
     const ChunkGrid& grid = plan_.grid();
-    const auto compute = [this, &grid](std::int64_t chunk) {
-      return compute_cells(plan_, grid.first_cell(chunk), grid.cells_of(chunk));
+    const std::size_t outcome = outcome_column(store().description());
+    const auto compute = [&, outcome](std::int64_t chunk) {
+      ChunkResult result = compute_cells(plan_, grid.first_cell(chunk), grid.cells_of(chunk));
+      faults_.add(grid.first_cell(chunk), result.values[outcome]);
+      return result;
+    };
+    const auto found = [&, outcome](std::int64_t chunk) {
+      const auto outcomes = store().read_column(outcome, chunk);
+      if (!outcomes) refuse_chunk(store(), chunk);
+      faults_.add(grid.first_cell(chunk), *outcomes);
     };
     fill_store(context(), store(), *group_, threads,
-               {"sweep, cells", compute, plan_.options().resume});
+               {"sweep, cells", compute, found, plan_.options().resume, part_});
   }
 
   void conclude() {
-    if (!is_first()) return;
-    const std::string faults = faults_of(plan_, store());
+    if (!is_first() || part_.of > 1) return;  // the others may not be there yet
     if (work_) {
       if (!output_) output_.emplace(context(), plan_.layout());
       append_stored(store(), *output_);
       output_->commit();
       work_->remove();
     }
-    report_warning(faults, context().quiet);
+    report_warning(faults_.text(plan_), context().quiet);
     report_warning(held_force_warning_of(plan_), context().quiet);
   }
 
@@ -239,11 +300,13 @@ class SweepRun {
   }
 
   SweepPlan plan_;
+  StorePart part_;
   bool named_;  // the output is a file, and the work store stays beside it for --resume
   std::unique_ptr<ProcessGroup> group_;
   std::optional<GridOutput> output_;
   std::optional<StoreFolder> store_;  // one that stays, or that the first process has made
   std::optional<WorkStore> work_;
+  SweepFaults faults_;
 };
 
 }  // namespace

@@ -405,8 +405,8 @@ const std::map<std::string, std::string>& left_store() {
 
 HostileInput hostile_store(Random& random) {
   static const std::vector<std::string> names = between_bars(
-      "zarr.json|lock|steady_peak/c/1/0|steady_peak/c/99/0|outcome/c/1/0|steady_peak/zarr.json|"
-      "steady_peak/c/1/.0.claim|.zarr.json-1-0.tmp|steady_peak/c/2/.0-7-0.tmp|initial_z1/c/0|"
+      "zarr.json|lock|steady_peak/c.1.0|steady_peak/c.99.0|outcome/c.1.0|steady_peak/zarr.json|"
+      "steady_peak/.c.1.0.claim|.zarr.json-1-0.tmp|steady_peak/.c.2.0-7-0.tmp|initial_z1/c.0|"
       "notes.txt|new\nline|\xFF");
   const std::string folder = "sweep.csv.zarr/";
   HostileInput input;

@@ -100,7 +100,7 @@ void fill_chart(const JobContext& context, const StoreDescription& store, const 
     const std::int64_t first = store.grid.first_cell(chunk) / chart.columns;
     return ChunkResult{computed_rows(chart, first, rows).values(rows)};
   };
-  fill_store(context, store, {context.job + ", cells", compute, true});
+  fill_store(context, store, {context.job + ", cells", compute, nullptr, true});
 }
 
 }  // namespace

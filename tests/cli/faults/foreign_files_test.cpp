@@ -192,7 +192,7 @@ TEST(ForeignFiles, AReportRemovesNothingThatItDidNotMake) {
   for (const auto& entry : fs::directory_iterator(folder / "mine/data")) {
     const std::string table = entry.path().string();
     if (entry.path().extension() == ".csv")
-      for (const char* name : {"letter", "c/0", "zarr.json", "lock"})
+      for (const char* name : {"letter", "c.0", "zarr.json", "lock"})
         precious.emplace_back(table + ".zarr/" + name);
   }
   for (const auto& entry : fs::directory_iterator(folder / "mine/pictures")) {

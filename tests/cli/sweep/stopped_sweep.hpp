@@ -35,15 +35,13 @@ inline ChunkStamps chunks_kept_for(const std::filesystem::path& output) {
   namespace fs = std::filesystem;
   ChunkStamps chunks;
   std::error_code gone;
-  const fs::path values = store_of(output) / "steady_peak/c";
-  for (fs::recursive_directory_iterator entry(values, gone), end; !gone && entry != end;
+  const fs::path values = store_of(output) / "steady_peak";
+  for (fs::directory_iterator entry(values, gone), end; !gone && entry != end;
        entry.increment(gone)) {
     struct stat found = {};
-    const bool is_chunk = stat(entry->path().c_str(), &found) == 0 && S_ISREG(found.st_mode) &&
-                          entry->path().filename().string().front() != '.';
-    if (!is_chunk) continue;
-    chunks[fs::relative(entry->path(), values).string()] = {found.st_ino, found.st_mtim.tv_sec,
-                                                            found.st_mtim.tv_nsec};
+    const std::string name = entry->path().filename().string();
+    if (name.rfind("c.", 0) != 0 || stat(entry->path().c_str(), &found) != 0) continue;
+    chunks[name] = {found.st_ino, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
   }
   return chunks;
 }
@@ -110,7 +108,7 @@ class StoppedSweep {
 
   /// The file of a chunk, counted among those that are there.
   std::filesystem::path chunk(std::size_t number) const {
-    return store_of(output_) / "steady_peak/c" /
+    return store_of(output_) / "steady_peak" /
            std::next(chunks_.begin(), static_cast<int>(number))->first;
   }
 

@@ -50,7 +50,7 @@ TEST(SweepStore, KilledTwentyTimesAndDamagedItBecomesTheSame) {
     program.wait();
   }
   ASSERT_GE(chunks_kept_for(store).size(), 2U);
-  write_text(store / "steady_peak/c" / chunks_kept_for(store).begin()->first, "damaged");
+  write_text(store / "steady_peak" / chunks_kept_for(store).begin()->first, "damaged");
   const Ending ending = swept(store, "--resume");
   expect_done(ending);
   EXPECT_NE(ending.errors.find("is damaged, and is computed anew"), std::string::npos)
@@ -58,11 +58,21 @@ TEST(SweepStore, KilledTwentyTimesAndDamagedItBecomesTheSame) {
   EXPECT_TRUE(files_in(store) == expected);
 }
 
+TEST(SweepStore, ItsPartsMakeTheWhole) {
+  const TemporaryFolder folder;
+  for (const char* part : {"3/3", "1/3", "2/3"})
+    expect_done(swept(folder / "map.zarr", std::string("--part ") + part));
+  EXPECT_TRUE(files_in(folder / "map.zarr") == undisturbed_store());
+  for (const char* part : {"0/3", "4/3", "1", "1/0", "x/2", "1.5/2", "1/1000000"})
+    EXPECT_EQ(swept(folder / "map.zarr", std::string("--part ") + part).exit_code, 2) << part;
+  EXPECT_EQ(swept(folder / "map.csv", "--part 1/2").exit_code, 2);
+}
+
 TEST(SweepStore, DamageThatNobodyLooksForIsToldInTheEnd) {
   const TemporaryFolder folder;
   const fs::path store = folder / "map.zarr";
   expect_done(swept(store));
-  write_text(store / "outcome/c/3/0", "damaged");
+  write_text(store / "outcome/c.3.0", "damaged");
   const Ending ending = swept(store);
   EXPECT_EQ(ending.exit_code, 1);
   EXPECT_NE(ending.errors.find("damaged"), std::string::npos) << ending.errors;
@@ -139,10 +149,10 @@ TEST(SweepStore, ConversionRefusesWhatItCannotRead) {
   expect_done(swept(at("a.zarr")));
   expect_refused("convert " + at("a.zarr") + " " + at("x.txt"), {".txt"});
   expect_refused("convert " + at("a.zarr") + " " + at("a.zarr"), {"itself"});
-  fs::remove(fs::path(at("a.zarr")) / "steady_peak/c/4/0");
+  fs::remove(fs::path(at("a.zarr")) / "steady_peak/c.4.0");
   const Outcome missing = run_holdfast("convert " + at("a.zarr") + " " + at("x.csv"));
   EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_NE(missing.errors.find("steady_peak/c/4/0"), std::string::npos) << missing.errors;
+  EXPECT_NE(missing.errors.find("steady_peak/c.4.0"), std::string::npos) << missing.errors;
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.zarr"});
 }
 

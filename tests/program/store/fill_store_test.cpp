@@ -25,7 +25,7 @@ struct CountedWork {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       return ChunkResult{values_of_small_store(chunk), 1};
     };
-    return {"sweep, cells", compute, verify};
+    return {"sweep, cells", compute, nullptr, verify};
   }
 };
 
@@ -68,14 +68,13 @@ TEST(FillStore, TakesOverWhatAProcessThatIsGoneHasClaimed) {
   const TemporaryFolder folder;
   const StoreFolder store = StoreFolder::enter(folder / "x.zarr", small_store());
   const fs::path place = store.file_of(1).parent_path();
-  fs::create_directories(place);
-  write_text(place / ".0.claim", "");
-  write_text(place / ".0-4711-3.tmp", "half a chu");
+  write_text(place / ".c.1.0.claim", "");
+  write_text(place / ".c.1.0-4711-3.tmp", "half a chu");
   CountedWork counted;
   fill(store, counted.work(), 1);
   expect_complete(store);
-  EXPECT_FALSE(fs::exists(place / ".0.claim"));
-  EXPECT_FALSE(fs::exists(place / ".0-4711-3.tmp"));
+  EXPECT_FALSE(fs::exists(place / ".c.1.0.claim"));
+  EXPECT_FALSE(fs::exists(place / ".c.1.0-4711-3.tmp"));
 }
 
 TEST(FillStore, VerifyingItComputesDamagedChunksAnew) {

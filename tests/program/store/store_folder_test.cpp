@@ -81,10 +81,10 @@ TEST(StoreFolder, ReadsNoChunkThatIsDamagedOrHasWordsThatAreNone) {
     store.put(1, values_of_small_store(1));
   };
   store.put(1, values_of_small_store(1));
-  damage("steady_peak/c/1/0", "");
-  damage("period_samples/c/1/0", read_text(folder / "x.zarr/steady_peak/c/1/0").substr(1));
-  const std::string whole = read_text(folder / "x.zarr/kind/c/1/0");
-  damage("kind/c/1/0", whole + "x");
+  damage("steady_peak/c.1.0", "");
+  damage("period_samples/c.1.0", read_text(folder / "x.zarr/steady_peak/c.1.0").substr(1));
+  const std::string whole = read_text(folder / "x.zarr/kind/c.1.0");
+  damage("kind/c.1.0", whole + "x");
   ChunkValues values = values_of_small_store(1);
   values[2][3] = 2.0;
   store.put(1, values);
@@ -93,7 +93,7 @@ TEST(StoreFolder, ReadsNoChunkThatIsDamagedOrHasWordsThatAreNone) {
 
 TEST(ChunkClaim, BelongsToOneAtATime) {
   const TemporaryFolder folder;
-  const fs::path chunk = folder / "c/0/1";
+  const fs::path chunk = folder / "c.0.1";
   {
     const ChunkClaim first(chunk);
     EXPECT_EQ(first.answer(), ChunkClaim::Answer::ours);
@@ -106,9 +106,8 @@ TEST(ChunkClaim, BelongsToOneAtATime) {
 
 TEST(ChunkClaim, OfAProcessThatIsGoneIsTakenOver) {
   const TemporaryFolder folder;
-  const fs::path chunk = folder / "c/0/1";
-  fs::create_directories(chunk.parent_path());
-  write_text(chunk.parent_path() / ".1.claim", "");
+  const fs::path chunk = folder / "c.0.1";
+  write_text(chunk.parent_path() / ".c.0.1.claim", "");
   const ChunkClaim claim(chunk);
   EXPECT_EQ(claim.answer(), ChunkClaim::Answer::ours);
   EXPECT_TRUE(claim.was_left());
