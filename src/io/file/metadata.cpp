@@ -110,6 +110,12 @@ Json table_metadata(const JobContext& context, const std::vector<Column>& column
   return json;
 }
 
+std::string origin_text(const JobContext& context, const TrustedDigits& trusted) {
+  Json json = origin(context);
+  append_trust(json, trusted);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::filesystem::path metadata_path(const std::filesystem::path& file) {
   return file.parent_path() / (file.filename().string() + "-metadata.json");
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/memory_cells.hpp"
 #include "io/file/output.hpp"
 #include "io/grid/cell_writer.hpp"
 #include "io/text/table.hpp"
@@ -74,6 +75,10 @@ std::int64_t GridLayout::cells() const {
 
 GridOutput::GridOutput(const JobContext& context, const GridLayout& layout)
     : columns_(require_writable(layout).columns), cells_(layout.cells()) {
+  if (is_received(context)) {
+    writer_ = memory_cells(context, layout);
+    return;
+  }
   require_meant(context, cells_);
   writer_ =
       is_netcdf_name(context.output) ? netcdf_cells(context, layout) : csv_cells(context, layout);

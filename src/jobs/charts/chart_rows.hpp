@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/chart/chart.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
@@ -14,6 +16,16 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid);
 
 /// The chart of the sampled loop of a case on two masses over P, the slow axis, and D.
 LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid);
+
+/// Where the cells of a chart go in memory, P slowest.
+struct ChartCells {
+  std::uint8_t* stable;  ///< 1 where the loop is
+  double* radius;        ///< the spectral radius; null: not asked
+};
+
+/// The cells of the job `stability` over P and D, of any plant of a case, without a table.
+/// Throws Interrupted, and what the chart's plant does.
+void fill_chart(const JobContext& context, const GainGrid& grid, const ChartCells& cells);
 
 /// Each computes a chart on the threads that the job was given and appends its cells to the output
 /// in order, a block of rows in memory at a time; progress goes to standard error. They do not
