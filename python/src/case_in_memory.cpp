@@ -9,6 +9,8 @@
 #include "case/model/plant_of_case.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "holdfast/core/errors.hpp"
+#include "io/file/metadata.hpp"
+#include "kernels/instruction_set.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::python {
@@ -107,6 +109,18 @@ CaseInMemory CaseInMemory::with(const std::vector<std::string>& overrides) const
 std::string CaseInMemory::toml() const { return program::case_to_toml(case_); }
 
 std::string CaseInMemory::json() const { return program::case_to_json(case_).dump(); }
+
+std::string CaseInMemory::origin(const std::string& job,
+                                 const std::vector<std::pair<std::string, std::string>>& options,
+                                 const std::string& instructions) const {
+  program::JobContext context;
+  context.job = job;
+  context.options = options;
+  context.on_packs = true;
+  context.instructions = program::chosen_instruction_set(instructions);
+  context.case_data = settled();
+  return program::origin_text(context, {});
+}
 
 bool CaseInMemory::has_own_plant() const { return program::has_own_plant(case_); }
 

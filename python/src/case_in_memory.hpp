@@ -52,6 +52,9 @@ class CaseInMemory {
 
   std::string toml() const;
   std::string json() const;
+  std::string origin(const std::string& job,
+                     const std::vector<std::pair<std::string, std::string>>& options,
+                     const std::string& instructions) const;
   bool has_own_plant() const;
   nb::dict plant_matrices() const;
 

@@ -79,6 +79,8 @@ NB_MODULE(_core, module) {
            "The case with further key=value texts behind its own.")
       .def("toml", &CaseInMemory::toml, "The whole case as a case file.")
       .def("json", &CaseInMemory::json, "The whole case as JSON.")
+      .def("origin", &CaseInMemory::origin, "job"_a, "options"_a, "instructions"_a,
+           "What made a table of a job on packs, as JSON.")
       .def("has_own_plant", &CaseInMemory::has_own_plant)
       .def("plant_matrices", &CaseInMemory::plant_matrices,
            "The linear plant of the case with filter and drive: arrays by name.");
@@ -86,9 +88,10 @@ NB_MODULE(_core, module) {
   module.def("run_job", &run_job, "case"_a, "arguments"_a, "watch"_a.none() = nb::none(),
              "controller"_a.none() = nb::none(), "force"_a.none() = nb::none(),
              "A job by its command line: its tables and its warnings.");
-  module.def("chart", &chart, "case"_a, "proportional"_a, "differential"_a, "radius"_a, "threads"_a,
-             "instructions"_a, "watch"_a.none() = nb::none(),
-             "The chart of the job stability, straight into arrays: stable, radius, warnings.");
+  module.def(
+      "chart", &chart, "case"_a, "proportional"_a, "differential"_a, "radius"_a, "threads"_a,
+      "instructions"_a, "watch"_a.none() = nb::none(),
+      "The chart of the job stability, straight into arrays: stable, radius, warnings, axes.");
 }
 
 }  // namespace holdfast::python

@@ -129,6 +129,13 @@ nb::dict dict_of(ReceivedTable& table) {
   return result;
 }
 
+nb::object values_of(const Axis& axis) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(axis.count));
+  for (std::int64_t i = 0; i < axis.count; ++i) values.push_back(axis.at(i));
+  return array_of(std::move(values));
+}
+
 Axis axis_of(const AxisTuple& axis) {
   return {std::get<0>(axis), std::get<1>(axis), std::get<2>(axis)};
 }
@@ -174,7 +181,8 @@ nb::tuple chart(const CaseInMemory& the_case, AxisTuple proportional, AxisTuple 
     context.case_data = the_case.settled();
     program::fill_chart(context, grid, {reinterpret_cast<std::uint8_t*>(stable), radii});
   });
-  return nb::make_tuple(stable_array, radius_array, nb::cast(host.warnings));
+  return nb::make_tuple(stable_array, radius_array, nb::cast(host.warnings),
+                        nb::make_tuple(values_of(grid.proportional), values_of(grid.differential)));
 }
 
 }  // namespace holdfast::python

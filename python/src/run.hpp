@@ -26,7 +26,7 @@ nb::tuple run_job(const CaseInMemory& the_case, std::vector<std::string> argumen
 using AxisTuple = std::tuple<double, double, std::int64_t>;
 
 /// The chart of the job `stability` over P and D, straight into arrays: stable (bool), spectral
-/// radius or None; and warnings.
+/// radius or None; warnings; and the values of the two axes.
 nb::tuple chart(const CaseInMemory& the_case, AxisTuple proportional, AxisTuple differential,
                 bool radius, int threads, const std::string& instructions, nb::object watch);
 
