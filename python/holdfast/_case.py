@@ -48,7 +48,7 @@ class Case:
     :class:`Table` and takes besides its own the keywords ``threads`` (0: all), ``instructions``
     (``"baseline"``, ``"avx2"``, ``"avx512"``), ``progress`` (True: tqdm where it is installed, or a
     callable ``(done, total)``) and, but for charts over gains, ``output`` (a file of the program's
-    instead; then nothing is returned). What holds for the program holds here: ``holdfast JOB
+    instead; then nothing is returned) and ``yes`` (gigabytes of rows are meant). What holds for the program holds here: ``holdfast JOB
     --help`` explains each option further.
 
     :param source: a case file, a dict of its tables (nested or with dotted keys), another case; None:
@@ -166,7 +166,7 @@ class Case:
     ) -> Any:
         how = dict(how)
         progress = how.pop("progress", None)
-        given = {name: how.pop(name, None) for name in ("threads", "instructions", "output")}
+        given = {name: how.pop(name, None) for name in ("threads", "instructions", "output", "yes")}
         if how:
             raise TypeError(f"{job} has no option {', '.join(how)}")
         if given["output"] is not None:
@@ -273,23 +273,25 @@ class Case:
         if how:
             raise TypeError(f"chart has no option {', '.join(how)}")
         over = (_options.axis_of(p, "p"), _options.axis_of(d, "d"))
-        with watch_of("stability", progress) as watch:
-            stable, radii, texts, axes = _core.chart(
-                self._core, *over, bool(radius), int(threads or 0), instructions or "", watch
-            )
+        asked = (self._core, *over, bool(radius), int(threads or 0), instructions or "")
+        if progress is None or progress is False:
+            stable, radii, texts, axes = _core.chart(*asked)
+        else:
+            with watch_of("stability", progress) as watch:
+                stable, radii, texts, axes = _core.chart(*asked, watch)
         _warn(texts)
         columns = [("stable", "", "asymptotically stable", stable, None)]
         if radius:
             columns.append(("spectral_radius", "", "largest modulus of a characteristic root", radii, None))
-        options = [("--p", _options.axis_text(p, "p")), ("--d", _options.axis_text(d, "d"))]
-        options += [("--radius", "true")] if radius else []
         described = [("proportional_gain", "N/m", "P"), ("differential_gain", "N.s/m", "D")]
         return Table(
             "stability",
             {
                 "axes": [(*about, values) for about, values in zip(described, axes)],
                 "columns": columns,
-                "origin": lambda: self._core.origin("stability", options, instructions or ""),
+                "origin": lambda: self._core.origin(
+                    "stability", _chart_options(over, radius), instructions or ""
+                ),
             },
         )
 
@@ -648,6 +650,11 @@ class Case:
         ``displacement``, ``velocity``, ``measured_displacement``, ``measured_velocity``,
         ``relative_displacement``, ``relative_velocity``; gains, sampling period and delay."""
         return dict(self._core.plant_matrices())
+
+
+def _chart_options(over: tuple[Any, Any], radius: bool) -> list[tuple[str, str]]:
+    options = [("--p", _options.axis_text(over[0], "p")), ("--d", _options.axis_text(over[1], "d"))]
+    return options + ([("--radius", "true")] if radius else [])
 
 
 def _axis(name: str, value: Range) -> list[str]:

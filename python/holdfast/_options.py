@@ -25,7 +25,9 @@ def number_text(value: Any, name: str) -> str:
 
 def axis_of(value: Range, name: str) -> tuple[float, float, int]:
     """The two ends and the number of the values of an axis, first to last ascending."""
-    if isinstance(value, tuple) and len(value) == 3:
+    if isinstance(value, tuple):
+        if len(value) != 3:
+            raise ValueError(f"{name} = {value!r}: admissible is (min, max, count)")
         low, high, count = value
         if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
             raise ValueError(f"{name} = {value!r}: admissible is (min, max, count), count a whole number from 1 on")

@@ -8,6 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "host/large_pages.hpp"
+
 namespace holdfast::python {
 
 namespace nb = nanobind;
@@ -32,6 +34,7 @@ nb::object empty_array(const std::vector<std::size_t>& shape, Number*& numbers) 
   std::size_t size = 1;
   for (const std::size_t extent : shape) size *= extent;
   numbers = new Number[size > 0 ? size : 1];
+  program::prefer_large_pages(numbers, size * sizeof(Number));
   const nb::capsule owner(numbers, [](void* of) noexcept { delete[] static_cast<Number*>(of); });
   return nb::cast(nb::ndarray<nb::numpy, Number>(numbers, shape.size(), shape.data(), owner));
 }

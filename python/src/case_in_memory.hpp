@@ -69,6 +69,7 @@ class CaseInMemory {
     if (!settled_->warnings) settled_->warnings = find();
     return *settled_->warnings;
   }
+  bool is_asked_for_charts() const { return settled_->warnings.has_value(); }
 
  private:
   explicit CaseInMemory(program::CaseSource source);

@@ -140,6 +140,15 @@ Axis axis_of(const AxisTuple& axis) {
   return {std::get<0>(axis), std::get<1>(axis), std::get<2>(axis)};
 }
 
+/// Whether a chart takes a few milliseconds at most, so that a thread of its own would cost more
+/// than it spares: one of two masses of so many cells, once it is known what its case is warned of.
+bool is_short(const CaseInMemory& the_case, const GainGrid& grid, bool radius) {
+  if (!the_case.is_asked_for_charts() || program::is_modal(the_case.settled())) return false;
+  const std::int64_t rows = grid.proportional.count, columns = grid.differential.count;
+  if (rows > 5000 || columns > 1'000'000) return false;
+  return rows * columns <= (radius ? 2'000'000 : 4'000'000);
+}
+
 }  // namespace
 
 nb::tuple run_job(const CaseInMemory& the_case, std::vector<std::string> arguments,
@@ -159,10 +168,7 @@ nb::tuple chart(const CaseInMemory& the_case, AxisTuple proportional, AxisTuple 
                 bool radius, int threads, const std::string& instructions, nb::object watch) {
   const GainGrid grid{axis_of(proportional), axis_of(differential)};
   validate(grid);
-  program::JobContext context;
-  context.job = "stability";
-  context.threads = threads;
-  context.instructions = program::chosen_instruction_set(instructions);
+  const program::ChartWork how{threads, program::chosen_instruction_set(instructions)};
   const std::vector<std::size_t> shape = {static_cast<std::size_t>(grid.proportional.count),
                                           static_cast<std::size_t>(grid.differential.count)};
   bool* stable = nullptr;
@@ -170,17 +176,24 @@ nb::tuple chart(const CaseInMemory& the_case, AxisTuple proportional, AxisTuple 
   nb::object stable_array = empty_array<bool>(shape, stable);
   nb::object radius_array = radius ? empty_array<double>(shape, radii) : nb::none();
   JobHost host;
-  host.source = the_case.source();
-  do_hosted(host, watch, [&] {
+  const auto work = [&] {
     // What the job refuses or doubts of a case it does of one cell too.
-    std::vector<std::string>& warnings = the_case.warnings_of_charts([&] {
+    host.warnings = the_case.warnings_of_charts([&] {
+      host.source = the_case.source();
       program::do_job({"stability", "--p=0", "--d=0", "--quiet"});
       return std::move(host.warnings);
     });
-    host.warnings = warnings;
-    context.case_data = the_case.settled();
-    program::fill_chart(context, grid, {reinterpret_cast<std::uint8_t*>(stable), radii});
-  });
+    program::fill_chart(the_case.settled(), grid, {reinterpret_cast<std::uint8_t*>(stable), radii},
+                        how);
+  };
+  if (is_short(the_case, grid, radius)) {
+    do_shortly([&] {
+      const program::HostedHere here(host);
+      work();
+    });
+  } else {
+    do_hosted(host, watch, work);
+  }
   return nb::make_tuple(stable_array, radius_array, nb::cast(host.warnings),
                         nb::make_tuple(values_of(grid.proportional), values_of(grid.differential)));
 }

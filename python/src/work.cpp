@@ -43,6 +43,14 @@ void wait_for_turn(std::unique_lock<std::timed_mutex>& turn) {
 
 }  // namespace
 
+void do_shortly(const std::function<void()>& work) {
+  refuse_forked_process();
+  const nb::gil_scoped_release released;
+  std::unique_lock<std::timed_mutex> turn(working, std::defer_lock);
+  wait_for_turn(turn);
+  work();
+}
+
 void do_without_lock(const std::function<void()>& work, const std::function<void()>& watch) {
   refuse_forked_process();
   std::exception_ptr fault;              // of the work

@@ -14,4 +14,8 @@ namespace holdfast::python {
 /// worked: its threads and locks did not come along.
 void do_without_lock(const std::function<void()>& work, const std::function<void()>& watch);
 
+/// Does work of a few milliseconds at most in the calling thread, without the interpreter's lock
+/// and in its turn as above. Throws what the work throws, and likewise in a forked process.
+void do_shortly(const std::function<void()>& work);
+
 }  // namespace holdfast::python

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host/large_pages.hpp"
+
 namespace holdfast::program {
 namespace {
 
@@ -16,6 +18,16 @@ ReceivedColumn::Kind kind_of(const Column& column) {
 }  // namespace
 
 ReceivedColumn::ReceivedColumn(Column about) : about_(std::move(about)), kind_(kind_of(about_)) {}
+
+void ReceivedColumn::reserve(std::size_t rows) {
+  if (kind_ == Kind::numbers) {
+    numbers_.reserve(rows);
+    prefer_large_pages(numbers_.data(), rows * sizeof(double));
+  } else {
+    whole_.reserve(rows);
+    prefer_large_pages(whole_.data(), rows * sizeof(std::int64_t));
+  }
+}
 
 void ReceivedColumn::put(std::string_view text) {
   if (kind_ != Kind::words) {

@@ -22,9 +22,7 @@ class ReceivedColumn {
   explicit ReceivedColumn(Column about);
 
   /// Asks for the memory of so many rows at once.
-  void reserve(std::size_t rows) {
-    kind_ == Kind::numbers ? numbers_.reserve(rows) : whole_.reserve(rows);
-  }
+  void reserve(std::size_t rows);
 
   const Column& about() const { return about_; }
   Kind kind() const { return kind_; }

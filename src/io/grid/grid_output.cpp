@@ -75,11 +75,11 @@ std::int64_t GridLayout::cells() const {
 
 GridOutput::GridOutput(const JobContext& context, const GridLayout& layout)
     : columns_(require_writable(layout).columns), cells_(layout.cells()) {
+  require_meant(context, cells_);
   if (is_received(context)) {
     writer_ = memory_cells(context, layout);
     return;
   }
-  require_meant(context, cells_);
   writer_ =
       is_netcdf_name(context.output) ? netcdf_cells(context, layout) : csv_cells(context, layout);
 }

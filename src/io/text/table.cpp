@@ -58,11 +58,12 @@ void Table::commit() {
 
 void require_text_meant(const JobContext& context, std::int64_t count, const std::string& what,
                         const std::string& instead) {
-  if (is_received(context)) return;
-  constexpr std::int64_t most = 10'000'000;
+  const bool received = is_received(context);
+  const std::int64_t most = received ? 200'000'000 : 10'000'000;
   if (count > most && !context.yes)
-    throw WrongInput(std::to_string(count) + " " + what + " are a table of gigabytes: " + instead +
-                     "; give --yes if text is meant");
+    throw WrongInput(std::to_string(count) + " " + what +
+                     (received ? " are gigabytes of memory: " : " are a table of gigabytes: ") +
+                     instead + "; give --yes if " + (received ? "they are" : "text is") + " meant");
 }
 
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {

@@ -115,12 +115,12 @@ void append_rows(const JobContext& context, std::int64_t rows, Block block, cons
 /// Computes all rows where they are wanted, in the tiles in which append_rows() does. Throws
 /// Interrupted.
 template <class Kernel, class Compute>
-void fill_rows(const JobContext& context, std::int64_t rows, const RowsInMemory& in_memory,
+void fill_rows(const ChartWork& work, std::int64_t rows, const RowsInMemory& in_memory,
                const Kernel& kernel, const Compute& compute) {
-  const auto columns =
-      static_cast<std::int64_t>(row_length(static_cast<std::int64_t>(in_memory.columns)));
-  Progress progress(static_cast<std::uint64_t>(rows), context.job, progress_wanted(context));
-  parallel_rows(rows, rows_of_tile(columns), context.threads, kernel,
+  const auto columns = static_cast<std::int64_t>(in_memory.columns);
+  row_length(columns);
+  Progress progress(static_cast<std::uint64_t>(rows), "stability", false);
+  parallel_rows(rows, rows_of_tile(columns), work.threads, kernel,
                 [&](Kernel& own, std::int64_t first, std::int64_t tile) {
                   if (!interrupted()) compute(own, first, tile, first, in_memory);
                   progress.advance(static_cast<std::uint64_t>(tile));
@@ -130,8 +130,8 @@ void fill_rows(const JobContext& context, std::int64_t rows, const RowsInMemory&
 
 using SampledKernel = CopiedKernel<ChartKernel>;
 
-SampledKernel sampled_kernel(const JobContext& context, const LoopChart& chart, bool radius) {
-  return SampledKernel(pack_kernels(context.instructions).chart(chart, radius));
+SampledKernel sampled_kernel(InstructionSet instructions, const LoopChart& chart, bool radius) {
+  return SampledKernel(pack_kernels(instructions).chart(chart, radius));
 }
 
 void compute_sampled(SampledKernel& own, std::int64_t first, std::int64_t count,
@@ -142,8 +142,8 @@ void compute_sampled(SampledKernel& own, std::int64_t first, std::int64_t count,
 
 using ModalKernel = std::optional<ModalRadius>;
 
-ModalKernel modal_kernel(const JobContext& context, bool radius) {
-  return radius ? ModalKernel(context.case_data) : ModalKernel();
+ModalKernel modal_kernel(const Case& the_case, bool radius) {
+  return radius ? ModalKernel(the_case) : ModalKernel();
 }
 
 /// What computes rows of a modal case.
@@ -161,17 +161,18 @@ auto modal_rows(const ResolvedCircle<double>& circle, const GainGrid& grid) {
 
 }  // namespace
 
-void fill_chart(const JobContext& context, const GainGrid& grid, const ChartCells& cells) {
+void fill_chart(const Case& the_case, const GainGrid& grid, const ChartCells& cells,
+                const ChartWork& work) {
   RowsInMemory rows{static_cast<std::size_t>(grid.differential.count), cells.stable, {}};
   const bool radius = cells.radius != nullptr;
   if (radius) rows.first_numbers.push_back(cells.radius);
-  if (is_modal(context.case_data)) {
-    const ResolvedCircle<double> circle = circle_of(context.case_data);
-    fill_rows(context, grid.proportional.count, rows, modal_kernel(context, radius),
+  if (is_modal(the_case)) {
+    const ResolvedCircle<double> circle = circle_of(the_case);
+    fill_rows(work, grid.proportional.count, rows, modal_kernel(the_case, radius),
               modal_rows(circle, grid));
   } else {
-    const LoopChart chart = chart_over_gains(context.case_data, grid);
-    fill_rows(context, grid.proportional.count, rows, sampled_kernel(context, chart, radius),
+    const LoopChart chart = chart_over_gains(the_case, grid);
+    fill_rows(work, grid.proportional.count, rows, sampled_kernel(work.instructions, chart, radius),
               compute_sampled);
   }
 }
@@ -190,14 +191,14 @@ LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid) {
 void append_sampled_chart(const JobContext& context, const LoopChart& chart, bool radius,
                           GridOutput& output) {
   append_rows(context, chart.slow.values.count, Block(chart.fast.values.count, radius ? 1 : 0),
-              sampled_kernel(context, chart, radius), output, compute_sampled);
+              sampled_kernel(context.instructions, chart, radius), output, compute_sampled);
 }
 
 void append_modal_chart(const JobContext& context, const GainGrid& grid, bool radius,
                         GridOutput& output) {
   const ResolvedCircle<double> circle = circle_of(context.case_data);
   append_rows(context, grid.proportional.count, Block(grid.differential.count, radius ? 1 : 0),
-              modal_kernel(context, radius), output, modal_rows(circle, grid));
+              modal_kernel(context.case_data, radius), output, modal_rows(circle, grid));
 }
 
 void append_continuous_chart(const JobContext& context, const TwoMass<double>& plant,

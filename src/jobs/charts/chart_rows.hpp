@@ -23,9 +23,16 @@ struct ChartCells {
   double* radius;        ///< the spectral radius; null: not asked
 };
 
+/// How it is computed; its cells do not depend on the threads.
+struct ChartWork {
+  int threads = 0;  ///< 0: all
+  InstructionSet instructions = InstructionSet::baseline;
+};
+
 /// The cells of the job `stability` over P and D, of any plant of a case, without a table.
 /// Throws Interrupted, and what the chart's plant does.
-void fill_chart(const JobContext& context, const GainGrid& grid, const ChartCells& cells);
+void fill_chart(const Case& the_case, const GainGrid& grid, const ChartCells& cells,
+                const ChartWork& work);
 
 /// Each computes a chart on the threads that the job was given and appends its cells to the output
 /// in order, a block of rows in memory at a time; progress goes to standard error. They do not
