@@ -130,9 +130,8 @@ nb::dict dict_of(ReceivedTable& table) {
 }
 
 nb::object values_of(const Axis& axis) {
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(axis.count));
-  for (std::int64_t i = 0; i < axis.count; ++i) values.push_back(axis.at(i));
+  std::vector<double> values(static_cast<std::size_t>(axis.count));
+  for (std::int64_t i = 0; i < axis.count; ++i) values[static_cast<std::size_t>(i)] = axis.at(i);
   return array_of(std::move(values));
 }
 
