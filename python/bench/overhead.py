@@ -108,13 +108,19 @@ def main() -> None:
     chart = compare("chart, 10^6 cells", bench, "chart", 1000, lambda: case.chart(p, d))
     compare("chart with radius, 10^6 cells", bench, "radius", 1000, lambda: case.chart(p, d, radius=True))
     motion = compare("simulate, 10^6 samples", bench, "simulate", 1_000_000, lambda: case.simulate(999.999))
-    print(f"the same motion without the digits that simulate vouches for: C++ {in_cpp(bench, 'motion', 1_000_000) * 1e3:.3f} ms")
+    print(
+        f"the same motion without the digits that simulate vouches for: C++ {in_cpp(bench, 'motion', 1_000_000) * 1e3:.3f} ms"
+    )
     compiled = seconds(lambda: case.simulate(999.999, switching="exact"))
     called = seconds(lambda: case.simulate(9.999, controller=lambda k, t, z, v: -557.0 * z - 13.0 * v)) * 100
-    print(f"simulate, exact switching, 10^6 samples: {compiled * 1e3:.0f} ms; with a controller in Python {called * 1e3:.0f} ms")
+    print(
+        f"simulate, exact switching, 10^6 samples: {compiled * 1e3:.0f} ms; with a controller in Python {called * 1e3:.0f} ms"
+    )
     print(f"a small job (orbit): {statistics.median(seconds(case.orbit) for _ in range(20)) * 1e3:.2f} ms")
     numpy_chart, numpy_motion = chart_in_numpy(case, 200), motion_in_numpy(case, 20_000)
-    print(f"NumPy: chart {numpy_chart:.2f} s ({numpy_chart / chart:.0f} times as long), motion {numpy_motion:.2f} s ({numpy_motion / motion:.0f} times)")
+    print(
+        f"NumPy: chart {numpy_chart:.2f} s ({numpy_chart / chart:.0f} times as long), motion {numpy_motion:.2f} s ({numpy_motion / motion:.0f} times)"
+    )
     control_chart = chart_in_control(case, 12)
     if control_chart is not None:
         print(f"python-control: chart {control_chart:.0f} s ({control_chart / chart:.0f} times as long)")

@@ -212,16 +212,48 @@ class Case:
         """
         return self._run("modes", _options.arguments({"count": count, "elements": elements}), how)
 
-    def decay(self, force: Optional[float] = None, *, duration: Optional[float] = None, absorber: Optional[str] = None, equal_displacement: bool = False, elements: Optional[int] = None, interval: Optional[float] = None, **how: Any) -> Table:
+    def decay(
+        self,
+        force: Optional[float] = None,
+        *,
+        duration: Optional[float] = None,
+        absorber: Optional[str] = None,
+        equal_displacement: bool = False,
+        elements: Optional[int] = None,
+        interval: Optional[float] = None,
+        **how: Any,
+    ) -> Table:
         """Vibration after a force (N) is removed: continuous cable beside the two masses. Columns ``time_s,
         elements_m, two_dof_m``.
 
         :param absorber: how it loads the cable: ``"weight"``, ``"rigid"``, ``"spring"``
         :param equal_displacement: both begin equally displaced, not under the same force
         """
-        return self._run("decay", _options.arguments({"force": force, "duration": duration, "absorber": absorber, "equal_displacement": equal_displacement, "elements": elements, "interval": interval}), how)
+        return self._run(
+            "decay",
+            _options.arguments(
+                {
+                    "force": force,
+                    "duration": duration,
+                    "absorber": absorber,
+                    "equal_displacement": equal_displacement,
+                    "elements": elements,
+                    "interval": interval,
+                }
+            ),
+            how,
+        )
 
-    def peaks(self, force: Range = None, *, duration: Optional[float] = None, absorber: Optional[str] = None, equal_displacement: bool = False, elements: Optional[int] = None, **how: Any) -> Table:
+    def peaks(
+        self,
+        force: Range = None,
+        *,
+        duration: Optional[float] = None,
+        absorber: Optional[str] = None,
+        equal_displacement: bool = False,
+        elements: Optional[int] = None,
+        **how: Any,
+    ) -> Table:
         """First opposite peak (m) after a force is removed, over the force. Columns ``force_N,
         elements_peak_m, two_dof_peak_m, discrepancy``.
 
@@ -232,7 +264,15 @@ class Case:
         )
         return self._run("peaks", words, how)
 
-    def fit(self, data: Optional[Path] = None, *, parameters: Optional[str] = None, target: Optional[str] = None, plain: bool = False, **how: Any) -> Table:
+    def fit(
+        self,
+        data: Optional[Path] = None,
+        *,
+        parameters: Optional[str] = None,
+        target: Optional[str] = None,
+        plain: bool = False,
+        **how: Any,
+    ) -> Table:
         """Damping of the absorber (or more) from a decay record by least squares. Columns ``quantity, value,
         standard_error, unit``.
 
@@ -241,11 +281,31 @@ class Case:
         :param target: ``"history"``, ``"peak"`` or ``"measures"``
         :param plain: without the robust loss
         """
-        return self._run("fit", _options.arguments({"data": None if data is None else os.fspath(data), "parameters": parameters, "target": target, "plain": plain}), how)
+        return self._run(
+            "fit",
+            _options.arguments(
+                {
+                    "data": None if data is None else os.fspath(data),
+                    "parameters": parameters,
+                    "target": target,
+                    "plain": plain,
+                }
+            ),
+            how,
+        )
 
     # -- gains --------------------------------------------------------------------------------------
 
-    def chart(self, p: Range = (-1000.0, 200.0, 121), d: Range = (-40.0, 20.0, 121), *, radius: bool = False, continuous: bool = False, axes: Optional[Mapping[str, Range]] = None, **how: Any) -> Table:
+    def chart(
+        self,
+        p: Range = (-1000.0, 200.0, 121),
+        d: Range = (-40.0, 20.0, 121),
+        *,
+        radius: bool = False,
+        continuous: bool = False,
+        axes: Optional[Mapping[str, Range]] = None,
+        **how: Any,
+    ) -> Table:
         """Where the sampled loop without play is stable: all roots of det(lambda I - S(P, D)) = 0 within the
         unit circle. Columns ``stable`` (bool) and, with ``radius``, ``spectral_radius`` (largest modulus of a
         root), of shape (P, D).
@@ -260,10 +320,7 @@ class Case:
             return self._chart(p, d, radius, how)
         words = _options.arguments({"continuous": continuous, "radius": radius})
         words += _options.axes_texts(axes, 2) if axes else _axis("p", p) + _axis("d", d)
-        table = self._run("stability", words, how)
-        if table is not None:
-            table._columns["stable"] = table["stable"].astype(bool)
-        return table
+        return self._run("stability", words, how)
 
     def _chart(self, p: Range, d: Range, radius: bool, how: dict[str, Any]) -> Table:
         """A chart over gains, whose cells the kernels write where they stay."""
@@ -289,9 +346,7 @@ class Case:
             {
                 "axes": [(*about, values) for about, values in zip(described, axes)],
                 "columns": columns,
-                "origin": lambda: self._core.origin(
-                    "stability", _chart_options(over, radius), instructions or ""
-                ),
+                "origin": lambda: self._core.origin("stability", _chart_options(over, radius), instructions or ""),
             },
         )
 
@@ -329,7 +384,9 @@ class Case:
         words = ["--regions", *_interval("p", p), *_interval("d", d), *_options.arguments({"continuous": continuous})]
         return self._run("boundary", words, how)
 
-    def boundary_features(self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Any) -> Table:
+    def boundary_features(
+        self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Any
+    ) -> Table:
         """Tangents, cusps, crossings and ends of the boundary's curves within a window of P and D.
 
         :param p: (min, max) of P, N/m
@@ -348,7 +405,16 @@ class Case:
         """
         return self._run("response", _axis("p", p) + _axis("d", d), how)
 
-    def design(self, frequency: Range = None, *, band: Interval = None, both_gains: bool = False, largest_radius: Optional[float] = None, margin: Optional[float] = None, **how: Any) -> Table:
+    def design(
+        self,
+        frequency: Range = None,
+        *,
+        band: Interval = None,
+        both_gains: bool = False,
+        largest_radius: Optional[float] = None,
+        margin: Optional[float] = None,
+        **how: Any,
+    ) -> Table:
         """The best D: that of least steady amplitude and that of least spectral radius, at the case's P and
         frequency or at each frequency with P tuned to it, P = k2 - m2 (2 pi f)^2 (Eq. 6). One row a frequency.
 
@@ -375,7 +441,9 @@ class Case:
         """
         return self._run("modal-damping", _options.arguments({"count": count, "no_control": no_control}), how)
 
-    def place_strength(self, device: int = 1, *, position: Range = None, damping: Range = None, count: Optional[int] = None, **how: Any) -> Table:
+    def place_strength(
+        self, device: int = 1, *, position: Range = None, damping: Range = None, count: Optional[int] = None, **how: Any
+    ) -> Table:
         """The least damping ratio of the modes with a [[device]] elsewhere and of another strength.
 
         :param position: m from the left support; (min, max, count)
@@ -403,7 +471,20 @@ class Case:
 
     # -- motions ------------------------------------------------------------------------------------
 
-    def simulate(self, duration: float = 10.0, *, from_: float = 0.0, kick: Optional[tuple[float, float]] = None, no_control: bool = False, switching: str = "sampled", plant: Optional[str] = None, elements: Optional[int] = None, controller: Any = None, excitation: Any = None, **how: Any) -> Table:
+    def simulate(
+        self,
+        duration: float = 10.0,
+        *,
+        from_: float = 0.0,
+        kick: Optional[tuple[float, float]] = None,
+        no_control: bool = False,
+        switching: str = "sampled",
+        plant: Optional[str] = None,
+        elements: Optional[int] = None,
+        controller: Any = None,
+        excitation: Any = None,
+        **how: Any,
+    ) -> Table:
         """Time history of the loop with play from its initial state, at the samples t = 0, tau, 2 tau, …
         Columns ``time_s, z1_m, v1_m_per_s, z2_m, v2_m_per_s, control_force_N, in_backlash``; with
         ``switching="exact"`` also ``contact``.
@@ -423,13 +504,30 @@ class Case:
             linear between them, or a pair of arrays (t, F) in s and N
         """
         words = _options.arguments(
-            {"duration": duration, "from": from_, "no_control": no_control, "switching": switching, "plant": plant, "elements": elements}
+            {
+                "duration": duration,
+                "from": from_,
+                "no_control": no_control,
+                "switching": switching,
+                "plant": plant,
+                "elements": elements,
+            }
         )
         if kick is not None:
             words.append(f"--kick={_options.interval_text(kick, 'kick')}")
         return self._run("simulate", words, how, controller, excitation, float(duration))
 
-    def spectrum(self, duration: float = 60.0, *, discard: Optional[float] = None, window: Optional[str] = None, switching: str = "sampled", controller: Any = None, excitation: Any = None, **how: Any) -> Table:
+    def spectrum(
+        self,
+        duration: float = 60.0,
+        *,
+        discard: Optional[float] = None,
+        window: Optional[str] = None,
+        switching: str = "sampled",
+        controller: Any = None,
+        excitation: Any = None,
+        **how: Any,
+    ) -> Table:
         """Amplitude spectrum of z1 over a whole number of forcing periods. Columns ``frequency_Hz,
         amplitude_m``.
 
@@ -442,7 +540,16 @@ class Case:
         words = _options.arguments({"duration": duration, "discard": discard, "window": window, "switching": switching})
         return self._run("spectrum", words, how, controller, excitation, float(duration))
 
-    def section(self, duration: float = 60.0, *, from_: float = 30.0, switching: str = "sampled", controller: Any = None, excitation: Any = None, **how: Any) -> Table:
+    def section(
+        self,
+        duration: float = 60.0,
+        *,
+        from_: float = 30.0,
+        switching: str = "sampled",
+        controller: Any = None,
+        excitation: Any = None,
+        **how: Any,
+    ) -> Table:
         """Poincaré section: the instants at which z2 - z1 turns. Columns ``time_s, z1_m, v1_m_per_s, z2_m,
         rising, in_backlash``.
 
@@ -454,15 +561,32 @@ class Case:
         words = _options.arguments({"duration": duration, "from": from_, "switching": switching})
         return self._run("section", words, how, controller, excitation, float(duration))
 
-    def deviation(self, *, offset: Optional[float] = None, duration: Optional[float] = None, switching: Optional[str] = None, **how: Any) -> Table:
+    def deviation(
+        self,
+        *,
+        offset: Optional[float] = None,
+        duration: Optional[float] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
         """How far two motions part that start close to each other. Columns ``time_s, z1_deviation_m,
         state_deviation``.
 
         :param offset: of the neighbour's z1, m
         """
-        return self._run("deviation", _options.arguments({"offset": offset, "duration": duration, "switching": switching}), how)
+        return self._run(
+            "deviation", _options.arguments({"offset": offset, "duration": duration, "switching": switching}), how
+        )
 
-    def coverage(self, durations: Any = None, *, window: Any = None, cells: Optional[int] = None, switching: Optional[str] = None, **how: Any) -> Table:
+    def coverage(
+        self,
+        durations: Any = None,
+        *,
+        window: Any = None,
+        cells: Optional[int] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
         """How much of a window of the phase plane the samples fill as time grows. Columns ``duration_s, cells,
         visited, fraction``.
 
@@ -477,7 +601,15 @@ class Case:
 
     # -- attractors ---------------------------------------------------------------------------------
 
-    def orbit(self, *, max_period: Optional[int] = None, switching: Optional[str] = None, trace: bool = False, certificate: bool = False, **how: Any) -> Table:
+    def orbit(
+        self,
+        *,
+        max_period: Optional[int] = None,
+        switching: Optional[str] = None,
+        trace: bool = False,
+        certificate: bool = False,
+        **how: Any,
+    ) -> Table:
         """The exact periodic orbit that the motion comes to, with its certificate. Columns ``period_samples,
         period_s, forcing_periods, largest_multiplier`` (below 1: it attracts), ``closure_error``,
         ``border_distance_m``, ``engaged_fraction``; one row.
@@ -488,7 +620,13 @@ class Case:
             radius of capture, the same orbit in extended precision
         :raises NoAnswer: the motion comes to no orbit of such a period
         """
-        return self._run("orbit", _options.arguments({"max_period": max_period, "switching": switching, "trace": trace, "certificate": certificate}), how)
+        return self._run(
+            "orbit",
+            _options.arguments(
+                {"max_period": max_period, "switching": switching, "trace": trace, "certificate": certificate}
+            ),
+            how,
+        )
 
     def orbit_ends(self, key: str, interval: Interval, *, max_period: Optional[int] = None, **how: Any) -> Table:
         """Where the orbit ends along one key of the case, and why: fold, flip, torus, border collision.
@@ -496,10 +634,24 @@ class Case:
         :param key: ``"excitation.frequency"``
         :param interval: (min, max) of it
         """
-        words = [f"--follow={key}={_options.interval_text(interval, key)}", *_options.arguments({"max_period": max_period})]
+        words = [
+            f"--follow={key}={_options.interval_text(interval, key)}",
+            *_options.arguments({"max_period": max_period}),
+        ]
         return self._run("orbit", words, how)
 
-    def lyapunov(self, *, duration: Optional[float] = None, discard: Optional[float] = None, standard_error: Optional[float] = None, tangent: Optional[str] = None, largest: bool = False, history: bool = False, switching: Optional[str] = None, **how: Any) -> Table:
+    def lyapunov(
+        self,
+        *,
+        duration: Optional[float] = None,
+        discard: Optional[float] = None,
+        standard_error: Optional[float] = None,
+        tangent: Optional[str] = None,
+        largest: bool = False,
+        history: bool = False,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
         """The Lyapunov exponents of the motion. Columns ``exponent, per_sample, per_second, standard_error``;
         with ``history`` ``time_s, lambda1, …``.
 
@@ -509,14 +661,36 @@ class Case:
         :param tangent: ``"consistent"`` or ``"printed"`` (as the paper's Table 2)
         :param largest: the largest one alone
         """
-        return self._run("lyapunov", _options.arguments({"duration": duration, "discard": discard, "standard_error": standard_error, "tangent": tangent, "largest": largest, "history": history, "switching": switching}), how)
+        return self._run(
+            "lyapunov",
+            _options.arguments(
+                {
+                    "duration": duration,
+                    "discard": discard,
+                    "standard_error": standard_error,
+                    "tangent": tangent,
+                    "largest": largest,
+                    "history": history,
+                    "switching": switching,
+                }
+            ),
+            how,
+        )
 
     def verdict(self, *, max_period: Optional[int] = None, switching: Optional[str] = None, **how: Any) -> Table:
-        """What the motion is: periodic, quasi-periodic, chaotic, …, and what that rests on; one row.
-        """
+        """What the motion is: periodic, quasi-periodic, chaotic, …, and what that rests on; one row."""
         return self._run("verdict", _options.arguments({"max_period": max_period, "switching": switching}), how)
 
-    def basins(self, axes: Mapping[str, Range], *, fractions: bool = False, duration: Optional[float] = None, max_period: Optional[int] = None, switching: Optional[str] = None, **how: Any) -> Table:
+    def basins(
+        self,
+        axes: Mapping[str, Range],
+        *,
+        fractions: bool = False,
+        duration: Optional[float] = None,
+        max_period: Optional[int] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
         """Which attractor each initial state of a grid comes to. Columns ``attractor, period_s`` over the two
         axes.
 
@@ -528,7 +702,16 @@ class Case:
         )
         return self._run("basins", words, how)
 
-    def diagram(self, key: str, values: Range, *, transient: Optional[float] = None, strobes: Optional[int] = None, switching: Optional[str] = None, **how: Any) -> Table:
+    def diagram(
+        self,
+        key: str,
+        values: Range,
+        *,
+        transient: Optional[float] = None,
+        strobes: Optional[int] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
         """Orbit diagram: one state a forcing period against a key of the case, up and back.
 
         :param key: ``"backlash.width"``
@@ -540,7 +723,17 @@ class Case:
         words += _options.arguments({"transient": transient, "strobes": strobes, "switching": switching})
         return self._run("diagram", words, how)
 
-    def sweep(self, axes: Mapping[str, Any], metrics: Sequence[str] = (), *, duration: Optional[float] = None, best_gain: bool = False, max_period: Optional[int] = None, switching: Optional[str] = None, **how: Any) -> Table:
+    def sweep(
+        self,
+        axes: Mapping[str, Any],
+        metrics: Sequence[str] = (),
+        *,
+        duration: Optional[float] = None,
+        best_gain: bool = False,
+        max_period: Optional[int] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
         """Metrics of the motion over any number of axes, on all cores. A column for each metric, with a
         dimension for each axis.
 
@@ -562,7 +755,9 @@ class Case:
 
     # -- span and wind ------------------------------------------------------------------------------
 
-    def absorption(self, frequency: Range = None, *, end: Optional[str] = None, no_control: bool = False, **how: Any) -> Table:
+    def absorption(
+        self, frequency: Range = None, *, end: Optional[str] = None, no_control: bool = False, **how: Any
+    ) -> Table:
         """What the devices at an end of the span do to the waves that come to it. Columns ``frequency_Hz``,
         real and imaginary part of the impedance (N s/m), ``reflection, absorbed_fraction,
         inverse_standing_wave_ratio``.
@@ -570,7 +765,11 @@ class Case:
         :param frequency: Hz; (min, max, count)
         :param end: ``"left"`` or ``"right"``; None: the one that has devices
         """
-        return self._run("absorption", _axis("frequency", frequency) + _options.arguments({"end": end, "no_control": no_control}), how)
+        return self._run(
+            "absorption",
+            _axis("frequency", frequency) + _options.arguments({"end": end, "no_control": no_control}),
+            how,
+        )
 
     def aeolian(self, frequency: Range = None, *, no_control: bool = False, **how: Any) -> Table:
         """How much the conductor vibrates in the wind at each frequency, by each law of the wind and of its own
@@ -580,22 +779,43 @@ class Case:
         """
         return self._run("aeolian", _axis("frequency", frequency) + _options.arguments({"no_control": no_control}), how)
 
-    def aeolian_history(self, frequency: float, *, duration: Optional[float] = None, no_control: bool = False, **how: Any) -> Table:
+    def aeolian_history(
+        self, frequency: float, *, duration: Optional[float] = None, no_control: bool = False, **how: Any
+    ) -> Table:
         """Time history of the conductor's modes in a wind whose vortices are shed at one frequency (Hz), with a
         wake that swings with it at every place.
         """
-        return self._run("aeolian", _options.arguments({"history": frequency, "duration": duration, "no_control": no_control}), how)
+        return self._run(
+            "aeolian", _options.arguments({"history": frequency, "duration": duration, "no_control": no_control}), how
+        )
 
-    def fatigue(self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False, **how: Any) -> Table:
+    def fatigue(
+        self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False, **how: Any
+    ) -> Table:
         """How long the conductor lives at its clamps in the wind of [site]. Columns ``quantity, value, lowest,
         highest, unit``.
 
         :param frequency: (min, max) of vibrations that count, Hz
         :param by_speed: instead the hours and the damage of each wind speed
         """
-        return self._run("fatigue", _interval("frequency", frequency) + _options.arguments({"no_control": no_control, "by_speed": by_speed}), how)
+        return self._run(
+            "fatigue",
+            _interval("frequency", frequency) + _options.arguments({"no_control": no_control, "by_speed": by_speed}),
+            how,
+        )
 
-    def place(self, device: Optional[Union[int, str]] = None, *, frequency: Range = None, for_: Optional[str] = None, modes: Optional[tuple[int, int]] = None, keep: Optional[str] = None, move: Optional[str] = None, margin: Optional[float] = None, **how: Any) -> Table:
+    def place(
+        self,
+        device: Optional[Union[int, str]] = None,
+        *,
+        frequency: Range = None,
+        for_: Optional[str] = None,
+        modes: Optional[tuple[int, int]] = None,
+        keep: Optional[str] = None,
+        move: Optional[str] = None,
+        margin: Optional[float] = None,
+        **how: Any,
+    ) -> Table:
         """The best position, strength or gains of one device. Columns ``quantity, value, unit``.
 
         :param device: number of a [[device]], or ``"absorber"``

@@ -8,9 +8,7 @@ from typing import Any
 import numpy as np
 
 #: Of a compiled controller.
-SIGNATURE = ctypes.CFUNCTYPE(
-    ctypes.c_double, ctypes.c_int64, ctypes.c_double, ctypes.c_double, ctypes.c_double
-)
+SIGNATURE = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int64, ctypes.c_double, ctypes.c_double, ctypes.c_double)
 
 
 def controller_of(controller: Any) -> Any:
@@ -35,9 +33,7 @@ def controller_of(controller: Any) -> Any:
 def _of_ctypes(function: Any) -> int:
     arguments = function.argtypes
     if arguments is not None and tuple(arguments) != tuple(SIGNATURE._argtypes_):
-        raise TypeError(
-            "the controller's arguments are not (int64 k, double t, double displacement, double velocity)"
-        )
+        raise TypeError("the controller's arguments are not (int64 k, double t, double displacement, double velocity)")
     if function.restype is not ctypes.c_double:
         raise TypeError("the controller gives no double: set its restype to ctypes.c_double")
     address = ctypes.cast(function, ctypes.c_void_p).value

@@ -33,7 +33,9 @@ class FrequencyData:
         imaginary = np.interp(size, self.frequency, self.response.imag, right=0.0)
         return real + 1j * np.sign(frequency) * imaginary
 
-    def loop(self, p: float, d: float, *, sampling_period: float, processing_delay: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    def loop(
+        self, p: float, d: float, *, sampling_period: float, processing_delay: float = 0.0
+    ) -> tuple[np.ndarray, np.ndarray]:
         """L = P Gz + D Gv of the sampled loop u = P z + D v, G being the plant under a zero-order hold:
 
             G(e^{i w tau}) = sum over k of H(w + 2 pi k/tau),   H(w) = z/u (1 - e^{-i w tau})/(i w tau) e^{-i w delta}
@@ -50,7 +52,9 @@ class FrequencyData:
             raise ValueError(f"sampling_period = {period}, processing_delay = {delay} s: admissible is > 0 and >= 0")
         below = self.frequency[self.frequency < 0.5 / period]
         if below.size < 2:
-            raise ValueError(f"sampling_period = {period} s: fewer than two measured frequencies lie below half of its rate")
+            raise ValueError(
+                f"sampling_period = {period} s: fewer than two measured frequencies lie below half of its rate"
+            )
         folds = int(np.ceil(self.frequency[-1] * period)) + 1
         loop = np.zeros(below.size, dtype=complex)
         for k in range(-folds, folds + 1):
@@ -106,7 +110,9 @@ def frequency_response(frequency: Any, response: Any, *, stable: bool = True) ->
     except (TypeError, ValueError):
         raise ValueError("frequency and response: admissible are numbers") from None
     if f.ndim != 1 or f.size < 2 or h.shape != f.shape:
-        raise ValueError(f"frequency has the shape {f.shape} and response {h.shape}; admissible: one dimension, the same, two or more")
+        raise ValueError(
+            f"frequency has the shape {f.shape} and response {h.shape}; admissible: one dimension, the same, two or more"
+        )
     if not (np.all(np.isfinite(f)) and np.all(np.isfinite(h))):
         raise ValueError("frequency and response: admissible are finite numbers")
     if not f[0] > 0.0 or not np.all(np.diff(f) > 0.0):

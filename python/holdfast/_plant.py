@@ -50,9 +50,15 @@ class Plant:
             if row.shape != (n,):
                 raise ValueError(f"a row or column has the shape {row.shape}; admissible: ({n},), as A has {n} states")
         #: what the computer reads as velocity, (N,)
-        self.velocity = self._rate(self.displacement, "the displacement") if velocity is None else _array(velocity, 1, "the velocity's row")
+        self.velocity = (
+            self._rate(self.displacement, "the displacement")
+            if velocity is None
+            else _array(velocity, 1, "the velocity's row")
+        )
         #: r, (N,), and its rate
-        self.relative_displacement = self.displacement if relative is None else _array(relative, 1, "the relative displacement's row")
+        self.relative_displacement = (
+            self.displacement if relative is None else _array(relative, 1, "the relative displacement's row")
+        )
         self.relative_velocity = self._rate(self.relative_displacement, "the relative displacement")
         #: the state at t = 0, (N,)
         self.initial_state = np.zeros(n) if initial_state is None else _array(initial_state, 1, "the initial state")
@@ -241,7 +247,9 @@ def _of_state_space(system: Any) -> tuple[Any, Any, Any, Any]:
             f"{type(system).__name__} is no linear system: admissible are those of scipy.signal and control, and arrays (A, B, C)"
         )
     if system.dt not in (None, 0, 0.0):
-        raise ValueError("the system is in discrete time; admissible is a continuous one, which holdfast samples itself")
+        raise ValueError(
+            "the system is in discrete time; admissible is a continuous one, which holdfast samples itself"
+        )
     if not hasattr(system, "A"):
         if hasattr(system, "to_ss"):  # scipy.signal
             system = system.to_ss()

@@ -15,7 +15,7 @@ class Table(Mapping):
 
     Over a grid of axes (a chart, a response, basins, a sweep) each column is an array with a
     dimension for each axis, the first slowest, and the axes' values stand under their names too;
-    else all columns have one dimension. Whole numbers are ``int64``, words ``str``.
+    else all columns have one dimension. Whole numbers are ``int64``, words ``str``, ``stable`` is ``bool``.
 
     >>> chart = holdfast.Case().chart(p=(-1000, 200, 121), d=(-40, 20, 121))
     >>> chart["stable"].shape, chart.units["proportional_gain"]
@@ -40,7 +40,7 @@ class Table(Mapping):
             self._take(name, unit, description, values)
 
     def _take(self, name: str, unit: str, description: str, values: np.ndarray) -> None:
-        self._columns[name] = values
+        self._columns[name] = values.astype(bool) if name == "stable" else values
         self._units[name] = unit
         self._descriptions[name] = description
 
@@ -153,9 +153,7 @@ class Table(Mapping):
         if not self._axes:
             frame = pandas.DataFrame(self._columns)
         else:
-            index = pandas.MultiIndex.from_product(
-                [self._columns[name] for name in self._axes], names=self._axes
-            )
+            index = pandas.MultiIndex.from_product([self._columns[name] for name in self._axes], names=self._axes)
             data = {name: values.ravel() for name, values in self._columns.items() if name not in self._axes}
             frame = pandas.DataFrame(data, index=index)
         frame.attrs["units"] = self.units
@@ -191,9 +189,7 @@ class Table(Mapping):
             return f"<{tag}>{html.escape(str(text))}</{tag}>"
 
         columns = {name: values for name, values in self._columns.items() if name not in self._axes}
-        head = "".join(
-            cell(name + (f" ({self._units[name]})" if self._units[name] else ""), "th") for name in columns
-        )
+        head = "".join(cell(name + (f" ({self._units[name]})" if self._units[name] else ""), "th") for name in columns)
         body = ""
         if not self._axes:
             for row in range(min(self.rows, 10)):

@@ -88,5 +88,3 @@ def no_gui():
 
     yield plt
     plt.close("all")
-
-

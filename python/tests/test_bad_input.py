@@ -104,7 +104,10 @@ def test_strided_arrays_are_what_they_show():
     np.testing.assert_array_equal(case.chart(p, d, radius=True)["spectral_radius"], expected)
     wide = np.zeros((4, 4))
     wide[::2, ::2] = A
-    plain, strided = holdfast.plant((A, B, C)), holdfast.plant((wide[::2, ::2], np.stack([B, B])[:, ::1].T[:, 0], C[::-1][::-1]))
+    plain, strided = (
+        holdfast.plant((A, B, C)),
+        holdfast.plant((wide[::2, ::2], np.stack([B, B])[:, ::1].T[:, 0], C[::-1][::-1])),
+    )
     np.testing.assert_array_equal(strided.state_matrix, plain.state_matrix)
     whole = holdfast.plant((np.array([[0, 1], [-400, -1]]), np.array([0, 2]), np.array([1, 0], dtype=np.int8)))
     assert whole.case().chart(0.0, 0.0)["stable"].shape == (1, 1)
@@ -139,10 +142,23 @@ def test_plants(system):
 
 
 def test_ports_of_a_plant():
-    for options in ({"command": 1}, {"command": -1}, {"command": 0.0}, {"displacement": 3}, {"velocity": 1}, {"excitation": 5}):
+    for options in (
+        {"command": 1},
+        {"command": -1},
+        {"command": 0.0},
+        {"displacement": 3},
+        {"velocity": 1},
+        {"excitation": 5},
+    ):
         with pytest.raises(ValueError, match="admissible"):
             holdfast.plant((A, B, C), **options)
-    for options in ({"relative": [1.0]}, {"relative": [0.0, 0.0]}, {"initial_state": [1.0]}, {"initial_state": [np.nan, 0.0]}, {"lifts": ([1.0], [1.0])}):
+    for options in (
+        {"relative": [1.0]},
+        {"relative": [0.0, 0.0]},
+        {"initial_state": [1.0]},
+        {"initial_state": [np.nan, 0.0]},
+        {"lifts": ([1.0], [1.0])},
+    ):
         with pytest.raises(ValueError):
             holdfast.plant((A, B, C), **options)
 
@@ -313,7 +329,9 @@ def interrupted(question: str) -> float:
             case.orbit()  # goes on
             print("interrupted", flush=True)
     """
-    process = subprocess.Popen([sys.executable, "-c", textwrap.dedent(code)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(code)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
     assert process.stdout.readline() == "ready\n"
     time.sleep(0.7)
     begin = time.monotonic()
@@ -339,7 +357,9 @@ def test_ctrl_c(question):
 
 def test_progress():
     seen = []
-    holdfast.Case().chart((-1000, 200, 60000), (-40, 20, 500), radius=True, progress=lambda done, total: seen.append((done, total)))
+    holdfast.Case().chart(
+        (-1000, 200, 60000), (-40, 20, 500), radius=True, progress=lambda done, total: seen.append((done, total))
+    )
     assert seen and all(0 <= done <= total == 60000 for done, total in seen)
     assert [done for done, _ in seen] == sorted(done for done, _ in seen)
 
@@ -347,9 +367,7 @@ def test_progress():
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        holdfast.Case().chart(
-            (-1000, 200, 200000), (-40, 20, 500), radius=True, progress=fails
-        )
+        holdfast.Case().chart((-1000, 200, 200000), (-40, 20, 500), radius=True, progress=fails)
     assert holdfast.Case().chart(progress=True).rows == 121 * 121
 
 

@@ -24,7 +24,9 @@ def test_python_controller_is_the_built_in_one(switching):
     ours = case.simulate(1.0, switching=switching, controller=pd)
     for name in theirs:
         if theirs[name].dtype.kind == "f":
-            np.testing.assert_allclose(ours[name], theirs[name], rtol=0, atol=1e-9 * np.max(np.abs(theirs[name])), err_msg=name)
+            np.testing.assert_allclose(
+                ours[name], theirs[name], rtol=0, atol=1e-9 * np.max(np.abs(theirs[name])), err_msg=name
+            )
         else:
             np.testing.assert_array_equal(ours[name], theirs[name])
 

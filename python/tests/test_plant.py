@@ -97,7 +97,9 @@ def test_design_has_least_radius(order_12):
 def test_response_against_python_control(order_12):
     control = pytest.importorskip("control")
     gains = {"proportional_gain": 50.0, "differential_gain": -2.0}
-    case = order_12.case(control={**SAMPLING, **gains}, excitation={"amplitude": 1.0, "frequency": 7.0, "hold": "sampled"})
+    case = order_12.case(
+        control={**SAMPLING, **gains}, excitation={"amplitude": 1.0, "frequency": 7.0, "hold": "sampled"}
+    )
     response = case.response(50.0, -2.0)
     loop = case.to_control(closed=True)
     amplitude = abs(loop(np.exp(2j * np.pi * 7.0 * SAMPLING["sampling_period"]))[0, 0])

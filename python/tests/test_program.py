@@ -91,7 +91,10 @@ SAME = [
     (["coverage", "--durations", "1,2"], lambda case: case.coverage([1, 2])),
     (["orbit", "--trace"], lambda case: case.orbit(trace=True)),
     (["orbit", "--certificate"], lambda case: case.orbit(certificate=True)),
-    (["orbit", "--follow", "excitation.amplitude=0.4:0.6"], lambda case: case.orbit_ends("excitation.amplitude", (0.4, 0.6))),
+    (
+        ["orbit", "--follow", "excitation.amplitude=0.4:0.6"],
+        lambda case: case.orbit_ends("excitation.amplitude", (0.4, 0.6)),
+    ),
     (["verdict"], lambda case: case.verdict()),
     (["lyapunov", "--duration", "2", "--history"], lambda case: case.lyapunov(duration=2, history=True)),
     (
@@ -109,7 +112,17 @@ SAME = [
         ),
     ),
     (
-        ["sweep", "--axis", "backlash.width=0,0.0007", "--metric", "verdict", "--metric", "steady_rms", "--duration", "2"],
+        [
+            "sweep",
+            "--axis",
+            "backlash.width=0,0.0007",
+            "--metric",
+            "verdict",
+            "--metric",
+            "steady_rms",
+            "--duration",
+            "2",
+        ],
         lambda case: case.sweep({"backlash.width": [0.0, 0.0007]}, ["verdict", "steady_rms"], duration=2),
     ),
     (["reduce"], lambda case: case.reduce()),
@@ -128,7 +141,10 @@ def test_job(program, words, question):
 STRING = {"plant.model": "string", "plant.modes": 10, "control.differential_gain": -2.0, "absorber.clamp_mass": 0.01}
 OF_STRING = [
     (["modal-damping", "--count", "4"], lambda case: case.modal_damping(count=4)),
-    (["stability", "--radius", "--p=-600:0:7", "--d=-10:2:7"], lambda case: case.chart((-600, 0, 7), (-10, 2, 7), radius=True)),
+    (
+        ["stability", "--radius", "--p=-600:0:7", "--d=-10:2:7"],
+        lambda case: case.chart((-600, 0, 7), (-10, 2, 7), radius=True),
+    ),
     (["boundary", "--stable-interval"], lambda case: case.stable_intervals()),
     (["simulate", "--duration", "0.5"], lambda case: case.simulate(0.5)),
     (["margins"], lambda case: case.margins()),
@@ -145,7 +161,10 @@ DEVICE = {"kind": "dashpot", "position": 1.5, "damping": 300.0}
 OF_SPAN = [
     (["aeolian", "--frequency", "10:40:4"], lambda case: case.aeolian((10, 40, 4))),
     (["absorption", "--frequency", "10:40:4"], lambda case: case.absorption((10, 40, 4))),
-    (["place", "--frequency", "10:40:4", "--for", "damping"], lambda case: case.place(1, frequency=(10, 40, 4), for_="damping")),
+    (
+        ["place", "--frequency", "10:40:4", "--for", "damping"],
+        lambda case: case.place(1, frequency=(10, 40, 4), for_="damping"),
+    ),
 ]
 
 

@@ -41,7 +41,10 @@ def test_ways_to_a_case(tmp_path):
 
 
 def test_devices():
-    case = holdfast.Case(conductor={"name": "Drake", "span": 300.0, "sag": 6.0}, device={"kind": "dashpot", "position": 1.5, "damping": 300.0})
+    case = holdfast.Case(
+        conductor={"name": "Drake", "span": 300.0, "sag": 6.0},
+        device={"kind": "dashpot", "position": 1.5, "damping": 300.0},
+    )
     assert case["device.1.damping"] == 300.0
     more = case.with_(device=[{"kind": "stiffness", "position": 3.0, "stiffness": 1e4}])
     assert more["device.2.kind"] == "stiffness"
@@ -100,7 +103,9 @@ PICTURES = {
     "diagram": lambda case: case.diagram("backlash.width", (0, 0.001, 3), transient=1, strobes=5),
     "basins": lambda case: case.basins({"initial.z1": (-0.01, 0.01, 4), "initial.v1": (-0.1, 0.1, 3)}),
     "exponents": lambda case: case.lyapunov(duration=2, history=True),
-    "sweep": lambda case: case.sweep({"backlash.width": (0, 1e-3, 3), "excitation.frequency": [5, 10]}, "verdict", duration=2),
+    "sweep": lambda case: case.sweep(
+        {"backlash.width": (0, 1e-3, 3), "excitation.frequency": [5, 10]}, "verdict", duration=2
+    ),
     "curve": lambda case: case.sweep({"backlash.width": (0, 1e-3, 3)}, "steady_peak", duration=2),
     "dampings": lambda case: case.with_({"plant.model": "string", "plant.modes": 10}).modal_damping(count=5),
     "statics": lambda case: case.statics((-1, 1, 5)),
@@ -160,5 +165,7 @@ def test_nothing_is_printed_and_little_is_imported():
 def test_the_packaged_program():
     done = subprocess.run([sys.executable, "-m", "holdfast", "--version"], capture_output=True, text=True)
     assert done.returncode == 0 and holdfast.__version__ in done.stdout
-    done = subprocess.run([sys.executable, "-m", "holdfast", "simulate", "--duration", "x"], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-m", "holdfast", "simulate", "--duration", "x"], capture_output=True, text=True
+    )
     assert done.returncode == 2 and done.stderr.startswith("holdfast: ")
