@@ -23,6 +23,10 @@ Range = Any
 Interval = Any
 
 
+#: Of [excitation], where a force of the user's own takes its place.
+_WITHOUT_FORCE = ("amplitude=0.0", "harmonics=[]", "noise_rms=0.0", 'record=""')
+
+
 class PlausibilityWarning(UserWarning):
     """What is to be known of a case or a result: a value that is not plausible, digits that rounding
     decides, a motion that diverges."""
@@ -104,7 +108,7 @@ class Case:
 
     # -- what it says ------------------------------------------------------------------------------
     def to_dict(self) -> dict[str, Any]:
-        """All tables with all of their keys."""
+        """All tables with all of their keys; on a plant of your own without those of the cable."""
         return json.loads(self._core.json())
 
     def to_toml(self) -> str:
@@ -174,7 +178,7 @@ class Case:
         core, force = self._core, None
         if excitation is not None:
             force = force_of(excitation, duration, self["control.sampling_period"])
-            core = core.with_overrides(["excitation.amplitude=0.0"])
+            core = core.with_overrides([f"excitation.{key}" for key in _WITHOUT_FORCE])
         with watch_of(job, progress) as watch:
             tables, texts = _core.run_job(
                 core, [job, *words, *_options.arguments(given)], watch, controller_of(controller), force

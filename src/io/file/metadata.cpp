@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
+#include "case/model/own/own_parts.hpp"
 #include "io/file/build_record.hpp"
 #include "io/text/text.hpp"
 
@@ -63,6 +64,8 @@ Json origin(const JobContext& context) {
                {"job", context.job},
                {"options", options}};
   if (context.on_packs) json["instructions"] = name_of(context.instructions);
+  if (has_own_plant(context.case_data))
+    json["own_plant"] = {{"order", context.case_data.own->plant->order()}};
   json["case"] = case_to_json(context.case_data);
   return json;
 }
