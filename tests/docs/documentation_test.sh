@@ -53,8 +53,8 @@ read_blocks() {
       kinds+=("${BASH_REMATCH[1]}") markers+=("$marker") texts+=('') places+=("$page:$number")
       marker=''
       case ${kinds[-1]} in
-        sh | text | cpp | toml | cmake) ;;
-        *) failed "${places[-1]}: a block must be sh, text, cpp, toml or cmake, not '${kinds[-1]}'" ;;
+        sh | text | cpp | toml | cmake | python) ;;
+        *) failed "${places[-1]}: a block must be sh, text, cpp, toml, cmake or python, not '${kinds[-1]}'" ;;
       esac
     elif [[ $line =~ ^[[:space:]]+\`\`\` ]]; then
       failed "$page:$number: a block must begin in the first column"
