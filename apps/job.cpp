@@ -9,6 +9,7 @@
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/resolved_plant.hpp"
 #include "case/plausibility/doubts.hpp"
+#include "host/job_host.hpp"
 #include "io/file/input.hpp"
 #include "jobs/job_texts.hpp"
 #include "process/group/mpi_launch.hpp"
@@ -111,9 +112,20 @@ void require_place_for_devices(const Case& the_case, const std::string& job) {
                    "plant.model=string");
 }
 
+/// Nothing is answered by a conductor that is not in question.
+void require_no_own_plant(const Case& the_case, const std::string& job) {
+  if (has_own_plant(the_case))
+    throw WrongInput(job +
+                     " is about a conductor and its absorber, and the plant is one of your own; "
+                     "those that answer for it are " +
+                     jobs_that("own_plant"));
+}
+
 /// Settles the plant where the job needs it, and warns of what is not plausible.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
+  // What is usual for a plant of the user's own nobody knows here.
+  if (has_own_plant(context.case_data)) return;
   doubt(context,
         doubts_about(context.case_data, in_question(context.case_data, quantities_of_case())));
   doubt(context, {contradicted_conductor_text(context.case_data)});
@@ -197,6 +209,7 @@ void Job::require_output(const JobContext& context) const {
 }
 
 void Job::require_plant(const JobContext& context) const {
+  if (!is_told("own_plant", false)) require_no_own_plant(context.case_data, context.job);
   if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
   if (!is_told("counts_devices", false)) require_no_devices(context.case_data, context.job);
   if (is_told("needs_string_for_devices", false))
@@ -211,7 +224,10 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   context.job = options_->get_name();
   context.quiet = common_->quiet;
   CaseSource& source = context.case_source;
-  source.overrides = common_->overrides;
+  if (const JobHost* host = JobHost::current(); host != nullptr && host->source && !file)
+    source = *host->source;
+  source.overrides.insert(source.overrides.end(), common_->overrides.begin(),
+                          common_->overrides.end());
   if (file) {
     source.name = *file;
     source.text = read_input(source.name);

@@ -112,7 +112,8 @@ function(holdfast_add_program)
   find_package(Threads REQUIRED)
   file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
   list(FILTER library_sources EXCLUDE REGEX "/src/(process/mpi|kernels/wide)/[^/]*$")
-  file(GLOB_RECURSE program_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp)
+  file(GLOB_RECURSE job_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp)
+  list(FILTER job_sources EXCLUDE REGEX "/apps/main.cpp$")
   holdfast_embed_text(${PROJECT_SOURCE_DIR}/data/kollar2022.toml builtin_case_text source)
   list(APPEND library_sources ${source})
   holdfast_embed_text(${PROJECT_SOURCE_DIR}/data/conductors.toml conductors_text source)
@@ -149,16 +150,20 @@ function(holdfast_add_program)
   holdfast_compile_quickly(holdfast_program)
   holdfast_compile_loops_on_packs(kernels/baseline.cpp)
 
+  # The jobs on their command lines: all of the program but its main().
+  add_library(holdfast_jobs STATIC ${job_sources})
+  target_include_directories(holdfast_jobs PUBLIC ${PROJECT_SOURCE_DIR}/apps)
+  target_link_libraries(holdfast_jobs PUBLIC holdfast_program PRIVATE holdfast_warnings)
+  holdfast_compile_quickly(holdfast_jobs)
+  # Every job reads CLI11, which takes longer to compile than the job itself.
+  target_precompile_headers(holdfast_jobs PRIVATE <CLI/CLI.hpp>)
+
   # The name `holdfast` belongs to the library's target, so the executable's target has another.
-  add_executable(holdfast_executable ${program_sources})
+  add_executable(holdfast_executable ${PROJECT_SOURCE_DIR}/apps/main.cpp)
   set_target_properties(holdfast_executable PROPERTIES
     OUTPUT_NAME holdfast
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-  target_include_directories(holdfast_executable PRIVATE ${PROJECT_SOURCE_DIR}/apps)
-  target_link_libraries(holdfast_executable PRIVATE holdfast_program holdfast_warnings)
-  holdfast_compile_quickly(holdfast_executable)
-  # Every job reads CLI11, which takes longer to compile than the job itself.
-  target_precompile_headers(holdfast_executable PRIVATE <CLI/CLI.hpp>)
+  target_link_libraries(holdfast_executable PRIVATE holdfast_jobs holdfast_warnings)
 endfunction()
 
 holdfast_find_program_packages(HOLDFAST_PROGRAM_PACKAGES_FOUND)

@@ -1,6 +1,7 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/own/own_parts.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -191,6 +192,9 @@ struct DesignQuestion {
   }
 
   void run(const JobContext& context) const {
+    refuse_for_own_plant(context.case_data, !frequency.empty(), "--frequency");
+    refuse_for_own_plant(context.case_data, !band.empty(), "--band");
+    refuse_for_own_plant(context.case_data, both_gains, "--both-gains");
     if (both_gains && !is_modal(context.case_data)) return write_fastest_pair(context);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), admissible);
     std::optional<Axis> frequencies;

@@ -65,9 +65,8 @@ struct StabilityQuestion {
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
   const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
   const auto rows = [&] {
-    if (is_modal(context.case_data)) return modal_chart(context, grid, radius);
     if (continuous) return continuous_chart(plant_of(context.case_data), grid, radius);
-    return sampled_chart(context, chart_over_gains(context.case_data, grid), radius);
+    return stability_chart_of(context.case_data, grid, radius, context.instructions);
   };
   write_chart(context, {gain_axes(grid), columns()}, rows());
 }
@@ -85,7 +84,7 @@ void StabilityQuestion::run_over_axes(const JobContext& context) const {
                         {parameter_of(fast.key), fast.axis}};
   validate(chart);
   write_chart(context, {{grid_axis(slow), grid_axis(fast)}, columns()},
-              sampled_chart(context, chart, radius));
+              sampled_chart(chart, radius, context.instructions));
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ struct SimulateQuestion {
     require_text_meant(context, samples_of(context.case_data, duration - from), "rows",
                        "a later --from or a shorter --duration leaves fewer");
     Table table(context, motion_columns(switching));
+    table.expect(samples_of(context.case_data, duration - from));
     if (elements && plant != "elements") throw WrongInput("--elements goes with --plant elements");
     if (plant == "elements") {
       write_elements(context, table, samples);

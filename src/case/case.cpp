@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "case/model/own/own_parts.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
@@ -30,14 +31,22 @@ bool has_active_absorber(const Case& the_case) {
   return has_absorber(the_case) && (!is_of_another_cable(the_case) || speaks_of_absorber(the_case));
 }
 
-bool is_two_masses(const Case& the_case) { return the_case.plant.model == "two_masses"; }
+bool has_own_plant(const Case& the_case) {
+  return the_case.own != nullptr && the_case.own->plant.has_value();
+}
+
+bool is_two_masses(const Case& the_case) {
+  return the_case.plant.model == "two_masses" && !has_own_plant(the_case);
+}
 
 bool has_hardware(const Case& the_case) {
   return std::isfinite(the_case.control.measurement_filter) ||
          std::isfinite(the_case.control.drive_bandwidth);
 }
 
-bool has_absorber(const Case& the_case) { return the_case.plant.absorber_mass > 0.0; }
+bool has_absorber(const Case& the_case) {
+  return the_case.plant.absorber_mass > 0.0 || has_own_plant(the_case);
+}
 
 bool has_site(const Case& the_case) {
   const auto said = [](const case_tables::Site& site) {
@@ -48,11 +57,12 @@ bool has_site(const Case& the_case) {
 }
 
 bool is_modal(const Case& the_case) {
-  return !is_two_masses(the_case) || has_hardware(the_case) ||
+  return !is_two_masses(the_case) || has_hardware(the_case) || the_case.own != nullptr ||
          the_case.control.processing_delay > the_case.control.sampling_period;
 }
 
 std::string modal_words(const Case& the_case) {
+  if (has_own_plant(the_case)) return "a plant of your own";
   if (!is_two_masses(the_case)) return "plant.model = \"" + the_case.plant.model + "\"";
   const bool late = the_case.control.processing_delay > the_case.control.sampling_period;
   std::string names;
@@ -61,6 +71,7 @@ std::string modal_words(const Case& the_case) {
   };
   add(std::isfinite(the_case.control.measurement_filter), "control.measurement_filter");
   add(std::isfinite(the_case.control.drive_bandwidth), "control.drive_bandwidth");
+  add(the_case.own != nullptr, "a controller of your own");
   add(late, "control.processing_delay beyond control.sampling_period");
   return names;
 }

@@ -15,6 +15,7 @@ class RecordedForce;
 namespace holdfast::program {
 
 struct ImpedanceTable;
+struct OwnParts;
 
 /// The tables of a case file, one struct each; the members bear the names of the keys. Units,
 /// admissible ranges and meaning of each are in case_keys().
@@ -170,6 +171,9 @@ struct Case {
   // What excitation.record holds; null where it is "". CaseSource::attach_record() reads it.
   std::shared_ptr<const RecordedForce> force_record;
 
+  // Plant and controller of the user's own; null where there is neither. CaseSource hands it on.
+  std::shared_ptr<const OwnParts> own;
+
   // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
   std::map<std::string, std::string> places;
   bool plant_given = false;      // the user gave a key of [plant] that the two masses depend on
@@ -183,6 +187,9 @@ struct Case {
 /// conductor it has one where the user says something of it: the built-in one is of another cable.
 bool has_active_absorber(const Case& the_case);
 
+/// Whether the plant is one of the user's own, in place of conductor and absorber.
+bool has_own_plant(const Case& the_case);
+
 /// Whether the conductor is one mass.
 bool is_two_masses(const Case& the_case);
 
@@ -191,7 +198,8 @@ bool has_hardware(const Case& the_case);
 
 /// Whether the loop is computed by its natural motions: where the absorber hangs on the conductor
 /// itself; and on one mass, as a conductor of one mode, where the readings are filtered, the drive
-/// lags or the force comes more than a sample late.
+/// lags or the force comes more than a sample late; and with a plant or a controller of the user's
+/// own.
 bool is_modal(const Case& the_case);
 
 /// Whether an absorber hangs on the conductor; without one its devices are alone.

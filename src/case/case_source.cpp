@@ -4,6 +4,7 @@
 
 #include "case/case_file.hpp"
 #include "case/device/impedance_table.hpp"
+#include "case/model/own/own_parts.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "io/text/record_file.hpp"
 
@@ -39,6 +40,8 @@ Case CaseSource::load(const std::vector<std::string>& further) const {
   all.insert(all.end(), further.begin(), further.end());
   Case loaded = text ? load_case_text(*text, name, all) : load_case(std::nullopt, all);
   loaded.force_record = force_record;
+  loaded.own = own;
+  require_consistent(loaded);
   attach_tables(loaded);
   return loaded;
 }

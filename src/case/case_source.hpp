@@ -18,6 +18,8 @@ struct CaseSource {
 
   std::shared_ptr<const RecordedForce> force_record;  // every case that is loaded gets it
 
+  std::shared_ptr<const OwnParts> own;  // likewise
+
   // The impedances of measured devices, by their files.
   std::map<std::string, std::shared_ptr<const ImpedanceTable>> tables;
 

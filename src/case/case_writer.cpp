@@ -56,6 +56,10 @@ nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
 /// [site] where nothing is said of it.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
   if (key.table() == "site") return has_site(the_case);
+  // What a plant of the user's own stands in place of is no part of the case.
+  if (has_own_plant(the_case))
+    for (const char* table : {"conductor", "absorber", "reduction", "plant", "initial"})
+      if (key.table() == table) return false;
   if (key.table() == "wind") return the_case.wind.has_value();
   return !(key.replaced_by_wind && the_case.wind);
 }

@@ -7,27 +7,11 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/types.hpp"
-#include "holdfast/stability/chart/circle_chart.hpp"
 #include "jobs/charts/chart_rows.hpp"
-#include "kernels/pack_kernels.hpp"
+#include "kernels/instruction_set.hpp"
 
 namespace holdfast::program {
 namespace {
-
-void fill_on_modes(const Case& the_case, const GainGrid& grid, std::uint8_t* cells) {
-  const ResolvedCircle<double> circle = circle_of(the_case);
-  for (std::int64_t row = 0; row < grid.proportional.count; ++row)
-    fill_stability_row(circle, grid.proportional.at(row), grid.differential,
-                       cells + row * grid.differential.count);
-}
-
-void fill_of_two_masses(const Case& the_case, const GainGrid& grid, std::uint8_t* cells) {
-  const LoopChart chart = chart_over_gains(the_case, grid);
-  validate(chart);
-  pack_kernels(InstructionSet::baseline)
-      .chart(chart, false)
-      ->fill(0, grid.proportional.count, cells, nullptr);
-}
 
 /// Without play, of a stable loop.
 double controlled_amplitude(const Case& the_case, double frequency) {
@@ -44,8 +28,8 @@ double controlled_amplitude(const Case& the_case, double frequency) {
 std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& grid) {
   std::vector<std::uint8_t> cells(
       static_cast<std::size_t>(grid.proportional.count * grid.differential.count));
-  is_modal(the_case) ? fill_on_modes(the_case, grid, cells.data())
-                     : fill_of_two_masses(the_case, grid, cells.data());
+  fill_chart(stability_chart_of(the_case, grid, false, InstructionSet::baseline),
+             {static_cast<std::size_t>(grid.differential.count), cells.data(), {}}, 1);
   return cells;
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include "host/job_host.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/group/mpi_launch.hpp"
@@ -81,6 +82,10 @@ void tell_lack_of_memory() {
 }  // namespace
 
 void report_error(const std::string& message) {
+  if (JobHost* host = JobHost::current()) {
+    host->warnings.push_back(one_line(message));
+    return;
+  }
   constexpr std::size_t longest = 1500;
   // Over the line of a job's progress, if one is shown.
   const std::string begin = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
@@ -90,7 +95,11 @@ void report_error(const std::string& message) {
 }
 
 void report_warning(const std::string& message, bool quiet) {
-  if (!message.empty() && !quiet) report_error("warning: " + message);
+  if (message.empty()) return;
+  if (JobHost::current() != nullptr)
+    report_error(message);
+  else if (!quiet)
+    report_error("warning: " + message);
 }
 
 int exit_code_of(const std::exception_ptr& fault) {

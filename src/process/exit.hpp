@@ -23,10 +23,12 @@ int exit_code_of(const std::exception_ptr& fault);
 /// processes that an MPI launcher started together, the first tells what is wrong with the input.
 int run_guarded(const std::function<int()>& work);
 
-/// Writes `holdfast: ` and the message on one line of standard error.
+/// Writes `holdfast: ` and the message on one line of standard error; the host of a job gets it as
+/// a warning.
 void report_error(const std::string& message);
 
-/// The same with `warning: ` before it; nothing when there is none or it is not wanted.
+/// The same with `warning: ` before it; nothing when there is none or it is not wanted. A host gets
+/// every one: it has its own way of not wanting them.
 void report_warning(const std::string& message, bool quiet);
 
 }  // namespace holdfast::program

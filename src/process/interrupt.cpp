@@ -99,6 +99,10 @@ void throw_if_interrupted() {
   if (interrupted()) throw Interrupted();
 }
 
+void ask_to_end() { signals_seen.store(1); }
+
+void forget_asking() { signals_seen.store(0); }
+
 void clear_interrupt() {
   alarm(0);
   signals_seen.store(0);

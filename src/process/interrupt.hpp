@@ -31,6 +31,10 @@ bool interrupted();
 /// Throws Interrupted when a signal has come.
 void throw_if_interrupted();
 
+/// Asks the computation to end as a signal does, without one; and takes that back.
+void ask_to_end();
+void forget_asking();
+
 /// Forgets a signal that came, so that tests can raise one.
 void clear_interrupt();
 

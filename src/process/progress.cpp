@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "host/job_host.hpp"
+
 namespace holdfast::program {
 namespace {
 
@@ -47,6 +49,7 @@ void show_status(const std::string& status) {
 }  // namespace
 
 bool progress_wanted(const JobContext& context) {
+  if (JobHost::current() != nullptr) return false;
   return !context.quiet && (context.progress || standard_error_is_terminal());
 }
 
@@ -108,9 +111,11 @@ void yield_terminal_to_result() {
 Progress::Progress(std::uint64_t total, std::string label, bool enabled)
     : total_(total),
       label_(std::move(label)),
-      enabled_(enabled),
+      host_(JobHost::current()),
+      enabled_(enabled && host_ == nullptr),
       on_terminal_(standard_error_is_terminal()),
       start_(Clock::now()) {
+  if (host_ != nullptr) host_->steps = total_;
   if (!enabled_) return;
   const std::lock_guard<std::mutex> lock(showing);
   counting = this;
@@ -130,6 +135,7 @@ void Progress::set_elsewhere(std::uint64_t steps) { elsewhere_ = steps; }
 void Progress::advance(std::uint64_t steps, std::uint64_t samples) {
   done_ += steps;
   samples_ += samples;
+  if (host_ != nullptr) host_->steps_done += steps;
   if (!enabled_) return;
   const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_);
   std::int64_t due = next_draw_.load();

@@ -12,6 +12,8 @@
 
 namespace holdfast::program {
 
+struct JobHost;
+
 /// Whether progress is to be shown: never when quiet, else when asked for or on a terminal.
 bool progress_wanted(const JobContext& context);
 
@@ -83,6 +85,7 @@ class Progress {
 
   std::uint64_t total_;
   std::string label_;
+  JobHost* host_;  // that gets the count, if there is one
   bool enabled_;
   bool on_terminal_;
   Clock::time_point start_;

@@ -78,7 +78,7 @@ std::string settle_absorber(Case& the_case) {
 }  // namespace
 
 std::string settle_plant(Case& the_case) {
-  if (!plant_is_reduced(the_case)) return "";
+  if (!plant_is_reduced(the_case) || has_own_plant(the_case)) return "";
   if (!is_two_masses(the_case)) return settle_absorber(the_case);
   const std::vector<const CaseKey*> given = given_of_plant(the_case);
   Case as_given = the_case;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
+#include "case/model/own/own_parts.hpp"
 #include "io/file/build_record.hpp"
 #include "io/text/text.hpp"
 
@@ -59,6 +60,8 @@ Json origin(const JobContext& context) {
                {"job", context.job},
                {"options", options}};
   if (context.on_packs) json["instructions"] = name_of(context.instructions);
+  if (has_own_plant(context.case_data))
+    json["own_plant"] = {{"order", context.case_data.own->plant->order()}};
   json["case"] = case_to_json(context.case_data);
   return json;
 }
@@ -104,6 +107,12 @@ Json table_metadata(const JobContext& context, const std::vector<Column>& column
   json["tableSchema"]["columns"] = described;
   json["notes"] = Json::array({note});
   return json;
+}
+
+std::string origin_text(const JobContext& context, const TrustedDigits& trusted) {
+  Json json = origin(context);
+  append_trust(json, trusted);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::filesystem::path metadata_path(const std::filesystem::path& file) {

@@ -22,6 +22,9 @@ nlohmann::ordered_json table_metadata(const JobContext& context, const std::vect
                                       const TrustedDigits& trusted = {},
                                       const std::optional<Written>& table = std::nullopt);
 
+/// What `notes[0].holdfast` holds, as text in one line.
+std::string origin_text(const JobContext& context, const TrustedDigits& trusted);
+
 /// The same of a picture, which has no columns.
 nlohmann::ordered_json picture_metadata(const JobContext& context, const std::string& file_name,
                                         const Written& picture);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/memory_cells.hpp"
 #include "io/file/output.hpp"
 #include "io/grid/cell_writer.hpp"
 #include "io/text/table.hpp"
@@ -76,7 +77,9 @@ std::int64_t GridLayout::cells() const {
 GridOutput::GridOutput(const JobContext& context, const GridLayout& layout)
     : columns_(require_writable(layout).columns), cells_(layout.cells()) {
   require_meant(context, cells_);
-  if (is_store_name(context.output))
+  if (is_received(context))
+    writer_ = memory_cells(context, layout);
+  else if (is_store_name(context.output))
     writer_ = zarr_cells(context, layout);
   else if (is_netcdf_name(context.output))
     writer_ = netcdf_cells(context, layout);

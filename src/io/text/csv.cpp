@@ -13,7 +13,6 @@ namespace holdfast::program {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
-constexpr std::uint64_t rows_between_interrupt_checks = 1024;
 
 bool needs_quotes(std::string_view text) {
   return text.find_first_of(",\"\r\n") != std::string_view::npos;
@@ -40,7 +39,7 @@ std::string csv_cell(std::string_view text) {
 CsvWriter::CsvWriter(OutputFile& output, const std::vector<Column>& columns)
     : output_(output), width_(columns.size()) {
   buffer_.reserve(buffer_size + 4096);
-  for (const Column& column : columns) cell(column.name);
+  for (const Column& column : columns) text_cell(column.name);
   end_line();
 }
 
@@ -48,13 +47,13 @@ void CsvWriter::separate() {
   if (cells_in_row_++ > 0) buffer_ += ',';
 }
 
-void CsvWriter::cell(double value) {
+void CsvWriter::text_cell(double value) {
   separate();
   std::array<char, longest_number> digits;  // NOLINT: put_number fills it
   buffer_.append(digits.data(), put_number(digits.data(), value));
 }
 
-void CsvWriter::cell(std::string_view text) {
+void CsvWriter::text_cell(std::string_view text) {
   separate();
   // An empty cell alone on its line would read as a blank line.
   const bool blank_line = text.empty() && width_ == 1;
@@ -65,10 +64,9 @@ void CsvWriter::cell(std::string_view text) {
   }
 }
 
-void CsvWriter::end_row() {
+void CsvWriter::end_text_row() {
   end_line();
-  ++rows_;
-  if (rows_ % rows_between_interrupt_checks == 0) throw_if_interrupted();
+  count_row();
   if (buffer_.size() >= buffer_size) flush();
 }
 

@@ -7,17 +7,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "host/received_table.hpp"
+#include "io/column.hpp"
 #include "io/file/output.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
-
-/// A column of a table that the program writes.
-struct Column {
-  std::string name;
-  std::string unit;  // "" without dimension
-  std::string description;
-  std::string datatype = "double";  // of CSV on the Web: double, integer, boolean, string
-};
 
 /// The text as a cell of CSV: in quotes where RFC 4180 wants them.
 std::string csv_cell(std::string_view text);
@@ -34,19 +29,45 @@ class CsvWriter {
  public:
   CsvWriter(OutputFile& output, const std::vector<Column>& columns);
 
-  void cell(double value);
-  void cell(std::string_view text);
+  /// From here on cells go to these columns, of which there are as many, and none becomes text.
+  void give_to(std::vector<ReceivedColumn>& columns) { received_ = columns.data(); }
+
+  void cell(double value) {
+    if (received_ != nullptr)
+      receive(value);
+    else
+      text_cell(value);
+  }
+  void cell(std::string_view text) {
+    if (received_ != nullptr)
+      receive(text);
+    else
+      text_cell(text);
+  }
   void cell(const char* text) { cell(std::string_view(text)); }
   void cell(const std::string& text) { cell(std::string_view(text)); }
   template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
   void cell(Integer value) {
+    if (received_ != nullptr) {
+      receive(static_cast<std::int64_t>(value));
+      return;
+    }
     separate();
     buffer_ += std::to_string(value);
   }
-  void end_row();
+  void end_row() {
+    if (received_ == nullptr || cells_in_row_ != width_) return end_text_row();
+    cells_in_row_ = 0;
+    count_row();
+  }
 
   template <typename... Cells>
   void row(const Cells&... cells) {
+    if (received_ != nullptr && cells_in_row_ == 0 && sizeof...(cells) == width_) {
+      ReceivedColumn* column = received_;
+      ((column++)->put(received_as(cells)), ...);
+      return count_row();
+    }
     (cell(cells), ...);
     end_row();
   }
@@ -60,14 +81,35 @@ class CsvWriter {
   std::uint64_t rows() const { return rows_; }
 
  private:
+  /// A cell as a column in memory takes it.
+  static double received_as(double value) { return value; }
+  static std::string_view received_as(std::string_view text) { return text; }
+  template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
+  static std::int64_t received_as(Integer value) {
+    return static_cast<std::int64_t>(value);
+  }
+
+  void text_cell(double value);
+  void text_cell(std::string_view text);
+  template <typename Value>
+  void receive(Value value) {
+    if (cells_in_row_ < width_) received_[cells_in_row_].put(value);
+    ++cells_in_row_;
+  }
   void separate();
   void end_line();
+  void end_text_row();
+  void count_row() {
+    constexpr std::uint64_t rows_between_looks = 1024;
+    if (++rows_ % rows_between_looks == 0) throw_if_interrupted();
+  }
 
   OutputFile& output_;
   std::size_t width_;
   std::size_t cells_in_row_ = 0;
   std::uint64_t rows_ = 0;
   std::string buffer_;
+  ReceivedColumn* received_ = nullptr;  // where cells are not to become text
 };
 
 /// A table read from CSV: text cells, with numbers on request. What is wrong with it is told by

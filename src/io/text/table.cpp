@@ -1,5 +1,7 @@
 #include "io/text/table.hpp"
 
+#include "host/job_host.hpp"
+#include "host/memory_cells.hpp"
 #include "io/file/metadata.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
@@ -27,10 +29,23 @@ Table::Table(const JobContext& context, const std::vector<Column>& columns)
       writer_(output_, columns),
       context_(context),
       columns_(columns) {
+  if (is_received(context)) {
+    for (const Column& column : columns) received_.emplace_back(column);
+    writer_.give_to(received_);
+  }
   if (output_.is_file()) metadata_ = std::make_unique<OutputFile>(metadata_path(output_.target()));
 }
 
+void Table::expect(std::int64_t rows) {
+  for (ReceivedColumn& column : received_) column.reserve(static_cast<std::size_t>(rows));
+}
+
 void Table::commit() {
+  if (!received_.empty()) {
+    JobHost::current()->tables.push_back(
+        {{}, std::move(received_), origin_text(context_, trusted_)});
+    return;
+  }
   writer_.flush();
   if (!metadata_) {
     output_.commit();
@@ -44,10 +59,12 @@ void Table::commit() {
 
 void require_text_meant(const JobContext& context, std::int64_t count, const std::string& what,
                         const std::string& instead) {
-  constexpr std::int64_t most = 10'000'000;
+  const bool received = is_received(context);
+  const std::int64_t most = received ? 200'000'000 : 10'000'000;
   if (count > most && !context.yes)
-    throw WrongInput(std::to_string(count) + " " + what + " are a table of gigabytes: " + instead +
-                     "; give --yes if text is meant");
+    throw WrongInput(std::to_string(count) + " " + what +
+                     (received ? " are gigabytes of memory: " : " are a table of gigabytes: ") +
+                     instead + "; give --yes if " + (received ? "they are" : "text is") + " meant");
 }
 
 void tell_trust(const JobContext& context, Table& table, const TrustedDigits& trusted) {

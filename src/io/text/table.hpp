@@ -36,6 +36,9 @@ class Table {
   /// What the metadata say of the table's digits; call before commit().
   void trust(const TrustedDigits& trusted) { trusted_ = trusted; }
 
+  /// How many rows are to come, where that is known.
+  void expect(std::int64_t rows);
+
   void commit();
 
  private:
@@ -44,6 +47,7 @@ class Table {
   std::unique_ptr<OutputFile> metadata_;  // none for standard output
   JobContext context_;
   std::vector<Column> columns_;
+  std::vector<ReceivedColumn> received_;  // in place of text, where a host takes them
   TrustedDigits trusted_;
 };
 

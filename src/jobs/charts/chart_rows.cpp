@@ -51,17 +51,49 @@ std::int64_t rows_of_block(std::int64_t columns) {
   return rows_of_tile(columns) * std::clamp(tiles, std::int64_t{1}, std::int64_t{16});
 }
 
+/// Some rows of a chart in memory of its own.
+class ChartBlock {
+ public:
+  ChartBlock(const ChartRows& chart, std::int64_t rows)
+      : columns_(row_length(chart.columns)),
+        flags_(columns_ * static_cast<std::size_t>(rows)),
+        numbers_(chart.number_columns, std::vector<double>(flags_.size())) {}
+
+  ChartMemory memory() {
+    ChartMemory memory{columns_, flags_.data(), {}};
+    for (std::vector<double>& numbers : numbers_) memory.first_numbers.push_back(numbers.data());
+    return memory;
+  }
+
+  /// The first rows, column after column, the flags as numbers.
+  std::vector<std::vector<double>> values(std::int64_t rows) const {
+    const auto end = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(rows) * columns_);
+    std::vector<std::vector<double>> all(1);
+    std::transform(flags_.begin(), flags_.begin() + end, std::back_inserter(all.front()),
+                   [](std::uint8_t flag) { return flag != 0 ? 1.0 : 0.0; });
+    for (const std::vector<double>& numbers : numbers_)
+      all.emplace_back(numbers.begin(), numbers.begin() + end);
+    return all;
+  }
+
+ private:
+  std::size_t columns_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<std::vector<double>> numbers_;
+};
+
 /// Computes and appends all rows, a block in memory at a time.
 void append_rows(const JobContext& context, const ChartRows& chart, GridOutput& output) {
   Progress progress(static_cast<std::uint64_t>(chart.rows), context.job, progress_wanted(context));
   const std::int64_t block_rows = rows_of_block(chart.columns);
-  ChartBlock block(chart.columns, chart.number_columns, block_rows);
+  ChartBlock block(chart, block_rows);
+  const ChartMemory memory = block.memory();
   for (std::int64_t begin = 0; begin < chart.rows; begin += block_rows) {
     throw_if_interrupted();
     const std::int64_t count = std::min(block_rows, chart.rows - begin);
     parallel_rows(count, rows_of_tile(chart.columns), context.threads, chart.fill,
                   [&](const auto& fill, std::int64_t first, std::int64_t tile) {
-                    if (!interrupted()) fill(begin + first, tile, first, block);
+                    if (!interrupted()) fill(begin + first, tile, first, memory);
                   });
     throw_if_interrupted();
     const auto values = block.values(count);
@@ -83,12 +115,13 @@ std::size_t cells_of_chunk(const ChartRows& chart) {
 /// Rows of which the first begins a tile, by the tiles in which append_rows() has them: they begin
 /// anew, and what a cell gets depends on where that is.
 ChartBlock computed_rows(const ChartRows& chart, std::int64_t first, std::int64_t count) {
-  ChartBlock block(chart.columns, chart.number_columns, count);
+  ChartBlock block(chart, count);
+  const ChartMemory memory = block.memory();
   const std::int64_t tile = rows_of_tile(chart.columns);
   for (std::int64_t row = 0; row < count; row += tile) {
     throw_if_interrupted();
     auto fill = chart.fill;
-    fill(first + row, std::min(tile, count - row), row, block);
+    fill(first + row, std::min(tile, count - row), row, memory);
   }
   throw_if_interrupted();
   return block;
@@ -105,19 +138,15 @@ void fill_chart(const JobContext& context, const StoreDescription& store, const 
 
 }  // namespace
 
-ChartBlock::ChartBlock(std::int64_t columns, std::size_t number_columns, std::int64_t rows)
-    : columns_(row_length(columns)),
-      flags_(columns_ * static_cast<std::size_t>(rows)),
-      numbers_(number_columns, std::vector<double>(flags_.size())) {}
-
-std::vector<std::vector<double>> ChartBlock::values(std::int64_t rows) const {
-  const auto end = static_cast<std::ptrdiff_t>(start(rows));
-  std::vector<std::vector<double>> all(1);
-  std::transform(flags_.begin(), flags_.begin() + end, std::back_inserter(all.front()),
-                 [](std::uint8_t flag) { return flag != 0 ? 1.0 : 0.0; });
-  for (const std::vector<double>& numbers : numbers_)
-    all.emplace_back(numbers.begin(), numbers.begin() + end);
-  return all;
+void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads) {
+  row_length(chart.columns);
+  Progress progress(static_cast<std::uint64_t>(chart.rows), "stability", false);
+  parallel_rows(chart.rows, rows_of_tile(chart.columns), threads, chart.fill,
+                [&](const auto& fill, std::int64_t first, std::int64_t tile) {
+                  if (!interrupted()) fill(first, tile, first, memory);
+                  progress.advance(static_cast<std::uint64_t>(tile));
+                });
+  throw_if_interrupted();
 }
 
 void write_chart(const JobContext& context, const GridLayout& layout, const ChartRows& chart) {
@@ -139,30 +168,36 @@ LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid) {
           {LoopParameter::differential_gain, grid.differential}};
 }
 
-ChartRows sampled_chart(const JobContext& context, const LoopChart& chart, bool radius) {
+ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions) {
   using Kernel = CopiedKernel<ChartKernel>;
-  Kernel kernel(pack_kernels(context.instructions).chart(chart, radius));
+  Kernel kernel(pack_kernels(instructions).chart(chart, radius));
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
-                        ChartBlock& block) mutable {
-    kernel->fill(first, count, block.flags(offset), radius ? block.numbers(0, offset) : nullptr);
+                        const ChartMemory& memory) mutable {
+    kernel->fill(first, count, memory.flags(offset), radius ? memory.numbers(0, offset) : nullptr);
   };
   return {chart.slow.values.count, chart.fast.values.count, radius ? 1U : 0U, fill};
 }
 
-ChartRows modal_chart(const JobContext& context, const GainGrid& grid, bool radius) {
-  const auto circle = std::make_shared<const ResolvedCircle<double>>(circle_of(context.case_data));
+ChartRows modal_chart(const Case& the_case, const GainGrid& grid, bool radius) {
+  const auto circle = std::make_shared<const ResolvedCircle<double>>(circle_of(the_case));
   std::optional<ModalRadius> largest_modulus;
-  if (radius) largest_modulus.emplace(context.case_data);
+  if (radius) largest_modulus.emplace(the_case);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
-                        ChartBlock& block) mutable {
+                        const ChartMemory& memory) mutable {
     for (std::int64_t row = 0; row < count; ++row) {
       fill_stability_row(*circle, grid.proportional.at(first + row), grid.differential,
-                         block.flags(offset + row));
+                         memory.flags(offset + row));
       for (std::int64_t j = 0; radius && j < grid.differential.count && !interrupted(); ++j)
-        block.numbers(0, offset + row)[j] = (*largest_modulus)(grid.at(first + row, j));
+        memory.numbers(0, offset + row)[j] = (*largest_modulus)(grid.at(first + row, j));
     }
   };
   return {grid.proportional.count, grid.differential.count, radius ? 1U : 0U, fill};
+}
+
+ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
+                             InstructionSet instructions) {
+  if (is_modal(the_case)) return modal_chart(the_case, grid, radius);
+  return sampled_chart(chart_over_gains(the_case, grid), radius, instructions);
 }
 
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa) {
@@ -173,11 +208,11 @@ ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, b
   };
   StabilityRows<4> rows(characteristic_polynomial(plant), grid.differential);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
-                        ChartBlock& block) mutable {
+                        const ChartMemory& memory) mutable {
     for (std::int64_t row = 0; row < count; ++row) {
-      rows.fill(grid.proportional.at(first + row), block.flags(offset + row));
+      rows.fill(grid.proportional.at(first + row), memory.flags(offset + row));
       for (std::int64_t j = 0; abscissa && j < grid.differential.count; ++j)
-        block.numbers(0, offset + row)[j] = abscissa_at(grid.at(first + row, j));
+        memory.numbers(0, offset + row)[j] = abscissa_at(grid.at(first + row, j));
     }
   };
   return {grid.proportional.count, grid.differential.count, abscissa ? 1U : 0U, fill};
@@ -204,16 +239,16 @@ ChartRows response_chart(const JobContext& context, const SteadyResponse<double>
                          double force_amplitude, const GainGrid& grid) {
   const auto stable = stable_rows(context.case_data, grid);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
-                        ChartBlock& block) {
+                        const ChartMemory& memory) {
     for (std::int64_t row = 0; row < count; ++row) {
-      std::uint8_t* flags = block.flags(offset + row);
+      std::uint8_t* flags = memory.flags(offset + row);
       stable(grid.proportional.at(first + row), flags);
       for (std::int64_t j = 0; j < grid.differential.count; ++j) {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
         const PdGains<double> gains = grid.at(first + row, j);
-        block.numbers(0, offset + row)[j] =
+        memory.numbers(0, offset + row)[j] =
             flags[j] != 0 ? force_amplitude * response.amplitude_per_force(gains) : none;
-        block.numbers(1, offset + row)[j] =
+        memory.numbers(1, offset + row)[j] =
             flags[j] != 0 ? response.ratio_to_uncontrolled(gains) : none;
       }
     }

@@ -20,25 +20,18 @@ std::vector<GridAxis> gain_axes(const GainGrid& grid);
 /// The chart of the sampled loop of a case on two masses over P, the slow axis, and D.
 LoopChart chart_over_gains(const Case& the_case, const GainGrid& grid);
 
-/// Some rows of a chart in memory: flags, then as many columns of numbers as the chart has.
-class ChartBlock {
- public:
-  /// Throws WrongInput for longer rows than are held in memory.
-  ChartBlock(std::int64_t columns, std::size_t number_columns, std::int64_t rows);
+/// Where rows of a chart are computed, in memory of somebody else's: flags, then as many columns of
+/// numbers as the chart has.
+struct ChartMemory {
+  std::size_t columns;  ///< values in a row
+  std::uint8_t* first_flags;
+  std::vector<double*> first_numbers;
 
-  std::uint8_t* flags(std::int64_t row) { return flags_.data() + start(row); }
-  double* numbers(std::size_t column, std::int64_t row) {
-    return numbers_[column].data() + start(row);
+  std::uint8_t* flags(std::int64_t row) const { return first_flags + start(row); }
+  double* numbers(std::size_t column, std::int64_t row) const {
+    return first_numbers[column] + start(row);
   }
-  /// The first rows, column after column, the flags as numbers.
-  std::vector<std::vector<double>> values(std::int64_t rows) const;
-
- private:
-  std::size_t start(std::int64_t row) const { return static_cast<std::size_t>(row) * columns_; }
-
-  std::size_t columns_;
-  std::vector<std::uint8_t> flags_;
-  std::vector<std::vector<double>> numbers_;
+  std::size_t start(std::int64_t row) const { return static_cast<std::size_t>(row) * columns; }
 };
 
 /// A chart that is computed row by row.
@@ -46,9 +39,10 @@ struct ChartRows {
   std::int64_t rows;
   std::int64_t columns;        ///< values in a row
   std::size_t number_columns;  ///< beside the flags
-  /// Computes rows first … first + count − 1 into the block from its row `offset` on. Each tile
-  /// of rows has a copy of its own.
-  std::function<void(std::int64_t first, std::int64_t count, std::int64_t offset, ChartBlock&)>
+  /// Computes rows first … first + count − 1 into memory from its row `offset` on. Each tile of
+  /// rows has a copy of its own.
+  std::function<void(std::int64_t first, std::int64_t count, std::int64_t offset,
+                     const ChartMemory&)>
       fill;
 };
 
@@ -57,13 +51,21 @@ struct ChartRows {
 /// Throws Interrupted, InvalidParameter, and what GridOutput and fill_store() throw.
 void write_chart(const JobContext& context, const GridLayout& layout, const ChartRows& chart);
 
-// The charts; each holds on to the case of its context.
+/// Computes a chart where it is wanted; progress goes to the host of the job alone. Throws
+/// Interrupted, InvalidParameter.
+void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads);
+
+// The charts; one of a modal case holds on to the case.
 
 /// Columns: stable and, with `radius`, the spectral radius of the sampled loop.
-ChartRows sampled_chart(const JobContext& context, const LoopChart& chart, bool radius);
+ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions);
 
 /// The same of a modal case.
-ChartRows modal_chart(const JobContext& context, const GainGrid& grid, bool radius);
+ChartRows modal_chart(const Case& the_case, const GainGrid& grid, bool radius);
+
+/// The same over P and D of either kind.
+ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
+                             InstructionSet instructions);
 
 /// Columns: stable and, with `abscissa`, the spectral abscissa (1/s) of the continuous loop.
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa);

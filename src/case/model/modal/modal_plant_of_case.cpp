@@ -5,6 +5,7 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/own/own_parts.hpp"
 #include "case/model/span/span_loop.hpp"
 #include "holdfast/control/late_controller.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
@@ -81,6 +82,10 @@ std::vector<PlantPole> without_drift(const Case& the_case, std::vector<PlantPole
   return poles;
 }
 
+ModalResponse<double> response_of_own_plant(const Case& the_case) {
+  return {modal_plant_of(the_case), sampling_of(the_case)};
+}
+
 ModalResponse<double> response_of(const Case& the_case, const ConductorModes& modes) {
   throw_if_interrupted();
   ConductorWithAbsorber conductor = conductor_by(the_case, modes);
@@ -90,9 +95,25 @@ ModalResponse<double> response_of(const Case& the_case, const ConductorModes& mo
   return response;
 }
 
+ModalResponse<double> response_of(const Case& the_case) {
+  return has_own_plant(the_case) ? response_of_own_plant(the_case)
+                                 : response_of(the_case, conductor_modes_of(the_case));
+}
+
+/// The controller of the loop: P and D with their limits and delays, or one of the user's own.
+template <class Visit>
+auto with_law_of(const Case& the_case, bool controlled, const Visit& visit) {
+  const DigitalLoop digital = implemented_loop_of(the_case, Switching::sampled).digital;
+  if (the_case.own != nullptr && the_case.own->controller)
+    return visit(own_law_of(the_case, controlled));
+  return visit(late_controller(controlled ? digital.gains : PdGains<double>{}, digital.limits,
+                               digital.sampling));
+}
+
 }  // namespace
 
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
+  refuse_for_own_plant(the_case, true, "this");
   ConductorWithAbsorber conductor = conductor_by(the_case, conductor_modes_of(the_case));
   if (conductor.poles.empty())
     throw NoAnswer(
@@ -106,21 +127,23 @@ ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
 }
 
 std::vector<PlantPole> loop_poles_of(const Case& the_case) {
+  if (has_own_plant(the_case)) return poles_of(modal_plant_of(the_case));
   const ConductorWithAbsorber conductor = conductor_with_absorber_of(the_case);
   return with_hardware(without_drift(the_case, conductor.poles), conductor.hardware);
 }
 
 LinearPlant<double> modal_plant_of(const Case& the_case) {
+  if (has_own_plant(the_case)) return with_hardware(*the_case.own->plant, hardware_of(the_case));
   return linear_plant(ConductorWithAbsorber{
       place_modes_of(the_case), absorber_of(the_case), {}, hardware_of(the_case)});
 }
 
 ResolvedCircle<double> circle_of(const Case& the_case) {
-  return ResolvedCircle<double>(response_of(the_case, conductor_modes_of(the_case)));
+  return ResolvedCircle<double>(response_of(the_case));
 }
 
 ModalRadius::ModalRadius(const Case& the_case)
-    : case_(the_case), response_(response_of(the_case, conductor_modes_of(the_case))) {}
+    : case_(the_case), response_(response_of(the_case)) {}
 
 double ModalRadius::operator()(const PdGains<double>& gains) {
   const std::complex<double> root = largest_loop_root(response_, gains);
@@ -132,7 +155,7 @@ double ModalRadius::operator()(const PdGains<double>& gains) {
 }
 
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains) {
-  return largest_loop_root(response_of(the_case, conductor_modes_of(the_case)), gains);
+  return largest_loop_root(response_of(the_case), gains);
 }
 
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
@@ -148,6 +171,7 @@ bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
 }
 
 OtherModes other_modes_of(const Case& the_case) {
+  if (has_own_plant(the_case)) return {circle_of(the_case), "with all modes"};
   const auto circle_by = [&](const ConductorModes& modes) {
     return ResolvedCircle<double>(response_of(the_case, modes));
   };
@@ -166,12 +190,16 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency) {
   if (!is_modal(the_case))
     return steady_response(plant_of(the_case), sampling, hold, angular_frequency);
+  if (has_own_plant(the_case))
+    return steady_response(modal_plant_of(the_case), sampling, hold, angular_frequency);
   return steady_response(conductor_by(the_case, conductor_modes_of(the_case)), sampling, hold,
                          angular_frequency);
 }
 
 double true_amplitude_of(const Case& the_case, double angular_frequency) {
   if (!is_modal(the_case)) return true_amplitude_per_force(plant_of(the_case), angular_frequency);
+  if (has_own_plant(the_case))
+    return true_amplitude_per_force(modal_plant_of(the_case), angular_frequency);
   return true_amplitude_per_force(place_modes_of(the_case), absorber_of(the_case),
                                   angular_frequency);
 }
@@ -201,11 +229,10 @@ ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
     throw WrongInput(
         "a string without ends has no inertia of its own: this needs absorber.clamp_mass > 0");
   const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
-  const PdGains<double> gains = choice.controlled ? loop.digital.gains : PdGains<double>{};
   const Sampling<double>& sampling = loop.digital.sampling;
   ImplementedLoopOf<ControlledPlant> own{
-      with_controller(modal_plant_of(the_case),
-                      late_controller(gains, loop.digital.limits, sampling)),
+      with_law_of(the_case, choice.controlled,
+                  [&](const auto& law) { return with_controller(modal_plant_of(the_case), law); }),
       loop.digital, loop.backlash, choice.switching};
   own.digital.sampling = within_sample(sampling);
   own.digital.gains = {0.0, 0.0};
@@ -229,17 +256,20 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
 }
 
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen) {
-  const Vector<double, Eigen::Dynamic> conductor = modal_state(place_modes_of(the_case), seen);
-  const DigitalLoop digital = implemented_loop_of(the_case, Switching::sampled).digital;
+  const bool own = has_own_plant(the_case);
+  const Vector<double, Eigen::Dynamic> conductor =
+      own ? the_case.own->state : modal_state(place_modes_of(the_case), seen);
+  const double read =
+      own ? the_case.own->plant->connections.measured_displacement.dot(conductor) : seen[0];
   const Eigen::Index commands =
-      late_controller(digital.gains, digital.limits, digital.sampling).order();
+      with_law_of(the_case, true, [](const auto& law) { return detail::memory_size(law); });
   const detail::HardwarePoles lags(hardware_of(the_case));
   const auto drive = static_cast<Eigen::Index>(lags.drive.size());
   const auto filter = static_cast<Eigen::Index>(lags.filter.size());
   Vector<double, Eigen::Dynamic> state =
       Vector<double, Eigen::Dynamic>::Zero(conductor.size() + drive + filter + commands);
   state.head(conductor.size()) = conductor;
-  state.segment(conductor.size() + drive, filter).setConstant(seen[0]);
+  state.segment(conductor.size() + drive, filter).setConstant(read);
   return state;
 }
 

@@ -123,7 +123,8 @@ std::string drift_warning(const Case& the_case) {
 }
 
 std::string dense_work_warning(const Case& the_case, Switching switching) {
-  if (!is_modal(the_case) || is_of_the_paper(the_case, switching)) return "";
+  if (!is_modal(the_case) || has_own_plant(the_case) || is_of_the_paper(the_case, switching))
+    return "";
   const std::size_t modes = conductor_modes_of(the_case).modes.size();
   constexpr std::size_t soon = 50;
   if (modes <= soon) return "";

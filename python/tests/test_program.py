@@ -1,0 +1,178 @@
+"""The package's answers are the program's, to the last bit."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from conftest import assert_same, random_case, settings
+
+import holdfast
+
+CASES = 200
+
+
+@pytest.fixture(autouse=True)
+def quiet():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", holdfast.PlausibilityWarning)
+        yield
+
+
+def ask(question):
+    """The answer, or what stands in its place."""
+    try:
+        return question()
+    except (ValueError, holdfast.NoAnswer) as refusal:
+        return refusal
+
+
+def compare(program, words, question):
+    found = ask(question)
+    columns = program(words)
+    if isinstance(found, Exception):
+        assert columns.get("exit code") == ["2" if isinstance(found, ValueError) else "1"]
+        assert str(found) in columns["message"][0]
+        return False
+    assert_same(found, columns)
+    return True
+
+
+@pytest.mark.parametrize("seed", range(CASES))
+def test_random_case(program, seed):
+    random = np.random.default_rng(seed)
+    values = random_case(random)
+    case = holdfast.Case(values)
+    given = settings(values)
+    p = sorted(round(x, 2) for x in random.uniform(-1000.0, 200.0, 2))
+    d = sorted(round(x, 2) for x in random.uniform(-40.0, 20.0, 2))
+    over = ["--p", f"{p[0]}:{p[1]}:13", "--d", f"{d[0]}:{d[1]}:11"]
+    assert compare(
+        program, ["stability", *over, "--radius", *given], lambda: case.chart((*p, 13), (*d, 11), radius=True)
+    )
+    compare(program, ["boundary", "--stable-interval", *given], case.stable_intervals)
+    compare(
+        program,
+        ["orbit", "--max-period", "2000", *given],
+        lambda: case.orbit(max_period=2000),
+    )
+    compare(
+        program,
+        ["lyapunov", "--duration", "3", "--discard", "1", *given],
+        lambda: case.lyapunov(duration=3, discard=1),
+    )
+
+
+SAME = [
+    (["simulate", "--duration", "2"], lambda case: case.simulate(2.0)),
+    (["simulate", "--duration", "0.5", "--switching", "exact"], lambda case: case.simulate(0.5, switching="exact")),
+    (["simulate", "--duration=1", "--kick=0.5:0.001"], lambda case: case.simulate(1, kick=(0.5, 0.001))),
+    (["response"], lambda case: case.response()),
+    (["stability", "--continuous", "--radius"], lambda case: case.chart(continuous=True, radius=True)),
+    (
+        ["stability", "--axis", "control.sampling_period=0.0005:0.01:7", "--axis", "control.differential_gain=-30:0:5"],
+        lambda case: case.chart(
+            axes={"control.sampling_period": (0.0005, 0.01, 7), "control.differential_gain": (-30.0, 0.0, 5)}
+        ),
+    ),
+    (["boundary", "--p=-600:0"], lambda case: case.boundary((-600, 0))),
+    (["boundary", "--regions"], lambda case: case.gain_regions()),
+    (["boundary", "--features", "--p=-600:0", "--d=-30:10"], lambda case: case.boundary_features((-600, 0), (-30, 10))),
+    (["margins"], lambda case: case.margins()),
+    (["design"], lambda case: case.design()),
+    (["design", "--frequency", "5:15:3"], lambda case: case.design((5, 15, 3))),
+    (["design", "--both-gains"], lambda case: case.design(both_gains=True)),
+    (["max-delay", "--frequency", "5:15:3"], lambda case: case.max_delay((5, 15, 3))),
+    (["sensitivity"], lambda case: case.sensitivity()),
+    (["spectrum", "--duration", "4"], lambda case: case.spectrum(4)),
+    (["section", "--duration", "2", "--from", "1"], lambda case: case.section(2, from_=1)),
+    (["deviation", "--duration", "1"], lambda case: case.deviation(duration=1)),
+    (["coverage", "--durations", "1,2"], lambda case: case.coverage([1, 2])),
+    (["orbit", "--trace"], lambda case: case.orbit(trace=True)),
+    (["orbit", "--certificate"], lambda case: case.orbit(certificate=True)),
+    (
+        ["orbit", "--follow", "excitation.amplitude=0.4:0.6"],
+        lambda case: case.orbit_ends("excitation.amplitude", (0.4, 0.6)),
+    ),
+    (["verdict"], lambda case: case.verdict()),
+    (["lyapunov", "--duration", "2", "--history"], lambda case: case.lyapunov(duration=2, history=True)),
+    (
+        ["basins", "--axis", "initial.z1=-0.01:0.01:4", "--axis", "initial.v1=-0.1:0.1:3"],
+        lambda case: case.basins({"initial.z1": (-0.01, 0.01, 4), "initial.v1": (-0.1, 0.1, 3)}),
+    ),
+    (
+        ["diagram", "--axis", "backlash.width=0:0.001:3", "--transient", "1", "--strobes", "5"],
+        lambda case: case.diagram("backlash.width", (0, 0.001, 3), transient=1, strobes=5),
+    ),
+    (
+        ["sweep", "--axis", "backlash.width=0:0.001:3", "--axis", "excitation.frequency=log:5:20:3", "--duration", "2"],
+        lambda case: case.sweep(
+            {"backlash.width": (0, 0.001, 3), "excitation.frequency": ("log", 5, 20, 3)}, duration=2
+        ),
+    ),
+    (
+        [
+            "sweep",
+            "--axis",
+            "backlash.width=0,0.0007",
+            "--metric",
+            "verdict",
+            "--metric",
+            "steady_rms",
+            "--duration",
+            "2",
+        ],
+        lambda case: case.sweep({"backlash.width": [0.0, 0.0007]}, ["verdict", "steady_rms"], duration=2),
+    ),
+    (["reduce"], lambda case: case.reduce()),
+    (["statics", "--force", "-1:1:3"], lambda case: case.statics((-1, 1, 3))),
+    (["modes", "--count", "5"], lambda case: case.modes(count=5)),
+    (["conductors", "--find", "drake"], lambda case: holdfast.conductors("drake")),
+    (["answers"], lambda case: case.answers()),
+]
+
+
+@pytest.mark.parametrize("words, question", SAME, ids=[" ".join(words) for words, _ in SAME])
+def test_job(program, words, question):
+    assert_same(question(holdfast.Case()), program(words))
+
+
+STRING = {"plant.model": "string", "plant.modes": 10, "control.differential_gain": -2.0, "absorber.clamp_mass": 0.01}
+OF_STRING = [
+    (["modal-damping", "--count", "4"], lambda case: case.modal_damping(count=4)),
+    (
+        ["stability", "--radius", "--p=-600:0:7", "--d=-10:2:7"],
+        lambda case: case.chart((-600, 0, 7), (-10, 2, 7), radius=True),
+    ),
+    (["boundary", "--stable-interval"], lambda case: case.stable_intervals()),
+    (["simulate", "--duration", "0.5"], lambda case: case.simulate(0.5)),
+    (["margins"], lambda case: case.margins()),
+]
+
+
+@pytest.mark.parametrize("words, question", OF_STRING, ids=[" ".join(words) for words, _ in OF_STRING])
+def test_job_on_a_string(program, words, question):
+    assert_same(question(holdfast.Case(STRING)), program([*words, *settings(STRING)]))
+
+
+SPAN = {"conductor.name": "Drake", "conductor.span": 300.0, "conductor.sag": 6.0}
+DEVICE = {"kind": "dashpot", "position": 1.5, "damping": 300.0}
+OF_SPAN = [
+    (["aeolian", "--frequency", "10:40:4"], lambda case: case.aeolian((10, 40, 4))),
+    (["absorption", "--frequency", "10:40:4"], lambda case: case.absorption((10, 40, 4))),
+    (
+        ["place", "--frequency", "10:40:4", "--for", "damping"],
+        lambda case: case.place(1, frequency=(10, 40, 4), for_="damping"),
+    ),
+]
+
+
+@pytest.mark.parametrize("words, question", OF_SPAN, ids=[" ".join(words) for words, _ in OF_SPAN])
+def test_job_on_a_span(program, words, question, tmp_path):
+    case = holdfast.Case(SPAN, device=DEVICE)
+    file = tmp_path / "case.toml"
+    file.write_text(
+        '[conductor]\nname = "Drake"\nspan = 300.0\nsag = 6.0\n\n[[device]]\nkind = "dashpot"\nposition = 1.5\ndamping = 300.0\n'
+    )
+    compare(program, [*words, "--case", str(file)], lambda: question(case))

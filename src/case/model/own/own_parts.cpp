@@ -1,0 +1,90 @@
+#include "case/model/own/own_parts.hpp"
+
+#include <cmath>
+#include <complex>
+#include <string>
+
+#include "case/model/loop_of_case.hpp"
+#include "holdfast/control/controlled_plant.hpp"
+#include "holdfast/math/linalg/eigenbasis.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+namespace {
+
+/// A key that the case was given, if it was: "control.velocity, --set control.velocity=difference".
+void refuse_key(const Case& the_case, const std::string& key, const std::string& why) {
+  const auto place = the_case.places.find(key);
+  if (place != the_case.places.end()) throw WrongInput(place->second + ": " + key + ": " + why);
+}
+
+void require_consistent_plant(const Case& the_case) {
+  validate(*the_case.own->plant);
+  if (the_case.control.proportional_gain_tuned)
+    throw WrongInput(
+        "control.proportional_gain = \"tuned\": Eq. 6 is of an absorber's mass and spring, and the "
+        "plant is one of your own; give a number");
+  for (const char* key : {"initial.z1", "initial.v1", "initial.z2", "initial.v2"})
+    refuse_key(the_case, key, "a plant of your own starts from its own state");
+  for (const auto& [key, place] : the_case.places)
+    for (const char* table : {"plant.", "conductor.", "absorber.", "reduction.", "device."})
+      if (key.rfind(table, 0) == 0)
+        throw WrongInput(place + ": " + key + " does not count: the plant is one of your own");
+}
+
+void require_consistent_controller(const Case& the_case) {
+  const auto& control = the_case.control;
+  if (control.processing_delay > control.sampling_period)
+    throw WrongInput(
+        "control.processing_delay exceeds control.sampling_period: a controller of your own keeps "
+        "commands that come samples later itself");
+  for (const char* key : {"control.displacement_quantum", "control.velocity_quantum",
+                          "control.velocity", "control.largest_force"})
+    refuse_key(the_case, key, "a controller of your own rounds and limits by itself");
+}
+
+}  // namespace
+
+void require_consistent(const Case& the_case) {
+  if (the_case.own == nullptr) return;
+  if (the_case.own->plant) require_consistent_plant(the_case);
+  if (the_case.own->controller) require_consistent_controller(the_case);
+}
+
+void refuse_for_own_plant(const Case& the_case, bool given, const std::string& option) {
+  if (given && has_own_plant(the_case))
+    throw WrongInput(option + " is of conductor and absorber, not of a plant of your own");
+}
+
+OwnLaw own_law_of(const Case& the_case, bool controlled) {
+  const double period = the_case.control.jitter > 0.0 ? 0.0 : the_case.control.sampling_period;
+  return {controlled ? the_case.own->controller : OwnForce{}, period};
+}
+
+std::vector<PlantPole> poles_of(const LinearPlant<double>& plant) {
+  using Complex = std::complex<double>;
+  const EigenBasis<double> basis(plant.state_matrix());
+  if (!basis.is_sound())
+    throw NoAnswer(
+        "two natural motions of the plant coincide too nearly to be told apart: change one of them "
+        "by a thousandth");
+  const auto beta = basis.coordinates(plant.control_input());
+  const auto of_z = basis.readings(plant.connections.measured_displacement);
+  const auto of_v = basis.readings(plant.connections.measured_velocity);
+  const auto values = basis.values();
+  std::vector<PlantPole> poles;
+  double apart = 0.0, size = 0.0;
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    const Complex residue = of_z[k] * beta[k], rate = of_v[k] * beta[k];
+    poles.push_back({values[k], residue});
+    apart = std::max(apart, std::abs(rate - values[k] * residue));
+    size = std::max({size, std::abs(rate), std::abs(values[k] * residue)});
+  }
+  if (apart > 1e-9 * size)
+    throw NoAnswer(
+        "margins and designs need a velocity that is the rate of the displacement, and this plant "
+        "measures another: leave its velocity output away");
+  return poles;
+}
+
+}  // namespace holdfast::program

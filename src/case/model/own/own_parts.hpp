@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "case/case.hpp"
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+
+namespace holdfast::program {
+
+/// A controller in place of P and D: the force (N) of sample k at t (s) by the readings (m, m/s).
+using OwnForce =
+    std::function<double(std::int64_t k, double t, double displacement, double velocity)>;
+
+/// What a case has of its user's own, beside what a case file can say. Only a program in whose
+/// memory the case is can give it.
+struct OwnParts {
+  std::optional<LinearPlant<double>> plant;  ///< in place of conductor and absorber
+  Vector<double, Eigen::Dynamic> state;      ///< of that plant, where it starts
+  OwnForce controller;                       ///< empty: P and D
+};
+
+/// Throws WrongInput where the case says something that its own plant or controller takes no notice
+/// of, or would contradict.
+void require_consistent(const Case& the_case);
+
+/// Throws WrongInput where an option asks for what a plant of the user's own does not have.
+void refuse_for_own_plant(const Case& the_case, bool given, const std::string& option);
+
+/// OwnForce as a controller of the library (control/controlled_plant.hpp); its memory are the
+/// number and the instant of the sample.
+struct OwnLaw {
+  static constexpr int states = 2;
+  OwnForce force;  ///< empty: none
+  double period;   ///< τ (s) of a steady clock; 0: instants are sums of what elapsed
+
+  double command(const ControlSample& sample, Vector<double, 2>& memory) const {
+    const double k = memory[0];
+    const double t = period > 0.0 ? k * period : (k > 0.0 ? memory[1] + sample.elapsed : 0.0);
+    memory << k + 1.0, t;
+    if (!force) return 0.0;
+    return force(static_cast<std::int64_t>(k), t, sample.displacement, sample.velocity);
+  }
+};
+
+/// That of the case.
+/// @param controlled  else without force
+OwnLaw own_law_of(const Case& the_case, bool controlled);
+
+/// The poles of a plant from its command to its readings. Throws NoAnswer where two of them
+/// coincide too nearly to be told apart, or what D multiplies is not the rate of what P does: such
+/// a plant has charts, responses and motions, and no sum over its poles.
+std::vector<PlantPole> poles_of(const LinearPlant<double>& plant);
+
+}  // namespace holdfast::program
