@@ -63,6 +63,9 @@ a verdict
 t basins --axis initial.z1=-0.005:0.005:5 --axis initial.z2=-0.005:0.005:5 --threads 3
 t sweep --axis backlash.width=0:0.001:5 --axis control.sampling_period=0.001,0.002 --duration 0.5 --threads 3 --output sweep.csv
 p sweep --axis backlash.width=0:0.001:5 --duration 0.5 --threads 2 --output sweep.nc
+t sweep --axis backlash.width=0:0.001:5 --axis initial.z1=0:0.001:9 --duration 0.5 --threads 3 --chunk 4 --output sweep.zarr
+t stability --p -600:0:70 --d -20:0:5 --radius --threads 3 --output chart.zarr
+a convert sweep.zarr of-store.csv
 a statics --force -1:1:3 --elements 8
 a modes --count 2 --elements 8
 p decay --duration 0.1 --elements 8

@@ -98,6 +98,7 @@ void append_rows(const JobContext& context, const ChartRows& chart, GridOutput& 
     throw_if_interrupted();
     const auto values = block.values(count);
     std::vector<const double*> columns;
+    columns.reserve(values.size());
     for (const std::vector<double>& column : values) columns.push_back(column.data());
     output.append(count * chart.columns, columns);
     progress.advance(static_cast<std::uint64_t>(count));
