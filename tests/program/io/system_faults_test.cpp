@@ -188,7 +188,8 @@ TEST(StoreFolder, FinishesAChunkOnTheDiskBeforeItHasItsName) {
   const std::string words =
       message_of<OutputError>([&] { store.put(1, values_of_small_store(1)); });
   before_call = nullptr;
-  EXPECT_EQ(calls, (std::vector<std::string>{"fsync", "rename", "fsync", "rename", "fsync", "rename"}));
+  EXPECT_EQ(calls,
+            (std::vector<std::string>{"fsync", "rename", "fsync", "rename", "fsync", "rename"}));
   EXPECT_NE(words.find("Input/output error"), std::string::npos) << words;
   EXPECT_TRUE(store.has(0));
   EXPECT_FALSE(store.has(1));
