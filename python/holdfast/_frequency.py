@@ -6,6 +6,8 @@ from typing import Any, Optional
 
 import numpy as np
 
+from ._options import finite_number
+
 
 class FrequencyData:
     """The response of a plant's displacement to the drive's force, z/u (m/N), at measured frequencies.
@@ -46,8 +48,9 @@ class FrequencyData:
         :param processing_delay: delta, s
         :return: the measured frequencies below half the sampling rate, Hz, and L there
         """
-        p, d = _finite(p, "p"), _finite(d, "d")
-        period, delay = _finite(sampling_period, "sampling_period"), _finite(processing_delay, "processing_delay")
+        p, d = finite_number(p, "p"), finite_number(d, "d")
+        period = finite_number(sampling_period, "sampling_period")
+        delay = finite_number(processing_delay, "processing_delay")
         if not period > 0.0 or delay < 0.0:
             raise ValueError(f"sampling_period = {period}, processing_delay = {delay} s: admissible is > 0 and >= 0")
         below = self.frequency[self.frequency < 0.5 / period]
@@ -118,16 +121,6 @@ def frequency_response(frequency: Any, response: Any, *, stable: bool = True) ->
     if not f[0] > 0.0 or not np.all(np.diff(f) > 0.0):
         raise ValueError("frequency: admissible are ascending values above 0 Hz")
     return FrequencyData(f, h, bool(stable))
-
-
-def _finite(value: Any, name: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} = {value!r}: admissible is a number") from None
-    if not np.isfinite(number):
-        raise ValueError(f"{name} = {number}: admissible is a finite number")
-    return number
 
 
 def _crossings(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -11,14 +11,20 @@ import numpy as np
 Range = Any
 
 
-def number_text(value: Any, name: str) -> str:
-    """A finite number with all of its digits."""
+def finite_number(value: Any, name: str) -> float:
+    """The number, or a ValueError that names it."""
     try:
         number = float(value)
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {value!r}: admissible is a number") from None
     if not np.isfinite(number):
         raise ValueError(f"{name} = {number}: admissible is a finite number")
+    return number
+
+
+def number_text(value: Any, name: str) -> str:
+    """A finite number with all of its digits."""
+    number = finite_number(value, name)
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     return str(int(value)) if whole else repr(number)
 

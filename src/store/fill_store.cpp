@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "io/text/checksum.hpp"
 #include "jobs/charts/row_blocks.hpp"
-#include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
 #include "process/progress.hpp"

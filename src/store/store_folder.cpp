@@ -1,11 +1,9 @@
 #include "store/store_folder.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -85,13 +83,6 @@ std::optional<std::string> root_text(const fs::path& folder, int format) {
   return text;
 }
 
-bool is_empty_or_missing(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder, error)) return true;
-  return fs::is_directory(folder, error) &&
-         fs::directory_iterator(folder, error) == fs::directory_iterator();
-}
-
 bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& known) {
   std::error_code error;
   fs::directory_iterator entries(folder, error);
@@ -105,9 +96,9 @@ bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& k
   return true;
 }
 
-/// Leftovers of a store whose root was not written any more, and so without chunks: of those nobody
-/// could tell what they belong to.
-bool is_begun_store(const fs::path& folder, const StoreDescription& description) {
+/// Whether nothing is there, or leftovers of a store whose root was not written any more; without
+/// chunks, of which nobody could tell what they belong to.
+bool may_begin_store(const fs::path& folder, const StoreDescription& description) {
   std::vector<std::string> known = {".zgroup", ".zmetadata", FolderLock::file_name};
   for (const GridAxis& axis : description.axes) known.push_back(cf_name(axis.column.name));
   for (const CellColumn& cells : description.columns) {
@@ -150,7 +141,7 @@ StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& d
   StoreFolder store(folder, description);
   const std::optional<StoreDescription> before = store_in(folder);
   if (!before) {
-    if (!is_empty_or_missing(folder) && !is_begun_store(folder, description)) refuse_folder(folder);
+    if (!may_begin_store(folder, description)) refuse_folder(folder);
     store.begin();
   }
   // Read again: another process may have begun another store meanwhile.

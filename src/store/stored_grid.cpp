@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "io/file/output.hpp"
-#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 

@@ -12,6 +12,7 @@
 #include "holdfast/plant/natural_modes.hpp"
 #include "jobs/motion/case_motion.hpp"
 #include "process/errors.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
@@ -19,17 +20,7 @@ namespace {
 
 /// The two masses of the built-in case, at any order.
 LinearPlant<double> two_masses() {
-  const LinearPlant<double, 4> four = linear_plant(plant_of(CaseSource{}.load()));
-  const Ports<double, 4>& ports = four.connections;
-  return {four.released_matrix,
-          four.force_input,
-          four.command_input,
-          four.excitation,
-          four.drive_force,
-          four.direct_transmission,
-          {ports.displacement, ports.velocity, ports.measured_displacement, ports.measured_velocity,
-           ports.relative_displacement, ports.relative_velocity, ports.displacement_lift,
-           ports.velocity_lift}};
+  return test::of_dynamic_order(linear_plant(plant_of(CaseSource{}.load())));
 }
 
 CaseSource source_of(std::optional<LinearPlant<double>> plant, OwnForce controller = {}) {
