@@ -72,22 +72,26 @@ void write_file(const fs::path& file, std::string_view bytes) {
   if (error != 0) refuse_to_write(file, error);
 }
 
+[[noreturn]] void refuse_to_read(const fs::path& folder, int error) {
+  if (error == ENOMEM) throw std::bad_alloc();
+  throw WrongInput("cannot read " + folder.string() + ": " + system_words(error));
+}
+
 /// What the format says a root is; nothing where there is no such file.
 std::optional<std::string> root_text(const fs::path& folder, int format) {
   int error = 0;
   std::optional<std::string> text =
       read_whole_file(folder / (format == 2 ? root_of_format_2 : root_of_format_3), error);
-  if (error == ENOMEM) throw std::bad_alloc();
-  if (!text && error != ENOENT && error != ENOTDIR)
-    throw WrongInput("cannot read " + folder.string() + ": " + system_words(error));
+  if (!text && error != ENOENT && error != ENOTDIR) refuse_to_read(folder, error);
   return text;
 }
 
 bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& known) {
   std::error_code error;
   fs::directory_iterator entries(folder, error);
-  // What is missing holds nothing; what cannot be read may be anything.
-  if (error) return error == std::errc::no_such_file_or_directory;
+  if (error == std::errc::no_such_file_or_directory) return true;
+  if (error == std::errc::not_a_directory) return false;
+  if (error) refuse_to_read(folder, error.value());
   for (const fs::directory_entry& entry : entries) {
     const std::string name = entry.path().filename().string();
     if (std::count(known.begin(), known.end(), name) == 0 && !name_behind_temporary(name))
@@ -139,13 +143,12 @@ std::optional<StoreDescription> store_in(const fs::path& folder) {
 
 StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& description) {
   StoreFolder store(folder, description);
-  const std::optional<StoreDescription> before = store_in(folder);
-  if (!before) {
-    if (!may_begin_store(folder, description)) refuse_folder(folder);
-    store.begin();
+  std::optional<StoreDescription> there = store_in(folder);
+  if (!there) {
+    if (may_begin_store(folder, description)) store.begin();
+    // Read anew: another process may have begun a store meanwhile, this one or another.
+    there = store_in(folder);
   }
-  // Read again: another process may have begun another store meanwhile.
-  const std::optional<StoreDescription> there = before ? before : store_in(folder);
   if (!there) refuse_folder(folder);
   require_same_plan(folder, *there, description);
   return store;
@@ -159,12 +162,12 @@ StoreFolder StoreFolder::open(const fs::path& folder) {
   return store;
 }
 
-/// Leaves nothing where it cannot come to its end.
+/// Leaves nothing where it cannot come to its end, but what another process has begun meanwhile.
 void StoreFolder::begin() const {
   try {
     write_documents();
   } catch (...) {
-    remove();
+    if (!store_in(folder_)) remove();
     throw;
   }
 }

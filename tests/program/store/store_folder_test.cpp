@@ -1,5 +1,7 @@
 #include "store/store_folder.hpp"
 
+#include <thread>
+
 #include "process/errors.hpp"
 #include "program/store/small_store.hpp"
 #include "support/message_of.hpp"
@@ -34,6 +36,21 @@ TEST(StoreFolder, KeepsItsChunksForWhoeverOpensIt) {
     EXPECT_THROW(store.has(4), std::out_of_range);
     store.remove();
     EXPECT_TRUE(folder.names().empty());
+  }
+}
+
+TEST(StoreFolder, ManyThatBeginItAtOnceAllHaveIt) {
+  const TemporaryFolder folder;
+  for (int store = 0; store < 5; ++store) {
+    const fs::path path = folder / (std::to_string(store) + ".zarr");
+    std::vector<std::thread> others;
+    for (std::int64_t chunk = 0; chunk < 4; ++chunk)
+      others.emplace_back([chunk, path] {
+        EXPECT_NO_THROW(
+            StoreFolder::enter(path, small_store()).put(chunk, values_of_small_store(chunk)));
+      });
+    for (std::thread& other : others) other.join();
+    EXPECT_EQ(StoreFolder::open(path).chunks_done(), 4);
   }
 }
 
