@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <future>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -23,6 +25,26 @@ std::uint64_t number_of_this_process() {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return checksum(std::to_string(now) + "-" + std::to_string(getpid()));
 }
+
+/// A chunk that is kept while the next one is computed: a thread need not wait for the disk.
+class ChunkUnderWay {
+ public:
+  /// Keeps another one once the last is done.
+  template <class Keep>
+  void begin(Keep&& keep) {
+    finish();
+    // Where there is no further thread it is kept when it is asked for.
+    done_ = std::async(std::launch::async | std::launch::deferred, std::forward<Keep>(keep));
+  }
+
+  /// Throws what could not be kept.
+  void finish() {
+    if (done_.valid()) done_.get();
+  }
+
+ private:
+  std::future<void> done_;
+};
 
 /// One process at work on a store.
 class StoreFilling {
@@ -76,45 +98,52 @@ class StoreFilling {
   /// What one thread does: the next chunk, until there is none; then what others have not done.
   void take_chunks(const std::atomic<bool>& stop) {
     std::vector<std::int64_t> elsewhere;
+    ChunkUnderWay under_way;
     while (!stop) {
       throw_if_interrupted();
       const std::int64_t ticket = group_.take_ticket();
       if (ticket >= tickets_) break;
       const std::int64_t chunk = chunk_of((first_ticket_ + ticket) % tickets_);
-      if (!see_to(chunk, false)) elsewhere.push_back(chunk);
+      if (!see_to(chunk, false, under_way)) elsewhere.push_back(chunk);
       show_others();
     }
-    while (!stop && !elsewhere.empty()) see_to_others(elsewhere);
+    under_way.finish();  // others may wait for it
+    while (!stop && !elsewhere.empty()) see_to_others(elsewhere, under_way);
   }
 
   /// Waits for what others have, and does what they leave.
-  void see_to_others(std::vector<std::int64_t>& elsewhere) {
+  void see_to_others(std::vector<std::int64_t>& elsewhere, ChunkUnderWay& under_way) {
     const std::size_t before = elsewhere.size();
-    elsewhere.erase(std::remove_if(elsewhere.begin(), elsewhere.end(),
-                                   [&](std::int64_t chunk) { return see_to(chunk, true); }),
-                    elsewhere.end());
+    elsewhere.erase(
+        std::remove_if(elsewhere.begin(), elsewhere.end(),
+                       [&](std::int64_t chunk) { return see_to(chunk, true, under_way); }),
+        elsewhere.end());
+    under_way.finish();
     if (elsewhere.size() == before) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     throw_if_interrupted();
   }
 
-  /// Whether the chunk is done, here or elsewhere.
+  /// Whether the chunk is done, here or elsewhere, or under way here.
   /// @param last  nobody comes to it any more
-  bool see_to(std::int64_t chunk, bool last) {
+  bool see_to(std::int64_t chunk, bool last, ChunkUnderWay& under_way) {
     throw_if_interrupted();
     const bool done = is_done(chunk);
     const bool left = done && work_.verify && ChunkClaim::exists(store_.file_of(chunk));
     if (done && !left) return count_found(chunk);
-    const ChunkClaim claim(store_.file_of(chunk));
-    if (claim.was_left()) store_.remove_leftovers(chunk);
-    if (claim.answer() == ChunkClaim::Answer::elsewhere) return false;
-    if (claim.answer() == ChunkClaim::Answer::unknown && !last) return false;
+    auto claim = std::make_shared<const ChunkClaim>(store_.file_of(chunk));
+    if (claim->was_left()) store_.remove_leftovers(chunk);
+    if (claim->answer() == ChunkClaim::Answer::elsewhere) return false;
+    if (claim->answer() == ChunkClaim::Answer::unknown && !last) return false;
     // Its last holder may have finished it before it was ours.
     if (is_done(chunk)) return count_found(chunk);
-    const ChunkResult result = work_.compute(chunk);
-    store_.put(chunk, result.values);
-    ++seen_;
-    progress_.advance(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)),
-                      static_cast<std::uint64_t>(result.samples));
+    under_way.begin(
+        [this, chunk, claim = std::move(claim), result = work_.compute(chunk)]() mutable {
+          store_.put(chunk, result.values);
+          claim.reset();  // the chunk is there
+          ++seen_;
+          progress_.advance(static_cast<std::uint64_t>(store_.grid().cells_of(chunk)),
+                            static_cast<std::uint64_t>(result.samples));
+        });
     return true;
   }
 
