@@ -6,10 +6,12 @@
 //     store_bench [FOLDER [SIDE [DURATION [REPETITIONS]]]]
 //
 // The grid is SIDE times SIDE cells of backlash and differential gain, DURATION seconds each.
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "case/case_file.hpp"
 #include "jobs/charts/row_blocks.hpp"
@@ -41,10 +43,14 @@ SweepOptions sweep_of(const std::string& side, double duration) {
   return options;
 }
 
+/// One chunk after the other to whichever thread is free, as a store is filled.
 void compute_all(const SweepPlan& plan) {
   const ChunkGrid& grid = plan.grid();
-  parallel_rows(grid.chunks(), 1, 0, 0, [&](int&, std::int64_t chunk, std::int64_t) {
-    compute_cells(plan, grid.first_cell(chunk), grid.cells_of(chunk));
+  const auto threads = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+  std::atomic<std::int64_t> next{0};
+  parallel_rows(threads, 1, static_cast<int>(threads), 0, [&](int&, std::int64_t, std::int64_t) {
+    for (std::int64_t chunk = next++; chunk < grid.chunks(); chunk = next++)
+      compute_cells(plan, grid.first_cell(chunk), grid.cells_of(chunk));
   });
 }
 

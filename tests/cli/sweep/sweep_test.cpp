@@ -98,6 +98,7 @@ TEST(SweepJob, ADryRunOfAHundredMillionCellsComputesNothingAndLeavesNothing) {
   // 20 s at 1 ms, the first sample and the last one counted.
   EXPECT_GE(quantity_of(table, "samples"), 1e8 * 20001.0);
   EXPECT_EQ(quantity_of(table_of(sweep + " --chunk 1000"), "chunks"), 1e5);
+  EXPECT_EQ(quantity_of(table_of(sweep + " --chunk 10000000"), "chunks"), 10.0);
   EXPECT_TRUE(folder.names().empty());
 }
 
