@@ -6,10 +6,9 @@ import html
 import json
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
-import numpy as np
 
 from . import _core, _options, _toml
 from ._drive import controller_of, force_of
@@ -461,8 +460,9 @@ class Case:
         return self._run("design", words, how)
 
     def margins(self, **how: Any) -> Table:
-        """How far the case's D, P, sampling period and delay are from instability, with the margins of the loop
-        1 - P Gz - D Gv on the unit circle (modulus, gain in dB, phase in degrees, delay in s).
+        """How far the case's D, P, sampling period and delay are from instability, each moved alone, but the
+        sampling period with the delay in proportion. Columns ``quantity, unit, value, side, outcome, position,
+        distance, curve, frequency_Hz``.
         """
         return self._run("margins", _options.arguments({}), how)
 
