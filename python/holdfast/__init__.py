@@ -14,6 +14,7 @@ from ._core import NoAnswer
 from ._core import version as __version__
 from ._frequency import FrequencyData, frequency_response
 from ._plant import Plant, plant
+from ._store import Store, convert, open_store
 from ._table import Table
 
 __all__ = [
@@ -22,9 +23,12 @@ __all__ = [
     "NoAnswer",
     "Plant",
     "PlausibilityWarning",
+    "Store",
     "Table",
     "__version__",
     "conductors",
+    "convert",
     "frequency_response",
+    "open_store",
     "plant",
 ]

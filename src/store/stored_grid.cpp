@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "case/model/own/own_parts.hpp"
 #include "io/file/output.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -28,6 +29,10 @@ StorePlan plan_of(const JobContext& context) {
 
 StoreDescription store_description(const JobContext& context, const GridLayout& layout,
                                    std::size_t most) {
+  if (has_own_plant(context.case_data))
+    throw WrongInput(
+        "--output: a store says what made it, which a plant of your own cannot be said by; take "
+        "the result as arrays, or write .nc or .csv");
   StoreDescription store;
   store.origin = context;
   store.axes = layout.axes;
@@ -81,7 +86,7 @@ void copy_store(const StoreFolder& store, const JobContext& context) {
 void convert_store(const JobContext& context, const std::filesystem::path& folder) {
   const StoreFolder store = StoreFolder::open(folder);
   std::error_code error;
-  if (std::filesystem::equivalent(folder, *context.output, error))
+  if (context.output && std::filesystem::equivalent(folder, *context.output, error))
     throw WrongInput("convert: " + folder.string() + " would be written over itself");
   if (is_store_name(context.output)) return copy_store(store, context);
   const StoreDescription& description = store.description();
