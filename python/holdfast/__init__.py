@@ -15,6 +15,7 @@ from ._core import NoAnswer
 from ._core import version as __version__
 from ._frequency import FrequencyData, frequency_response
 from ._plant import Plant, plant
+from ._store import Store, convert, open_store
 from ._table import Table
 
 __all__ = [
@@ -23,10 +24,13 @@ __all__ = [
     "NoAnswer",
     "Plant",
     "PlausibilityWarning",
+    "Store",
     "Table",
     "__version__",
     "conductors",
+    "convert",
     "frequency_response",
+    "open_store",
     "paper",
     "plant",
 ]

@@ -6,14 +6,14 @@ import html
 import json
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Optional, Union
 
-import numpy as np
 
 from . import _core, _options, _toml
 from ._drive import controller_of, force_of
 from ._progress import watch_of
+from ._store import Store, store_name
 from ._table import Table
 
 Path = Union[str, "os.PathLike[str]"]
@@ -23,6 +23,8 @@ Range = Any
 Interval = Any
 
 
+#: Whose result is cells over axes, which a store can hold.
+_JOBS_OF_CELLS = ("stability", "response", "basins", "sweep")
 #: Of [excitation], where a force of the user's own takes its place.
 _WITHOUT_FORCE = ("amplitude=0.0", "harmonics=[]", "noise_rms=0.0", 'record=""')
 
@@ -51,9 +53,9 @@ class Case:
     A case never changes; ``with_`` makes another. Every method that answers a question gives a
     :class:`Table` and takes besides its own the keywords ``threads`` (0: all), ``instructions``
     (``"baseline"``, ``"avx2"``, ``"avx512"``), ``progress`` (True: tqdm where it is installed, or a
-    callable ``(done, total)``) and, but for charts over gains, ``output`` (a file of the program's
-    instead; then nothing is returned) and ``yes`` (gigabytes of rows are meant). What holds for the program holds here: ``holdfast JOB
-    --help`` explains each option further.
+    callable ``(done, total)``), ``output`` (a file of the program's instead; then nothing is returned)
+    and ``yes`` (gigabytes of rows are meant); those with ``store`` also ``zarr_format`` (2 or 3). What
+    holds for the program holds here: ``holdfast JOB --help`` explains each option further.
 
     :param source: a case file, a dict of its tables (nested or with dotted keys), another case; None:
         the built-in case, which every key that is not given is taken from
@@ -156,10 +158,24 @@ class Case:
     def __reduce__(self) -> tuple[Any, ...]:
         if self._core.has_own_plant():
             raise TypeError("a case with a plant of your own cannot be pickled: make it anew from its plant")
-        return Case.from_toml, (self.to_toml(),)
+        return _restored, self._core.source()
 
     # -- running a job -----------------------------------------------------------------------------
-    def _run(
+    def _run(self, job: str, words: Sequence[str], how: dict[str, Any], *own: Any) -> Any:
+        """The table of a job, or the store that it has written; its warnings are Python's."""
+        how = dict(how)
+        store = how.pop("store", None) if job in _JOBS_OF_CELLS else None
+        if store is not None:
+            if how.get("output") is not None:
+                raise TypeError("store and output: admissible is one of them")
+            how["output"] = store_name(store)
+        tables, texts = self._ask(job, words, how, *own)
+        _warn(texts)
+        if store is not None:
+            return Store(store)
+        return Table(job, tables[-1]) if tables else None
+
+    def _ask(
         self,
         job: str,
         words: Sequence[str],
@@ -167,10 +183,12 @@ class Case:
         controller: Any = None,
         excitation: Any = None,
         duration: float = 0.0,
-    ) -> Any:
+    ) -> tuple[list[dict[str, Any]], list[str]]:
+        """The tables of a job and its warnings."""
         how = dict(how)
         progress = how.pop("progress", None)
-        given = {name: how.pop(name, None) for name in ("threads", "instructions", "output", "yes")}
+        common = ("threads", "instructions", "output", "yes") + (("zarr_format",) if job in _JOBS_OF_CELLS else ())
+        given = {name: how.pop(name, None) for name in common}
         if how:
             raise TypeError(f"{job} has no option {', '.join(how)}")
         if given["output"] is not None:
@@ -180,11 +198,9 @@ class Case:
             force = force_of(excitation, duration, self["control.sampling_period"])
             core = core.with_overrides([f"excitation.{key}" for key in _WITHOUT_FORCE])
         with watch_of(job, progress) as watch:
-            tables, texts = _core.run_job(
+            return _core.run_job(
                 core, [job, *words, *_options.arguments(given)], watch, controller_of(controller), force
             )
-        _warn(texts)
-        return Table(job, tables[-1]) if tables else None
 
     # -- the case and its cable ---------------------------------------------------------------------
 
@@ -308,8 +324,9 @@ class Case:
         radius: bool = False,
         continuous: bool = False,
         axes: Optional[Mapping[str, Range]] = None,
+        store: Optional[Path] = None,
         **how: Any,
-    ) -> Table:
+    ) -> Union[Table, Store]:
         """Where the sampled loop without play is stable: all roots of det(lambda I - S(P, D)) = 0 within the
         unit circle. Columns ``stable`` (bool) and, with ``radius``, ``spectral_radius`` (largest modulus of a
         root), of shape (P, D).
@@ -319,12 +336,14 @@ class Case:
         :param radius: the spectral radius too
         :param continuous: of the continuous loop, whose ``radius`` is its spectral abscissa (1/s)
         :param axes: two keys of [control] or [plant] with their ranges in place of P and D
+        :param store: a folder ``NAME.zarr``, which the cells are written to as they come, and which is
+            returned then; one that is there already is gone on with
         """
-        if not (continuous or axes or "output" in how):
+        if not (continuous or axes or store or "output" in how):
             return self._chart(p, d, radius, how)
         words = _options.arguments({"continuous": continuous, "radius": radius})
         words += _options.axes_texts(axes, 2) if axes else _axis("p", p) + _axis("d", d)
-        return self._run("stability", words, how)
+        return self._run("stability", words, {**how, "store": store})
 
     def _chart(self, p: Range, d: Range, radius: bool, how: dict[str, Any]) -> Table:
         """A chart over gains, whose cells the kernels write where they stay."""
@@ -399,15 +418,23 @@ class Case:
         words = ["--features", *_interval("p", p), *_interval("d", d), *_options.arguments({"continuous": continuous})]
         return self._run("boundary", words, how)
 
-    def response(self, p: Range = (-1000.0, 200.0, 61), d: Range = (-40.0, 20.0, 61), **how: Any) -> Table:
+    def response(
+        self,
+        p: Range = (-1000.0, 200.0, 61),
+        d: Range = (-40.0, 20.0, 61),
+        *,
+        store: Optional[Path] = None,
+        **how: Any,
+    ) -> Union[Table, Store]:
         """Steady amplitude of the conductor over the gains, without play, in closed form. Columns ``stable``,
         ``amplitude_m`` and ``ratio_to_uncontrolled`` (below 1: control helps), of shape (P, D); NaN where
         the loop is not stable.
 
         :param p: P, N/m; (min, max, count)
         :param d: D, N s/m; (min, max, count)
+        :param store: as of :meth:`chart`
         """
-        return self._run("response", _axis("p", p) + _axis("d", d), how)
+        return self._run("response", _axis("p", p) + _axis("d", d), {**how, "store": store})
 
     def design(
         self,
@@ -433,8 +460,9 @@ class Case:
         return self._run("design", words, how)
 
     def margins(self, **how: Any) -> Table:
-        """How far the case's D, P, sampling period and delay are from instability, with the margins of the loop
-        1 - P Gz - D Gv on the unit circle (modulus, gain in dB, phase in degrees, delay in s).
+        """How far the case's D, P, sampling period and delay are from instability, each moved alone, but the
+        sampling period with the delay in proportion. Columns ``quantity, unit, value, side, outcome, position,
+        distance, curve, frequency_Hz``.
         """
         return self._run("margins", _options.arguments({}), how)
 
@@ -693,18 +721,20 @@ class Case:
         duration: Optional[float] = None,
         max_period: Optional[int] = None,
         switching: Optional[str] = None,
+        store: Optional[Path] = None,
         **how: Any,
-    ) -> Table:
+    ) -> Union[Table, Store]:
         """Which attractor each initial state of a grid comes to. Columns ``attractor, period_s`` over the two
         axes.
 
         :param axes: two of ``initial.z1``, ``initial.v1``, ``initial.z2``, ``initial.v2`` with (min, max, count)
         :param fractions: instead a row for each attractor: its share of the states, with its error
+        :param store: as of :meth:`chart`
         """
         words = _options.axes_texts(axes, 2) + _options.arguments(
             {"fractions": fractions, "duration": duration, "max_period": max_period, "switching": switching}
         )
-        return self._run("basins", words, how)
+        return self._run("basins", words, {**how, "store": store})
 
     def diagram(
         self,
@@ -736,8 +766,13 @@ class Case:
         best_gain: bool = False,
         max_period: Optional[int] = None,
         switching: Optional[str] = None,
+        store: Optional[Path] = None,
+        client: Any = None,
+        resume: bool = False,
+        part: Optional[tuple[int, int]] = None,
+        chunk: Optional[int] = None,
         **how: Any,
-    ) -> Table:
+    ) -> Union[Table, Store]:
         """Metrics of the motion over any number of axes, on all cores. A column for each metric, with a
         dimension for each axis.
 
@@ -747,15 +782,38 @@ class Case:
             the four usual ones
         :param duration: s; its second half counts as steady
         :param best_gain: D of every cell is that of least steady amplitude
+        :param store: as of :meth:`chart`
+        :param client: who fills the store, in place of the threads of this process: a
+            ``dask.distributed.Client``, whose workers see the store's folder, or a number of processes
+            of this machine. A worker that is lost loses the chunk at hand; another one does the rest
+            of its part. ``threads`` is then of each process
+        :param resume: what the store has already is read, and what is damaged computed anew
+        :param part: (K, N), of the store every N-th chunk from number K on alone, for whoever hands
+            the work out by other means
+        :param chunk: most cells of a chunk; None: chosen
         """
         if isinstance(metrics, str):
             metrics = (metrics,)
         words = _options.axes_texts(axes)
         words += [word for metric in metrics for word in ("--metric", metric)]
         words += _options.arguments(
-            {"duration": duration, "best_gain": best_gain, "max_period": max_period, "switching": switching}
+            {
+                "duration": duration,
+                "best_gain": best_gain,
+                "max_period": max_period,
+                "switching": switching,
+                "chunk": chunk,
+            }
         )
-        return self._run("sweep", words, how)
+        if client is not None:
+            from ._parts import fill_by
+
+            if store is None or part is not None:
+                raise ValueError("client: it fills a store by parts; give store, and not part")
+            return fill_by(client, self, words, {**how, "output": store_name(store)}, resume)
+        words += _options.arguments({"resume": resume})
+        words += [] if part is None else [f"--part={_options.part_text(part)}"]
+        return self._run("sweep", words, {**how, "store": store})
 
     # -- span and wind ------------------------------------------------------------------------------
 
@@ -874,6 +932,10 @@ class Case:
         ``displacement``, ``velocity``, ``measured_displacement``, ``measured_velocity``,
         ``relative_displacement``, ``relative_velocity``; gains, sampling period and delay."""
         return dict(self._core.plant_matrices())
+
+
+def _restored(text: Optional[str], name: str, overrides: list[str]) -> Case:
+    return Case._of(_core.Case(text, name, overrides))
 
 
 def _chart_options(over: tuple[Any, Any], radius: bool) -> list[tuple[str, str]]:

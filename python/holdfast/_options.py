@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -73,6 +74,15 @@ def interval_text(value: Any, name: str) -> str:
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {value!r}: admissible is (min, max)") from None
     return f"{number_text(low, name)}:{number_text(high, name)}"
+
+
+def part_text(part: Any) -> str:
+    """K/N."""
+    try:
+        number, of = part
+        return f"{operator.index(number)}/{operator.index(of)}"
+    except (TypeError, ValueError):
+        raise ValueError(f"part = {part!r}: admissible are two whole numbers (K, N), 1 <= K <= N") from None
 
 
 def list_text(values: Any, name: str) -> str:

@@ -8,8 +8,10 @@ import numpy as np
 
 
 def _label(table: Any, name: str) -> str:
+    """The column's words and its unit, with which some names end."""
     unit = table.units[name]
-    return name.replace("_", " ") + (f" ({unit})" if unit and not name.endswith(unit) else "")
+    words = name.removesuffix("_" + unit.replace("/", "_per_").replace(".", "_")).replace("_", " ")
+    return f"{words} ({unit})" if unit else words
 
 
 def _axes_of(ax: Any) -> Any:
@@ -80,6 +82,7 @@ def _lines(table: Any, ax: Any, column: Optional[str], kind: Optional[str], styl
 def _motion(table: Any, ax: Any, column: Optional[str], kind: Optional[str], style: dict[str, Any]) -> Any:
     if kind == "phase":
         ax.plot(table["z1_m"], table["v1_m_per_s"], **{"linewidth": 0.5, **style})
+        ax.locator_params(axis="x", nbins=5)
         return _named(table, ax, "z1_m", "v1_m_per_s")
     return _lines(table, ax, column or "z1_m", kind, style)
 

@@ -82,6 +82,13 @@ NB_MODULE(_core, module) {
       .def("origin", &CaseInMemory::origin, "job"_a, "options"_a, "instructions"_a,
            "What made a table of a job on packs, as JSON.")
       .def("has_own_plant", &CaseInMemory::has_own_plant)
+      .def(
+          "source",
+          [](const CaseInMemory& the_case) {
+            const program::CaseSource& source = the_case.source();
+            return std::make_tuple(source.text, source.name, source.overrides);
+          },
+          "What the case is read from: text of a case file or None, its name, key=value texts.")
       .def("plant_matrices", &CaseInMemory::plant_matrices,
            "The linear plant of the case with filter and drive: arrays by name.");
 

@@ -16,13 +16,15 @@ BLOCKS = re.findall(r"^```python\n(.*?)^```", GUIDE.read_text(encoding="utf-8"),
 
 
 @pytest.mark.filterwarnings("ignore::holdfast.PlausibilityWarning")
-def test_examples(no_gui, monkeypatch):
+def test_examples(no_gui, monkeypatch, tmp_path):
     from test_plant import chain
 
-    pytest.importorskip("control"), pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    for package in ("control", "pandas", "xarray", "zarr"):
+        pytest.importorskip(package)
+    monkeypatch.chdir(tmp_path)
     a, b, c = chain()
     names = {"A": a, "B": b, "C": c, "math": math, "np": np, "holdfast": holdfast, "case": holdfast.Case()}
-    assert len(BLOCKS) == 3
+    assert len(BLOCKS) == 4
     for block in BLOCKS:
         exec(compile(block, str(GUIDE), "exec"), names)
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "case/model/own/own_parts.hpp"
 #include "io/file/output.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -28,6 +29,10 @@ StorePlan plan_of(const JobContext& context) {
 
 StoreDescription store_description(const JobContext& context, const GridLayout& layout,
                                    std::size_t most) {
+  if (has_own_plant(context.case_data))
+    throw WrongInput(
+        "--output: a store says what made it, which a plant of your own cannot be said by; take "
+        "the result as arrays, or write .nc or .csv");
   StoreDescription store;
   store.origin = context;
   store.axes = layout.axes;
