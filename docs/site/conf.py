@@ -7,7 +7,14 @@ project = "holdfast"
 author = "the authors of holdfast"
 root_doc = "docs/site/index"
 # What the links of the pages lead to, such as examples, lies there as well.
-include_patterns = ["*.md", "data/README.md", "docs/*.md", "docs/site/*.md", "docs/site/*/*.md"]
+include_patterns = [
+    "*.md",
+    "data/README.md",
+    "docs/*.md",
+    "docs/site/*.md",
+    "docs/site/gallery/*.md",
+    "docs/site/cpp/*.rst",
+]
 exclude_patterns = ["docs/python", "examples", "tools"]
 
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import pathlib
 import re
@@ -14,7 +13,12 @@ MARK = "\x1e"  # stands in the output behind each cell
 
 
 def package_is_there() -> bool:
-    return importlib.util.find_spec("holdfast") is not None
+    """With its extension."""
+    try:
+        import holdfast  # noqa: F401
+    except ImportError:
+        return False
+    return True
 
 
 def cells_of(script: str) -> list[tuple[str, str]]:
@@ -59,7 +63,9 @@ def page_of(script: pathlib.Path, folder: pathlib.Path, run: bool) -> str:
         output = next(printed, "").strip("\n")
         if output:
             parts.append(f"```text\n{output}\n```")
-        parts += [f"![]({picture})" for picture in re.findall(r'savefig\("([\w.-]+)"', body) if (folder / picture).exists()]
+        parts += [
+            f"![]({picture})" for picture in re.findall(r'savefig\("([\w.-]+)"', body) if (folder / picture).exists()
+        ]
     parts.append(f"The script: [docs/python/{script.name}](../../python/{script.name})")
     return "\n\n".join(parts) + "\n"
 
@@ -88,7 +94,9 @@ def paper_page(folder: pathlib.Path) -> str:
 def write_pages(scripts: pathlib.Path, folder: pathlib.Path, run: bool) -> None:
     """A page for each script, and one that lists them. Without the package the scripts are shown unrun."""
     folder.mkdir(parents=True)
-    pages = [(script.stem, lambda script=script: page_of(script, folder, run)) for script in sorted(scripts.glob("*.py"))]
+    pages = [
+        (script.stem, lambda script=script: page_of(script, folder, run)) for script in sorted(scripts.glob("*.py"))
+    ]
     if run:
         pages.append(("paper", lambda: paper_page(folder)))
     for name, text in pages:
@@ -98,5 +106,6 @@ def write_pages(scripts: pathlib.Path, folder: pathlib.Path, run: bool) -> None:
     text = "# Gallery\n\nScripts of the Python package with what they print and draw; each checks what it tells.\n"
     if not run:
         text += "\nThis site was made without the package, so that they have not been run.\n"
-    text += "\n```{toctree}\n:maxdepth: 1\n\n" + "".join(f"{name}\n" for name, _ in pages) + "```\n"
+    if pages:
+        text += "\n```{toctree}\n:maxdepth: 1\n\n" + "".join(f"{name}\n" for name, _ in pages) + "```\n"
     (folder / "index.md").write_text(text, encoding="utf-8")

@@ -43,41 +43,66 @@ def link(project: pathlib.Path, target: pathlib.Path) -> None:
 # -- C++ -------------------------------------------------------------------------------------------
 
 
-def headers(xml: pathlib.Path) -> Iterable[tuple[str, ElementTree.Element]]:
-    """Path and description of each header of the library, by path."""
-    found = []
-    for compound in ElementTree.parse(xml / "index.xml").getroot().iterfind("compound[@kind='file']"):
-        described = ElementTree.parse(xml / f"{compound.get('refid')}.xml").getroot()[0]
-        path = described.find("location").get("file")
-        if path.endswith(".hpp"):
-            found.append((path, described))
-    return sorted(found, key=lambda header: header[0])
+def compounds(xml: pathlib.Path, kind: str) -> Iterable[ElementTree.Element]:
+    for compound in ElementTree.parse(xml / "index.xml").getroot().iterfind(f"compound[@kind='{kind}']"):
+        yield ElementTree.parse(xml / f"{compound.get('refid')}.xml").getroot()[0]
+
+
+def place_of(described: ElementTree.Element) -> str:
+    return described.find("location").get("file")
+
+
+def headers(xml: pathlib.Path) -> list[tuple[str, list[ElementTree.Element], list[ElementTree.Element]]]:
+    """Path, classes and other members of each header of the library, by path. The latter are described with
+    their namespaces."""
+    members = defaultdict(list)
+    for namespace in compounds(xml, "namespace"):
+        for member in namespace.iterfind("sectiondef/memberdef"):
+            members[place_of(member)].append(member)
+    files = {place_of(file): file.findall("innerclass") for file in compounds(xml, "file")}
+    return [(path, files[path], members[path]) for path in sorted(files) if path.endswith(".hpp")]
 
 
 def text_of(element: ElementTree.Element | None) -> str:
     return "" if element is None else " ".join("".join(element.itertext()).split())
 
 
-def directives_of(header: ElementTree.Element, known: set[str]) -> str:
+#: What Breathe calls the kinds of members.
+KINDS = {"function": "function", "typedef": "typedef", "enum": "enum", "variable": "variable"}
+
+
+def is_beyond_breathe(function: ElementTree.Element) -> bool:
+    """It does not read calls among the types."""
+    return any("(" in text_of(one) for one in (function.find("type"), *function.iterfind("templateparamlist/param")))
+
+
+def plain(function: ElementTree.Element) -> list[str]:
+    """The declaration and its first sentence as they are."""
+    declaration = text_of(function.find("definition")) + text_of(function.find("argsstring"))
+    return [".. code-block:: cpp", "", f"   {declaration}", "", text_of(function.find("briefdescription")), ""]
+
+
+def directives_of(classes: list[ElementTree.Element], members: list[ElementTree.Element], known: set[str]) -> str:
     """All that a header declares. Overloads of a function are told apart by the types of their arguments;
     what is declared inside a class stands with it."""
     lines = []
-    classes = [(inner.get("refid"), inner.text) for inner in header.iterfind("innerclass")]
-    names = {name for _, name in classes}
-    for reference, name in classes:
-        if name.rpartition("::")[0] not in names:
-            lines += [f".. doxygen{'struct' if reference.startswith('struct') else 'class'}:: {name}", "   :members:", ""]
-    for member in header.iterfind("sectiondef/memberdef"):
-        kind = {"function": "function", "typedef": "typedef", "enum": "enum", "variable": "variable"}.get(member.get("kind"))
-        name = text_of(member.find("qualifiedname")) or text_of(member.find("name"))
-        if kind is None or "@" in name:
+    names = {inner.text for inner in classes}
+    for inner in classes:
+        if inner.text.rpartition("::")[0] not in names:
+            kind = "struct" if inner.get("refid").startswith("struct") else "class"
+            lines += [f".. doxygen{kind}:: {inner.text}", "   :members:", ""]
+    for member in members:
+        name = text_of(member.find("qualifiedname"))
+        if member.get("kind") not in KINDS or "@" in name:
             continue
-        if kind == "function":
+        if member.get("kind") == "function":
             types = ", ".join(text_of(one.find("type")) for one in member.iterfind("param"))
             name += f"({types})"
-        if name not in known:
+        if member.get("kind") == "function" and is_beyond_breathe(member):
+            lines += plain(member)
+        elif name not in known:
             known.add(name)
-            lines += [f".. doxygen{kind}:: {name}", ""]
+            lines += [f".. doxygen{KINDS[member.get('kind')]}:: {name}", ""]
     return "\n".join(lines)
 
 
@@ -86,14 +111,16 @@ def write_rooms(xml: pathlib.Path, folder: pathlib.Path) -> None:
     folder.mkdir(parents=True)
     rooms: dict[str, list[str]] = defaultdict(list)
     known: set[str] = set()
-    for path, described in headers(xml):
+    for path, classes, members in headers(xml):
         room = path.split("/")[1]
-        declared = directives_of(described, known)
+        declared = directives_of(classes, members, known)
         if room.endswith(".hpp") or not declared:
             continue
-        rooms[room].append(f"## {'/'.join(path.split('/')[2:])}\n\n`#include <{path}>`\n\n```{{eval-rst}}\n{declared}\n```\n")
+        header = "/".join(path.split("/")[2:])
+        rooms[room].append(f"{header}\n{'-' * len(header)}\n\n``#include <{path}>``\n\n{declared}\n")
     for room, parts in rooms.items():
-        (folder / f"{room}.md").write_text(f"# {room}\n\n" + "\n".join(parts), encoding="utf-8")
+        text = f"{room}\n{'=' * len(room)}\n\n" + "\n".join(parts)
+        (folder / f"{room}.rst").write_text(text, encoding="utf-8")
 
 
 def main() -> None:
