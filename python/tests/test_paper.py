@@ -154,3 +154,13 @@ def test_which(no_gui, which, panels):
 def test_no_such_figure(which):
     with pytest.raises(ValueError, match="admissible are fig02a"):
         holdfast.paper.figure(which)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_curve_of_the_report_is_drawn(drawn, name):
+    from holdfast.paper import _texts
+
+    curves = [curve for plot in _texts.picture(ENTRIES[NAMES.index(name)]).curves() for curve in plot]
+    labels = {label for ax in drawn[name].axes for label in ax.get_legend_handles_labels()[1]}
+    if name != "basins":  # whose script makes its names itself
+        assert {curve.title for curve in curves if curve.title} == labels - {"printed in the paper"}

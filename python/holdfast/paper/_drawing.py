@@ -82,7 +82,7 @@ def _legend(ax: Any, *others: Any) -> None:
 
 def _columns(drawn: _Drawn, x: str, columns: Sequence[str]) -> Any:
     ax = drawn.named(drawn.axes())
-    for column, curve in zip(columns, drawn.plots[0], strict=True):
+    for column, curve in zip(columns, drawn.plots[0]):
         drawn.over(ax, drawn.table(), x, column, curve)
     return ax
 
@@ -126,7 +126,7 @@ def _gains(drawn: _Drawn, ax: Any, suffix: str, curves: Sequence[Curve]) -> None
     _shade(ax, drawn.table(suffix + "-chart"))
     boundary = drawn.table(suffix + "-boundary")
     roots = list(dict.fromkeys(re.findall(r"root\('(\w+)'\)", drawn.picture.script)))
-    for root, curve in zip(roots, curves, strict=True):
+    for root, curve in zip(roots, curves):
         on = boundary["curve"] == root
         lay(ax, curve, boundary["proportional_gain"], np.where(on, boundary["differential_gain"], np.nan))
     drawn.limited(ax)
@@ -152,7 +152,7 @@ def _delay_charts(drawn: _Drawn) -> None:
 
 def _longest_period(drawn: _Drawn) -> Any:
     ax = drawn.named(drawn.axes())
-    for suffix, curve in zip(("-stable", "-attenuates"), drawn.plots[0], strict=True):
+    for suffix, curve in zip(("-stable", "-attenuates"), drawn.plots[0]):
         drawn.over(ax, drawn.table(suffix), "frequency_Hz", "max_sampling_period_s", curve)
     ax.set_yscale("log")
     drawn.limited(ax)
@@ -180,7 +180,7 @@ def _design(drawn: _Drawn) -> None:
 
 def _several(drawn: _Drawn, suffixes: Sequence[str], x: str, y: str) -> Any:
     ax = drawn.named(drawn.axes())
-    for suffix, curve in zip(suffixes, drawn.plots[0], strict=True):
+    for suffix, curve in zip(suffixes, drawn.plots[0]):
         drawn.over(ax, drawn.table(suffix), x, y, curve)
     drawn.limited(ax)
     return ax
@@ -276,7 +276,7 @@ def _orbits(drawn: _Drawn) -> None:
 
 def _section(drawn: _Drawn) -> Any:
     ax, table = drawn.named(drawn.axes()), drawn.table()
-    for curve, rising in zip(drawn.plots[0], (1, 0), strict=True):
+    for curve, rising in zip(drawn.plots[0], (1, 0)):
         of = table["rising"] == rising
         lay(ax, curve, in_unit(table, "z1_m", ax.get_xlabel())[of], table["v1_m_per_s"][of])
     return ax
