@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "host/job_host.hpp"
 #include "io/file/output.hpp"
 #include "job.hpp"
 #include "store/stored_grid.hpp"
@@ -12,15 +13,17 @@ struct ConvertQuestion {
   JobContext context;
 
   void run() {
-    if (!is_store_name(file)) require_output_name(file, false);
-    context.output = file;
+    if (!file.empty()) {
+      if (!is_store_name(file)) require_output_name(file, false);
+      context.output = file;
+    }
     convert_store(context, store);
   }
 };
 
 }  // namespace
 
-/// It takes no case: the store has its own.
+/// It takes no case: the store has its own. A host gets the table where it gives no file.
 void add_convert(CLI::App& program) {
   CLI::App* options = add_subcommand(program, "convert");
   const auto question = std::make_shared<ConvertQuestion>();
@@ -29,7 +32,7 @@ void add_convert(CLI::App& program) {
       ->required();
   options->add_option("OUT", question->file, "What it becomes: .csv, .nc or .zarr")
       ->type_name("FILE")
-      ->required();
+      ->required(JobHost::current() == nullptr);
   options->add_option("--zarr-format", question->context.zarr_format, "Of a .zarr: 2 or 3")
       ->check(CLI::Range(2, 3))
       ->capture_default_str();

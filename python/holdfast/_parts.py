@@ -70,7 +70,8 @@ def _workers_of(client: Any) -> Any:
     elif hasattr(client, "__index__"):
         return _Processes(operator.index(client))
     raise TypeError(
-        f"client = {client!r}: admissible are a dask.distributed.Client and a number of processes; without it this process uses all cores"
+        f"client = {client!r}: admissible are a dask.distributed.Client and a number of processes; without it this "
+        "process uses all cores"
     )
 
 

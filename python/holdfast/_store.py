@@ -110,6 +110,18 @@ class Store:
 
         return xarray.open_zarr(self.path, **options)
 
+    def to_table(self, **how: Any) -> Any:
+        """All cells in memory, as the :class:`Table` that the job gives without a store: words are texts, and
+        ``plot()`` and ``to_pandas()`` are at hand. ``progress`` as of a job.
+
+        :raises holdfast.NoAnswer: chunks are missing or damaged; the message names the first one
+        """
+        from ._case import Case
+
+        table = Case()._run("convert", [os.fspath(self.path)], how)
+        table._job = self.job
+        return table
+
     def convert(self, file: Path, **how: Any) -> Optional[Store]:
         """As :func:`holdfast.convert`."""
         return convert(self, file, **how)

@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
@@ -6,10 +7,12 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "case/case_file.hpp"
 #include "case_in_memory.hpp"
+#include "explorer/explorer_page.hpp"
 #include "job.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -44,6 +47,13 @@ void translate_errors(nb::module_& module) {
   });
 }
 
+/// The folder of this extension; empty where the system does not tell.
+std::filesystem::path own_folder() {
+  Dl_info found;
+  if (dladdr(reinterpret_cast<const void*>(&translate_errors), &found) == 0) return {};
+  return std::filesystem::absolute(found.dli_fname).parent_path();
+}
+
 /// The whole program on a command line, with its own output and signals; its exit code.
 int run_program(std::vector<std::string> words) {
   std::vector<char*> arguments;
@@ -58,6 +68,7 @@ int run_program(std::vector<std::string> words) {
 NB_MODULE(_core, module) {
   module.doc() = "The compiled part of holdfast: its names may change, those of holdfast do not.";
   translate_errors(module);
+  program::look_for_explorer_page_in(own_folder());
   module.attr("version") = HOLDFAST_VERSION;
   module.def("run_program", &run_program, "arguments"_a,
              "The command-line program; its exit code. arguments[0] is its name.");

@@ -100,6 +100,11 @@ def test_read_by_xarray_and_converted(tmp_path, by_program, program):
     assert len(lines) == 311
     rows = [line.split(",") for line in lines]
     assert_same(table, {name: [row[k] for row in rows[1:]] for k, name in enumerate(rows[0])})
+    whole = store.to_table()
+    assert whole.job == "sweep" and whole.axes == table.axes and whole.units == table.units
+    assert whole.metadata["options"] == table.metadata["options"] and whole.metadata["case"] == table.metadata["case"]
+    for name in table:
+        np.testing.assert_array_equal(whole[name], table[name])
     old = holdfast.convert(by_program, tmp_path / "old.zarr", zarr_format=2)
     np.testing.assert_array_equal(old.to_xarray()["steady_peak"].values, table["steady_peak"])
 
@@ -138,6 +143,8 @@ def test_read_while_it_grows_and_gone_on_with(tmp_path):
         assert not store.complete
         with pytest.raises(holdfast.NoAnswer, match="missing"):
             store.convert(tmp_path / "growing.csv")
+        with pytest.raises(holdfast.NoAnswer, match="missing"):
+            store.to_table()
     finally:
         process.kill()
         process.wait()
@@ -183,6 +190,18 @@ def test_two_processes(tmp_path, by_program):
     )
     assert_same_bytes(store, by_program)
     assert seen[-1][0] == seen[-1][1] == len(seen)
+
+
+def test_processes_that_begin_at_once(tmp_path, by_program):
+    for attempt in range(4):
+        folder = tmp_path / f"{attempt}.zarr"
+        words = [*WORDS, "--duration", "5", "--chunk", "20", "--output", str(folder), "--threads", "1", "--quiet"]
+        command = [*program_words(), "sweep", *words, *settings(CHANGED)]
+        processes = [subprocess.Popen(command, stderr=subprocess.PIPE, text=True) for _ in range(6)]
+        for process in processes:
+            errors = process.communicate()[1]
+            assert process.returncode == 0, errors
+        assert_same_bytes(folder, by_program)
 
 
 LONG = {"backlash.width": (0, 0.003, 100), "control.sampling_period": (0.001, 0.01, 10)}

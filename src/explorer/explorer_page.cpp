@@ -1,10 +1,12 @@
 #include "explorer/explorer_page.hpp"
 
-#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "case/case_file.hpp"
 #include "case/model/cable_of_case.hpp"
@@ -21,12 +23,27 @@ namespace fs = std::filesystem;
 /// What stands in the page for the case.
 constexpr const char* empty_case = R"({"name":"","text":""})";
 
-/// Where the page lies beside the program: as installed, and as built.
-std::array<fs::path, 2> places_of_page() {
+/// Of a library that the program is part of; empty: it is a program.
+fs::path folder_of_library;
+
+/// Where the page lies beside the program: as installed, and as built; or in the library's folder.
+std::vector<fs::path> places_of_page() {
+  if (!folder_of_library.empty()) return {folder_of_library / "explorer.html"};
   std::error_code ignored;
   const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   return {folder.parent_path() / "share/holdfast/explorer.html",
           folder.parent_path().parent_path() / "wasm/explorer.html"};
+}
+
+[[noreturn]] void refuse_without_page() {
+  std::string places;
+  for (const fs::path& place : places_of_page())
+    places += (places.empty() ? "no " : " and no ") + place.string();
+  throw NoAnswer(
+      "the explorer's page was not built: " + places +
+      "; in the project's folder, cmake --preset wasm && cmake --build --preset wasm makes it "
+      "(Debian packages emscripten, node-d3)" +
+      (folder_of_library.empty() ? "" : ", and pip install . takes it along"));
 }
 
 std::optional<fs::path> built_page() {
@@ -50,6 +67,8 @@ std::string json_in_page(const nlohmann::ordered_json& json) {
 
 }  // namespace
 
+void look_for_explorer_page_in(fs::path folder) { folder_of_library = std::move(folder); }
+
 bool can_explore(const Case& the_case) {
   return built_page().has_value() && the_case.excitation.record.empty();
 }
@@ -58,11 +77,7 @@ void write_explorer_page(const fs::path& output, const Case& the_case, const Cas
   if (!the_case.excitation.record.empty())
     throw WrongInput("excitation.record: the explorer is one page, without the file of a force");
   const std::optional<fs::path> file = built_page();
-  if (!file)
-    throw NoAnswer("the explorer's page was not built: no " + places_of_page()[0].string() +
-                   " and no " + places_of_page()[1].string() +
-                   "; in the project's folder, cmake --preset wasm && cmake --build --preset wasm "
-                   "makes it (Debian packages emscripten, node-d3)");
+  if (!file) refuse_without_page();
   const std::string name =
       source.overrides.empty() || source.name.empty() ? source.name : source.name + " with --set";
   OutputFile page(output);

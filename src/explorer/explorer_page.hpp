@@ -16,6 +16,10 @@ namespace holdfast::program {
 void write_explorer_page(const std::filesystem::path& output, const Case& the_case,
                          const CaseSource& source);
 
+/// Another folder of the page: that of a library which the program is part of, for there the
+/// executable is somebody else's. Before any job.
+void look_for_explorer_page_in(std::filesystem::path folder);
+
 /// Whether the page was built and can have a case without devices.
 bool can_explore(const Case& the_case);
 

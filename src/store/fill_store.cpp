@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
+#include "host/job_host.hpp"
 #include "io/text/checksum.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "process/exit.hpp"
@@ -121,10 +124,17 @@ class StoreFilling {
   bool is_done(std::int64_t chunk) const {
     if (!store_.has(chunk)) return false;
     if (!work_.verify || store_.read(chunk)) return true;
-    report_warning(
-        store_.file_of(chunk).string() + " or what belongs to it is damaged, and is computed anew",
-        context_.quiet);
+    tell(store_.file_of(chunk).string() +
+         " or what belongs to it is damaged, and is computed anew");
     return false;
+  }
+
+  /// From any thread, also to the host, which the first one alone has.
+  void tell(const std::string& warning) const {
+    const std::lock_guard<std::mutex> one_at_a_time(telling_);
+    std::optional<HostedHere> here;
+    if (host_ != nullptr) here.emplace(*host_);
+    report_warning(warning, context_.quiet);
   }
 
   bool count_found(std::int64_t chunk) {
@@ -147,6 +157,8 @@ class StoreFilling {
   const StoreFolder& store_;
   ProcessGroup& group_;
   const ChunkWork& work_;
+  JobHost* host_ = JobHost::current();
+  mutable std::mutex telling_;
   std::int64_t tickets_;  // one a chunk of the part
   std::int64_t first_ticket_;
   Progress progress_;

@@ -139,14 +139,13 @@ std::optional<StoreDescription> store_in(const fs::path& folder) {
 
 StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& description) {
   StoreFolder store(folder, description);
-  const std::optional<StoreDescription> before = store_in(folder);
-  if (!before) {
-    if (!may_begin_store(folder, description)) refuse_folder(folder);
-    store.begin();
+  std::optional<StoreDescription> there = store_in(folder);
+  if (!there) {
+    if (may_begin_store(folder, description)) store.begin();
+    // Read again: another process may have begun this store meanwhile, or another one.
+    there = store_in(folder);
+    if (!there) refuse_folder(folder);
   }
-  // Read again: another process may have begun another store meanwhile.
-  const std::optional<StoreDescription> there = before ? before : store_in(folder);
-  if (!there) refuse_folder(folder);
   require_same_plan(folder, *there, description);
   return store;
 }

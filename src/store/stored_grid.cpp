@@ -86,7 +86,7 @@ void copy_store(const StoreFolder& store, const JobContext& context) {
 void convert_store(const JobContext& context, const std::filesystem::path& folder) {
   const StoreFolder store = StoreFolder::open(folder);
   std::error_code error;
-  if (std::filesystem::equivalent(folder, *context.output, error))
+  if (context.output && std::filesystem::equivalent(folder, *context.output, error))
     throw WrongInput("convert: " + folder.string() + " would be written over itself");
   if (is_store_name(context.output)) return copy_store(store, context);
   const StoreDescription& description = store.description();
