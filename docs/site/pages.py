@@ -1,12 +1,11 @@
 """Prepares the sources of the site: pages.py PROJECT XML TARGET
 
-Links to the documents and what these link to, in folders like the project's, so that their relative links
-hold; a page for each room of include/holdfast by Doxygen's XML; the gallery from docs/python, run now.
+The documents and what these link to, in folders like the project's, so that their relative links hold; a
+page for each room of include/holdfast by Doxygen's XML; the gallery from docs/python, run now.
 """
 
 from __future__ import annotations
 
-import os
 import pathlib
 import shutil
 import sys
@@ -17,27 +16,20 @@ from xml.etree import ElementTree
 import gallery
 
 #: Beside docs/: documents, and what documents link to.
-LINKED = ("README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE", "data", "examples", "tools")
+BROUGHT = ("README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE", "data", "examples", "tools")
 
 
-def same_file(source: str, target: str) -> None:
-    """The file itself under another path; Sphinx would follow a symbolic link out of its sources."""
-    pathlib.Path(target).parent.mkdir(parents=True, exist_ok=True)
-    try:
-        os.link(source, target)
-    except OSError:  # another file system
-        shutil.copy(source, target)
-
-
-def link(project: pathlib.Path, target: pathlib.Path) -> None:
+def bring(project: pathlib.Path, target: pathlib.Path) -> None:
+    """Sphinx would follow symbolic links out of its sources, so these are copies, made anew each time."""
     docs = [file.relative_to(project) for file in (project / "docs").iterdir() if file.suffix in (".md", ".svg")]
     pages = [file.relative_to(project) for file in (project / "docs" / "site").glob("*.md")]
-    for name in (*map(pathlib.Path, LINKED), *docs, *pages, pathlib.Path("docs/python")):
+    for name in (*map(pathlib.Path, BROUGHT), *docs, *pages, pathlib.Path("docs/python")):
         source = project / name
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
         if source.is_dir():
-            shutil.copytree(source, target / name, copy_function=same_file)
+            shutil.copytree(source, target / name)
         elif source.exists():
-            same_file(str(source), str(target / name))
+            shutil.copy(source, target / name)
 
 
 # -- C++ -------------------------------------------------------------------------------------------
@@ -126,7 +118,7 @@ def write_rooms(xml: pathlib.Path, folder: pathlib.Path) -> None:
 def main() -> None:
     project, xml, target = map(pathlib.Path, sys.argv[1:])
     shutil.rmtree(target, ignore_errors=True)
-    link(project, target)
+    bring(project, target)
     site = target / "docs" / "site"
     write_rooms(xml, site / "cpp")
     installed = gallery.package_is_there()
