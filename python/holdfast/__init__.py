@@ -9,6 +9,7 @@ delay and backlash limits, motions and their certificates out.
 
 from __future__ import annotations
 
+from . import paper
 from ._case import Case, PlausibilityWarning, conductors
 from ._core import NoAnswer
 from ._core import version as __version__
@@ -30,5 +31,6 @@ __all__ = [
     "convert",
     "frequency_response",
     "open_store",
+    "paper",
     "plant",
 ]

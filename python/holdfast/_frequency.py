@@ -70,9 +70,9 @@ class FrequencyData:
     def margins(self, p: float, d: float, *, sampling_period: float, processing_delay: float = 0.0) -> dict[str, Any]:
         """Margins of 1 - L at the measured frequencies.
 
-        ``modulus``: the least distance |1 - L|, and its ``frequency_Hz``; ``gain_dB``: by how much both
+        ``modulus``: the least distance ``|1 - L|``, and its ``frequency_Hz``; ``gain_dB``: by how much both
         gains may grow, where L crosses the real axis beyond 0 (inf: nowhere); ``phase_degrees`` where
-        |L| = 1 (inf: nowhere); ``stable``: by Nyquist's criterion, None where the measured points are too
+        ``|L| = 1`` (inf: nowhere); ``stable``: by Nyquist's criterion, None where the measured points are too
         far apart for it: L turns by more than a quarter about 1 between two of them, or is not small at the
         last one.
 

@@ -218,8 +218,8 @@ double least_squares_slope(const Statics& statics, double middle, double half) {
 /// k₁ = ΔP/Δw (N/m), Eq. (2), read from the statics at the absorber's place.
 ///
 /// The least-squares line need not pass through the equilibrium.
-/// @throws InvalidParameter, but for the tangent, for a negative or empty range and where it
-/// reaches beyond what the statics are valid for
+/// @throws InvalidParameter for a negative or empty range and where it reaches beyond what the
+/// statics are valid for; the tangent needs no range
 template <class Statics>
 double conductor_stiffness(const Statics& statics, StiffnessReading reading,
                            const ReadingRange& range) {
