@@ -1,12 +1,19 @@
+#include <optional>
+
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
+#include "io/text/table.hpp"
+#include "io/text/text.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 #include "jobs/charts/names.hpp"
+#include "jobs/charts/proved_stability.hpp"
+#include "jobs/columns.hpp"
+#include "process/exit.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -39,6 +46,8 @@ struct StabilityQuestion {
   std::vector<std::string> axes;
   bool continuous = false;
   bool radius = false;
+  bool prove = false;
+  std::optional<double> undecided;
 
   void add_to(const Job& job) {
     job.add("--p", p);
@@ -46,10 +55,15 @@ struct StabilityQuestion {
     job.add("--continuous", continuous);
     job.add("--axis", axes);
     job.add("--radius", radius);
+    job.add("--prove", prove);
+    job.add("--undecided", undecided);
   }
   void run(const JobContext& context) const {
     refuse_on_modes(context.case_data, continuous, "--continuous");
     refuse_on_modes(context.case_data, !axes.empty(), "--axis");
+    refuse_on_modes(context.case_data, prove, "--prove");
+    if (undecided && !prove) throw WrongInput("--undecided is of a proved chart: give --prove");
+    if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);
   }
 
@@ -60,6 +74,7 @@ struct StabilityQuestion {
   }
   void run_over_gains(const JobContext& context) const;
   void run_over_axes(const JobContext& context) const;
+  void prove_gains(const JobContext& context) const;
 };
 
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
@@ -85,6 +100,30 @@ void StabilityQuestion::run_over_axes(const JobContext& context) const {
   validate(chart);
   write_chart(context, {{grid_axis(slow), grid_axis(fast)}, columns()},
               sampled_chart(chart, radius, context.instructions));
+}
+
+void StabilityQuestion::prove_gains(const JobContext& context) const {
+  if (is_netcdf_name(context.output) || is_store_name(context.output))
+    throw WrongInput(
+        "--output " + context.output->string() +
+        ": --prove makes boxes, not the cells of a grid; give a name that ends in .csv");
+  const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
+  if (grid.proportional.count < 2 || grid.differential.count < 2)
+    throw WrongInput(
+        "--prove proves what lies between the points of --p and of --d, two of each at least");
+  Table table(context, columns_of("proved stability"));
+  const double share = undecided.value_or(1e-3);
+  const ProvedChart chart = proved_stability_of(context.case_data, grid, continuous, share);
+  double whole = 0.0;
+  for (const auto& [gains, stability] : chart.boxes) whole += gains.area();
+  for (const auto& [gains, stability] : chart.boxes)
+    table.row(gains.proportional_from, gains.proportional_to, gains.differential_from,
+              gains.differential_to, name_in(proved_names, stability), gains.area() / whole);
+  table.commit();
+  if (chart.share(ProvedStability::undecided) > share)
+    report_warning("of the area " + format_rounded(chart.share(ProvedStability::undecided)) +
+                       " is left undecided, more than --undecided",
+                   context.quiet);
 }
 
 }  // namespace

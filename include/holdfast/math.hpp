@@ -1,7 +1,9 @@
 #pragma once
 
-/// Linear algebra, polynomials, roots, statistics and signals.
+/// Linear algebra, polynomials, roots, enclosures, statistics and signals.
 
+#include "holdfast/math/enclosure/enclosed_exponential.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/discrete_lyapunov.hpp"

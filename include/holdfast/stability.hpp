@@ -17,6 +17,7 @@
 #include "holdfast/stability/chart/hurwitz_row.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
 #include "holdfast/stability/design/attenuating_stretch.hpp"
 #include "holdfast/stability/design/delay_options.hpp"
 #include "holdfast/stability/design/max_delay.hpp"

@@ -345,6 +345,28 @@ class Case:
         words += _options.axes_texts(axes, 2) if axes else _axis("p", p) + _axis("d", d)
         return self._run("stability", words, {**how, "store": store})
 
+    def proved_chart(
+        self,
+        p: Range = (-1000.0, 200.0, 121),
+        d: Range = (-40.0, 20.0, 121),
+        *,
+        continuous: bool = False,
+        undecided: float = 1e-3,
+        **how: Any,
+    ) -> Table:
+        """Boxes of gains of which interval arithmetic proves that every loop is stable, or that every one is
+        unstable, for the decimals of the case (two masses): the cells between the points of p and d, quartered
+        where that is needed. Columns ``proportional_gain_from``, ``proportional_gain_to``, ``differential_gain_from``,
+        ``differential_gain_to``, ``proved`` (stable, unstable, undecided), ``area_share``.
+
+        :param p: proportional gains P, N/m; (min, max, count) or an array in equal steps
+        :param d: differential gains D, N s/m
+        :param continuous: of the continuous loop
+        :param undecided: the share of the area that may be left undecided, 1e-6 to 0.5
+        """
+        words = ["--prove", *_options.arguments({"continuous": continuous, "undecided": undecided})]
+        return self._run("stability", words + _axis("p", p) + _axis("d", d), how)
+
     def _chart(self, p: Range, d: Range, radius: bool, how: dict[str, Any]) -> Table:
         """A chart over gains, whose cells the kernels write where they stay."""
         how = dict(how)

@@ -32,7 +32,7 @@ def plot(table: Any, ax: Any = None, *, column: Optional[str] = None, kind: Opti
         return _map(table, _axes_of(ax), column, style)
     if len(table.axes) > 2:
         raise ValueError("a picture is of one or two axes: take a slice of to_xarray()")
-    drawing = _DRAWINGS.get(table.job, _lines)
+    drawing = _proved if "proved" in table else _DRAWINGS.get(table.job, _lines)
     return drawing(table, _axes_of(ax), column, kind, style)
 
 
@@ -55,6 +55,26 @@ def _map(table: Any, ax: Any, column: Optional[str], style: dict[str, Any]) -> A
         ax.contour(table[fast], table[slow], values, levels=[1.0], colors="black")
     ax.set_xlabel(_label(table, fast))
     ax.set_ylabel(_label(table, slow))
+    return ax
+
+
+def _proved(table: Any, ax: Any, column: Optional[str], kind: Optional[str], style: dict[str, Any]) -> Any:
+    """Boxes that are proved stable or left undecided; those that are unstable stay white."""
+    from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Patch
+
+    p0, p1, d0, d1 = (table[name] for name in list(table)[:4])
+    corners = np.stack([[p0, p1, p1, p0], [d0, d0, d1, d1]]).transpose(2, 1, 0)
+    colours = {"stable": "#cfe3ef", "undecided": "#d55e00"}
+    for words, colour in colours.items():
+        boxes = corners[table["proved"] == words]
+        ax.add_collection(PolyCollection(boxes, facecolor=colour, edgecolor=colour, **style))
+    ax.set_xlim(p0.min(), p1.max())
+    ax.set_ylim(d0.min(), d1.max())
+    ax.set_xlabel("proportional gain (N/m)")
+    ax.set_ylabel("differential gain (N s/m)")
+    ax.legend(handles=[Patch(color=colour, label=f"{words}, proved" if words == "stable" else words)
+                       for words, colour in colours.items()])
     return ax
 
 

@@ -15,6 +15,9 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "proportional_gain,differential_gain,stable,spectral_radius");
   EXPECT_EQ(header_of("stability --radius --continuous --p -600:0:3 --d -20:0:3"),
             "proportional_gain,differential_gain,stable,spectral_abscissa");
+  EXPECT_EQ(header_of("stability --prove --p -600:0:3 --d -20:0:3"),
+            "proportional_gain_from,proportional_gain_to,differential_gain_from,"
+            "differential_gain_to,proved,area_share");
   EXPECT_EQ(header_of("boundary"), "curve,angle_rad,proportional_gain,differential_gain");
   EXPECT_EQ(header_of("max-delay --frequency 10:10:1"),
             "frequency_Hz,proportional_gain,max_sampling_period_s,differential_gain");
@@ -73,6 +76,40 @@ TEST(Stability, FirstAxisIsSlowestAndRadiusAgreesWithTheVerdict) {
     EXPECT_EQ(table.number(row, "stable") == 1.0, table.number(row, "spectral_radius") < 1.0)
         << "row " << row;
   }
+}
+
+TEST(Stability, ItsProofAgreesWithTheVerdict) {
+  const std::string range = " --p -600:100:15 --d -20:10:7 --set control.sampling_period=0.008";
+  const CsvTable proved = table_of("stability --prove" + range);
+  const CsvTable chart = table_of("stability --radius" + range);
+  double undecided = 0.0, area = 0.0;
+  for (std::size_t box = 0; box < proved.rows(); ++box) {
+    const std::string& verdict = proved.text(box, "proved");
+    area += proved.number(box, "area_share");
+    if (verdict == "undecided") undecided += proved.number(box, "area_share");
+    for (std::size_t cell = 0; cell < chart.rows(); ++cell) {
+      const double p = chart.number(cell, "proportional_gain");
+      const double d = chart.number(cell, "differential_gain");
+      if (verdict == "undecided" || p < proved.number(box, "proportional_gain_from") ||
+          p > proved.number(box, "proportional_gain_to") ||
+          d < proved.number(box, "differential_gain_from") ||
+          d > proved.number(box, "differential_gain_to"))
+        continue;
+      EXPECT_EQ(chart.number(cell, "stable") == 1.0, verdict == "stable") << p << " " << d;
+    }
+  }
+  EXPECT_NEAR(area, 1.0, 1e-9);
+  EXPECT_LE(undecided, 1e-3);
+}
+
+TEST(Stability, RefusesProofsOfWhatItCannotProve) {
+  expect_refused("stability --undecided 0.01", {"--prove"});
+  expect_refused("stability --prove --p -557", {"--p", "two"});
+  expect_refused("stability --prove --radius", {"--radius"});
+  expect_refused("stability --prove --undecided 0", {"--undecided"});
+  expect_refused("stability --prove --set plant.model=string", {"two_masses"});
+  expect_refused("stability --prove --set control.processing_delay=0.002", {"processing_delay"});
+  expect_refused("stability --prove --output x.nc", {"x.nc", ".csv"});
 }
 
 TEST(Boundary, NamesItsCurves) {

@@ -26,6 +26,7 @@ questions='
 t stability --p -600:0:7 --d -20:0:5 --radius
 t stability --axis plant.absorber_mass=0.1:0.2:3 --axis control.differential_gain=-9:0:3
 a stability --continuous --p -600:0:3 --d -20:0:3
+a stability --prove --p -600:0:7 --d -20:0:5 --undecided 0.01
 a boundary --p -600:0
 a boundary --regions
 a boundary --features

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <limits>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// At least the norm ‖M‖∞ of every matrix inside.
+template <int Rows, int Columns>
+double norm_bound(const Matrix<Enclosure, Rows, Columns>& matrix) {
+  double norm = 0.0;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Enclosure sum;
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) sum += matrix(i, j).magnitude();
+    norm = sum.upper() > norm ? sum.upper() : norm;  // a NaN does not arise
+  }
+  return norm;
+}
+
+/// Numbers of a size up to a bound.
+template <int Size>
+Matrix<Enclosure, Size> ball(Eigen::Index order, double bound) {
+  return Matrix<Enclosure, Size>::Constant(order, order, Enclosure(-bound, bound));
+}
+
+/// e^X of every matrix inside, ‖X‖∞ ≤ 1/2: the Taylor polynomial and a bound of what is left,
+///
+///     ‖e^X − Σ_{k ≤ m} Xᵏ/k!‖ ≤ ‖X‖^{m+1}/(m+1)! / (1 − ‖X‖/(m+2))
+///
+/// @param norm   a bound of ‖X‖
+/// @param terms  m
+template <int Size>
+Matrix<Enclosure, Size> exponential_series(const Matrix<Enclosure, Size>& matrix, double norm,
+                                           int terms) {
+  const Eigen::Index n = matrix.rows();
+  // Horner's rule: I + X (I + X/2 (I + X/3 …)).
+  const Matrix<Enclosure, Size> identity = Matrix<Enclosure, Size>::Identity(n, n);
+  Matrix<Enclosure, Size> sum = identity;
+  for (int k = terms; k > 0; --k) sum = identity + (matrix * sum).eval() / Enclosure(double(k));
+  Enclosure rest(1.0);
+  for (int k = 1; k <= terms + 1; ++k) rest *= Enclosure(norm) / Enclosure(double(k));
+  rest /= Enclosure(1.0) - Enclosure(norm) / Enclosure(double(terms + 2));
+  return sum + ball<Size>(n, rest.upper());
+}
+
+}  // namespace detail
+
+/// e^M of every matrix inside, entry by entry: the series of M/2^s, ‖M‖/2^s ≤ 1/2, squared s times.
+/// Work: 20 + s products. The width grows with that of M and, by a factor of about ‖e^M‖ n, with
+/// each squaring.
+/// @param matrix  square, of fixed or dynamic size; not finite: unknown entries
+template <int Size>
+Matrix<Enclosure, Size> exponential(const Matrix<Enclosure, Size>& matrix) {
+  double norm = detail::norm_bound(matrix);
+  if (!(norm < 1e6))
+    return detail::ball<Size>(matrix.rows(), std::numeric_limits<double>::infinity());
+  Matrix<Enclosure, Size> scaled = matrix;
+  int squarings = 0;
+  for (; norm > 0.5; norm *= 0.5, ++squarings) scaled *= Enclosure(0.5);
+  constexpr int terms = 20;  // of which the last are below the rounding of the first
+  Matrix<Enclosure, Size> power = detail::exponential_series(scaled, norm, terms);
+  for (; squarings > 0; --squarings) power = (power * power).eval();
+  return power;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,247 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unsupported/Eigen/AutoDiff>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/math/enclosure/enclosed_exponential.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "holdfast/stability/chart/chart.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+
+namespace holdfast {
+
+/// What is proved of all gains in a box.
+enum class ProvedStability {
+  stable,    ///< every loop is asymptotically stable
+  unstable,  ///< every loop has a root beyond the unit circle, or right of the imaginary axis
+  undecided,
+};
+
+/// A closed box of the plane of the gains, of positive area.
+struct GainBox {
+  double proportional_from, proportional_to;  ///< P (N/m)
+  double differential_from, differential_to;  ///< D (N s/m)
+
+  double area() const {
+    return (proportional_to - proportional_from) * (differential_to - differential_from);
+  }
+};
+
+/// A box and what is proved of it.
+struct ProvedBox {
+  GainBox gains;
+  ProvedStability stability;
+};
+
+/// The cells of a chart, or parts of them, each proved or not: boxes that touch without overlapping
+/// and leave nothing out, ascending in P and then in D.
+struct ProvedChart {
+  std::vector<ProvedBox> boxes;
+
+  /// The share of the area of which this is proved, 0 … 1.
+  double share(ProvedStability stability) const {
+    double area = 0.0, whole = 0.0;
+    for (const ProvedBox& box : boxes) {
+      whole += box.gains.area();
+      if (box.stability == stability) area += box.gains.area();
+    }
+    return area / whole;
+  }
+};
+
+namespace detail {
+
+/// Hurwitz's conditions on a polynomial of degree n = 4 or 5, constant coefficient first: numbers
+/// that are all positive where all roots have Re < 0, and none of which is negative where all have
+/// Re ≤ 0. The first `sufficing` of them suffice, by Liénard and Chipart.
+///
+///     a_n a_0,  a_n a_2,  a_n a_{n−1},  H₃ a_n or H₂ and H₄;  then the others
+///
+/// Source: F. R. Gantmacher, The Theory of Matrices, vol. 2 (1959), ch. XV, §§ 6 and 13.
+template <class Number, int Degree>
+struct HurwitzConditions {
+  static constexpr std::size_t sufficing = Degree == 4 ? 4 : 5;
+  static constexpr std::size_t count = Degree == 4 ? 6 : 8;
+
+  static std::array<Number, count> of(const std::array<Number, Degree + 1>& a) {
+    constexpr std::size_t n = Degree;
+    const Number second = a[n - 1] * a[n - 2] - a[n] * a[n - 3];
+    if constexpr (Degree == 4) {
+      const Number third = a[1] * second - a[3] * (a[3] * a[0]);
+      return {a[4] * a[0], a[4] * a[2], a[4] * a[3], a[4] * third, a[4] * a[1], second};
+    } else {
+      const Number x2 = a[4] * a[1] - a[5] * a[0];
+      const Number x3 = a[1] * a[2] - a[0] * a[3];
+      const Number third = a[2] * second - a[4] * x2;
+      const Number fourth = x3 * second - x2 * x2;
+      return {a[5] * a[0], a[5] * a[2], a[5] * a[4], second,
+              fourth,      a[5] * a[1], a[5] * a[3], a[5] * third};
+    }
+  }
+};
+
+}  // namespace detail
+
+/// Decides Hurwitz's conditions over boxes of gains, each by its mean value form:
+///
+///     f(P, D) ∈ f(P₀, D₀) + ∂f/∂P [box] (P − P₀) + ∂f/∂D [box] (D − D₀)
+///
+/// all in enclosures, hence proved. Overestimates by the square of the box's size.
+template <int Degree>
+class GainBoxProof {
+ public:
+  /// @param polynomial  encloses that of the loop, in the half-plane
+  explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
+      : polynomial_(std::move(polynomial)) {}
+
+  ProvedStability operator()(const GainBox& box) const {
+    using Conditions = detail::HurwitzConditions<Enclosure, Degree>;
+    const Enclosure p(box.proportional_from, box.proportional_to);
+    const Enclosure d(box.differential_from, box.differential_to);
+    const auto at_centre = Conditions::of(coefficients(p.middle(), d.middle()));
+    const auto over_box = detail::HurwitzConditions<Moving, Degree>::of(moving_coefficients(p, d));
+    std::size_t positive = 0;
+    for (std::size_t k = 0; k < Conditions::count; ++k) {
+      const auto& slopes = over_box[k].derivatives();
+      const Enclosure mean_value = at_centre[k] + slopes[0] * (p - Enclosure(p.middle())) +
+                                   slopes[1] * (d - Enclosure(d.middle()));
+      const Enclosure value = intersection(mean_value, over_box[k].value());
+      if (value.is_negative()) return ProvedStability::unstable;
+      if (k < Conditions::sufficing && value.is_positive()) ++positive;
+    }
+    return positive == Conditions::sufficing ? ProvedStability::stable : ProvedStability::undecided;
+  }
+
+ private:
+  using Moving = Eigen::AutoDiffScalar<Vector<Enclosure, 2>>;
+
+  std::array<Enclosure, Degree + 1> coefficients(const Enclosure& p, const Enclosure& d) const {
+    std::array<Enclosure, Degree + 1> a;
+    for (int k = 0; k <= Degree; ++k)
+      a[static_cast<std::size_t>(k)] =
+          polynomial_.base[k] + p * polynomial_.proportional[k] + d * polynomial_.differential[k];
+    return a;
+  }
+
+  std::array<Moving, Degree + 1> moving_coefficients(const Enclosure& p, const Enclosure& d) const {
+    const auto values = coefficients(p, d);
+    std::array<Moving, Degree + 1> a;
+    for (int k = 0; k <= Degree; ++k)
+      a[static_cast<std::size_t>(k)] =
+          Moving(values[static_cast<std::size_t>(k)],
+                 Vector<Enclosure, 2>(polynomial_.proportional[k], polynomial_.differential[k]));
+    return a;
+  }
+
+  HalfPlanePolynomial<Enclosure, Degree> polynomial_;
+};
+
+namespace detail {
+
+/// The cells between the points of a grid.
+inline std::vector<GainBox> cells_of(const GainGrid& grid) {
+  std::vector<GainBox> cells;
+  for (std::int64_t i = 0; i + 1 < grid.proportional.count; ++i)
+    for (std::int64_t j = 0; j + 1 < grid.differential.count; ++j)
+      cells.push_back({grid.proportional.at(i), grid.proportional.at(i + 1),
+                       grid.differential.at(j), grid.differential.at(j + 1)});
+  return cells;
+}
+
+/// The four quarters of a box; none where its sides have no double between their ends.
+inline std::vector<GainBox> quarters_of(const GainBox& box) {
+  const auto [p0, p2, d0, d2] = box;
+  const double p1 = 0.5 * p0 + 0.5 * p2, d1 = 0.5 * d0 + 0.5 * d2;
+  if (!(p0 < p1 && p1 < p2 && d0 < d1 && d1 < d2)) return {};
+  return {{p0, p1, d0, d1}, {p0, p1, d1, d2}, {p1, p2, d0, d1}, {p1, p2, d1, d2}};
+}
+
+}  // namespace detail
+
+/// Proves the cells of a chart: each is decided as a whole, or quartered, until what is undecided
+/// is no more than a share of the area.
+/// @param decide      ProvedStability of a GainBox; a GainBoxProof
+/// @param grid        its cells lie between the points; both axes ascend, with at least 2 points
+/// @param undecided   the share, 0 ≤ … < 1
+/// @param most_boxes  with more the rest is left undecided
+/// @throws InvalidParameter for others
+template <class Decide>
+ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double undecided = 1e-3,
+                         std::size_t most_boxes = std::size_t{1} << 22) {
+  validate(grid);
+  for (const Axis& axis : {grid.proportional, grid.differential})
+    require_within("points along a side of the chart", static_cast<double>(axis.count), "", 2.0,
+                   1e9);
+  require_within("undecided share", undecided, "", 0.0, 1.0);
+  ProvedChart chart;
+  std::vector<GainBox> open = detail::cells_of(grid);
+  double whole = 0.0;
+  for (const GainBox& box : open) whole += box.area();
+  while (!open.empty()) {
+    std::vector<GainBox> left;
+    double left_area = 0.0;
+    for (const GainBox& box : open) {
+      const ProvedStability stability = decide(box);
+      if (stability == ProvedStability::undecided) {
+        left.push_back(box);
+        left_area += box.area();
+      } else {
+        chart.boxes.push_back({box, stability});
+      }
+    }
+    const bool ends =
+        left_area <= undecided * whole || chart.boxes.size() + 4 * left.size() > most_boxes;
+    open.clear();
+    for (const GainBox& box : left) {
+      const auto quarters = ends ? std::vector<GainBox>() : detail::quarters_of(box);
+      if (quarters.empty()) chart.boxes.push_back({box, ProvedStability::undecided});
+      open.insert(open.end(), quarters.begin(), quarters.end());
+    }
+  }
+  std::sort(chart.boxes.begin(), chart.boxes.end(), [](const ProvedBox& a, const ProvedBox& b) {
+    return std::pair(a.gains.proportional_from, a.gains.differential_from) <
+           std::pair(b.gains.proportional_from, b.gains.differential_from);
+  });
+  return chart;
+}
+
+namespace detail {
+
+inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
+  validate(plant);
+  const auto decimal = [](double x) { return Enclosure::of_decimal(x); };
+  return {decimal(plant.conductor_mass),     decimal(plant.conductor_stiffness),
+          decimal(plant.conductor_damping),  decimal(plant.absorber_mass),
+          decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
+}
+
+}  // namespace detail
+
+/// The proof for the continuous loop without delay of two masses, whose parameters are the decimals
+/// to which the given doubles are nearest.
+/// @throws InvalidParameter where they are not admissible
+inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
+  return GainBoxProof<4>(characteristic_polynomial(detail::enclosed(plant)));
+}
+
+/// The same for the sampled loop.
+/// @throws InvalidParameter where the two masses or the sampling are not admissible
+inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
+                                      const Sampling<double>& sampling) {
+  validate(sampling);
+  const auto loop = sampled_loop(
+      detail::enclosed(plant),
+      {Enclosure::of_decimal(sampling.period), Enclosure::of_decimal(sampling.processing_delay)});
+  return GainBoxProof<5>(in_half_plane(characteristic_polynomial(loop)));
+}
+
+}  // namespace holdfast
