@@ -40,7 +40,9 @@ class Table(Mapping):
             self._take(name, unit, description, values)
 
     def _take(self, name: str, unit: str, description: str, values: np.ndarray) -> None:
-        self._columns[name] = values.astype(bool) if name == "stable" else values
+        if name == "stable":  # bytes of 0 and 1 need no copy
+            values = values.view(bool) if values.dtype.itemsize == 1 else values.astype(bool)
+        self._columns[name] = values
         self._units[name] = unit
         self._descriptions[name] = description
 

@@ -36,8 +36,7 @@ class ChunkUnderWay {
   template <class Keep>
   void begin(Keep&& keep) {
     finish();
-    // Where there is no further thread it is kept when it is asked for.
-    done_ = std::async(std::launch::async | std::launch::deferred, std::forward<Keep>(keep));
+    done_ = std::async(way, std::forward<Keep>(keep));
   }
 
   /// Throws what could not be kept.
@@ -46,6 +45,12 @@ class ChunkUnderWay {
   }
 
  private:
+#ifdef __EMSCRIPTEN__  // a module has one thread
+  static constexpr std::launch way = std::launch::deferred;
+#else  // where the system has no further thread it is kept when it is asked for
+  static constexpr std::launch way = std::launch::async | std::launch::deferred;
+#endif
+
   std::future<void> done_;
 };
 

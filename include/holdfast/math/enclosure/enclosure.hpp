@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,6 +57,7 @@ class Enclosure {
     if (nearest == 0.0) return {};
     return {detail::rounded_down(nearest), detail::rounded_up(nearest)};
   }
+  /// (−∞, ∞).
   static Enclosure unknown() {
     Enclosure all;
     all.lower_ = -std::numeric_limits<double>::infinity();
@@ -65,7 +65,9 @@ class Enclosure {
     return all;
   }
 
+  /// Not above the number.
   double lower() const { return lower_; }
+  /// Not below the number.
   double upper() const { return upper_; }
   /// A double inside, next to the middle where both bounds are finite.
   double middle() const {
@@ -79,26 +81,39 @@ class Enclosure {
   }
   /// At least the modulus of every number inside.
   double magnitude() const { return std::max(std::abs(lower_), std::abs(upper_)); }
+  /// Whether the number may be x.
   bool contains(double x) const { return lower_ <= x && x <= upper_; }
+  /// The middle, for messages and checks of plausibility.
   explicit operator double() const { return middle(); }
 
+  /// Whether it is proved that the number is > 0.
   bool is_positive() const { return lower_ > 0.0; }
+  /// Whether it is proved that the number is < 0.
   bool is_negative() const { return upper_ < 0.0; }
 
+  /// −a, exact.
   Enclosure operator-() const { return {-upper_, -lower_}; }
+  /// a + b.
   Enclosure& operator+=(const Enclosure& b) { return *this = *this + b; }
+  /// a − b.
   Enclosure& operator-=(const Enclosure& b) { return *this = *this - b; }
+  /// a b.
   Enclosure& operator*=(const Enclosure& b) { return *this = *this * b; }
+  /// a / b.
   Enclosure& operator/=(const Enclosure& b) { return *this = *this / b; }
 
+  /// a + b.
   friend Enclosure operator+(const Enclosure& a, const Enclosure& b) {
     return {detail::rounded_down(a.lower_ + b.lower_), detail::rounded_up(a.upper_ + b.upper_)};
   }
+  /// a − b.
   friend Enclosure operator-(const Enclosure& a, const Enclosure& b) { return a + (-b); }
+  /// a b.
   friend Enclosure operator*(const Enclosure& a, const Enclosure& b) {
     return hull_of(a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_,
                    a.upper_ * b.upper_);
   }
+  /// a / b; unknown where b may be 0.
   friend Enclosure operator/(const Enclosure& a, const Enclosure& b) {
     if (b.contains(0.0)) return unknown();
     return hull_of(a.lower_ / b.lower_, a.lower_ / b.upper_, a.upper_ / b.lower_,
@@ -108,6 +123,7 @@ class Enclosure {
   friend bool operator==(const Enclosure& a, const Enclosure& b) {
     return a.lower_ == b.lower_ && a.upper_ == b.upper_;
   }
+  /// Other bounds.
   friend bool operator!=(const Enclosure& a, const Enclosure& b) { return !(a == b); }
 
   /// x².
@@ -116,6 +132,7 @@ class Enclosure {
     const double least = a.contains(0.0) ? 0.0 : std::min(std::abs(a.lower_), std::abs(a.upper_));
     return {std::max(detail::rounded_down(least * least), 0.0), detail::rounded_up(most * most)};
   }
+  /// |a|.
   friend Enclosure abs(const Enclosure& a) {
     if (a.contains(0.0)) return {0.0, a.magnitude()};
     return a.lower_ > 0.0 ? a : -a;
@@ -138,23 +155,3 @@ class Enclosure {
 };
 
 }  // namespace holdfast
-
-namespace Eigen {
-
-template <>
-struct NumTraits<holdfast::Enclosure> : GenericNumTraits<holdfast::Enclosure> {
-  using Real = holdfast::Enclosure;
-  using NonInteger = holdfast::Enclosure;
-  using Nested = holdfast::Enclosure;
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 2,
-    AddCost = 6,
-    MulCost = 16
-  };
-};
-
-}  // namespace Eigen

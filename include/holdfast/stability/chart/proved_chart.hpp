@@ -28,9 +28,12 @@ enum class ProvedStability {
 
 /// A closed box of the plane of the gains, of positive area.
 struct GainBox {
-  double proportional_from, proportional_to;  ///< P (N/m)
-  double differential_from, differential_to;  ///< D (N s/m)
+  double proportional_from;  ///< the least P (N/m)
+  double proportional_to;    ///< the largest P (N/m)
+  double differential_from;  ///< the least D (N s/m)
+  double differential_to;    ///< the largest D (N s/m)
 
+  /// (N²·s/m²)
   double area() const {
     return (proportional_to - proportional_from) * (differential_to - differential_from);
   }
@@ -38,14 +41,14 @@ struct GainBox {
 
 /// A box and what is proved of it.
 struct ProvedBox {
-  GainBox gains;
-  ProvedStability stability;
+  GainBox gains;              ///< the box
+  ProvedStability stability;  ///< of all loops in it
 };
 
 /// The cells of a chart, or parts of them, each proved or not: boxes that touch without overlapping
 /// and leave nothing out, ascending in P and then in D.
 struct ProvedChart {
-  std::vector<ProvedBox> boxes;
+  std::vector<ProvedBox> boxes;  ///< at least one
 
   /// The share of the area of which this is proved, 0 … 1.
   double share(ProvedStability stability) const {
@@ -103,6 +106,7 @@ class GainBoxProof {
   explicit GainBoxProof(HalfPlanePolynomial<Enclosure, Degree> polynomial)
       : polynomial_(std::move(polynomial)) {}
 
+  /// What is proved of a box.
   ProvedStability operator()(const GainBox& box) const {
     using Conditions = detail::HurwitzConditions<Enclosure, Degree>;
     const Enclosure p(box.proportional_from, box.proportional_to);
