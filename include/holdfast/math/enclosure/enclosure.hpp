@@ -45,8 +45,8 @@ class Enclosure {
  public:
   /// 0.
   Enclosure() = default;
-  /// That double itself.
-  Enclosure(double exact) : Enclosure(exact, exact) {}
+  /// That double itself; implicit, as in formulas a double is such a number.
+  Enclosure(double exact) : Enclosure(exact, exact) {}  // NOLINT(google-explicit-constructor)
   /// Between two doubles, lower ≤ upper; a NaN: nothing is known.
   Enclosure(double lower, double upper) : lower_(lower), upper_(upper) {
     if (!(lower <= upper)) *this = unknown();
