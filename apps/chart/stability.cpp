@@ -114,16 +114,15 @@ void StabilityQuestion::prove_gains(const JobContext& context) const {
   Table table(context, columns_of("proved stability"));
   const double share = undecided.value_or(1e-3);
   const ProvedChart chart = proved_stability_of(context.case_data, grid, continuous, share);
-  double whole = 0.0;
-  for (const auto& [gains, stability] : chart.boxes) whole += gains.area();
+  const double area = chart.area(), left = chart.share(ProvedStability::undecided);
   for (const auto& [gains, stability] : chart.boxes)
     table.row(gains.proportional_from, gains.proportional_to, gains.differential_from,
-              gains.differential_to, name_in(proved_names, stability), gains.area() / whole);
+              gains.differential_to, name_in(proved_names, stability), gains.area() / area);
   table.commit();
-  if (chart.share(ProvedStability::undecided) > share)
-    report_warning("of the area " + format_rounded(chart.share(ProvedStability::undecided)) +
-                       " is left undecided, more than --undecided",
-                   context.quiet);
+  if (left > share)
+    report_warning(
+        "of the area " + format_rounded(left) + " is left undecided, more than --undecided",
+        context.quiet);
 }
 
 }  // namespace

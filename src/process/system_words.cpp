@@ -9,6 +9,10 @@ namespace holdfast::program {
 
 std::string system_words(int error) { return std::generic_category().message(error); }
 
+void refuse_to_read(const std::filesystem::path& path, const std::string& why) {
+  throw WrongInput("cannot read " + path.string() + ": " + why);
+}
+
 void refuse_to_write(const std::filesystem::path& path, int error) {
   const std::string message = "cannot write " + path.string() + ": " + system_words(error);
   const bool machine = error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE ||

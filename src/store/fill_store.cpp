@@ -138,7 +138,7 @@ class StoreFilling {
     const bool done = is_done(chunk);
     const bool left = done && work_.verify && ChunkClaim::exists(store_.file_of(chunk));
     if (done && !left) return count_found(chunk);
-    auto claim = std::make_shared<const ChunkClaim>(store_.file_of(chunk));
+    auto claim = std::make_unique<const ChunkClaim>(store_.file_of(chunk));
     if (claim->was_left()) store_.remove_leftovers(chunk);
     if (claim->answer() == ChunkClaim::Answer::elsewhere) return false;
     if (claim->answer() == ChunkClaim::Answer::unknown && !last) return false;

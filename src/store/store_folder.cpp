@@ -72,9 +72,9 @@ void write_file(const fs::path& file, std::string_view bytes) {
   if (error != 0) refuse_to_write(file, error);
 }
 
-[[noreturn]] void refuse_to_read(const fs::path& folder, int error) {
+[[noreturn]] void refuse_to_look_into(const fs::path& folder, int error) {
   if (error == ENOMEM) throw std::bad_alloc();
-  throw WrongInput("cannot read " + folder.string() + ": " + system_words(error));
+  refuse_to_read(folder, system_words(error));
 }
 
 /// What the format says a root is; nothing where there is no such file.
@@ -82,7 +82,7 @@ std::optional<std::string> root_text(const fs::path& folder, int format) {
   int error = 0;
   std::optional<std::string> text =
       read_whole_file(folder / (format == 2 ? root_of_format_2 : root_of_format_3), error);
-  if (!text && error != ENOENT && error != ENOTDIR) refuse_to_read(folder, error);
+  if (!text && error != ENOENT && error != ENOTDIR) refuse_to_look_into(folder, error);
   return text;
 }
 
@@ -91,7 +91,7 @@ bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& k
   fs::directory_iterator entries(folder, error);
   if (error == std::errc::no_such_file_or_directory) return true;
   if (error == std::errc::not_a_directory) return false;
-  if (error) refuse_to_read(folder, error.value());
+  if (error) refuse_to_look_into(folder, error.value());
   for (const fs::directory_entry& entry : entries) {
     const std::string name = entry.path().filename().string();
     if (std::count(known.begin(), known.end(), name) == 0 && !name_behind_temporary(name))
@@ -201,9 +201,7 @@ void StoreFolder::read_axes() {
       const auto bytes =
           packed ? unpacked_chunk(*packed, length * sizeof(double), description_.packing)
                  : std::nullopt;
-      if (!bytes)
-        throw WrongInput("cannot read " + file.string() + ": " +
-                         (packed ? "it is damaged" : system_words(error)));
+      if (!bytes) refuse_to_read(file, packed ? "it is damaged" : system_words(error));
       const std::vector<double> part =
           values_of(*bytes, std::min(length, count - first), ElementType::real);
       values.insert(values.end(), part.begin(), part.end());

@@ -10,20 +10,17 @@
 #include "io/file/descriptor.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
+#include "process/system_words.hpp"
 
 namespace holdfast::program {
 namespace {
-
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-  throw WrongInput("cannot read " + file.string() + ": " + why);
-}
 
 /// A pipe waits here for its writer, until a signal comes.
 Descriptor open_to_read(const std::filesystem::path& file) {
   for (;;) {
     Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
     if (opened.is_open()) return opened;
-    if (errno != EINTR) refuse(file, std::generic_category().message(errno));
+    if (errno != EINTR) refuse_to_read(file, system_words(errno));
     throw_if_interrupted();
   }
 }
@@ -38,10 +35,10 @@ std::string read_input(const std::filesystem::path& file) {
   for (;;) {
     const ssize_t count = ::read(opened.number(), chunk.data(), chunk.size());
     if (count == 0) return text;
-    if (count < 0 && errno != EINTR) refuse(file, std::generic_category().message(errno));
+    if (count < 0 && errno != EINTR) refuse_to_read(file, system_words(errno));
     throw_if_interrupted();
     if (count > 0) text.append(chunk.data(), static_cast<std::size_t>(count));
-    if (text.size() > largest) refuse(file, "too large");
+    if (text.size() > largest) refuse_to_read(file, "too large");
   }
 }
 

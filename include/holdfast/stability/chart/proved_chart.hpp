@@ -50,14 +50,18 @@ struct ProvedBox {
 struct ProvedChart {
   std::vector<ProvedBox> boxes;  ///< at least one
 
+  /// Of all boxes (N²·s/m²).
+  double area() const {
+    double sum = 0.0;
+    for (const ProvedBox& box : boxes) sum += box.gains.area();
+    return sum;
+  }
   /// The share of the area of which this is proved, 0 … 1.
   double share(ProvedStability stability) const {
-    double area = 0.0, whole = 0.0;
-    for (const ProvedBox& box : boxes) {
-      whole += box.gains.area();
-      if (box.stability == stability) area += box.gains.area();
-    }
-    return area / whole;
+    double sum = 0.0;
+    for (const ProvedBox& box : boxes)
+      if (box.stability == stability) sum += box.gains.area();
+    return sum / area();
   }
 };
 
