@@ -13,6 +13,7 @@
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
+#include "jobs/orbit/proved_orbit.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -22,6 +23,7 @@ struct OrbitQuestion {
   bool trace = false;
   bool certificate = false;
   std::optional<std::string> follow;
+  bool prove = false;
   Switching switching = Switching::sampled;
 
   void add_to(const Job& job) {
@@ -29,6 +31,7 @@ struct OrbitQuestion {
     job.add("--trace", trace);
     job.add("--certificate", certificate);
     job.add("--follow", follow);
+    job.add("--prove", prove);
     job.add("--switching", switching);
   }
   void run(const JobContext& context) const;
@@ -232,10 +235,6 @@ constexpr Named<BranchEndOutcome> branch_end_names[] = {
     {BranchEndOutcome::unit_circle, "unit_circle"},
     {BranchEndOutcome::range_end, "range_end"}};
 
-constexpr Named<SwitchingSurface> surface_names[] = {{SwitchingSurface::reversal, "reversal"},
-                                                     {SwitchingSurface::gap_lower, "gap_lower"},
-                                                     {SwitchingSurface::gap_upper, "gap_upper"}};
-
 /// Where the orbit ends below and above the case's value of one key, and why: two rows.
 /// @param axis  KEY=MIN:MAX
 void write_branch_ends(const JobContext& context, std::int64_t largest_period,
@@ -259,13 +258,56 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
   table.commit();
 }
 
+/// The theorem on the orbit, one quantity a row.
+void write_proof(const JobContext& context, std::int64_t largest_period) {
+  Table table(context, columns_of("certificate"));
+  const PeriodicOrbit orbit =
+      certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
+  const OrbitProof proof = proved_orbit_of(context.case_data, orbit);
+  const bool reverses = proof.nearest.surface == SwitchingSurface::reversal;
+  table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
+  table.row("period", orbit.period(), "s");
+  table.row("multiplier_bound", proof.multiplier_bound, "");
+  table.row("displacement_error", proof.displacement_error, "m");
+  table.row("velocity_error", proof.velocity_error, "m/s");
+  table.row("attraction_radius", proof.radius, "m");
+  table.row("backlash_width_from", proof.widths.from, "m");
+  table.row("backlash_width_to", proof.widths.to, "m");
+  write_border(table, "nearest_decision", proof.nearest, reverses ? "m/s" : "m",
+               orbit.sampling_period);
+  table.row("nearest_decided_by", proof.decided_by, "errors");
+  table.commit();
+}
+
+/// Where along one key the orbit is proved, a range a row.
+/// @param axis  KEY=MIN:MAX
+void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
+                         const std::string& axis) {
+  const auto [key, range] = parse_key_range(axis);
+  followed_value(context.case_data, key, axis, range);
+  Table table(context, columns_of("proved ranges"));
+  const PeriodicOrbit orbit =
+      certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
+  for (const auto& [from, to, proof] : proved_orbit_along(context.case_data, orbit, key, range)) {
+    const bool decides = proof.nearest.sample >= 0;
+    table.row(from, to, name_in(orbit_proof_names, proof.outcome), proof.decided_by,
+              decides ? name_in(surface_names, proof.nearest.surface) : "", proof.nearest.sample);
+  }
+  table.commit();
+}
+
 void OrbitQuestion::run(const JobContext& context) const {
-  refuse_on_modes(context.case_data, follow.has_value(), "--follow");
-  if (follow && !is_of_the_paper(context.case_data, switching))
+  const std::string option = prove ? "--prove" : "--follow";
+  refuse_on_modes(context.case_data, prove || follow, option);
+  if ((prove || follow) && !is_of_the_paper(context.case_data, switching))
     throw WrongInput(
-        "--follow goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
+        option +
+        " goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
         "computer only");
-  if (trace) {
+  if (prove) {
+    follow ? write_proved_ranges(context, largest_period, *follow)
+           : write_proof(context, largest_period);
+  } else if (trace) {
     write_orbit_trace(context, *this);
   } else if (certificate) {
     write_certificate(context, *this);

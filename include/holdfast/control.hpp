@@ -5,6 +5,7 @@
 #include "holdfast/control/controlled_plant.hpp"
 #include "holdfast/control/controller.hpp"
 #include "holdfast/control/digital_loop.hpp"
+#include "holdfast/control/enclosed_loop.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/late_controller.hpp"
 #include "holdfast/control/loop_input.hpp"

@@ -2,8 +2,10 @@
 
 /// Linear algebra, polynomials, roots, enclosures, statistics and signals.
 
+#include "holdfast/math/enclosure/enclosed_angle.hpp"
 #include "holdfast/math/enclosure/enclosed_exponential.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/math/enclosure/positive_definite.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/linalg/discrete_lyapunov.hpp"

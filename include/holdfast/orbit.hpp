@@ -1,6 +1,6 @@
 #pragma once
 
-/// Periodic orbits, their certificates and continuation.
+/// Periodic orbits, their certificates, proofs and continuation.
 
 #include "holdfast/orbit/cyclic_system.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
@@ -14,6 +14,12 @@
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/proof/contracting_norms.hpp"
+#include "holdfast/orbit/proof/enclosed_deviations.hpp"
+#include "holdfast/orbit/proof/orbit_proof.hpp"
+#include "holdfast/orbit/proof/orbit_range.hpp"
+#include "holdfast/orbit/proof/segment_of_loops.hpp"
+#include "holdfast/orbit/proof/switching_tests.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 #include "holdfast/orbit/return_search.hpp"
 #include "holdfast/orbit/state_scale.hpp"

@@ -662,6 +662,7 @@ class Case:
         switching: Optional[str] = None,
         trace: bool = False,
         certificate: bool = False,
+        prove: bool = False,
         **how: Any,
     ) -> Table:
         """The exact periodic orbit that the motion comes to, with its certificate. Columns ``period_samples,
@@ -672,25 +673,37 @@ class Case:
         :param trace: its samples over one period instead, as of :meth:`simulate`
         :param certificate: all of its certificate instead: multipliers, distances to the switching surfaces,
             radius of capture, the same orbit in extended precision
+        :param prove: the theorem on it instead, for the decimals of the case: bounds of its multipliers and of the
+            errors of its states, the widths of the backlash in which it is the loop's, a ball that it attracts
         :raises NoAnswer: the motion comes to no orbit of such a period
         """
         return self._run(
             "orbit",
             _options.arguments(
-                {"max_period": max_period, "switching": switching, "trace": trace, "certificate": certificate}
+                {
+                    "max_period": max_period,
+                    "switching": switching,
+                    "trace": trace,
+                    "certificate": certificate,
+                    "prove": prove,
+                }
             ),
             how,
         )
 
-    def orbit_ends(self, key: str, interval: Interval, *, max_period: Optional[int] = None, **how: Any) -> Table:
-        """Where the orbit ends along one key of the case, and why: fold, flip, torus, border collision.
+    def orbit_ends(
+        self, key: str, interval: Interval, *, max_period: Optional[int] = None, prove: bool = False, **how: Any
+    ) -> Table:
+        """Where the orbit ends along one key of the case, and why: fold, flip, torus, border collision; or, with
+        ``prove``, in which ranges of it the loop is proved to have it, columns ``from, to, outcome, decided_by,
+        surface, sample``.
 
         :param key: ``"excitation.frequency"``
         :param interval: (min, max) of it
         """
         words = [
             f"--follow={key}={_options.interval_text(interval, key)}",
-            *_options.arguments({"max_period": max_period}),
+            *_options.arguments({"max_period": max_period, "prove": prove}),
         ]
         return self._run("orbit", words, how)
 

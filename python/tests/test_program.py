@@ -82,6 +82,7 @@ SAME = [
         ["stability", "--prove", "--p", "-600:100:8", "--d", "-20:10:4", "--undecided", "0.01"],
         lambda case: case.proved_chart((-600, 100, 8), (-20, 10, 4), undecided=0.01),
     ),
+    (["orbit", "--prove"], lambda case: case.orbit(prove=True)),
     (["boundary", "--features", "--p=-600:0", "--d=-30:10"], lambda case: case.boundary_features((-600, 0), (-30, 10))),
     (["margins"], lambda case: case.margins()),
     (["design"], lambda case: case.design()),

@@ -11,8 +11,9 @@
 
 namespace holdfast::test {
 
-/// Digits in which Arb computes: far beyond those of a double.
-inline constexpr slong arb_bits = 200;
+/// Digits in which Arb computes: far beyond those of a double. Balls of long products widen by
+/// about a bit a factor, and take more.
+inline slong arb_bits = 200;
 
 /// A ball of Arb, whose memory is its own.
 class Ball {
@@ -37,6 +38,19 @@ class Ball {
   friend Ball operator-(const Ball& a, const Ball& b) { return by(arb_sub, a, b); }
   friend Ball operator*(const Ball& a, const Ball& b) { return by(arb_mul, a, b); }
   friend Ball operator/(const Ball& a, const Ball& b) { return by(arb_div, a, b); }
+
+  /// cos 2π p/q.
+  static Ball cosine_of_turn(slong p, slong q) {
+    Ball angle(2.0 * static_cast<double>(p % q)), result;
+    angle = angle / Ball(static_cast<double>(q));
+    arb_cos_pi(result.ball_, angle.ball_, arb_bits);
+    return result;
+  }
+
+  bool is_positive() const { return arb_is_positive(ball_) != 0; }
+  bool is_negative() const { return arb_is_negative(ball_) != 0; }
+  /// Whether |x| ≤ bound for all of it.
+  bool is_within(double bound) const { return is_in(Enclosure(-bound, bound)); }
 
   /// Whether the whole ball lies in an enclosure.
   bool is_in(const Enclosure& enclosure) const {
@@ -66,6 +80,29 @@ class BallMatrix {
   ~BallMatrix() { arb_mat_clear(matrix_); }
 
   slong size() const { return size_; }
+  friend BallMatrix operator*(const BallMatrix& a, const BallMatrix& b) {
+    BallMatrix result(a.size_);
+    arb_mat_mul(result.matrix_, a.matrix_, b.matrix_, arb_bits);
+    return result;
+  }
+  /// (I − M)⁻¹ g; false where Arb cannot tell that it exists.
+  bool solve_fixed_point(const std::vector<Ball>& g, std::vector<Ball>& x) const {
+    arb_mat_t left, right, solution;
+    arb_mat_init(left, size_, size_);
+    arb_mat_init(right, size_, 1);
+    arb_mat_init(solution, size_, 1);
+    arb_mat_one(left);
+    arb_mat_sub(left, left, matrix_, arb_bits);
+    for (slong i = 0; i < size_; ++i)
+      arb_set(arb_mat_entry(right, i, 0), g[static_cast<std::size_t>(i)].get());
+    const bool solved = arb_mat_solve(solution, left, right, arb_bits) != 0;
+    for (slong i = 0; i < size_ && solved; ++i)
+      arb_set(x[static_cast<std::size_t>(i)].get(), arb_mat_entry(solution, i, 0));
+    arb_mat_clear(left);
+    arb_mat_clear(right);
+    arb_mat_clear(solution);
+    return solved;
+  }
   Ball at(slong row, slong column) const {
     Ball entry;
     arb_set(entry.get(), arb_mat_entry(matrix_, row, column));
@@ -98,6 +135,19 @@ class BallMatrix {
   slong size_;
   arb_mat_t matrix_;
 };
+
+/// A column of balls.
+using BallVector = std::vector<Ball>;
+
+inline BallVector operator*(const BallMatrix& matrix, const BallVector& vector) {
+  BallVector result(vector.size());
+  for (slong i = 0; i < matrix.size(); ++i)
+    for (slong j = 0; j < matrix.size(); ++j) {
+      const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+      result[row] = result[row] + matrix.at(i, j) * vector[column];
+    }
+  return result;
+}
 
 /// How many roots of a real polynomial have a modulus below 1, and how many one above.
 struct RootCount {
@@ -155,9 +205,20 @@ struct DecimalLoop {
     return result;
   }
 
+  /// S*, the drive being in its gap: S without gains, and no force to come.
+  BallMatrix gap_map() const { return map(Ball(), Ball()); }
+
+  /// What a force of 1 N held over a sample adds to z̃.
+  BallVector held_force() const {
+    const BallMatrix whole = held(Ball(period), 0).exponential();
+    BallVector addition(5);
+    for (slong i = 0; i < 4; ++i) addition[static_cast<std::size_t>(i)] = whole.at(i, 4);
+    return addition;
+  }
+
  private:
-  /// [A b; 0 0] h.
-  BallMatrix held(const Ball& time) const {
+  /// [A b; 0 0] h; of a force on the conductor alone without that on the absorber.
+  BallMatrix held(const Ball& time, int on_absorber = 1) const {
     const Ball m1(masses[0]), k1(masses[1]), c1(masses[2]), m2(masses[3]), k2(masses[4]),
         c2(masses[5]);
     const Ball zero, one(1.0);
@@ -176,7 +237,7 @@ struct DecimalLoop {
     put(3, 2, (zero - k2) / m2);
     put(3, 3, (zero - c2) / m2);
     put(1, 4, one / m1);
-    put(3, 4, (zero - one) / m2);
+    if (on_absorber != 0) put(3, 4, (zero - one) / m2);
     return result;
   }
 };

@@ -78,10 +78,8 @@ TEST(EnclosedExponential, HoldsWhatAShortSeriesLeaves) {
 /// with.
 TEST(GainBoxProof, IsOfThePolynomialThatArbFinds) {
   for (const DecimalLoop& loop : loops) {
-    const auto enclosed = sampled_loop(detail::enclosed(masses_of(loop)),
-                                       {Enclosure::of_decimal(sampling_of(loop).period),
-                                        Enclosure::of_decimal(sampling_of(loop).processing_delay)});
-    const auto ours = characteristic_polynomial(enclosed);
+    const auto loop_in_balls = sampled_loop(enclosed(masses_of(loop)), enclosed(sampling_of(loop)));
+    const auto ours = characteristic_polynomial(loop_in_balls);
     const auto base = loop.map(Ball(), Ball()).characteristic_polynomial(1.0);
     const auto with_p = loop.map(Ball(1.0), Ball()).characteristic_polynomial(1.0);
     const auto with_d = loop.map(Ball(), Ball(1.0)).characteristic_polynomial(1.0);

@@ -52,6 +52,9 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
   EXPECT_EQ(header_of("orbit --trace"),
             "time_s,z1_m,v1_m_per_s,z2_m,v2_m_per_s,control_force_N,in_backlash");
   EXPECT_EQ(header_of("orbit --certificate"), "quantity,value,unit");
+  EXPECT_EQ(header_of("orbit --prove"), "quantity,value,unit");
+  EXPECT_EQ(header_of("orbit --prove --follow backlash.width=0.00049:0.00051"),
+            "from,to,outcome,decided_by,surface,sample");
   EXPECT_EQ(header_of("orbit --follow backlash.width=0:0.001"),
             "side,outcome,position,distance,surface,sample,largest_multiplier,"
             "multiplier_angle_rad");

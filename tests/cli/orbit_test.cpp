@@ -51,6 +51,40 @@ TEST(OrbitJob, CertifiesInExtendedPrecision) {
   EXPECT_EQ(quantity(table, "multiplier_5_modulus"), 0.0);
 }
 
+TEST(OrbitJob, ProvesWhatItCertifies) {
+  const CsvTable proof = table_of("orbit --prove" + slow);
+  const CsvTable certificate = table_of("orbit --certificate" + slow);
+  EXPECT_EQ(quantity(proof, "period_samples"), 2100.0);
+  EXPECT_GE(quantity(proof, "multiplier_bound"), quantity(certificate, "multiplier_1_modulus"));
+  EXPECT_LT(quantity(proof, "multiplier_bound"), 1.0);
+  EXPECT_GE(quantity(proof, "displacement_error"),
+            quantity(certificate, "extended_precision_displacement_difference"));
+  EXPECT_LT(quantity(proof, "displacement_error"), 1e-11);
+  EXPECT_GE(quantity(proof, "attraction_radius"),
+            0.99 * quantity(certificate, "capture_radius_smallest"));
+  EXPECT_NEAR(quantity(proof, "nearest_decision"), quantity(certificate, "gap_distance"), 1e-11);
+  EXPECT_GT(quantity(proof, "nearest_decided_by"), 1.0);
+}
+
+/// The range of the proof ends where following the orbit finds its end, along the width as along a
+/// gain.
+TEST(OrbitJob, ProvesTheRangeOfAnOrbit) {
+  const std::string loop = " --set control.sampling_period=0.01 --set backlash.width=0.002";
+  const CsvTable ends = table_of("orbit --follow backlash.width=0.001:0.003" + loop);
+  const CsvTable proof = table_of("orbit --prove" + loop);
+  EXPECT_NEAR(quantity(proof, "backlash_width_from"), ends.number(0, "position"), 1e-10);
+  EXPECT_NEAR(quantity(proof, "backlash_width_to"), ends.number(1, "position"), 1e-10);
+  const std::string axis = "control.differential_gain=-14:-12";
+  const CsvTable ranges = table_of("orbit --prove --follow " + axis + loop);
+  const CsvTable along = table_of("orbit --follow " + axis + loop);
+  double proved = 0.0;
+  for (std::size_t row = 0; row < ranges.rows(); ++row)
+    if (ranges.text(row, "outcome") == "proved")
+      proved += ranges.number(row, "to") - ranges.number(row, "from");
+  EXPECT_LE(proved, along.number(1, "position") - along.number(0, "position") + 1e-12);
+  EXPECT_GE(proved, along.number(1, "position") - along.number(0, "position") - 0.02);
+}
+
 TEST(OrbitJob, FollowsTheOrbitToBothItsEnds) {
   const CsvTable table = table_of("orbit --follow backlash.width=0:0.01" + slow);
   ASSERT_EQ(table.rows(), 2U);
@@ -84,6 +118,16 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
   expect_reason("orbit --follow backlash.width=-1:1", 2, "must be");
   expect_reason("orbit --follow backlash.width=0:1 --set backlash.width=0", 2, "no backlash");
   expect_reason("orbit --follow backlash.widht=0:0.002", 2, "backlash.width");
+}
+
+TEST(OrbitJob, RefusesWhatItCannotProve) {
+  expect_reason("orbit --prove --switching exact", 2, "--prove");
+  expect_reason("orbit --prove --set plant.model=string", 2, "--prove");
+  expect_reason("orbit --prove --certificate", 2, "--certificate");
+  expect_reason("orbit --prove --follow plant.absorber_mass=0.15:0.17", 2, "linear");
+  expect_reason("orbit --prove --follow backlash.width=0:0.002 --set backlash.width=0", 2,
+                "no backlash");
+  expect_reason("orbit --prove --max-period 50", 1, "coincide only every 100 samples");
 }
 
 TEST(BasinsJob, TellsTheTwoMotionsApartThatStartTenMicrometresApart) {

@@ -59,6 +59,7 @@ a diagram --axis backlash.width=0.0001:0.001:3
 a lyapunov --duration 0.5
 a lyapunov --duration 0.2 --switching exact
 a orbit --certificate
+a orbit --prove
 a orbit --switching exact
 a verdict
 t basins --axis initial.z1=-0.005:0.005:5 --axis initial.z2=-0.005:0.005:5 --threads 3

@@ -55,6 +55,9 @@ class ItineraryMaps {
   /// q.
   std::size_t samples_of_forcing() const { return forcing_.samples(); }
 
+  /// What the excitation adds to z in each of the q samples, 4 × 1.
+  const std::vector<Vector<Scalar, 4>>& additions() const { return forcing_.additions(); }
+
   /// z̃_{j+1} from z̃_j, phase j of the forcing, 0 ≤ phase < q.
   Vector<Scalar, 5> step(const Vector<Scalar, 5>& state, bool engaged, std::size_t phase) const {
     Vector<Scalar, 5> next = map(engaged) * state;
@@ -85,7 +88,10 @@ class ItineraryMaps {
   ItineraryMaps(const SampledLoop<Scalar>& sampled, const IdealLoop<Scalar>& loop,
                 const Rational& ratio)
       : maps_{sampled.backlash_map(), sampled.engaged_map(loop.gains)},
-        units_(plant_scaling(loop.plant.state_matrix(), loop.plant.excitation_input())),
+        units_(
+            plant_scaling(Matrix<double, 4>(loop.plant.state_matrix().template cast<double>()),
+                          Vector<double, 4>(loop.plant.excitation_input().template cast<double>()))
+                .template cast<Scalar>()),
         forcing_(
             harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency()),
             loop.excitation.amplitude, ratio) {}

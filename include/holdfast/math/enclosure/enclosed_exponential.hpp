@@ -4,6 +4,7 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/math/linalg/balancing.hpp"
 
 namespace holdfast {
 
@@ -47,24 +48,36 @@ Matrix<Enclosure, Size> exponential_series(const Matrix<Enclosure, Size>& matrix
   return sum + ball<Size>(n, rest.upper());
 }
 
+/// e^M by the series of M/2^s, ‖M‖/2^s ≤ 1/2, squared s times; `norm` bounds ‖M‖.
+template <int Size>
+Matrix<Enclosure, Size> exponential_by_squarings(Matrix<Enclosure, Size> matrix, double norm) {
+  int squarings = 0;
+  for (; norm > 0.5; norm *= 0.5, ++squarings) matrix *= Enclosure(0.5);
+  constexpr int terms = 20;  // of which the last are below the rounding of the first
+  Matrix<Enclosure, Size> power = exponential_series(matrix, norm, terms);
+  for (; squarings > 0; --squarings) power = (power * power).eval();
+  return power;
+}
+
 }  // namespace detail
 
-/// e^M of every matrix inside, entry by entry: the series of M/2^s, ‖M‖/2^s ≤ 1/2, squared s times.
+/// e^M of every matrix inside, entry by entry: the series of M/2^s, balanced, squared s times.
 /// Work: 20 + s products. The width grows with that of M and, by a factor of about ‖e^M‖ n, with
 /// each squaring.
 /// @param matrix  square, of fixed or dynamic size; not finite: unknown entries
 template <int Size>
 Matrix<Enclosure, Size> exponential(const Matrix<Enclosure, Size>& matrix) {
-  double norm = detail::norm_bound(matrix);
-  if (!(norm < 1e6))
+  if (!(detail::norm_bound(matrix) < 1e6))
     return detail::ball<Size>(matrix.rows(), std::numeric_limits<double>::infinity());
-  Matrix<Enclosure, Size> scaled = matrix;
-  int squarings = 0;
-  for (; norm > 0.5; norm *= 0.5, ++squarings) scaled *= Enclosure(0.5);
-  constexpr int terms = 20;  // of which the last are below the rounding of the first
-  Matrix<Enclosure, Size> power = detail::exponential_series(scaled, norm, terms);
-  for (; squarings > 0; --squarings) power = (power * power).eval();
-  return power;
+  const Matrix<double, Size> sizes =
+      matrix.unaryExpr([](const Enclosure& entry) { return entry.magnitude(); });
+  const Vector<Enclosure, Size> scales = balancing(sizes).template cast<Enclosure>();
+  const Vector<Enclosure, Size> inverse =
+      scales.unaryExpr([](const Enclosure& scale) { return Enclosure(1.0 / scale.middle()); });
+  const Matrix<Enclosure, Size> balanced = inverse.asDiagonal() * matrix * scales.asDiagonal();
+  const double norm = detail::norm_bound(balanced);
+  return scales.asDiagonal() * detail::exponential_by_squarings<Size>(balanced, norm) *
+         inverse.asDiagonal();
 }
 
 }  // namespace holdfast

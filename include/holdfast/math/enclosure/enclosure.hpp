@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "holdfast/core/types.hpp"
+
 #ifdef __FAST_MATH__
 #error "-ffast-math lets the compiler round as it likes: nothing is proved then"
 #endif
@@ -132,6 +134,12 @@ class Enclosure {
     const double least = a.contains(0.0) ? 0.0 : std::min(std::abs(a.lower_), std::abs(a.upper_));
     return {std::max(detail::rounded_down(least * least), 0.0), detail::rounded_up(most * most)};
   }
+  /// √a of what is not negative in a; unknown where all of it is.
+  friend Enclosure sqrt(const Enclosure& a) {
+    if (a.upper_ < 0.0) return unknown();
+    const double least = std::sqrt(std::max(a.lower_, 0.0));
+    return {std::max(detail::rounded_down(least), 0.0), detail::rounded_up(std::sqrt(a.upper_))};
+  }
   /// |a|.
   friend Enclosure abs(const Enclosure& a) {
     if (a.contains(0.0)) return {0.0, a.magnitude()};
@@ -153,5 +161,9 @@ class Enclosure {
 
   double lower_ = 0.0, upper_ = 0.0;
 };
+
+/// π lies between two neighbours.
+template <>
+inline const Enclosure pi<Enclosure> = Enclosure(0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1);
 
 }  // namespace holdfast

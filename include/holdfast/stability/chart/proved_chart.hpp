@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "holdfast/control/enclosed_loop.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
-#include "holdfast/math/enclosure/enclosed_exponential.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/chart/chart.hpp"
@@ -222,33 +222,18 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
   return chart;
 }
 
-namespace detail {
-
-inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
-  validate(plant);
-  const auto decimal = [](double x) { return Enclosure::of_decimal(x); };
-  return {decimal(plant.conductor_mass),     decimal(plant.conductor_stiffness),
-          decimal(plant.conductor_damping),  decimal(plant.absorber_mass),
-          decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
-}
-
-}  // namespace detail
-
 /// The proof for the continuous loop without delay of two masses, whose parameters are the decimals
 /// to which the given doubles are nearest.
 /// @throws InvalidParameter where they are not admissible
 inline GainBoxProof<4> gain_box_proof(const TwoMass<double>& plant) {
-  return GainBoxProof<4>(characteristic_polynomial(detail::enclosed(plant)));
+  return GainBoxProof<4>(characteristic_polynomial(enclosed(plant)));
 }
 
 /// The same for the sampled loop.
 /// @throws InvalidParameter where the two masses or the sampling are not admissible
 inline GainBoxProof<5> gain_box_proof(const TwoMass<double>& plant,
                                       const Sampling<double>& sampling) {
-  validate(sampling);
-  const auto loop = sampled_loop(
-      detail::enclosed(plant),
-      {Enclosure::of_decimal(sampling.period), Enclosure::of_decimal(sampling.processing_delay)});
+  const auto loop = sampled_loop(enclosed(plant), enclosed(sampling));
   return GainBoxProof<5>(in_half_plane(characteristic_polynomial(loop)));
 }
 

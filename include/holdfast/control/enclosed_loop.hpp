@@ -1,0 +1,28 @@
+#pragma once
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/math/enclosure/enclosed_exponential.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// Two masses whose parameters are the decimals to which the given doubles are nearest.
+/// @throws InvalidParameter where they are not admissible
+inline TwoMass<Enclosure> enclosed(const TwoMass<double>& plant) {
+  validate(plant);
+  const auto decimal = [](double x) { return Enclosure::of_decimal(x); };
+  return {decimal(plant.conductor_mass),     decimal(plant.conductor_stiffness),
+          decimal(plant.conductor_damping),  decimal(plant.absorber_mass),
+          decimal(plant.absorber_stiffness), decimal(plant.absorber_damping)};
+}
+
+/// The same of τ and δ.
+/// @throws InvalidParameter where they are not admissible
+inline Sampling<Enclosure> enclosed(const Sampling<double>& sampling) {
+  validate(sampling);
+  return {Enclosure::of_decimal(sampling.period), Enclosure::of_decimal(sampling.processing_delay)};
+}
+
+}  // namespace holdfast

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// cos and sin of an angle.
+struct EnclosedPhasor {
+  Enclosure cosine, sine;
+};
+
+/// 1 − y²/(a (a + 1)) (1 − y²/((a + 2)(a + 3)) (1 − …)), y² ≤ 1: of its nested factors the
+/// innermost ones that are not computed lie in [0, 1].
+inline Enclosure nested_series(const Enclosure& squared, double a) {
+  constexpr int factors = 10;
+  Enclosure sum(0.0, 1.0);
+  for (int k = factors - 1; k >= 0; --k) {
+    const double at = a + 2.0 * k;
+    sum = Enclosure(1.0) - squared / Enclosure(at * (at + 1.0)) * sum;
+  }
+  return sum;
+}
+
+/// Of a double, |x| < 10⁶: x − k π/2, the series of what is left, and a turn by k quarters.
+inline EnclosedPhasor phasor_at(double x) {
+  const double quarters = std::nearbyint(x * (2.0 / pi<double>));
+  const Enclosure rest = Enclosure(x) - Enclosure(0.5 * quarters) * pi<Enclosure>;
+  const Enclosure squared = square(rest);
+  const Enclosure cosine = nested_series(squared, 1.0), sine = rest * nested_series(squared, 2.0);
+  switch (static_cast<int>(std::fmod(quarters, 4.0) + 4.0) % 4) {
+    case 1:
+      return {-sine, cosine};
+    case 2:
+      return {-cosine, -sine};
+    case 3:
+      return {sine, -cosine};
+    default:
+      return {cosine, sine};
+  }
+}
+
+/// At the middle of an angle, and as much wider as the angle is, since neither slope exceeds 1.
+inline EnclosedPhasor phasor_of(const Enclosure& angle) {
+  const Enclosure all(-1.0, 1.0);
+  const double x = angle.middle(), radius = angle.radius();
+  if (!(std::abs(x) < 1e6 && radius < 2.0)) return {all, all};
+  const EnclosedPhasor middle = phasor_at(x);
+  const Enclosure width(-radius, radius);
+  return {intersection(middle.cosine + width, all), intersection(middle.sine + width, all)};
+}
+
+}  // namespace detail
+
+/// cos x of every x (rad) inside.
+inline Enclosure cos(const Enclosure& angle) { return detail::phasor_of(angle).cosine; }
+/// sin x of every x (rad) inside.
+inline Enclosure sin(const Enclosure& angle) { return detail::phasor_of(angle).sine; }
+
+}  // namespace holdfast

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+
+namespace holdfast {
+
+/// Whether it is proved that every symmetric matrix inside is positive definite: the pivots of
+/// Gauss's elimination without exchanges, in enclosures, are all positive.
+/// @param matrix  N × N; its lower triangle is looked at, the upper one is the same
+/// Work: N³/3 operations.
+template <int Size>
+bool is_positive_definite(Matrix<Enclosure, Size> matrix) {
+  const Eigen::Index n = matrix.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Enclosure pivot = matrix(k, k);
+    if (!pivot.is_positive()) return false;
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      const Enclosure factor = matrix(i, k) / pivot;
+      for (Eigen::Index j = k + 1; j <= i; ++j) matrix(i, j) -= factor * matrix(j, k);
+    }
+  }
+  return true;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/math/enclosure/positive_definite.hpp"
+
+namespace holdfast {
+
+/// Norms along a periodic sequence of linear maps, one for each sample, in which it is proved that
+/// every map shrinks what it moves: a Lyapunov function of the sequence,
+///
+///     V_j(e)² = eᵀ P_j e,   V_{j+1}(M_j e) ≤ s_j V_j(e),   s_{N−1} … s_0 < 1
+///
+/// The P_j are found in doubles from P_j = M_jᵀ P_{j+1} M_j / ρ² + I and are then exact; what they
+/// are said to do is proved by eliminations in enclosures. Hence all multipliers are below
+/// s_{N−1} … s_0 in modulus.
+/// @tparam Size  N of e
+template <int Size>
+class ContractingNorms {
+ public:
+  /// @param maps          two of them in enclosures, narrow or of a whole box of parameters
+  /// @param sequence      which of the two moves sample j; not empty
+  /// @param log_modulus   ln of the largest multiplier, as it is thought to be
+  /// @return nothing where no such norms were found
+  static std::optional<ContractingNorms> of(const std::array<Matrix<Enclosure, Size>, 2>& maps,
+                                            const std::vector<std::uint8_t>& sequence,
+                                            double log_modulus);
+
+  /// At least V_j of every vector inside.
+  Enclosure size(std::size_t sample, const Vector<Enclosure, Size>& vector) const {
+    const Vector<Enclosure, Size> image = forms_[sample].template cast<Enclosure>() * vector;
+    return sqrt(Enclosure(vector.dot(image).magnitude()));
+  }
+  /// s_j.
+  double factor(std::size_t sample) const { return factors_[sample]; }
+  /// At least s_{N−1} … s_0; below 1.
+  double contraction() const { return contraction_; }
+  /// At least |row · e| / V_j(e) of every e.
+  double reading(std::size_t sample, const RowVector<double, Size>& row) const;
+
+ private:
+  using Form = Matrix<double, Size>;
+
+  static Form middle(const Matrix<Enclosure, Size>& map) { return map.template cast<double>(); }
+  static Form symmetric(const Form& form) { return 0.5 * (form + form.transpose()); }
+
+  /// P_j of all samples from that after the last one, back to the first.
+  void go_back(const std::array<Form, 2>& maps, const std::vector<std::uint8_t>& sequence,
+               Form last, double rate);
+  bool prove(const std::array<Matrix<Enclosure, Size>, 2>& maps,
+             const std::vector<std::uint8_t>& sequence, double rate);
+
+  std::vector<Form> forms_;
+  std::vector<double> factors_;
+  double contraction_ = 1.0;
+};
+
+template <int Size>
+void ContractingNorms<Size>::go_back(const std::array<Form, 2>& maps,
+                                     const std::vector<std::uint8_t>& sequence, Form last,
+                                     double rate) {
+  const Form identity = Form::Identity(last.rows(), last.cols());
+  for (std::size_t j = sequence.size(); j-- > 0;) {
+    const Form& map = maps.at(sequence[j]);
+    last = symmetric(map.transpose() * last * map) / (rate * rate) + identity;
+    forms_[j] = last;
+  }
+}
+
+template <int Size>
+double ContractingNorms<Size>::reading(std::size_t sample,
+                                       const RowVector<double, Size>& row) const {
+  // κ² P − rowᵀ row ≥ 0, κ² = row P⁻¹ rowᵀ but for rounding; P ≥ I/2 is proved.
+  const Form& form = forms_[sample];
+  const double exact = row.dot(form.llt().solve(row.transpose()));
+  const Enclosure squared(exact * (1.0 + 1e-9));
+  const Vector<Enclosure, Size> column = row.transpose().template cast<Enclosure>();
+  const Matrix<Enclosure, Size> left =
+      form.template cast<Enclosure>() * squared - column * column.transpose();
+  if (is_positive_definite<Size>(left)) return sqrt(squared).upper();
+  return sqrt(Enclosure(2.0) * Enclosure(column.dot(column).magnitude())).upper();
+}
+
+template <int Size>
+bool ContractingNorms<Size>::prove(const std::array<Matrix<Enclosure, Size>, 2>& maps,
+                                   const std::vector<std::uint8_t>& sequence, double rate) {
+  Enclosure product(1.0);
+  for (std::size_t j = 0; j < sequence.size(); ++j) {
+    const Form& next = forms_[j + 1 == sequence.size() ? 0 : j + 1];
+    const Matrix<Enclosure, Size> form = forms_[j].template cast<Enclosure>();
+    const Matrix<Enclosure, Size> half =
+        Matrix<Enclosure, Size>::Identity(form.rows(), form.cols()) * Enclosure(0.5);
+    if (!is_positive_definite<Size>(form - half)) return false;
+    const Matrix<Enclosure, Size>& map = maps.at(sequence[j]);
+    const Matrix<Enclosure, Size> moved =
+        map.transpose() * (next.template cast<Enclosure>() * map).eval();
+    // The last step closes a solution that rounding leaves open.
+    double factor = rate, more = 1e-12;
+    const auto shrinks = [&] {
+      const Enclosure squared = square(Enclosure(factor));
+      return is_positive_definite<Size>(form * squared - moved);
+    };
+    for (; !shrinks(); more *= 100.0) {
+      if (more > 1e-3) return false;
+      factor = rate * (1.0 + more);
+    }
+    factors_[j] = factor;
+    product *= Enclosure(factor);
+  }
+  contraction_ = product.upper();
+  return contraction_ < 1.0;
+}
+
+template <int Size>
+std::optional<ContractingNorms<Size>> ContractingNorms<Size>::of(
+    const std::array<Matrix<Enclosure, Size>, 2>& maps, const std::vector<std::uint8_t>& sequence,
+    double log_modulus) {
+  if (!(log_modulus < 0.0)) return std::nullopt;
+  // Half of what is lost, so that the forms stay small.
+  const double log_rate =
+      std::max(0.5 * log_modulus / static_cast<double>(sequence.size()), std::log(0.5));
+  const double rate = std::exp(log_rate);
+  const std::array<Form, 2> middles{middle(maps[0]), middle(maps[1])};
+  Form period = Form::Identity(maps[0].rows(), maps[0].cols());
+  for (const std::uint8_t which : sequence) period = middles.at(which) * period / rate;
+  ContractingNorms norms;
+  norms.forms_.resize(sequence.size());
+  norms.factors_.resize(sequence.size());
+  norms.go_back(middles, sequence, Form::Zero(period.rows(), period.cols()), rate);
+  // Σ_k (Fᵀ)ᵏ Q Fᵏ by doubling: the forms of all periods to come.
+  Form sum = norms.forms_.front();
+  for (int turn = 0; turn < 60 && period.norm() > 1e-12; ++turn) {
+    sum = symmetric(sum + period.transpose() * sum * period);
+    period = (period * period).eval();
+  }
+  if (!sum.allFinite()) return std::nullopt;
+  norms.go_back(middles, sequence, sum, rate);
+  if (!norms.prove(maps, sequence, rate)) return std::nullopt;
+  return norms;
+}
+
+}  // namespace holdfast

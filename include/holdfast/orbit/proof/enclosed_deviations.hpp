@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/orbit/proof/contracting_norms.hpp"
+#include "holdfast/orbit/switching_borders.hpp"
+
+namespace holdfast::detail {
+
+/// Δz or Δż of z̃.
+inline RowVector<double, 5> relative_row(bool of_velocity) {
+  const Eigen::Index first = of_velocity ? 1 : 0;
+  return RowVector<double, 5>::Unit(2 + first) - RowVector<double, 5>::Unit(first);
+}
+
+/// A row of numbers in doubles and how far, in length, the true row may be from it.
+struct RowWithError {
+  RowVector<double, 6> row = RowVector<double, 6>::Zero();  ///< the doubles
+  Enclosure error;                                          ///< at most
+
+  /// The difference, with what its doubles are rounded by.
+  RowWithError operator-(const RowWithError& other) const {
+    RowWithError difference{row - other.row, error + other.error};
+    for (const double entry : difference.row) difference.error += Enclosure(rounding_of(entry));
+    return difference;
+  }
+  /// At least its length.
+  Enclosure length() const {
+    Enclosure sum;
+    for (const double entry : row) sum += square(Enclosure(entry));
+    return sqrt(sum) + error;
+  }
+};
+
+/// What becomes, along an orbit, of the deviations that begin as the six unit vectors [z̃; gap] of a
+/// weighted norm: in doubles, with a bound of all that these are wrong by, carried in the norms in
+/// which the orbit's maps contract.
+/// @tparam Number  Enclosure; a template so that only who asks compiles it
+template <class Number>
+class EnclosedDeviations {
+ public:
+  using Columns = Eigen::Matrix<double, 5, 6>;   ///< of z̃, six deviations
+  using Enclosed = Eigen::Matrix<Number, 5, 6>;  ///< the same
+  using Map = Matrix<Number, 5>;                 ///< of a sample
+  using Norms = ContractingNorms<5>;             ///< of the sequence
+
+  /// @param weights  of [z̃; gap], the last one 1
+  /// @param units    of z̃, powers of two
+  EnclosedDeviations(const Norms& norms, const Vector<double, 6>& weights,
+                     const Vector<double, 5>& units)
+      : norms_(norms) {
+    for (Eigen::Index i = 0; i < 5; ++i) weights_[i] = Number(weights[i]) * Number(units[i]);
+    Enclosed exact = Enclosed::Zero();
+    for (Eigen::Index i = 0; i < 5; ++i) exact(i, i) = Number(1.0) / weights_[i];
+    take(0, exact, Number());
+    gap_.row = RowVector<double, 6>::Unit(5);
+  }
+
+  /// Δz (m) or Δż (units) at a sample.
+  RowWithError relative(std::size_t sample, bool of_velocity) const {
+    const Eigen::Index first = of_velocity ? 1 : 0;
+    const Number error = error_ * Number(norms_.reading(sample, relative_row(of_velocity)));
+    return RowWithError{columns_.row(2 + first), error} - RowWithError{columns_.row(first), {}};
+  }
+  /// Of the gap that the drive is in (m).
+  const RowWithError& gap() const { return gap_; }
+
+  /// Takes a sample's decision and goes to the next one.
+  void advance(std::size_t sample, std::size_t next, const ContactDecision& decision,
+               const Map& map) {
+    if (decision.engaged) gap_ = {};
+    if (!decision.engaged && !decision.was_inside) gap_ = relative(sample, false);
+    take(next, map * columns_.template cast<Number>(), Number(norms_.factor(sample)) * error_);
+  }
+
+  /// Whether it is proved that all are shorter than they began, at the first sample.
+  bool have_contracted(bool with_gap) const {
+    Number sum, error;
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      for (const double entry : columns_.row(i)) sum += square(weights_[i] * Number(entry));
+      error += weights_[i] * error_ * Number(norms_.reading(0, RowVector<double, 5>::Unit(i)));
+    }
+    if (with_gap) {
+      for (const double entry : gap_.row) sum += square(Number(entry));
+      error += gap_.error;
+    }
+    return (sqrt(sum) + error).upper() < 1.0;
+  }
+
+ private:
+  /// Keeps the middles and adds to the error √(Σ V_j²) of what the columns may differ from them.
+  void take(std::size_t sample, const Enclosed& exact, const Number& carried) {
+    columns_ = exact.template cast<double>();
+    const Enclosed wrong = exact - columns_.template cast<Number>();
+    Number sum;
+    for (Eigen::Index i = 0; i < 6; ++i) sum += square(norms_.size(sample, wrong.col(i)));
+    error_ = Number((carried + sqrt(sum)).upper());
+  }
+
+  const Norms& norms_;
+  Vector<Number, 5> weights_;  // of z̃ in units
+  Columns columns_ = Columns::Zero();
+  Number error_;
+  RowWithError gap_;
+};
+
+}  // namespace holdfast::detail

@@ -1,0 +1,325 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/proof/contracting_norms.hpp"
+#include "holdfast/orbit/proof/enclosed_deviations.hpp"
+#include "holdfast/orbit/proof/segment_of_loops.hpp"
+#include "holdfast/orbit/proof/switching_tests.hpp"
+#include "holdfast/orbit/region_of_attraction.hpp"
+
+namespace holdfast {
+
+/// What became of the proof of an orbit.
+enum class OrbitProofOutcome {
+  proved,           ///< all that is said of it is a theorem
+  not_contracting,  ///< no norms were found in which its maps contract: a multiplier may be ≥ 1
+  other_contacts,   ///< the given states decide their contacts otherwise
+  not_closed,       ///< the given states miss each other by more than rounding
+  near_surface,     ///< at one sample the contact could not be decided
+  no_ball,          ///< all but a neighbourhood that it attracts
+};
+
+/// Numbers between two ends, which are not among them.
+struct OpenRange {
+  double from = 0.0;                                    ///< lower end
+  double to = std::numeric_limits<double>::infinity();  ///< upper end
+};
+
+/// A theorem on a periodic motion of the sampled loop, where the outcome is `proved`: the loop has
+/// exactly one motion that repeats the orbit's contacts for ever; it lies within the errors of the
+/// given states; all its multipliers are within the bound; and every motion that begins in the ball
+/// keeps its contacts for ever and tends to it.
+struct OrbitProof {
+  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< how far it came
+  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< ≥ |λ| of all, < 1
+  double displacement_error =
+      std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< (m/s), at most
+  /// The contact that is decided by the least, as a multiple of the error there: of a proof above
+  /// 1, of `near_surface` the one that was not decided.
+  Border nearest;
+  double decided_by = std::numeric_limits<double>::infinity();  ///< that multiple
+  /// r₀ (m): for every one of them this same motion is the loop's, whatever the case's is.
+  OpenRange widths;
+  /// Radius of the ball of attraction about the first state (m), measured as AttractionBall says
+  /// with the same weights; of an orbit that stays inside its gap in the gap that it is in; ∞
+  /// without backlash.
+  double radius = 0.0;
+};
+
+namespace detail {
+
+/// The proof of one orbit, step by step. States are counted in plant_scaling() units.
+/// @tparam Number  Enclosure; a template so that only who asks compiles it
+template <class Number>
+class OrbitProver {
+ public:
+  /// @param first, last  z̃_j proposed for the loops at the ends of the segment
+  /// @param orbit        of a loop between
+  OrbitProver(const SegmentOfLoops<Number>& loops, const PeriodicOrbit& orbit,
+              const std::vector<Vector<double, 5>>& first,
+              const std::vector<Vector<double, 5>>& last)
+      : loops_(loops),
+        orbit_(orbit),
+        pattern_(switching_pattern(orbit.states,
+                                   Backlash<double>(loops.width().centre.middle(), orbit.memory))) {
+    const Vector<double, 5> per_unit = loops.units().cwiseInverse();
+    for (std::size_t j = 0; j < orbit.states.size(); ++j)
+      states_.push_back({(0.5 * (first[j] + last[j])).cwiseProduct(per_unit),
+                         (last[j] - first[j]).cwiseProduct(per_unit)});
+  }
+
+  /// Proves that every loop has the orbit, and how near it is to the proposal.
+  OrbitProof prove(double largest_miss) {
+    proof_.outcome = OrbitProofOutcome::not_contracting;
+    norms_ = ContractingNorms<5>::of(loops_.maps(), orbit_.itinerary,
+                                     orbit_.multipliers.front().log_modulus);
+    if (!norms_) return proof_;
+    proof_.multiplier_bound = norms_->contraction();
+    proof_.outcome = OrbitProofOutcome::other_contacts;
+    if (!has_itinerary(pattern_, orbit_.itinerary)) return proof_;
+    const double missed = enclose();
+    proof_.outcome = OrbitProofOutcome::not_closed;
+    if (!(missed <= largest_miss)) return proof_;
+    proof_.outcome = decide() ? OrbitProofOutcome::proved : OrbitProofOutcome::near_surface;
+    return proof_;
+  }
+
+  /// The same with the ball that it attracts.
+  /// @param weights  deviation_weights(), of which the last one is 1
+  OrbitProof prove_with_ball(const Vector<double, 6>& weights, double largest_miss) {
+    if (prove(largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
+      proof_.outcome = OrbitProofOutcome::no_ball;
+    return proof_;
+  }
+
+ private:
+  using State = typename SegmentOfLoops<Number>::State;
+
+  std::size_t samples() const { return states_.size(); }
+  std::size_t after(std::size_t sample) const { return sample + 1 == samples() ? 0 : sample + 1; }
+  std::size_t wrapped(std::int64_t sample) const {
+    const std::int64_t count = orbit_.period_samples();
+    return static_cast<std::size_t>((sample % count + count) % count);
+  }
+
+  /// What the proposal at the next sample misses the image of that at this one by, on the whole
+  /// segment: linear maps times linear states are quadratic in the position.
+  State missed_at(std::size_t sample) const {
+    const auto& map = loops_.map(orbit_.itinerary[sample]);
+    const auto addition = loops_.addition(sample);
+    const AlongSegment<Vector<double, 5>>& from = states_[sample];
+    const AlongSegment<Vector<double, 5>>& to = states_[after(sample)];
+    const State centre = from.centre.template cast<Number>(),
+                slope = from.slope.template cast<Number>();
+    const State constant =
+        map.centre * centre + addition.centre - to.centre.template cast<Number>();
+    const State linear = (map.slope * centre).eval() + map.centre * slope + addition.slope -
+                         to.slope.template cast<Number>();
+    const State quadratic = map.slope * slope;
+    const Number s = SegmentOfLoops<Number>::position();
+    return constant + linear * s + quadratic * square(s);
+  }
+
+  /// Bounds the distance of the motion from the proposal, by the norms: what each sample misses the
+  /// next one by, carried on and once around.
+  /// @return the largest of what they miss, as a share of the states' extent
+  double enclose() {
+    const StateScale extent(orbit_.states);
+    double largest = 0.0;
+    std::vector<Number> missed(samples());
+    Number around;
+    const auto carried = [&](const Number& error, std::size_t j) {
+      return Number((Number(norms_->factor(j)) * error + missed[j]).upper());
+    };
+    for (std::size_t j = 0; j < samples(); ++j) {
+      const State miss = missed_at(j);
+      keep_most(largest, extent.share_of(as_doubles(miss)));
+      missed[j] = norms_->size(after(j), miss);
+      around = carried(around, j);
+    }
+    Number error = around / (Number(1.0) - Number(norms_->contraction()));
+    proof_.displacement_error = proof_.velocity_error = 0.0;
+    for (std::size_t j = 0; j < samples(); ++j) {
+      const auto most = [&](const RowVector<double, 5>& row) {
+        return (error * Number(norms_->reading(j, row))).upper();
+      };
+      errors_.push_back({most(relative_row(false)), most(relative_row(true))});
+      for (const Eigen::Index i : {0, 2}) {
+        keep_most(proof_.displacement_error, most(RowVector<double, 5>::Unit(i)));
+        keep_most(proof_.velocity_error,
+                  most(RowVector<double, 5>::Unit(i + 1)) * loops_.units()[1]);
+      }
+      error = carried(error, j);
+    }
+    return largest;
+  }
+  /// At least the moduli of its entries, in SI units.
+  Vector<double, 5> as_doubles(const State& state) const {
+    return state.unaryExpr([](const Number& entry) { return entry.magnitude(); })
+        .cwiseProduct(loops_.units());
+  }
+  static void keep_most(double& most, double value) { most = std::max(most, value); }
+
+  /// Δz (m) or Δż (units) of the motion, without its error.
+  AlongSegment<Number> relative(std::size_t sample, bool of_velocity) const {
+    const Eigen::Index first = of_velocity ? 1 : 0;
+    const auto& [centre, slope] = states_[sample];
+    return {Number(centre[2 + first]) - Number(centre[first]),
+            Number(slope[2 + first]) - Number(slope[first])};
+  }
+  static Number over_segment(const AlongSegment<Number>& value) {
+    return value.centre + value.slope * SegmentOfLoops<Number>::position();
+  }
+  static Number around_zero(double error) { return {-error, error}; }
+
+  /// What a test says is positive (m, or units of velocity), with so much of r₀.
+  Number value_of(const SwitchingTest& test, const AlongSegment<Number>& width) const {
+    const std::size_t here = wrapped(test.sample), entry = wrapped(test.entry);
+    const Number sign(test.sign), widths(test.widths);
+    const auto at = relative(here, test.is_of_velocity());
+    if (test.is_of_velocity()) return sign * over_segment(at) + around_zero(errors_[here].velocity);
+    const auto entered = relative(entry, false);
+    const AlongSegment<Number> value{sign * (at.centre - entered.centre) + widths * width.centre,
+                                     sign * (at.slope - entered.slope) + widths * width.slope};
+    return over_segment(value) + around_zero(errors_[here].displacement) +
+           around_zero(errors_[entry].displacement);
+  }
+
+  /// Keeps the least decided of the contacts.
+  void note(const Number& value, SwitchingSurface surface, std::int64_t sample) {
+    const double unit = surface == SwitchingSurface::reversal ? loops_.units()[1] : 1.0;
+    const double decided_by = value.middle() / value.radius();
+    if (!(decided_by < proof_.decided_by)) return;
+    proof_.decided_by = decided_by;
+    proof_.nearest = {value.middle() * unit, surface, sample};
+  }
+
+  /// Whether every contact is the one of the pattern.
+  bool decide() {
+    if (!loops_.has_backlash()) return true;
+    if (pattern_.stays_inside()) return decide_inside();
+    tests_ = switching_tests(pattern_);
+    bool all = over_segment(loops_.width()).is_positive();
+    for (const SwitchingTest& test : tests_) {
+      const Number value = value_of(test, loops_.width());
+      note(value, test.surface, test.sample);
+      all = all && value.is_positive();
+      const Number rest = value_of(test, {});
+      if (test.widths > 0) proof_.widths.from = std::max(proof_.widths.from, -rest.lower());
+      if (test.widths < 0) proof_.widths.to = std::min(proof_.widths.to, rest.lower());
+    }
+    return all;
+  }
+
+  /// Whether the gap that the drive is in holds the orbit.
+  bool decide_inside() {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (std::size_t j = 0; j < samples(); ++j) {
+      const Number here = over_segment(relative(j, false)) + around_zero(errors_[j].displacement);
+      lowest = std::min(lowest, here.lower());
+      highest = std::max(highest, here.upper());
+    }
+    proof_.widths.from = (Number(highest) - Number(lowest)).upper();
+    const Number lower(pattern_.memory.lower);
+    const Number below = Number(lowest) - lower;
+    const Number above = lower + over_segment(loops_.width()) - Number(highest);
+    const bool is_below = below.lower() < above.lower();
+    clearance_ = std::min(below.lower(), above.lower());
+    proof_.nearest = {clearance_,
+                      is_below ? SwitchingSurface::gap_lower : SwitchingSurface::gap_upper, 0};
+    proof_.decided_by = clearance_ / proof_.displacement_error;
+    return clearance_ > 0.0;
+  }
+
+  /// The largest ball whose motions keep the contacts until they are nearer to the orbit than they
+  /// began; then for ever.
+  bool attract(const Vector<double, 6>& weights) {
+    constexpr std::int64_t most_samples = 1'000'000;
+    proof_.radius = std::numeric_limits<double>::infinity();
+    if (!loops_.has_backlash()) return true;
+    EnclosedDeviations<Number> deviations(*norms_, weights, loops_.units());
+    const bool with_gap = !pattern_.stays_inside();
+    for (std::int64_t done = 0; done < most_samples; done += orbit_.period_samples()) {
+      proof_.radius = std::min(proof_.radius, limit_over_period(deviations));
+      if (deviations.have_contracted(with_gap)) return proof_.radius > 0.0;
+    }
+    proof_.radius = 0.0;
+    return false;
+  }
+
+  /// What one more period allows a deviation to be at the beginning.
+  double limit_over_period(EnclosedDeviations<Number>& deviations) const {
+    double limit = std::numeric_limits<double>::infinity();
+    auto test = tests_.begin();
+    for (std::size_t j = 0; j < samples(); ++j) {
+      for (; test != tests_.end() && wrapped(test->sample) == j; ++test) {
+        RowWithError row = deviations.relative(j, test->is_of_velocity());
+        if (!test->is_of_velocity()) row = row - deviations.gap();
+        limit = std::min(limit, allowed(value_of(*test, loops_.width()).lower(), row));
+      }
+      if (pattern_.stays_inside())
+        limit = std::min(limit, allowed(clearance_, deviations.relative(j, false)));
+      deviations.advance(j, after(j), pattern_.decisions[j], loops_.maps().at(orbit_.itinerary[j]));
+    }
+    return limit;
+  }
+  static double allowed(double distance, const RowWithError& row) {
+    return (Number(distance) / row.length()).lower();
+  }
+
+  struct Errors {
+    double displacement, velocity;  // of Δz (m) and of Δż (units)
+  };
+
+  const SegmentOfLoops<Number>& loops_;
+  const PeriodicOrbit& orbit_;
+  SwitchingPattern pattern_;
+  std::vector<AlongSegment<Vector<double, 5>>> states_;  // proposed, in units
+  std::optional<ContractingNorms<5>> norms_;
+  std::vector<Errors> errors_;
+  std::vector<SwitchingTest> tests_;
+  double clearance_ = 0.0;  // of an orbit that stays inside (m)
+  OrbitProof proof_;
+};
+
+}  // namespace detail
+
+/// Proves a periodic motion of the sampled loop of the decimals that are given, or tells what could
+/// not be decided.
+///
+/// The maps of the samples and what the force adds are enclosed; norms along the sequence in which
+/// they contract are proved (ContractingNorms), so that the affine sequence has one periodic
+/// motion, and what the given states miss each other by bounds their distance from it. That every
+/// sample decides its contact as it does is then a strict inequality (SwitchingTest). Deviations
+/// are followed with all errors until they are shorter than they began, which makes the ball.
+/// @param orbit          its states and contacts are taken for a proposal
+/// @param largest_miss   of each state by the image of the one before, as a share of their extent:
+///                       above, the proposal is refused
+/// @throws InvalidParameter where the loop is not admissible
+/// Work: about 30 µs a sample, and 20 µs for every sample until deviations have become shorter.
+/// @tparam Scalar  `double`; a template so that only who calls it compiles it
+template <class Scalar>
+OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit,
+                       double largest_miss = 1e-12) {
+  const detail::SegmentOfLoops loops(enclosed(loop), orbit.ratio);
+  return detail::OrbitProver(loops, orbit, orbit.states, orbit.states)
+      .prove_with_ball(deviation_weights(loop), largest_miss);
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitProof prove_orbit(const IdealLoop<double>&, const PeriodicOrbit&, double);
+#endif
+
+}  // namespace holdfast

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/itinerary_maps.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/proof/orbit_proof.hpp"
+#include "holdfast/orbit/proof/segment_of_loops.hpp"
+
+namespace holdfast {
+
+/// A closed range of a parameter and what is proved of all its loops.
+struct ProvedOrbitRange {
+  double from;       ///< least value
+  double to;         ///< largest value
+  OrbitProof proof;  ///< `proved`: every loop of the range has the motion; no ball is looked for
+};
+
+namespace detail {
+
+/// Whether two loops differ in P, D, F_m and r₀ alone.
+inline bool differ_linearly(const IdealLoop<double>& a, const IdealLoop<double>& b) {
+  const auto others = [](const IdealLoop<double>& loop) {
+    const TwoMass<double>& plant = loop.plant;
+    return std::array<double, 9>{
+        plant.conductor_mass, plant.conductor_stiffness,      plant.conductor_damping,
+        plant.absorber_mass,  plant.absorber_stiffness,       plant.absorber_damping,
+        loop.sampling.period, loop.sampling.processing_delay, loop.excitation.frequency};
+  };
+  return others(a) == others(b) && a.hold == b.hold;
+}
+
+/// Proves the itinerary of an orbit for all loops between those of two values of a parameter.
+template <class Scalar, class Family>
+OrbitProof proof_between(const Family& family, const PeriodicOrbit& orbit, Scalar from, Scalar to) {
+  const auto solved = [&](const IdealLoop<Scalar>& loop) {
+    return orbit_of_itinerary(loop, orbit.ratio, ItineraryMaps<Scalar>(loop, orbit.ratio),
+                              orbit.itinerary, Backlash<Scalar>(loop.backlash_width, orbit.memory));
+  };
+  const IdealLoop<Scalar> first = family(from), last = family(to);
+  const OrbitResult at_first = solved(first), at_last = solved(last),
+                    between = solved(family(0.5 * from + 0.5 * to));
+  if (!at_first.orbit || !at_last.orbit || !between.orbit) return {};
+  const SegmentOfLoops loops(enclosed(first), enclosed(last), orbit.ratio);
+  OrbitProver prover(loops, *between.orbit, at_first.orbit->states, at_last.orbit->states);
+  return prover.prove(std::numeric_limits<double>::infinity());
+}
+
+}  // namespace detail
+
+/// Proves that the loop has an orbit for all values of a parameter, range by range: what is not
+/// proved as a whole is halved, until it is narrower than asked.
+///
+/// Between two values the states are taken for linear; what the maps, which are linear too, then
+/// miss is quadratic, so that the ranges are wide.
+/// @param family    parameter ↦ IdealLoop<double>, in which P, D, F_m and r₀ are linear and nothing
+///                  else differs
+/// @param orbit     of a loop of the family; its itinerary is proved
+/// @param from, to  finite, from < to
+/// @param narrowest as a share of to − from, 0 < … ≤ 1
+/// @return ascending; neighbours that are proved alike are joined, with the least decided contact
+/// @throws InvalidParameter for others, and where the loops differ in more
+template <class Family, class Scalar = double>
+std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const PeriodicOrbit& orbit,
+                                                Scalar from, Scalar to, double narrowest = 1e-3) {
+  require_finite("start of the range", from, "");
+  require_finite("end of the range", to, "");
+  require_positive("length of the range", to - from, "");
+  require_within("narrowest share", narrowest, "", 1e-9, 1.0);
+  if (!detail::differ_linearly(family(from), family(to)))
+    throw InvalidParameter(
+        "range of the parameter", to - from, "",
+        "such that P, D, the amplitude of the force and the backlash differ alone");
+  std::vector<ProvedOrbitRange> proved;
+  std::vector<Scalar> open{to};  // right ends of what is to be proved, the next one last
+  for (Scalar left = from; !open.empty();) {
+    const Scalar right = open.back(), middle = 0.5 * left + 0.5 * right;
+    const OrbitProof proof = detail::proof_between<Scalar>(family, orbit, left, right);
+    const bool is_proved = proof.outcome == OrbitProofOutcome::proved;
+    if (!is_proved && right - left > narrowest * (to - from) && left < middle && middle < right) {
+      open.push_back(middle);
+      continue;
+    }
+    const bool joins = !proved.empty() && proved.back().proof.outcome == proof.outcome;
+    if (joins) {
+      proved.back().to = right;
+      if (proof.decided_by < proved.back().proof.decided_by) proved.back().proof = proof;
+    } else {
+      proved.push_back({left, right, proof});
+    }
+    open.pop_back();
+    left = right;
+  }
+  return proved;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/control/enclosed_loop.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosed_angle.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/itinerary_maps.hpp"
+
+namespace holdfast {
+
+/// The loop of the decimals to which the given doubles are nearest, f τ being p/q exactly.
+/// @throws InvalidParameter where the loop is not admissible
+inline IdealLoop<Enclosure> enclosed(const IdealLoop<double>& loop) {
+  validate(loop);
+  const auto decimal = [](double x) { return Enclosure::of_decimal(x); };
+  return {enclosed(loop.plant),
+          enclosed(loop.sampling),
+          {decimal(loop.gains.proportional), decimal(loop.gains.differential)},
+          {decimal(loop.excitation.amplitude), decimal(loop.excitation.frequency)},
+          decimal(loop.backlash_width),
+          loop.hold};
+}
+
+namespace detail {
+
+/// A quantity of every loop between two: centre + s · slope, s from −1/2 to 1/2.
+template <class Value>
+struct AlongSegment {
+  Value centre, slope;
+};
+
+/// The loops between two that differ in P, D, F_m and r₀ alone, of which the maps of a sample are
+/// linear: what proofs ask of them, in plant_scaling() units. One loop is a segment without
+/// length.
+/// @tparam Number  Enclosure; a template so that only who asks compiles it
+template <class Number>
+class SegmentOfLoops {
+ public:
+  using Map = Matrix<Number, 5>;    ///< of z̃
+  using State = Vector<Number, 5>;  ///< z̃
+
+  SegmentOfLoops(const IdealLoop<Number>& first, const IdealLoop<Number>& last,
+                 const Rational& ratio)
+      : SegmentOfLoops(ItineraryMaps<Number>(first, ratio), ItineraryMaps<Number>(last, ratio)) {
+    widths_ = {middle_of(first.backlash_width, last.backlash_width),
+               last.backlash_width - first.backlash_width};
+  }
+  SegmentOfLoops(const IdealLoop<Number>& loop, const Rational& ratio)
+      : SegmentOfLoops(ItineraryMaps<Number>(loop, ratio)) {
+    widths_ = {loop.backlash_width, Number()};
+  }
+
+  /// s.
+  static Number position() { return {-0.5, 0.5}; }
+
+  /// S* or S of every loop of the segment.
+  const std::array<Map, 2>& maps() const { return hull_; }
+  /// S or S*.
+  const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
+  /// What the excitation adds in sample j.
+  AlongSegment<State> addition(std::size_t sample) const {
+    return additions_[sample % additions_.size()];
+  }
+  /// r₀ (m).
+  const AlongSegment<Number>& width() const { return widths_; }
+  /// Whether any of the loops has a backlash.
+  bool has_backlash() const {
+    return widths_.centre.upper() > 0.0 || widths_.slope.magnitude() > 0.0;
+  }
+  /// Of [z₁, ż₁, z₂, ż₂, u].
+  const Vector<double, 5>& units() const { return units_; }
+
+ private:
+  static Number middle_of(const Number& a, const Number& b) { return Number(0.5) * (a + b); }
+
+  explicit SegmentOfLoops(const ItineraryMaps<Number>& maps)
+      : units_(maps.units().template cast<double>()) {
+    for (const bool engaged : {false, true}) {
+      hull_.at(engaged) = maps.map_in_units(engaged);
+      maps_.at(engaged) = {hull_.at(engaged), Map::Zero()};
+    }
+    for (std::size_t k = 0; k < maps.samples_of_forcing(); ++k)
+      additions_.push_back({in_units(maps, k), State::Zero()});
+  }
+
+  SegmentOfLoops(const ItineraryMaps<Number>& first, const ItineraryMaps<Number>& last)
+      : units_(first.units().template cast<double>()) {
+    const Number half(0.5);
+    for (const bool engaged : {false, true}) {
+      const Map from = first.map_in_units(engaged), to = last.map_in_units(engaged);
+      maps_.at(engaged) = {(from + to) * half, to - from};
+      hull_.at(engaged) = maps_.at(engaged).centre + maps_.at(engaged).slope * position();
+    }
+    for (std::size_t k = 0; k < first.samples_of_forcing(); ++k) {
+      const State from = in_units(first, k), to = in_units(last, k);
+      additions_.push_back({(from + to) * half, to - from});
+    }
+  }
+
+  static State in_units(const ItineraryMaps<Number>& maps, std::size_t phase) {
+    State addition = State::Zero();
+    addition.template head<4>() =
+        maps.additions()[phase].cwiseQuotient(maps.units().template head<4>());
+    return addition;
+  }
+
+  std::array<AlongSegment<Map>, 2> maps_;  // S*, S
+  std::array<Map, 2> hull_;
+  std::vector<AlongSegment<State>> additions_;
+  AlongSegment<Number> widths_;
+  Vector<double, 5> units_;
+};
+
+}  // namespace detail
+}  // namespace holdfast

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/orbit/switching_borders.hpp"
+
+namespace holdfast {
+
+/// One strict inequality on which a sample's contact rests,
+///
+///     sign · Δż_j > 0   or   sign · (Δz_j − Δz_k) + widths · r₀ > 0,
+///
+/// where sample k is the one at which the drive entered the gap that it is in.
+struct SwitchingTest {
+  std::int64_t sample;       ///< j, from the first sample of the period on
+  std::int64_t entry;        ///< k, negative in the period before; not used by a reversal
+  SwitchingSurface surface;  ///< which surface it is about
+  int sign;                  ///< 1 or −1
+  int widths;                ///< −1, 0 or 1
+
+  /// Whether it is about Δż.
+  bool is_of_velocity() const { return surface == SwitchingSurface::reversal; }
+};
+
+namespace detail {
+
+/// The tests of a sample in a gap that was entered at sample k with Δż > 0 before it, [Δz_k − r₀,
+/// Δz_k], or < 0, [Δz_k, Δz_k + r₀].
+inline void append_gap_tests(const ContactDecision& decision, std::int64_t sample,
+                             std::int64_t entry, bool from_positive,
+                             std::vector<SwitchingTest>& tests) {
+  const int inward = decision.engaged ? -1 : 1;
+  const int below = from_positive ? 1 : 0;  // widths from the lower end up to Δz_k
+  if (decision.exit_side <= 0)
+    tests.push_back({sample, entry, SwitchingSurface::gap_lower, inward, inward * below});
+  if (decision.exit_side > 0 || !decision.engaged)
+    tests.push_back({sample, entry, SwitchingSurface::gap_upper, -inward, inward * (1 - below)});
+}
+
+}  // namespace detail
+
+/// All inequalities of one period, by samples: together they say that a motion with these Δz and Δż
+/// decides as the pattern says for ever, whatever the rounding of who computes it.
+/// @param pattern  that repeats, and does not stay inside
+inline std::vector<SwitchingTest> switching_tests(const SwitchingPattern& pattern) {
+  std::vector<SwitchingTest> tests;
+  const auto samples = static_cast<std::int64_t>(pattern.decisions.size());
+  std::int64_t entry = 0;
+  bool from_positive = false;
+  // The first turn finds the gap that the drive is in at the start.
+  for (std::int64_t j = -samples; j < samples; ++j) {
+    const ContactDecision& decision =
+        pattern.decisions[static_cast<std::size_t>((j + samples) % samples)];
+    if (!decision.was_inside && !decision.engaged) {
+      entry = j;
+      from_positive = pattern.decisions[static_cast<std::size_t>((j + 2 * samples - 1) % samples)]
+                          .velocity_sign > 0;
+    }
+    if (j < 0) continue;
+    if (decision.velocity_sign != 0)
+      tests.push_back({j, j, SwitchingSurface::reversal, decision.velocity_sign, 0});
+    if (decision.was_inside) detail::append_gap_tests(decision, j, entry, from_positive, tests);
+  }
+  return tests;
+}
+
+}  // namespace holdfast

@@ -1,0 +1,40 @@
+#include "jobs/orbit/proved_orbit.hpp"
+
+#include "case/case_keys.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "io/text/text.hpp"
+#include "jobs/job_texts.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+
+OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit) {
+  const OrbitProof proof = prove_orbit(ideal_loop_of(the_case), orbit);
+  if (proof.outcome == OrbitProofOutcome::proved) return proof;
+  const bool reverses = proof.nearest.surface == SwitchingSurface::reversal;
+  const double error = std::abs(proof.nearest.distance / proof.decided_by);
+  throw NoAnswer(text_of(job_texts()["not proved"][name_in(orbit_proof_names, proof.outcome)],
+                         {{"surface", name_in(surface_names, proof.nearest.surface)},
+                          {"sample", std::to_string(proof.nearest.sample)},
+                          {"distance", format_number(proof.nearest.distance)},
+                          {"error", format_number(error)},
+                          {"unit", reverses ? "m/s" : "m"},
+                          {"multiplier", format_number(orbit.largest_multiplier())},
+                          {"states", format_number(proof.displacement_error)}}));
+}
+
+std::vector<ProvedOrbitRange> proved_orbit_along(const Case& the_case, const PeriodicOrbit& orbit,
+                                                 const std::string& key, const Range& range) {
+  if (key.rfind("plant.", 0) == 0 || key == "control.processing_delay")
+    throw WrongInput("--prove --follow " + key +
+                     ": a proof along a key is for control.proportional_gain, differential_gain, "
+                     "excitation.amplitude and backlash.width, in which the loop is linear");
+  const auto family = [&](double value) {
+    throw_if_interrupted();
+    return ideal_loop_of(case_with(the_case, key, value));
+  };
+  return prove_orbit_along(family, orbit, range.min, range.max);
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/axes/axis.hpp"
+#include "case/case.hpp"
+#include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/proof/orbit_proof.hpp"
+#include "holdfast/orbit/proof/orbit_range.hpp"
+#include "io/text/names.hpp"
+
+namespace holdfast::program {
+
+/// What became of proofs, in tables.
+inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
+    {OrbitProofOutcome::proved, "proved"},
+    {OrbitProofOutcome::not_contracting, "not_contracting"},
+    {OrbitProofOutcome::other_contacts, "other_contacts"},
+    {OrbitProofOutcome::not_closed, "not_closed"},
+    {OrbitProofOutcome::near_surface, "near_surface"},
+    {OrbitProofOutcome::no_ball, "no_ball"}};
+
+inline constexpr Named<SwitchingSurface> surface_names[] = {
+    {SwitchingSurface::reversal, "reversal"},
+    {SwitchingSurface::gap_lower, "gap_lower"},
+    {SwitchingSurface::gap_upper, "gap_upper"}};
+
+/// The proof of a case's orbit. Throws NoAnswer, saying what could not be decided and by how much.
+OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit);
+
+/// The ranges of a key of the case in which the orbit is proved, and what is between. Throws
+/// Interrupted, and WrongInput for a key in which the loop is not linear.
+std::vector<ProvedOrbitRange> proved_orbit_along(const Case& the_case, const PeriodicOrbit& orbit,
+                                                 const std::string& key, const Range& range);
+
+}  // namespace holdfast::program

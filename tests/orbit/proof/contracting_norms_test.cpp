@@ -1,0 +1,112 @@
+#include "holdfast/orbit/proof/contracting_norms.hpp"
+
+#include "holdfast/math/linalg/multipliers.hpp"
+#include "support/random.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast {
+namespace {
+
+using NormMaps = std::array<Matrix<double, 3>, 2>;
+
+NormMaps norm_maps(test::Random& random) {
+  NormMaps maps;
+  for (auto& map : maps)
+    for (double& entry : map.reshaped()) entry = random.normal();
+  return maps;
+}
+
+std::vector<std::uint8_t> norm_sequence(test::Random& random) {
+  std::vector<std::uint8_t> sequence(1 + random.index(40));
+  for (auto& which : sequence) which = static_cast<std::uint8_t>(random.index(2));
+  return sequence;
+}
+
+std::optional<ContractingNorms<3>> norms_of(const NormMaps& maps,
+                                            const std::vector<std::uint8_t>& sequence,
+                                            double log_modulus) {
+  return ContractingNorms<3>::of({maps[0].cast<Enclosure>(), maps[1].cast<Enclosure>()}, sequence,
+                                 log_modulus);
+}
+
+/// Scales the maps so that the largest multiplier of the sequence is as given.
+double scale_norm_maps(NormMaps& maps, const std::vector<std::uint8_t>& sequence, double modulus) {
+  std::vector<Matrix<double, 3>> all;
+  for (const auto which : sequence) all.push_back(maps.at(which));
+  const double log_modulus = multipliers_of_product<double, 3>(all).front().log_modulus;
+  const double by = std::exp((std::log(modulus) - log_modulus) / static_cast<double>(all.size()));
+  for (auto& map : maps) map *= by;
+  return std::log(modulus);
+}
+
+TEST(ContractingNorms, ShrinkWhatTheMapsMove) {
+  test::Random random(41);
+  int found = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    NormMaps maps = norm_maps(random);
+    const auto sequence = norm_sequence(random);
+    const double modulus = random.uniform(0.01, 0.99);
+    const auto norms = norms_of(maps, sequence, scale_norm_maps(maps, sequence, modulus));
+    if (!norms) continue;
+    ++found;
+    EXPECT_LT(norms->contraction(), 1.0);
+    EXPECT_GE(norms->contraction(), modulus * (1.0 - 1e-9));
+    Vector<double, 3> vector(random.normal(), random.normal(), random.normal());
+    for (std::size_t j = 0; j < sequence.size(); ++j) {
+      const std::size_t next = j + 1 == sequence.size() ? 0 : j + 1;
+      const Vector<double, 3> image = maps.at(sequence[j]) * vector;
+      const double before = norms->size(j, vector.cast<Enclosure>()).upper();
+      const double after = norms->size(next, image.cast<Enclosure>()).lower();
+      EXPECT_LE(after, norms->factor(j) * before * (1.0 + 1e-12));
+      const RowVector<double, 3> row =
+          RowVector<double, 3>::Unit(2) - RowVector<double, 3>::Unit(0);
+      EXPECT_LE(std::abs(row.dot(vector)), norms->reading(j, row) * before * (1.0 + 1e-12));
+      vector = image.normalized();
+    }
+  }
+  EXPECT_GT(found, 190);
+}
+
+/// Of a norm's reading some vector makes use: it is no larger than it has to be.
+TEST(ContractingNorms, ReadNoMoreThanSomeVectorShows) {
+  test::Random random(42);
+  NormMaps maps = norm_maps(random);
+  const auto sequence = norm_sequence(random);
+  const auto norms = norms_of(maps, sequence, scale_norm_maps(maps, sequence, 0.5));
+  ASSERT_TRUE(norms.has_value());
+  const RowVector<double, 3> row(1.0, -2.0, 0.5);
+  double most = 0.0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Vector<double, 3> vector(random.normal(), random.normal(), random.normal());
+    most = std::max(most,
+                    std::abs(row.dot(vector)) / norms->size(0, vector.cast<Enclosure>()).upper());
+  }
+  EXPECT_LE(most, norms->reading(0, row));
+  EXPECT_GE(most, 0.9 * norms->reading(0, row));
+}
+
+TEST(ContractingNorms, AreNotFoundWhereTheSequenceDoesNotContract) {
+  test::Random random(43);
+  for (int trial = 0; trial < 200; ++trial) {
+    NormMaps maps = norm_maps(random);
+    const auto sequence = norm_sequence(random);
+    scale_norm_maps(maps, sequence, 1.000001);
+    EXPECT_FALSE(norms_of(maps, sequence, std::log(1.000001)).has_value());
+    EXPECT_FALSE(norms_of(maps, sequence, std::log(0.9)).has_value()) << "whatever is claimed";
+  }
+}
+
+TEST(ContractingNorms, AreOfEveryMapInside) {
+  NormMaps maps{Matrix<double, 3>::Identity() * 0.9, Matrix<double, 3>::Identity() * 0.5};
+  const Matrix<Enclosure, 3> wide =
+      maps[0].cast<Enclosure>() + Matrix<Enclosure, 3>::Identity() * Enclosure(-0.05, 0.05);
+  const Matrix<Enclosure, 3> too_wide =
+      maps[0].cast<Enclosure>() + Matrix<Enclosure, 3>::Identity() * Enclosure(-0.1, 0.1);
+  const Matrix<Enclosure, 3> other = maps[1].cast<Enclosure>();
+  EXPECT_TRUE(ContractingNorms<3>::of({wide, other}, {0, 0}, 2.0 * std::log(0.96)).has_value());
+  EXPECT_FALSE(
+      ContractingNorms<3>::of({too_wide, other}, {0, 0}, 2.0 * std::log(0.96)).has_value());
+}
+
+}  // namespace
+}  // namespace holdfast
