@@ -62,8 +62,8 @@ class ComplexEnclosure {
   /// Not above the modulus of any number inside.
   double least_modulus() const {
     const double modulus = detail::rounded_modulus(centre_);
-    const double least = modulus * (1.0 - 0x1.0p-48) - detail::above_roundings(radius_);
-    return modulus > 1e-140 && least > 0.0 ? least : 0.0;
+    const double below = modulus * (1.0 - 0x1.0p-48) - detail::above_roundings(radius_);
+    return modulus > 1e-140 && below > 0.0 ? below : 0.0;
   }
   /// Re z.
   Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }

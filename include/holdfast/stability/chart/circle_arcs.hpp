@@ -31,7 +31,7 @@ class CircleArcs {
   using Arcs = std::vector<std::size_t>;
 
   /// @param response  of the loop
-  /// @param radius    r, that double itself, > 0; no pole of the plant may lie on the circle
+  /// @param radius    r, that double itself, > 0
   explicit CircleArcs(EnclosedResponse response, double radius = 1.0)
       : response_(std::move(response)), radius_(radius) {
     // To π, or just beyond it: what is there is the conjugate of what was before.
@@ -74,7 +74,7 @@ class CircleArcs {
   /// @param gains       P and D, those doubles themselves
   /// @param most_arcs   with more it is not decided
   std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 100000) {
-    const auto own = poles_outside();
+    const auto own = response_.poles_outside(radius_);
     if (!own) return std::nullopt;
     const Gains box({gains.proportional, gains.proportional, gains.differential,
                      gains.differential});
@@ -101,8 +101,6 @@ class CircleArcs {
 
   /// Arcs that have been made, halved ones included.
   std::size_t size() const { return arcs_.size(); }
-  /// F_z and F_v, of which all this is made.
-  const EnclosedResponse& response() const { return response_; }
 
  private:
   using Complex = std::complex<double>;
@@ -238,11 +236,6 @@ class CircleArcs {
     arcs_.push_back(arc(from, middle));
     arcs_.push_back(arc(middle, to));
     return true;
-  }
-
-  /// Eigenvalues of the plant outside the circle.
-  std::optional<int> poles_outside() const {
-    return radius_ == 1.0 ? response_.unstable_poles() : std::nullopt;
   }
 
   EnclosedResponse response_;

@@ -51,15 +51,7 @@ class EnclosedResponse {
     const Enclosure period = Enclosure::of_decimal(sampling.period);
     const Enclosure late = Enclosure::of_decimal(sampling.processing_delay) -
                            Enclosure(static_cast<double>(commands_ - 1)) * period;
-    unstable_ = 0;
-    for (const EnclosedPole& pole : poles) {
-      add(pole, period, late);
-      const int count = pole.is_pair ? 2 : 1;
-      if (pole.s.real().is_positive())
-        unstable_ = unstable_ ? std::optional<int>(*unstable_ + count) : std::nullopt;
-      else if (!pole.s.real().is_negative())
-        unstable_ = std::nullopt;
-    }
+    for (const EnclosedPole& pole : poles) add(pole, period, late);
   }
 
   /// F_z and F_v about a point.
@@ -88,8 +80,22 @@ class EnclosedResponse {
 
   /// k, the commands on their way.
   int held_commands() const { return commands_; }
-  /// How many of the plant's own eigenvalues grow; nothing where one may lie on the boundary.
-  std::optional<int> unstable_poles() const { return unstable_; }
+  /// How many of the plant's own eigenvalues e^{sτ} have a modulus above r; nothing where one may
+  /// lie on that circle.
+  /// @param radius  r, > 0
+  std::optional<int> poles_outside(double radius) const {
+    int count = 0;
+    for (const Section& section : sections_) {
+      // Of the unit circle Re s tells more than e^{sτ}.
+      const bool outside = radius == 1.0 ? section.growth.is_positive()
+                                         : section.pole.least_modulus() > radius;
+      const bool inside =
+          radius == 1.0 ? section.growth.is_negative() : section.pole.magnitude() < radius;
+      if (!outside && !inside) return std::nullopt;
+      if (outside) count += section.is_pair ? 2 : 1;
+    }
+    return count;
+  }
 
  private:
   /// n(λ) of one of F_z and F_v, constant coefficient first.
@@ -97,6 +103,7 @@ class EnclosedResponse {
 
   struct Section {
     ComplexEnclosure pole;  // e^{sτ}
+    Enclosure growth;       // Re s
     bool is_pair;
     Numerator displacement, velocity;
 
@@ -154,12 +161,11 @@ class EnclosedResponse {
                        2.0 * (before.real() - (now * conj(reached)).real()), 2.0 * now.real()};
     };
     sections_.push_back(
-        {reached, pole.is_pair, numerator(a / pole.s, b / pole.s), numerator(a, b)});
+        {reached, pole.s.real(), pole.is_pair, numerator(a / pole.s, b / pole.s), numerator(a, b)});
   }
 
   std::vector<Section> sections_;
   int commands_ = 1;
-  std::optional<int> unstable_;
 };
 
 }  // namespace holdfast
