@@ -31,8 +31,8 @@ inline double rounded_modulus(const std::complex<double>& z) {
 /// A complex number that is proved to lie within a radius of a centre: a disc, as its products do
 /// not widen when they turn.
 ///
-/// Every operation gives a disc that holds its result on all numbers that its arguments may be. What
-/// divides by 0, or overflows, has an infinite radius.
+/// Every operation gives a disc that holds its result on all numbers that its arguments may be.
+/// What divides by 0, or overflows, has an infinite radius.
 class ComplexEnclosure {
  public:
   /// 0.
@@ -122,7 +122,7 @@ class ComplexEnclosure {
   }
 
  private:
-  static constexpr double unit = 0x1.0p-53;   // of the rounding of a double
+  static constexpr double unit = 0x1.0p-53;     // of the rounding of a double
   static constexpr double least = 0x1.0p-1060;  // above what products lose near 0
 
   static double size(const std::complex<double>& z) {

@@ -22,9 +22,9 @@ namespace holdfast {
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)
 ///
-/// of `EnclosedResponse` is known to first order in the angle with a bound of what is left. It tells
-/// the arcs on which a loop with gains of a box may have a root, and counts the roots outside where
-/// there is none on the circle. Arcs are halved as the questions need it, and kept.
+/// of `EnclosedResponse` is known to first order in the angle with a bound of what is left. It
+/// tells the arcs on which a loop with gains of a box may have a root, and counts the roots outside
+/// where there is none on the circle. Arcs are halved as the questions need it, and kept.
 class CircleArcs {
  public:
   /// A list of arcs, by their numbers.
@@ -46,6 +46,7 @@ class CircleArcs {
   /// question of the box's size.
   Arcs meeting(const GainBox& box, const Arcs& among) {
     const Gains gains(box);
+    if (!gains.are_finite()) return among;
     Arcs met, open(among.rbegin(), among.rend());
     while (!open.empty()) {
       const std::size_t index = open.back();
@@ -64,20 +65,20 @@ class CircleArcs {
 
   /// How many roots of a loop lie outside the circle, proved; nothing where one may lie on it.
   ///
-  /// On each of the arcs, halved where it takes that, q has a real or an imaginary part of one sign.
-  /// From arc to arc, which have a point in common, that half-plane stays or turns by a quarter. At
-  /// both ends q is real, and so the quarters from 0 to π add up to halves: with w of these q turns
-  /// w times on the whole circle, and as F has as many poles as the plant,
+  /// On each of the arcs, halved where it takes that, q has a real or an imaginary part of one
+  /// sign. From arc to arc, which have a point in common, that half-plane stays or turns by a
+  /// quarter. At both ends q is real, and so the quarters from 0 to π add up to halves: with w of
+  /// these q turns w times on the whole circle, and as F has as many poles as the plant,
   ///
   ///     n_out = n_plant + k − w
   ///
   /// @param gains       P and D, those doubles themselves
   /// @param most_arcs   with more it is not decided
-  std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 100000) {
+  std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 20000) {
     const auto own = response_.poles_outside(radius_);
-    if (!own) return std::nullopt;
-    const Gains box({gains.proportional, gains.proportional, gains.differential,
-                     gains.differential});
+    const Gains box(
+        {gains.proportional, gains.proportional, gains.differential, gains.differential});
+    if (!own || !box.are_finite()) return std::nullopt;
     Arcs open = all();
     int quarters = 0, before = -1;
     for (std::size_t count = 0; !open.empty(); ++count) {
@@ -105,10 +106,11 @@ class CircleArcs {
  private:
   using Complex = std::complex<double>;
 
-  /// value + slope t + r, −1 ≤ t ≤ 1, |r| ≤ rest.
+  /// value + slope t + r, −1 ≤ t ≤ 1, |r| ≤ rest + haze; a shorter arc has less rest, and the same
+  /// haze.
   struct Line {
     Complex value, slope;
-    double rest;
+    double rest, haze;
   };
   struct Arc {
     double from, to;  // rad
@@ -125,14 +127,17 @@ class CircleArcs {
       const Enclosure differential(box.differential_from, box.differential_to);
       p = proportional.middle(), d = differential.middle();
       p_radius = proportional.radius(), d_radius = differential.radius();
-      if (box.proportional_from == box.proportional_to) p_radius = 0.0;
-      if (box.differential_from == box.differential_to) d_radius = 0.0;
+      if (p == box.proportional_from && p == box.proportional_to) p_radius = 0.0;
+      if (d == box.differential_from && d == box.differential_to) d_radius = 0.0;
+    }
+    bool are_finite() const {
+      return std::isfinite(std::abs(p) + std::abs(d) + p_radius + d_radius);
     }
   };
 
   /// Where q may lie on an arc for gains of a box:
   ///
-  ///     q = c + a t + F_z δP + F_v δD + r,   |r| ≤ rest
+  ///     q = c + a t + F_z δP + F_v δD + r,   |r| ≤ rest + haze
   ///
   /// c, a, F_z and F_v as computed are wrong by no more than 10⁻¹⁴ of the sum of what they are made
   /// of, as each takes fewer than 30 roundings of 1.2·10⁻¹⁶.
@@ -141,8 +146,7 @@ class CircleArcs {
     Reach(const Arc& arc, const Gains& gains)
         : centre_(arc.power.value - gains.p * arc.displacement.value -
                   gains.d * arc.velocity.value),
-          along_(arc.power.slope - gains.p * arc.displacement.slope -
-                 gains.d * arc.velocity.slope),
+          along_(arc.power.slope - gains.p * arc.displacement.slope - gains.d * arc.velocity.slope),
           by_p_(gains.p_radius * arc.displacement.value),
           by_d_(gains.d_radius * arc.velocity.value) {
       const double p = std::abs(gains.p), d = std::abs(gains.d);
@@ -151,9 +155,11 @@ class CircleArcs {
       rest_ = arc.power.rest + (p + gains.p_radius) * arc.displacement.rest +
               (d + gains.d_radius) * arc.velocity.rest + gains.p_radius * z_slope +
               gains.d_radius * v_slope;
+      haze_ = arc.power.haze + (p + gains.p_radius) * arc.displacement.haze +
+              (d + gains.d_radius) * arc.velocity.haze;
       rounding_ = size(arc.power.value) + size(arc.power.slope) +
                   (p + gains.p_radius) * (z + z_slope) + (d + gains.d_radius) * (v + v_slope) +
-                  rest_;
+                  rest_ + haze_;
     }
 
     /// Whether it is proved that q ≠ 0: a line separates it from 0. Those tried are along the sides
@@ -179,7 +185,7 @@ class CircleArcs {
     /// Whether a shorter arc would not tell much more of the box.
     bool is_short_enough() const {
       constexpr double share = 0.1;
-      return rest_ <= share * (size(by_p_) + size(by_d_));
+      return rest_ <= share * (size(by_p_) + size(by_d_) + haze_);
     }
 
    private:
@@ -193,13 +199,13 @@ class CircleArcs {
     bool is_ahead(const Complex& normal) const {
       const double distance = std::abs(along(normal, centre_));
       const double spread = std::abs(along(normal, along_)) + std::abs(along(normal, by_p_)) +
-                            std::abs(along(normal, by_d_)) + size(normal) * rest_;
+                            std::abs(along(normal, by_d_)) + size(normal) * (rest_ + haze_);
       constexpr double rounding = 1e-14, least = 1e-280;
       return distance > spread + (rounding * size(normal) * rounding_ + least);
     }
 
     Complex centre_, along_, by_p_, by_d_;
-    double rest_, rounding_;
+    double rest_, haze_, rounding_;
   };
 
   /// The line in t of an expansion about λ₀ = r e^{iθ₀} on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t and at
@@ -209,9 +215,8 @@ class CircleArcs {
     const ComplexEnclosure slope = expansion.slope * centre.times_i() * half_width;
     const Enclosure bend =
         Enclosure(0.5 * centre.magnitude()) * square(half_width) * expansion.slope.magnitude();
-    const Enclosure rest =
-        Enclosure(expansion.rest) + bend + expansion.value.radius() + slope.radius();
-    return {expansion.value.middle(), slope.middle(), rest.upper()};
+    const Enclosure rest = Enclosure(expansion.rest) + bend + slope.radius();
+    return {expansion.value.middle(), slope.middle(), rest.upper(), expansion.value.radius()};
   }
 
   Arc arc(double from, double to) const {

@@ -35,7 +35,10 @@ struct CellRange {
   std::int64_t p_from, p_to, d_from, d_to;
 
   explicit CellRange(const GainGrid& grid)
-      : p_from(0), p_to(grid.proportional.count - 1), d_from(0), d_to(grid.differential.count - 1) {}
+      : p_from(0),
+        p_to(grid.proportional.count - 1),
+        d_from(0),
+        d_to(grid.differential.count - 1) {}
 
   GainBox box(const GainGrid& grid) const {
     return {grid.proportional.at(p_from), grid.proportional.at(p_to), grid.differential.at(d_from),
@@ -74,9 +77,7 @@ class ModalChart {
     return sum;
   }
   /// Boxes there would be with all that are crossed quartered.
-  std::size_t refined_size() const {
-    return unstable_.size() + free_.size() + 4 * open_.size();
-  }
+  std::size_t refined_size() const { return unstable_.size() + free_.size() + 4 * open_.size(); }
 
   /// Quarters the crossed boxes.
   /// @return whether there was one that could be

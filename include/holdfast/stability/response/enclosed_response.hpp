@@ -27,8 +27,8 @@ struct EnclosedCommandResponse {
   EnclosedExpansion velocity;      ///< F_v (m/(N s))
 };
 
-/// The zero-order-hold transfer functions of `ModalResponse` in enclosures, times λᵏ so that a delay
-/// of many samples takes no inverse power: the characteristic function of the loop is
+/// The zero-order-hold transfer functions of `ModalResponse` in enclosures, times λᵏ so that a
+/// delay of many samples takes no inverse power: the characteristic function of the loop is
 ///
 ///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
 ///
@@ -41,7 +41,8 @@ struct EnclosedCommandResponse {
 class EnclosedResponse {
  public:
   /// @param poles     of `enclosed_poles`, at least one, none of which may be 0
-  /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest; δ ≤ 1000 τ
+  /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest, δ ≤ 1000 τ; a δ that
+  ///                  exceeds a whole number of samples by less than 10⁻¹² of itself is that many
   /// @throws InvalidParameter where the sampling is another
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling) {
     require_positive("sampling period tau", sampling.period, "s");
@@ -49,8 +50,9 @@ class EnclosedResponse {
                    1000.0 * sampling.period);
     commands_ = holdfast::held_commands(sampling);
     const Enclosure period = Enclosure::of_decimal(sampling.period);
-    const Enclosure late = Enclosure::of_decimal(sampling.processing_delay) -
-                           Enclosure(static_cast<double>(commands_ - 1)) * period;
+    Enclosure late = Enclosure::of_decimal(sampling.processing_delay) -
+                     Enclosure(static_cast<double>(commands_ - 1)) * period;
+    if ((late - period).is_positive()) late = period;
     for (const EnclosedPole& pole : poles) add(pole, period, late);
   }
 
@@ -87,8 +89,8 @@ class EnclosedResponse {
     int count = 0;
     for (const Section& section : sections_) {
       // Of the unit circle Re s tells more than e^{sτ}.
-      const bool outside = radius == 1.0 ? section.growth.is_positive()
-                                         : section.pole.least_modulus() > radius;
+      const bool outside =
+          radius == 1.0 ? section.growth.is_positive() : section.pole.least_modulus() > radius;
       const bool inside =
           radius == 1.0 ? section.growth.is_negative() : section.pole.magnitude() < radius;
       if (!outside && !inside) return std::nullopt;
@@ -132,7 +134,8 @@ class EnclosedResponse {
 
     void add(const Numerator& n, bool is_pair, EnclosedExpansion& sum) const {
       const ComplexEnclosure value =
-          (lambda * (lambda * n[2] + ComplexEnclosure(n[1])) + ComplexEnclosure(n[0])) * inverse_divisor;
+          (lambda * (lambda * n[2] + ComplexEnclosure(n[1])) + ComplexEnclosure(n[0])) *
+          inverse_divisor;
       const ComplexEnclosure slope =
           (lambda * (2.0 * n[2]) + n[1] - value * divisor_slope) * inverse_divisor;
       sum.value += value;
