@@ -127,11 +127,14 @@ TEST(EnclosedPoles, HoldRootsOfWrongApproximations) {
     ++held;
     for (std::size_t k = 0; k < poles.size(); ++k) {
       int inside = 0;
-      for (const EnclosedPole& root : sharp)
-        inside +=
-            std::abs(root.s.middle() - poles[k].s.middle()) <= poles[k].s.radius() + root.s.radius()
-                ? 1
-                : 0;
+      for (const EnclosedPole& root : sharp) {
+        if (std::abs(root.s.middle() - poles[k].s.middle()) > poles[k].s.radius() + root.s.radius())
+          continue;
+        ++inside;
+        EXPECT_LE(std::abs(root.residue.middle() - poles[k].residue.middle()),
+                  poles[k].residue.radius() + root.residue.radius())
+            << error;
+      }
       EXPECT_EQ(inside, 1) << error;
     }
   }
@@ -173,6 +176,15 @@ TEST(EnclosedPoles, SayNothingOfWhatIsNotApart) {
   EXPECT_TRUE(enclosed_poles(conductor).empty());
   // Twice the same lag.
   EXPECT_TRUE(enclosed_poles(span(8, 0.01, paper, 0.64, {60.0, 60.0})).empty());
+}
+
+TEST(EnclosedPoles, DiscsAreApartBeyondBothRadii) {
+  const std::vector<ComplexEnclosure> centres{0.0, ComplexEnclosure({0.0, 3.0}, 0.0), 9.0};
+  EXPECT_TRUE(detail::are_apart(centres, {1.0, 1.9, 0.5}));
+  EXPECT_FALSE(detail::are_apart(centres, {1.0, 2.0, 0.5}));
+  EXPECT_FALSE(detail::are_apart(centres, {2.5, 1.0, 0.5}));
+  EXPECT_FALSE(detail::are_apart(centres, {1.0, 1.0, 8.5}));
+  EXPECT_FALSE(detail::are_apart(centres, {1.0, 1.0, std::nan("")}));
 }
 
 TEST(EnclosedPoles, RefuseWhatIsNotAdmissible) {

@@ -102,6 +102,28 @@ TEST(EnclosedResponse, ExpansionsHoldWhatIsNear) {
   }
 }
 
+/// Of one pole, or one pair, the rest is bounded by what it is at its worst.
+TEST(EnclosedResponse, ExpansionsOfOnePoleAreSharp) {
+  Random random(3);
+  const EnclosedPole pair{{{-3.0, 30.0}, 0.0}, {{0.002, -0.01}, 0.0}, true};
+  const EnclosedPole single{-30.0, 0.01, false};
+  for (const EnclosedPole& pole : {pair, single}) {
+    const EnclosedResponse response({pole}, {0.01, 0.0});
+    const Complex at = std::exp(0.01 * pole.s.middle());
+    double used = 0.0;
+    for (int trial = 0; trial < 20000; ++trial) {
+      const Complex lambda = at + std::polar(0.1, random.uniform(0.0, 6.28));
+      const double radius = 0.1 * random.uniform(0.1, 0.9);
+      const auto about = response.about(ComplexEnclosure(lambda, 0.0), radius);
+      const Complex step = std::polar(radius * (1.0 - 1e-12), random.uniform(0.0, 6.28));
+      const auto there = response.about(ComplexEnclosure(lambda + step, 0.0), 0.0);
+      used = std::max({used, share_of_rest(about.displacement, there.displacement, step),
+                       share_of_rest(about.velocity, there.velocity, step)});
+    }
+    EXPECT_GT(used, 0.95);
+  }
+}
+
 TEST(EnclosedResponse, KnowsNothingBesideAPole) {
   const Setting setting{span(3, 0.02), {0.01, 0.0}};
   const EnclosedResponse response = response_of(setting);
