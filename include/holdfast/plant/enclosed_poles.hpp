@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <utility>
@@ -12,11 +13,13 @@
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
-/// A natural motion of a plant of which it is proved where it lies, with its part in the transfer
-/// function from the command to the reading: that of `PlantPole`, enclosed.
+/// A natural motion of a plant of which it is proved where it lies, with its
+/// part in the transfer function from the command to the reading: that of
+/// `PlantPole`, enclosed.
 struct EnclosedPole {
   ComplexEnclosure s;        ///< 1/s; of a pair that with Im s > 0, without a partner real
   ComplexEnclosure residue;  ///< r, m/(N s); real without a partner
@@ -25,14 +28,16 @@ struct EnclosedPole {
 
 namespace detail {
 
-/// The transfer function from the command to the reading of z of a conductor with its absorber and
-/// hardware, as a quotient of polynomials of which no coefficient is formed:
+/// The transfer function from the command to the reading of z of a conductor
+/// with its absorber and hardware, as a quotient of polynomials of which no
+/// coefficient is formed:
 ///
-///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,  Q = m₂s² + c₂s + k₂
-///     p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),   n = m₂ s² S h(0)
+///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,
+///     Q = m₂s² + c₂s + k₂ p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
+///     n = m₂ s² S h(0)
 ///
-/// h holds the poles of filter and drive. Numbers of modes are those doubles themselves, all others
-/// the decimals to which the doubles are nearest.
+/// h holds the poles of filter and drive. Numbers of modes are those doubles
+/// themselves, all others the decimals to which the doubles are nearest.
 class EnclosedTransfer {
  public:
   /// The values p and n divided by the same product.
@@ -41,25 +46,27 @@ class EnclosedTransfer {
   };
 
   explicit EnclosedTransfer(const ConductorWithAbsorber& conductor)
-      : mass_(decimal(conductor.absorber.mass)),
-        stiffness_(decimal(conductor.absorber.stiffness)),
-        damping_(decimal(conductor.absorber.damping)),
-        clamp_mass_(decimal(conductor.absorber.clamp_mass)) {
-    Enclosure mobility;
+      : EnclosedTransfer(conductor.absorber, conductor.hardware) {
     for (const PlaceMode<double>& mode : conductor.modes) {
       const Enclosure omega(mode.angular_frequency), shape(mode.shape);
-      modes_.push_back({2.0 * Enclosure(mode.damping_ratio) * omega, square(omega),
-                        square(shape) / Enclosure(mode.mass)});
-      mobility += modes_.back().mobility;
+      add({2.0 * Enclosure(mode.damping_ratio) * omega, square(omega),
+           square(shape) / Enclosure(mode.mass)});
     }
-    leading_ = mass_ * (1.0 + clamp_mass_ * mobility);
-    take(conductor.hardware);
+  }
+  /// Of two masses all numbers are decimals.
+  EnclosedTransfer(const TwoMass<double>& masses, const LoopHardware& hardware)
+      : EnclosedTransfer(Absorber<double>{masses.absorber_mass, masses.absorber_stiffness,
+                                          masses.absorber_damping},
+                         hardware) {
+    const Enclosure mass = decimal(masses.conductor_mass);
+    add({decimal(masses.conductor_damping) / mass, decimal(masses.conductor_stiffness) / mass,
+         1.0 / mass});
   }
 
   /// The degree of p.
   std::size_t degree() const { return 2 * modes_.size() + 2 + lag_states_; }
   /// p's coefficient of the highest power.
-  const Enclosure& leading() const { return leading_; }
+  Enclosure leading() const { return mass_ * (1.0 + clamp_mass_ * mobility_); }
 
   /// At s, both divided by Π (s − z_j) over all but one.
   /// @param others  z_j, fewer than the degree
@@ -102,6 +109,19 @@ class EnclosedTransfer {
     Enclosure inertia, damping, stiffness;
   };
 
+  EnclosedTransfer(const Absorber<double>& absorber, const LoopHardware& hardware)
+      : mass_(decimal(absorber.mass)),
+        stiffness_(decimal(absorber.stiffness)),
+        damping_(decimal(absorber.damping)),
+        clamp_mass_(decimal(absorber.clamp_mass)) {
+    take(hardware);
+  }
+
+  void add(const Mode& mode) {
+    modes_.push_back(mode);
+    mobility_ += mode.mobility;
+  }
+
   static Enclosure decimal(double nearest) { return Enclosure::of_decimal(nearest); }
 
   /// 2π f.
@@ -126,13 +146,14 @@ class EnclosedTransfer {
     lag_states_ += 2;
   }
 
-  Enclosure mass_, stiffness_, damping_, clamp_mass_, leading_;
+  Enclosure mass_, stiffness_, damping_, clamp_mass_, mobility_;
   std::vector<Mode> modes_;
   std::vector<Lag> lags_;
   std::size_t lag_states_ = 0;
 };
 
-/// Approximate poles in conjugate pairs, the upper ones first, then those of the real axis.
+/// Approximate poles in conjugate pairs, the upper ones first, then those of
+/// the real axis.
 struct PairedPoles {
   std::vector<std::complex<double>> upper, real;
 
@@ -163,8 +184,8 @@ inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosur
   return others;
 }
 
-/// Radii of discs about the approximate poles, which hold all poles together, and one each where
-/// they are apart.
+/// Radii of discs about the approximate poles, which hold all poles together,
+/// and one each where they are apart.
 inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
                                       const std::vector<ComplexEnclosure>& centres) {
   std::vector<double> radii;
@@ -188,34 +209,16 @@ inline bool are_apart(const std::vector<ComplexEnclosure>& centres,
   return true;
 }
 
-}  // namespace detail
-
-/// Where the poles from the command to the reading of a conductor with its absorber and hardware
-/// lie, and their residues, all proved: about approximations z_k stand discs of radius
-///
-///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
-///
-/// m the degree of the polynomial p whose roots they are and p_m its leading coefficient. The discs
-/// hold all roots, and where no two touch one each; one about a real z_k holds a real root. The
-/// residue is n(s)/p′(s), p′ = p_m Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
-///
-/// It is of the plant with the modes whose numbers are those doubles, and with the decimals of
-/// absorber and hardware.
-/// Source: B. T. Smith, Error bounds for zeros of a polynomial based upon Gerschgorin's theorems,
-/// J. ACM 17 (1970), pp. 661–674.
-/// @param conductor  with its approximate poles
-/// @return nothing where the poles are not all known, or two are too close to be told apart
-/// @throws InvalidParameter where conductor, absorber or hardware are not admissible
-inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
-  validate(conductor.modes, conductor.absorber);
-  const detail::EnclosedTransfer transfer(conductor);
-  const detail::PairedPoles paired(with_hardware(conductor.poles, conductor.hardware));
-  if (conductor.poles.empty() || paired.size() != transfer.degree()) return {};
+/// The poles of a transfer function whose approximations are given.
+inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer,
+                                                const std::vector<PlantPole>& approximate) {
+  const PairedPoles paired(approximate);
+  if (approximate.empty() || paired.size() != transfer.degree()) return {};
   const auto points = paired.all();
   std::vector<ComplexEnclosure> centres;
   for (const std::complex<double>& point : points) centres.emplace_back(point, 0.0);
-  const std::vector<double> radii = detail::disc_radii(transfer, centres);
-  if (!detail::are_apart(centres, radii)) return {};
+  const std::vector<double> radii = disc_radii(transfer, centres);
+  if (!are_apart(centres, radii)) return {};
   std::vector<ComplexEnclosure> enclosed;
   for (std::size_t k = 0; k < points.size(); ++k) {
     enclosed.emplace_back(points[k], radii[k]);
@@ -225,10 +228,54 @@ inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& con
     const bool is_pair = k < 2 * paired.upper.size();
     if (is_pair && k % 2 == 1) continue;
     const ComplexEnclosure residue =
-        transfer.at(enclosed[k], detail::others_of(enclosed, k)).numerator / transfer.leading();
+        transfer.at(enclosed[k], others_of(enclosed, k)).numerator / transfer.leading();
     poles.push_back({enclosed[k], residue, is_pair});
   }
   return poles;
+}
+
+}  // namespace detail
+
+/// Where the poles from the command to the reading of a conductor with its
+/// absorber and hardware lie, and their residues, all proved: about
+/// approximations z_k stand discs of radius
+///
+///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
+///
+/// m the degree of the polynomial p whose roots they are and p_m its leading
+/// coefficient. The discs hold all roots, and where no two touch one each; one
+/// about a real z_k holds a real root. The residue is n(s)/p′(s), p′ = p_m
+/// Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
+///
+/// It is of the plant with the modes whose numbers are those doubles, and with
+/// the decimals of absorber and hardware. Source: B. T. Smith, Error bounds for
+/// zeros of a polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970),
+/// pp. 661–674.
+/// @param conductor  with its approximate poles
+/// @return nothing where the poles are not all known, or two are too close to
+/// be told apart
+/// @throws InvalidParameter where conductor, absorber or hardware are not
+/// admissible
+inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
+  validate(conductor.modes, conductor.absorber);
+  if (conductor.poles.empty()) return {};
+  return detail::enclosed_poles(detail::EnclosedTransfer(conductor),
+                                with_hardware(conductor.poles, conductor.hardware));
+}
+
+/// The same of two masses with hardware, of the decimals of all their numbers.
+/// @throws InvalidParameter where masses or hardware are not admissible
+inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
+                                                const LoopHardware& hardware = {}) {
+  validate(masses);
+  const double omega = std::sqrt(masses.conductor_stiffness / masses.conductor_mass);
+  const double ratio = masses.conductor_damping / (2.0 * omega * masses.conductor_mass);
+  const auto approximate =
+      plant_poles({{omega, ratio, 1.0, masses.conductor_mass}},
+                  {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping});
+  if (approximate.empty()) return {};
+  return detail::enclosed_poles(detail::EnclosedTransfer(masses, hardware),
+                                with_hardware(approximate, hardware));
 }
 
 }  // namespace holdfast

@@ -1,5 +1,7 @@
 #include "jobs/charts/proved_stability.hpp"
 
+#include <vector>
+
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/own/own_parts.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -30,9 +32,14 @@ void refuse_other_plants(const Case& the_case) {
     throw WrongInput("--prove is of a conductor with the absorber alone, without [[devices]]");
 }
 
-ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double undecided) {
+std::vector<EnclosedPole> poles_of_case(const Case& the_case) {
   refuse_other_plants(the_case);
-  const auto poles = enclosed_poles(conductor_with_absorber_of(the_case));
+  if (is_two_masses(the_case)) return enclosed_poles(plant_of(the_case), hardware_of(the_case));
+  return enclosed_poles(conductor_with_absorber_of(the_case));
+}
+
+ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double undecided) {
+  const auto poles = poles_of_case(the_case);
   if (poles.empty())
     throw NoAnswer(
         "two natural motions of conductor, absorber and hardware are too close to be proved apart: "
