@@ -106,8 +106,10 @@ TEST(EnclosedResponse, ExpansionsHoldWhatIsNear) {
 TEST(EnclosedResponse, ExpansionsOfOnePoleAreSharp) {
   Random random(3);
   const EnclosedPole pair{{{-3.0, 30.0}, 0.0}, {{0.002, -0.01}, 0.0}, true};
+  // Of which either pole is as near.
+  const EnclosedPole slow{{{-30.0, 1.0}, 0.0}, {{0.002, -0.01}, 0.0}, true};
   const EnclosedPole single{-30.0, 0.01, false};
-  for (const EnclosedPole& pole : {pair, single}) {
+  for (const EnclosedPole& pole : {pair, slow, single}) {
     const EnclosedResponse response({pole}, {0.01, 0.0});
     const Complex at = std::exp(0.01 * pole.s.middle());
     double used = 0.0;
