@@ -61,7 +61,6 @@ struct StabilityQuestion {
   void run(const JobContext& context) const {
     refuse_on_modes(context.case_data, continuous, "--continuous");
     refuse_on_modes(context.case_data, !axes.empty(), "--axis");
-    refuse_on_modes(context.case_data, prove, "--prove");
     if (undecided && !prove) throw WrongInput("--undecided is of a proved chart: give --prove");
     if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);

@@ -2,6 +2,7 @@
 
 /// Linear algebra, polynomials, roots, enclosures, statistics and signals.
 
+#include "holdfast/math/enclosure/complex_enclosure.hpp"
 #include "holdfast/math/enclosure/enclosed_angle.hpp"
 #include "holdfast/math/enclosure/enclosed_exponential.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"

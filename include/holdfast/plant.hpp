@@ -5,6 +5,7 @@
 #include "holdfast/plant/affine_dynamics.hpp"
 #include "holdfast/plant/conductor_with_absorber.hpp"
 #include "holdfast/plant/decaying_norm.hpp"
+#include "holdfast/plant/enclosed_poles.hpp"
 #include "holdfast/plant/energy.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "holdfast/plant/linear_plant.hpp"

@@ -355,9 +355,10 @@ class Case:
         **how: Any,
     ) -> Table:
         """Boxes of gains of which interval arithmetic proves that every loop is stable, or that every one is
-        unstable, for the decimals of the case (two masses): the cells between the points of p and d, quartered
-        where that is needed. Columns ``proportional_gain_from``, ``proportional_gain_to``, ``differential_gain_from``,
-        ``differential_gain_to``, ``proved`` (stable, unstable, undecided), ``area_share``.
+        unstable: the cells between the points of p and d, quartered where that is needed. It is of the decimals of
+        the case, and of a string or cable of its modes as they are kept, in doubles. Columns
+        ``proportional_gain_from``, ``proportional_gain_to``, ``differential_gain_from``, ``differential_gain_to``,
+        ``proved`` (stable, unstable, undecided), ``area_share``.
 
         :param p: proportional gains P, N/m; (min, max, count) or an array in equal steps
         :param d: differential gains D, N s/m

@@ -27,6 +27,7 @@ t stability --p -600:0:7 --d -20:0:5 --radius
 t stability --axis plant.absorber_mass=0.1:0.2:3 --axis control.differential_gain=-9:0:3
 a stability --continuous --p -600:0:3 --d -20:0:3
 a stability --prove --p -600:0:7 --d -20:0:5 --undecided 0.01
+a stability --prove --p -600:0:7 --d -20:0:5 --undecided 0.01 --set plant.model=string --set plant.modes=10
 a boundary --p -600:0
 a boundary --regions
 a boundary --features

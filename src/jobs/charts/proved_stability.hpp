@@ -12,8 +12,9 @@ inline constexpr Named<ProvedStability> proved_names[] = {
     {ProvedStability::unstable, "unstable"},
     {ProvedStability::undecided, "undecided"}};
 
-/// The proved chart of a case of two masses. Throws Interrupted, and InvalidParameter for a grid
-/// without cells.
+/// The proved chart of a case. Throws Interrupted, InvalidParameter for a grid without cells,
+/// WrongInput for a plant whose poles cannot be proved, and NoAnswer where they are not apart or
+/// one may lie on the boundary.
 ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
                                 double undecided);
 

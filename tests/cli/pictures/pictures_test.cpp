@@ -24,6 +24,7 @@ const std::vector<std::string> drawn_commands = {
     "stability --p -600:0:11 --d -20:0:11 --continuous",
     "stability --p -600:0:11 --d -20:0:11 --radius",
     "stability --p -600:0:11 --d -20:0:11 --prove --undecided 0.01",
+    "stability --p -600:0:11 --d -20:0:11 --prove --undecided 0.01 --set plant.model=string",
     "stability --axis control.sampling_period=0.001:0.03:11 --axis plant.absorber_mass=0.1:0.2:5",
     "boundary",
     "boundary --continuous --p -500:100",

@@ -165,6 +165,23 @@ inline std::vector<GainBox> cells_of(const GainGrid& grid) {
   return cells;
 }
 
+/// Refuses a grid without cells, or another share.
+inline void validate_proved(const GainGrid& grid, double undecided) {
+  validate(grid);
+  for (const Axis& axis : {grid.proportional, grid.differential})
+    require_within("points along a side of the chart", static_cast<double>(axis.count), "", 2.0,
+                   1e9);
+  require_within("undecided share", undecided, "", 0.0, 1.0);
+}
+
+/// Ascending in P and then in D.
+inline void sort_boxes(ProvedChart& chart) {
+  std::sort(chart.boxes.begin(), chart.boxes.end(), [](const ProvedBox& a, const ProvedBox& b) {
+    return std::pair(a.gains.proportional_from, a.gains.differential_from) <
+           std::pair(b.gains.proportional_from, b.gains.differential_from);
+  });
+}
+
 /// The four quarters of a box; none where its sides have no double between their ends.
 inline std::vector<GainBox> quarters_of(const GainBox& box) {
   const auto [p0, p2, d0, d2] = box;
@@ -185,11 +202,7 @@ inline std::vector<GainBox> quarters_of(const GainBox& box) {
 template <class Decide>
 ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double undecided = 1e-3,
                          std::size_t most_boxes = std::size_t{1} << 22) {
-  validate(grid);
-  for (const Axis& axis : {grid.proportional, grid.differential})
-    require_within("points along a side of the chart", static_cast<double>(axis.count), "", 2.0,
-                   1e9);
-  require_within("undecided share", undecided, "", 0.0, 1.0);
+  detail::validate_proved(grid, undecided);
   ProvedChart chart;
   std::vector<GainBox> open = detail::cells_of(grid);
   double whole = 0.0;
@@ -215,10 +228,7 @@ ProvedChart proved_chart(const Decide& decide, const GainGrid& grid, double unde
       open.insert(open.end(), quarters.begin(), quarters.end());
     }
   }
-  std::sort(chart.boxes.begin(), chart.boxes.end(), [](const ProvedBox& a, const ProvedBox& b) {
-    return std::pair(a.gains.proportional_from, a.gains.differential_from) <
-           std::pair(b.gains.proportional_from, b.gains.differential_from);
-  });
+  detail::sort_boxes(chart);
   return chart;
 }
 

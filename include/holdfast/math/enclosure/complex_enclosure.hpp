@@ -1,0 +1,161 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosed_exponential.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Not below a sum of up to ten products of up to four numbers ≥ 0, each a modulus, that was
+/// computed as x: 20 roundings.
+inline double above_roundings(double x) {
+  return rounded_up(x * (1.0 + 0x1.0p-48)) + std::numeric_limits<double>::denorm_min();
+}
+
+/// |z| but for a few roundings; no less than half of it where squares vanish.
+inline double rounded_modulus(const std::complex<double>& z) {
+  const double x = std::abs(z.real()), y = std::abs(z.imag());
+  const double most = std::max(x, y);
+  return most < 1e-140 ? x + y : std::sqrt(x * x + y * y);
+}
+
+}  // namespace detail
+
+/// A complex number that is proved to lie within a radius of a centre: a disc, as its products do
+/// not widen when they turn.
+///
+/// Every operation gives a disc that holds its result on all numbers that its arguments may be.
+/// What divides by 0, or overflows, has an infinite radius.
+class ComplexEnclosure {
+ public:
+  /// 0.
+  ComplexEnclosure() = default;
+  /// That number itself; implicit, as in formulas a double is such a number.
+  ComplexEnclosure(double exact) : centre_(exact) {}  // NOLINT(google-explicit-constructor)
+  /// Within a distance of a centre; a NaN: nothing is known.
+  ComplexEnclosure(const std::complex<double>& centre, double radius)
+      : centre_(centre), radius_(radius) {
+    const bool known = std::isfinite(centre.real()) && std::isfinite(centre.imag());
+    if (known && radius >= 0.0) return;
+    centre_ = 0.0;
+    radius_ = std::numeric_limits<double>::infinity();
+  }
+  /// x + iy; implicit without y, as a real number is a complex one.
+  ComplexEnclosure(const Enclosure& x, const Enclosure& y = {})  // NOLINT(google-explicit-*)
+      : ComplexEnclosure({x.middle(), y.middle()}, (Enclosure(x.radius()) + y.radius()).upper()) {}
+
+  /// A number inside.
+  const std::complex<double>& middle() const { return centre_; }
+  /// At least the distance of every number inside from the middle.
+  double radius() const { return radius_; }
+  /// At least the modulus of every number inside.
+  double magnitude() const {
+    return detail::above_roundings(detail::rounded_modulus(centre_) + radius_);
+  }
+  /// Not above the modulus of any number inside.
+  double least_modulus() const {
+    const double modulus = detail::rounded_modulus(centre_);
+    const double below = modulus * (1.0 - 0x1.0p-48) - detail::above_roundings(radius_);
+    return modulus > 1e-140 && below > 0.0 ? below : 0.0;
+  }
+  /// Re z.
+  Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }
+  /// Im z.
+  Enclosure imaginary() const { return centre_.imag() + Enclosure(-radius_, radius_); }
+
+  /// −a, exact.
+  ComplexEnclosure operator-() const { return {-centre_, radius_}; }
+  /// i a, exact.
+  ComplexEnclosure times_i() const { return {{-centre_.imag(), centre_.real()}, radius_}; }
+  /// a + b.
+  ComplexEnclosure& operator+=(const ComplexEnclosure& b) { return *this = *this + b; }
+  /// a b.
+  ComplexEnclosure& operator*=(const ComplexEnclosure& b) { return *this = *this * b; }
+
+  /// a + b.
+  friend ComplexEnclosure operator+(const ComplexEnclosure& a, const ComplexEnclosure& b) {
+    const std::complex<double> sum = a.centre_ + b.centre_;
+    return {sum, detail::above_roundings(a.radius_ + b.radius_ + unit * size(sum))};
+  }
+  /// a − b.
+  friend ComplexEnclosure operator-(const ComplexEnclosure& a, const ComplexEnclosure& b) {
+    return a + (-b);
+  }
+  /// a b. Of the centres' product each part is wrong by 2 roundings of what it is made of.
+  friend ComplexEnclosure operator*(const ComplexEnclosure& a, const ComplexEnclosure& b) {
+    const std::complex<double>&x = a.centre_, &y = b.centre_;
+    const double of_x = detail::rounded_modulus(x), of_y = detail::rounded_modulus(y);
+    const double radius = of_x * b.radius_ + of_y * a.radius_ + a.radius_ * b.radius_ +
+                          2.5 * unit * (size(x) * size(y));
+    return {{x.real() * y.real() - x.imag() * y.imag(), x.real() * y.imag() + x.imag() * y.real()},
+            detail::above_roundings(radius) + least};
+  }
+  /// a x of a real x.
+  friend ComplexEnclosure operator*(const ComplexEnclosure& a, const Enclosure& x) {
+    return a * ComplexEnclosure(x);
+  }
+  /// a / b; unknown where b may be 0.
+  friend ComplexEnclosure operator/(const ComplexEnclosure& a, const ComplexEnclosure& b) {
+    return a * inverse(b);
+  }
+
+  /// The conjugate, exact.
+  friend ComplexEnclosure conj(const ComplexEnclosure& a) {
+    return {std::conj(a.centre_), a.radius_};
+  }
+  /// 1/a; unknown where a may be 0. With y near 1/c, c the centre,
+  ///
+  ///     |1/(c + w) − y| ≤ (|1 − c y| + |w y|)/|c + w|
+  friend ComplexEnclosure inverse(const ComplexEnclosure& a) {
+    const double squared = std::norm(a.centre_);
+    const ComplexEnclosure near(std::conj(a.centre_) / squared, 0.0);
+    const ComplexEnclosure missing = ComplexEnclosure(1.0) - a * near;
+    const Enclosure radius = Enclosure(missing.magnitude()) / a.least_modulus();
+    return {near.centre_, radius.upper()};
+  }
+
+ private:
+  static constexpr double unit = 0x1.0p-53;     // of the rounding of a double
+  static constexpr double least = 0x1.0p-1060;  // above what products lose near 0
+
+  static double size(const std::complex<double>& z) {
+    return std::abs(z.real()) + std::abs(z.imag());
+  }
+
+  std::complex<double> centre_ = 0.0;
+  double radius_ = 0.0;
+};
+
+/// e^z of every number inside.
+/// @param z  not finite, or of a radius of 1 and more: unknown
+inline ComplexEnclosure exponential(const ComplexEnclosure& z) {
+  const double x = z.middle().real(), y = z.middle().imag();
+  Matrix<Enclosure, 2> turning;
+  turning << x, -y, y, x;
+  const Matrix<Enclosure, 2> power = exponential(turning);
+  // |e^w − 1| ≤ |w|/(1 − |w|).
+  const Enclosure left = Enclosure(1.0) - z.radius();
+  const Enclosure around = left.is_positive() ? z.radius() / left : Enclosure::unknown();
+  return ComplexEnclosure(power(0, 0), power(1, 0)) * ComplexEnclosure({1.0, 0.0}, around.upper());
+}
+
+/// zⁿ of every number inside.
+/// @param z      a disc
+/// @param count  n ≥ 0
+inline ComplexEnclosure power(ComplexEnclosure z, int count) {
+  ComplexEnclosure result(1.0);
+  for (; count > 0; count /= 2) {
+    if (count % 2 == 1) result *= z;
+    if (count > 1) z *= z;
+  }
+  return result;
+}
+
+}  // namespace holdfast

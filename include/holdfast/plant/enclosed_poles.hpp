@@ -1,0 +1,281 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "holdfast/math/enclosure/complex_enclosure.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
+#include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// A natural motion of a plant of which it is proved where it lies, with its
+/// part in the transfer function from the command to the reading: that of
+/// `PlantPole`, enclosed.
+struct EnclosedPole {
+  ComplexEnclosure s;        ///< 1/s; of a pair that with Im s > 0, without a partner real
+  ComplexEnclosure residue;  ///< r, m/(N s); real without a partner
+  bool is_pair;              ///< whether its conjugate is a pole too
+};
+
+namespace detail {
+
+/// The transfer function from the command to the reading of z of a conductor
+/// with its absorber and hardware, as a quotient of polynomials of which no
+/// coefficient is formed:
+///
+///     D = Π d_n,  S = Σ φ_n²/M_n Π_{j≠n} d_j,  d_n = s² + 2ζ_n ω_n s + ω_n²,
+///     Q = m₂s² + c₂s + k₂ p = (Q D + (M_c s² Q + m₂ s² (k₂ + c₂ s)) S) h(s),
+///     n = m₂ s² S h(0)
+///
+/// h holds the poles of filter and drive. Numbers of modes are those doubles
+/// themselves, all others the decimals to which the doubles are nearest.
+class EnclosedTransfer {
+ public:
+  /// The values p and n divided by the same product.
+  struct Value {
+    ComplexEnclosure denominator, numerator;
+  };
+
+  explicit EnclosedTransfer(const ConductorWithAbsorber& conductor)
+      : EnclosedTransfer(conductor.absorber, conductor.hardware) {
+    for (const PlaceMode<double>& mode : conductor.modes) {
+      const Enclosure omega(mode.angular_frequency), shape(mode.shape);
+      add({2.0 * Enclosure(mode.damping_ratio) * omega, square(omega),
+           square(shape) / Enclosure(mode.mass)});
+    }
+  }
+  /// Of two masses all numbers are decimals.
+  EnclosedTransfer(const TwoMass<double>& masses, const LoopHardware& hardware)
+      : EnclosedTransfer(Absorber<double>{masses.absorber_mass, masses.absorber_stiffness,
+                                          masses.absorber_damping},
+                         hardware) {
+    const Enclosure mass = decimal(masses.conductor_mass);
+    add({decimal(masses.conductor_damping) / mass, decimal(masses.conductor_stiffness) / mass,
+         1.0 / mass});
+  }
+
+  /// The degree of p.
+  std::size_t degree() const { return 2 * modes_.size() + 2 + lag_states_; }
+  /// p's coefficient of the highest power.
+  Enclosure leading() const { return mass_ * (1.0 + clamp_mass_ * mobility_); }
+
+  /// At s, both divided by Π (s − z_j) over all but one.
+  /// @param others  z_j, fewer than the degree
+  Value at(const ComplexEnclosure& s, const std::vector<ComplexEnclosure>& others) const {
+    ComplexEnclosure product(1.0), sum;
+    auto next = others.begin();
+    const auto divide = [&](std::ptrdiff_t most) {
+      const auto end = next + std::min(most, others.end() - next);
+      for (; next != end; ++next) {
+        const ComplexEnclosure share = inverse(s - *next);
+        product *= share;
+        sum *= share;
+      }
+    };
+    for (const Mode& mode : modes_) {
+      const ComplexEnclosure divisor = s * (s + mode.damping) + mode.stiffness;
+      sum = sum * divisor + product * mode.mobility;
+      product *= divisor;
+      divide(2);
+    }
+    divide(others.end() - next);
+    const ComplexEnclosure squared = s * s, inertia = squared * mass_;
+    const ComplexEnclosure absorber = inertia + s * damping_ + stiffness_;
+    const ComplexEnclosure pressed =
+        squared * clamp_mass_ * absorber + inertia * (s * damping_ + stiffness_);
+    Value value{absorber * product + pressed * sum, inertia * sum};
+    for (const Lag& lag : lags_) {
+      value.denominator *= s * (s * lag.inertia + lag.damping) + lag.stiffness;
+      value.numerator *= lag.stiffness;
+    }
+    return value;
+  }
+
+ private:
+  struct Mode {
+    Enclosure damping, stiffness, mobility;  // 2ζω, ω², φ²/M
+  };
+  /// a s² + b s + c, a = 1, or a = 0 and b = 1.
+  struct Lag {
+    Enclosure inertia, damping, stiffness;
+  };
+
+  EnclosedTransfer(const Absorber<double>& absorber, const LoopHardware& hardware)
+      : mass_(decimal(absorber.mass)),
+        stiffness_(decimal(absorber.stiffness)),
+        damping_(decimal(absorber.damping)),
+        clamp_mass_(decimal(absorber.clamp_mass)) {
+    take(hardware);
+  }
+
+  void add(const Mode& mode) {
+    modes_.push_back(mode);
+    mobility_ += mode.mobility;
+  }
+
+  static Enclosure decimal(double nearest) { return Enclosure::of_decimal(nearest); }
+
+  /// 2π f.
+  static Enclosure rate_of(double frequency) {
+    const Enclosure turn(2.0 * 0x1.921fb54442d18p1, 2.0 * 0x1.921fb54442d19p1);
+    return turn * decimal(frequency);
+  }
+
+  void take(const LoopHardware& hardware) {
+    validate(hardware);
+    const auto add_first_order = [&](double frequency) {
+      lags_.push_back({0.0, 1.0, rate_of(frequency)});
+      lag_states_ += 1;
+    };
+    if (hardware.measurement_filter != LoopHardware::ideal)
+      add_first_order(hardware.measurement_filter);
+    if (hardware.drive_bandwidth == LoopHardware::ideal) return;
+    if (hardware.drive_damping == LoopHardware::ideal)
+      return add_first_order(hardware.drive_bandwidth);
+    const Enclosure rate = rate_of(hardware.drive_bandwidth);
+    lags_.push_back({1.0, 2.0 * decimal(hardware.drive_damping) * rate, square(rate)});
+    lag_states_ += 2;
+  }
+
+  Enclosure mass_, stiffness_, damping_, clamp_mass_, mobility_;
+  std::vector<Mode> modes_;
+  std::vector<Lag> lags_;
+  std::size_t lag_states_ = 0;
+};
+
+/// Approximate poles in conjugate pairs, the upper ones first, then those of
+/// the real axis.
+struct PairedPoles {
+  std::vector<std::complex<double>> upper, real;
+
+  explicit PairedPoles(const std::vector<PlantPole>& poles) {
+    for (const PlantPole& pole : poles) {
+      if (std::abs(pole.s.imag()) < 1e-12 * std::abs(pole.s))
+        real.emplace_back(pole.s.real());
+      else if (pole.s.imag() > 0.0)
+        upper.push_back(pole.s);
+    }
+  }
+  std::size_t size() const { return 2 * upper.size() + real.size(); }
+
+  /// All of them, each pair as two neighbours.
+  std::vector<std::complex<double>> all() const {
+    std::vector<std::complex<double>> list;
+    for (const auto& s : upper) list.insert(list.end(), {s, std::conj(s)});
+    list.insert(list.end(), real.begin(), real.end());
+    return list;
+  }
+};
+
+/// All but one.
+inline std::vector<ComplexEnclosure> others_of(const std::vector<ComplexEnclosure>& all,
+                                               std::size_t but) {
+  std::vector<ComplexEnclosure> others = all;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(but));
+  return others;
+}
+
+/// Radii of discs about the approximate poles, which hold all poles together,
+/// and one each where they are apart.
+inline std::vector<double> disc_radii(const EnclosedTransfer& transfer,
+                                      const std::vector<ComplexEnclosure>& centres) {
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < centres.size(); ++k) {
+    const ComplexEnclosure correction =
+        transfer.at(centres[k], others_of(centres, k)).denominator / transfer.leading();
+    radii.push_back(
+        (Enclosure(static_cast<double>(centres.size())) * correction.magnitude()).upper());
+  }
+  return radii;
+}
+
+/// Whether it is proved that no two discs touch.
+inline bool are_apart(const std::vector<ComplexEnclosure>& centres,
+                      const std::vector<double>& radii) {
+  for (std::size_t k = 0; k < centres.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const Enclosure apart = (centres[k] - centres[j]).least_modulus();
+      if (!(apart - radii[k] - radii[j]).is_positive()) return false;
+    }
+  return true;
+}
+
+/// The poles of a transfer function whose approximations are given.
+inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer,
+                                                const std::vector<PlantPole>& approximate) {
+  const PairedPoles paired(approximate);
+  if (approximate.empty() || paired.size() != transfer.degree()) return {};
+  const auto points = paired.all();
+  std::vector<ComplexEnclosure> centres;
+  for (const std::complex<double>& point : points) centres.emplace_back(point, 0.0);
+  const std::vector<double> radii = disc_radii(transfer, centres);
+  if (!are_apart(centres, radii)) return {};
+  std::vector<ComplexEnclosure> enclosed;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    enclosed.emplace_back(points[k], radii[k]);
+  }
+  std::vector<EnclosedPole> poles;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const bool is_pair = k < 2 * paired.upper.size();
+    if (is_pair && k % 2 == 1) continue;
+    const ComplexEnclosure residue =
+        transfer.at(enclosed[k], others_of(enclosed, k)).numerator / transfer.leading();
+    poles.push_back({enclosed[k], residue, is_pair});
+  }
+  return poles;
+}
+
+}  // namespace detail
+
+/// Where the poles from the command to the reading of a conductor with its
+/// absorber and hardware lie, and their residues, all proved: about
+/// approximations z_k stand discs of radius
+///
+///     m |p(z_k) / (p_m Π_{j≠k} (z_k − z_j))|
+///
+/// m the degree of the polynomial p whose roots they are and p_m its leading
+/// coefficient. The discs hold all roots, and where no two touch one each; one
+/// about a real z_k holds a real root. The residue is n(s)/p′(s), p′ = p_m
+/// Π_{j≠k} (s_k − s_j). Work: 10 m² complex operations.
+///
+/// It is of the plant with the modes whose numbers are those doubles, and with
+/// the decimals of absorber and hardware. Source: B. T. Smith, Error bounds for
+/// zeros of a polynomial based upon Gerschgorin's theorems, J. ACM 17 (1970),
+/// pp. 661–674.
+/// @param conductor  with its approximate poles
+/// @return nothing where the poles are not all known, or two are too close to
+/// be told apart
+/// @throws InvalidParameter where conductor, absorber or hardware are not
+/// admissible
+inline std::vector<EnclosedPole> enclosed_poles(const ConductorWithAbsorber& conductor) {
+  validate(conductor.modes, conductor.absorber);
+  if (conductor.poles.empty()) return {};
+  return detail::enclosed_poles(detail::EnclosedTransfer(conductor),
+                                with_hardware(conductor.poles, conductor.hardware));
+}
+
+/// The same of two masses with hardware, of the decimals of all their numbers.
+/// @throws InvalidParameter where masses or hardware are not admissible
+inline std::vector<EnclosedPole> enclosed_poles(const TwoMass<double>& masses,
+                                                const LoopHardware& hardware = {}) {
+  validate(masses);
+  const double omega = std::sqrt(masses.conductor_stiffness / masses.conductor_mass);
+  const double ratio = masses.conductor_damping / (2.0 * omega * masses.conductor_mass);
+  const auto approximate =
+      plant_poles({{omega, ratio, 1.0, masses.conductor_mass}},
+                  {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping});
+  if (approximate.empty()) return {};
+  return detail::enclosed_poles(detail::EnclosedTransfer(masses, hardware),
+                                with_hardware(approximate, hardware));
+}
+
+}  // namespace holdfast

@@ -1,0 +1,251 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/complex_enclosure.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
+#include "holdfast/stability/response/enclosed_response.hpp"
+
+namespace holdfast {
+
+/// The upper half of a circle |λ| = r, cut into arcs on each of which the characteristic function
+///
+///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ)
+///
+/// of `EnclosedResponse` is known to first order in the angle with a bound of what is left. It
+/// tells the arcs on which a loop with gains of a box may have a root, and counts the roots outside
+/// where there is none on the circle. Arcs are halved as the questions need it, and kept.
+class CircleArcs {
+ public:
+  /// A list of arcs, by their numbers.
+  using Arcs = std::vector<std::size_t>;
+
+  /// @param response  of the loop
+  /// @param radius    r, that double itself, > 0
+  explicit CircleArcs(EnclosedResponse response, double radius = 1.0)
+      : response_(std::move(response)), radius_(radius) {
+    // To π, or just beyond it: what is there is the conjugate of what was before.
+    arcs_.push_back(arc(0.0, 0x1.921fb54442d19p1));
+  }
+
+  /// Every arc: the one that is all of the half circle.
+  Arcs all() const { return {0}; }
+
+  /// Of some arcs those, or parts of them, on which a root of a loop of the box may lie; the loops
+  /// of the box have no root on the others. Parts are as short as they need to be for that to be a
+  /// question of the box's size.
+  Arcs meeting(const GainBox& box, const Arcs& among) {
+    const Gains gains(box);
+    if (!gains.are_finite()) return among;
+    Arcs met, open(among.rbegin(), among.rend());
+    while (!open.empty()) {
+      const std::size_t index = open.back();
+      open.pop_back();
+      const Reach reach(arcs_[index], gains);
+      if (reach.avoids_zero()) continue;
+      if (reach.is_short_enough() || !halve(index)) {
+        met.push_back(index);
+      } else {
+        open.push_back(arcs_[index].first_half + 1);
+        open.push_back(arcs_[index].first_half);
+      }
+    }
+    return met;
+  }
+
+  /// How many roots of a loop lie outside the circle, proved; nothing where one may lie on it.
+  ///
+  /// On each of the arcs, halved where it takes that, q has a real or an imaginary part of one
+  /// sign. From arc to arc, which have a point in common, that half-plane stays or turns by a
+  /// quarter. At both ends q is real, and so the quarters from 0 to π add up to halves: with w of
+  /// these q turns w times on the whole circle, and as F has as many poles as the plant,
+  ///
+  ///     n_out = n_plant + k − w
+  ///
+  /// @param gains       P and D, those doubles themselves
+  /// @param most_arcs   with more it is not decided
+  std::optional<int> roots_outside(const PdGains<double>& gains, std::size_t most_arcs = 20000) {
+    const auto own = response_.poles_outside(radius_);
+    const Gains box(
+        {gains.proportional, gains.proportional, gains.differential, gains.differential});
+    if (!own || !box.are_finite()) return std::nullopt;
+    Arcs open = all();
+    int quarters = 0, before = -1;
+    for (std::size_t count = 0; !open.empty(); ++count) {
+      const std::size_t index = open.back();
+      open.pop_back();
+      const int side = Reach(arcs_[index], box).half_plane();
+      if (side < 0) {
+        if (count > most_arcs || !halve(index)) return std::nullopt;
+        open.push_back(arcs_[index].first_half + 1);
+        open.push_back(arcs_[index].first_half);
+        continue;
+      }
+      const int turn = before < 0 ? 0 : (side - before + 4) % 4;
+      if (turn == 2) return std::nullopt;
+      quarters += turn == 3 ? -1 : turn;
+      before = side;
+    }
+    if (quarters % 2 != 0) return std::nullopt;
+    return *own + response_.held_commands() - quarters / 2;
+  }
+
+  /// Arcs that have been made, halved ones included.
+  std::size_t size() const { return arcs_.size(); }
+
+ private:
+  using Complex = std::complex<double>;
+
+  /// value + slope t + r, −1 ≤ t ≤ 1, |r| ≤ rest + haze; a shorter arc has less rest, and the same
+  /// haze.
+  struct Line {
+    Complex value, slope;
+    double rest, haze;
+  };
+  struct Arc {
+    double from, to;  // rad
+    Line power, displacement, velocity;
+    std::size_t first_half = 0;  // the second one follows it; 0: not halved
+  };
+
+  /// P₀ ± ΔP, D₀ ± ΔD.
+  struct Gains {
+    double p, d, p_radius, d_radius;
+
+    explicit Gains(const GainBox& box) {
+      const Enclosure proportional(box.proportional_from, box.proportional_to);
+      const Enclosure differential(box.differential_from, box.differential_to);
+      p = proportional.middle(), d = differential.middle();
+      p_radius = proportional.radius(), d_radius = differential.radius();
+      if (p == box.proportional_from && p == box.proportional_to) p_radius = 0.0;
+      if (d == box.differential_from && d == box.differential_to) d_radius = 0.0;
+    }
+    bool are_finite() const {
+      return std::isfinite(std::abs(p) + std::abs(d) + p_radius + d_radius);
+    }
+  };
+
+  /// Where q may lie on an arc for gains of a box:
+  ///
+  ///     q = c + a t + F_z δP + F_v δD + r,   |r| ≤ rest + haze
+  ///
+  /// c, a, F_z and F_v as computed are wrong by no more than 10⁻¹⁴ of the sum of what they are made
+  /// of, as each takes fewer than 30 roundings of 1.2·10⁻¹⁶.
+  class Reach {
+   public:
+    Reach(const Arc& arc, const Gains& gains)
+        : centre_(arc.power.value - gains.p * arc.displacement.value -
+                  gains.d * arc.velocity.value),
+          along_(arc.power.slope - gains.p * arc.displacement.slope - gains.d * arc.velocity.slope),
+          by_p_(gains.p_radius * arc.displacement.value),
+          by_d_(gains.d_radius * arc.velocity.value) {
+      const double p = std::abs(gains.p), d = std::abs(gains.d);
+      const double z = size(arc.displacement.value), z_slope = size(arc.displacement.slope);
+      const double v = size(arc.velocity.value), v_slope = size(arc.velocity.slope);
+      rest_ = arc.power.rest + (p + gains.p_radius) * arc.displacement.rest +
+              (d + gains.d_radius) * arc.velocity.rest + gains.p_radius * z_slope +
+              gains.d_radius * v_slope;
+      haze_ = arc.power.haze + (p + gains.p_radius) * arc.displacement.haze +
+              (d + gains.d_radius) * arc.velocity.haze;
+      rounding_ = size(arc.power.value) + size(arc.power.slope) +
+                  (p + gains.p_radius) * (z + z_slope) + (d + gains.d_radius) * (v + v_slope) +
+                  rest_ + haze_;
+    }
+
+    /// Whether it is proved that q ≠ 0: a line separates it from 0. Those tried are along the sides
+    /// of what q takes but for its rest, and across its middle.
+    bool avoids_zero() const {
+      if (!std::isfinite(rounding_)) return false;
+      return is_ahead(centre_) || is_ahead(across(along_)) || is_ahead(across(by_p_)) ||
+             is_ahead(across(by_d_));
+    }
+
+    /// 0, 1, 2, 3: q is proved to have Re > 0, Im > 0, Re < 0, Im < 0; −1: none of them.
+    int half_plane() const {
+      if (!std::isfinite(rounding_)) return -1;
+      for (const bool imaginary : {false, true}) {
+        const Complex normal = imaginary ? Complex(0.0, 1.0) : Complex(1.0, 0.0);
+        if (!is_ahead(normal)) continue;
+        const double part = imaginary ? centre_.imag() : centre_.real();
+        return (imaginary ? 1 : 0) + (part > 0.0 ? 0 : 2);
+      }
+      return -1;
+    }
+
+    /// Whether a shorter arc would not tell much more of the box.
+    bool is_short_enough() const {
+      constexpr double share = 0.1;
+      return rest_ <= share * (size(by_p_) + size(by_d_) + haze_);
+    }
+
+   private:
+    static double size(const Complex& z) { return std::abs(z.real()) + std::abs(z.imag()); }
+    static Complex across(const Complex& z) { return {-z.imag(), z.real()}; }
+    static double along(const Complex& normal, const Complex& z) {
+      return normal.real() * z.real() + normal.imag() * z.imag();
+    }
+
+    /// Whether all of q lies on one side of the line through 0 that a normal is across of.
+    bool is_ahead(const Complex& normal) const {
+      const double distance = std::abs(along(normal, centre_));
+      const double spread = std::abs(along(normal, along_)) + std::abs(along(normal, by_p_)) +
+                            std::abs(along(normal, by_d_)) + size(normal) * (rest_ + haze_);
+      constexpr double rounding = 1e-14, least = 1e-280;
+      return distance > spread + (rounding * size(normal) * rounding_ + least);
+    }
+
+    Complex centre_, along_, by_p_, by_d_;
+    double rest_, haze_, rounding_;
+  };
+
+  /// The line in t of an expansion about λ₀ = r e^{iθ₀} on θ = θ₀ + h t: λ − λ₀ is λ₀ i h t and at
+  /// most r h²/2 of something else.
+  static Line line_of(const EnclosedExpansion& expansion, const ComplexEnclosure& centre,
+                      const Enclosure& half_width) {
+    const ComplexEnclosure slope = expansion.slope * centre.times_i() * half_width;
+    const Enclosure bend =
+        Enclosure(0.5 * centre.magnitude()) * square(half_width) * expansion.slope.magnitude();
+    const Enclosure rest = Enclosure(expansion.rest) + bend + slope.radius();
+    return {expansion.value.middle(), slope.middle(), rest.upper(), expansion.value.radius()};
+  }
+
+  Arc arc(double from, double to) const {
+    const Enclosure angles(from, to);
+    const Enclosure half_width(angles.radius());
+    const ComplexEnclosure centre =
+        exponential(ComplexEnclosure({0.0, angles.middle()}, 0.0)) * Enclosure(radius_);
+    const double radius = (half_width * centre.magnitude()).upper();
+    const EnclosedCommandResponse response = response_.about(centre, radius);
+    return {from, to, line_of(response_.power_about(centre, radius), centre, half_width),
+            line_of(response.displacement, centre, half_width),
+            line_of(response.velocity, centre, half_width)};
+  }
+
+  /// @return whether the arc has two halves
+  bool halve(std::size_t index) {
+    if (arcs_[index].first_half != 0) return true;
+    const double from = arcs_[index].from, to = arcs_[index].to;
+    const double middle = 0.5 * (from + to);
+    if (!(from < middle && middle < to) || to - from < 1e-14) return false;
+    arcs_[index].first_half = arcs_.size();
+    arcs_.push_back(arc(from, middle));
+    arcs_.push_back(arc(middle, to));
+    return true;
+  }
+
+  EnclosedResponse response_;
+  double radius_;
+  std::vector<Arc> arcs_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,208 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/stability/chart/chart.hpp"
+#include "holdfast/stability/chart/circle_arcs.hpp"
+#include "holdfast/stability/chart/joined_boxes.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
+#include "holdfast/stability/response/enclosed_response.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// The gains in the middle of a box.
+inline PdGains<double> middle_of(const GainBox& box) {
+  return {Enclosure(box.proportional_from, box.proportional_to).middle(),
+          Enclosure(box.differential_from, box.differential_to).middle()};
+}
+
+/// A box and, of each circle, the arcs on which a loop of it may have a root. Of a wider circle
+/// that tells no more of the box the arcs are gone.
+struct CrossedBox {
+  GainBox gains;
+  std::vector<std::optional<CircleArcs::Arcs>> arcs;
+};
+
+/// Cells of a grid with indices from … to in P and in D.
+struct CellRange {
+  std::int64_t p_from, p_to, d_from, d_to;
+
+  explicit CellRange(const GainGrid& grid)
+      : p_from(0),
+        p_to(grid.proportional.count - 1),
+        d_from(0),
+        d_to(grid.differential.count - 1) {}
+
+  GainBox box(const GainGrid& grid) const {
+    return {grid.proportional.at(p_from), grid.proportional.at(p_to), grid.differential.at(d_from),
+            grid.differential.at(d_to)};
+  }
+  bool is_cell() const { return p_to - p_from == 1 && d_to - d_from == 1; }
+  /// The two halves across the longer side.
+  std::pair<CellRange, CellRange> halves() const {
+    std::pair<CellRange, CellRange> both(*this, *this);
+    if (p_to - p_from > d_to - d_from)
+      both.first.p_to = both.second.p_from = (p_from + p_to) / 2;
+    else
+      both.first.d_to = both.second.d_from = (d_from + d_to) / 2;
+    return both;
+  }
+};
+
+/// The proved chart of a loop of any order in the making.
+/// @tparam Watch  called for each box
+template <class Watch>
+class ModalChart {
+ public:
+  ModalChart(const EnclosedResponse& response, const GainGrid& grid, const Watch& watch)
+      : grid_(grid), watch_(watch) {
+    // A root beyond a wider circle is one of an unstable loop, whatever crosses the unit circle.
+    for (const double radius : {1.0, 1.0003, 1.005}) circles_.emplace_back(response, radius);
+    CrossedBox whole{CellRange(grid).box(grid), {}};
+    for (const CircleArcs& circle : circles_) whole.arcs.emplace_back(circle.all());
+    open_cells(CellRange(grid), whole);
+  }
+
+  /// Of the boxes that are crossed.
+  double open_area() const {
+    double sum = 0.0;
+    for (const CrossedBox& box : open_) sum += box.gains.area();
+    return sum;
+  }
+  /// Boxes there would be with all that are crossed quartered.
+  std::size_t refined_size() const { return unstable_.size() + free_.size() + 4 * open_.size(); }
+
+  /// Quarters the crossed boxes.
+  /// @return whether there was one that could be
+  bool refine() {
+    std::vector<CrossedBox> before;
+    before.swap(open_);
+    bool refined = false;
+    for (CrossedBox& box : before) {
+      const auto quarters = quarters_of(box.gains);
+      if (quarters.empty()) {
+        open_.push_back(std::move(box));
+        continue;
+      }
+      refined = true;
+      for (const GainBox& quarter : quarters) take(part_of(box, quarter));
+    }
+    return refined;
+  }
+
+  /// With the roots of each region counted.
+  ProvedChart finished() {
+    ProvedChart chart;
+    for (const GainBox& box : unstable_) chart.boxes.push_back({box, ProvedStability::unstable});
+    for (const CrossedBox& box : open_)
+      chart.boxes.push_back({box.gains, ProvedStability::undecided});
+    const std::vector<std::size_t> regions = joined_boxes(free_);
+    const std::vector<ProvedStability> verdicts = verdicts_on(regions);
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      chart.boxes.push_back({free_[k], verdicts[regions[k]]});
+    sort_boxes(chart);
+    return chart;
+  }
+
+ private:
+  /// Down to single cells.
+  void open_cells(const CellRange& range, const CrossedBox& around) {
+    CrossedBox box = part_of(around, range.box(grid_));
+    if (range.is_cell()) return take(std::move(box));
+    const auto [first, second] = range.halves();
+    open_cells(first, box);
+    open_cells(second, box);
+  }
+
+  /// What is left of a box's arcs for a part of it.
+  CrossedBox part_of(const CrossedBox& box, const GainBox& part) {
+    watch_();
+    CrossedBox result{part, {}};
+    for (std::size_t j = 0; j < circles_.size(); ++j) {
+      result.arcs.emplace_back();
+      if (box.arcs[j]) result.arcs[j] = circles_[j].meeting(part, *box.arcs[j]);
+    }
+    return result;
+  }
+
+  void take(CrossedBox box) {
+    if (box.arcs.front()->empty()) return free_.push_back(box.gains);
+    for (std::size_t j = 1; j < circles_.size(); ++j) {
+      if (!box.arcs[j] || !box.arcs[j]->empty()) continue;
+      const auto outside = circles_[j].roots_outside(middle_of(box.gains));
+      if (outside && *outside > 0) return unstable_.push_back(box.gains);
+      box.arcs[j].reset();
+    }
+    open_.push_back(std::move(box));
+  }
+
+  /// Of each region, at the number that it has.
+  std::vector<ProvedStability> verdicts_on(const std::vector<std::size_t>& regions) {
+    std::vector<std::optional<GainBox>> largest(free_.size());
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      auto& box = largest[regions[k]];
+      if (!box || free_[k].area() > box->area()) box = free_[k];
+    }
+    std::vector<ProvedStability> verdicts(free_.size(), ProvedStability::undecided);
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      if (!largest[k]) continue;
+      watch_();
+      const auto outside = circles_.front().roots_outside(middle_of(*largest[k]));
+      if (outside)
+        verdicts[k] = *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
+    }
+    return verdicts;
+  }
+
+  const GainGrid& grid_;
+  const Watch& watch_;
+  std::vector<CircleArcs> circles_;  // the unit circle first
+  std::vector<CrossedBox> open_;
+  std::vector<GainBox> free_, unstable_;
+};
+
+}  // namespace detail
+
+/// Proves the cells of a chart of a loop of any order. A box of gains of which no arc of the unit
+/// circle has a root is free; the number of roots outside is the same in all free boxes that are
+/// joined, and is counted once for each region (`CircleArcs::roots_outside`). A box that is crossed
+/// is unstable where a wider circle is free and has a root outside; others are quartered until what
+/// is crossed is no more than a share of the area.
+/// @param response    of the loop
+/// @param grid        its cells lie between the points; both axes ascend, with at least 2 points
+/// @param undecided   the share, 0 ≤ … < 1
+/// @param watch       called for each box; what it throws ends the work
+/// @param most_boxes  with more the rest is left undecided
+/// @return all undecided where an eigenvalue of the plant itself may lie on the unit circle
+/// @throws InvalidParameter for others
+template <class Watch>
+ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid, double undecided,
+                         const Watch& watch, std::size_t most_boxes = std::size_t{1} << 22) {
+  detail::validate_proved(grid, undecided);
+  if (!response.poles_outside(1.0)) {
+    ProvedChart chart;
+    for (const GainBox& cell : detail::cells_of(grid))
+      chart.boxes.push_back({cell, ProvedStability::undecided});
+    return chart;
+  }
+  detail::ModalChart<Watch> chart(response, grid, watch);
+  const double most_area = undecided * detail::CellRange(grid).box(grid).area();
+  while (chart.open_area() > most_area && chart.refined_size() <= most_boxes)
+    if (!chart.refine()) break;
+  return chart.finished();
+}
+
+/// The same, watched by nobody.
+inline ProvedChart proved_chart(const EnclosedResponse& response, const GainGrid& grid,
+                                double undecided = 1e-3) {
+  return proved_chart(response, grid, undecided, [] {});
+}
+
+}  // namespace holdfast

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/math/enclosure/complex_enclosure.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/plant/enclosed_poles.hpp"
+
+namespace holdfast {
+
+/// f(λ + w) = value + slope · w + r, |r| ≤ rest, wherever |w| is no more than a radius.
+struct EnclosedExpansion {
+  ComplexEnclosure value, slope;  ///< f(λ) and f′(λ)
+  double rest = 0.0;              ///< of r; infinite where f may have a pole that near
+};
+
+/// What P and what D multiply, F_z and F_v of `EnclosedResponse`, about a point.
+struct EnclosedCommandResponse {
+  EnclosedExpansion displacement;  ///< F_z (m/N)
+  EnclosedExpansion velocity;      ///< F_v (m/(N s))
+};
+
+/// The zero-order-hold transfer functions of `ModalResponse` in enclosures, times λᵏ so that a
+/// delay of many samples takes no inverse power: the characteristic function of the loop is
+///
+///     q(λ) = λᵏ − P F_z(λ) − D F_v(λ),   F(λ) = λᵏ G(λ) = Σ (a_j λ + b_j)/(λ − e^{s_j τ})
+///
+/// with k, a_j and b_j as there. Poles in a pair are one real quotient n(λ)/g(λ) of degree 2, of
+/// which the first two terms about λ leave exactly
+///
+///     f(λ + w) − f − f′ w = w² (n₂ − f g₂ − f′ g′ − f′ g₂ w)/g(λ + w)
+///
+/// A point costs some 300 operations of enclosures a pair.
+class EnclosedResponse {
+ public:
+  /// @param poles     of `enclosed_poles`, at least one, none of which may be 0
+  /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest, δ ≤ 1000 τ; a δ that
+  ///                  exceeds a whole number of samples by less than 10⁻¹² of itself is that many
+  /// @throws InvalidParameter where the sampling is another
+  EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling) {
+    require_positive("sampling period tau", sampling.period, "s");
+    require_within("processing delay", sampling.processing_delay, "s", 0.0,
+                   1000.0 * sampling.period);
+    commands_ = holdfast::held_commands(sampling);
+    const Enclosure period = Enclosure::of_decimal(sampling.period);
+    Enclosure late = Enclosure::of_decimal(sampling.processing_delay) -
+                     Enclosure(static_cast<double>(commands_ - 1)) * period;
+    if ((late - period).is_positive()) late = period;
+    for (const EnclosedPole& pole : poles) add(pole, period, late);
+  }
+
+  /// F_z and F_v about a point.
+  /// @param lambda  λ
+  /// @param radius  of the disc about it
+  EnclosedCommandResponse about(const ComplexEnclosure& lambda, double radius) const {
+    EnclosedCommandResponse sum;
+    for (const Section& section : sections_) section.add_to(sum, lambda, radius);
+    return sum;
+  }
+
+  /// λᵏ about a point, |r| ≤ k (k − 1)/2 (|λ| + radius)^{k−2} radius².
+  /// @param lambda  λ
+  /// @param radius  of the disc about it
+  EnclosedExpansion power_about(const ComplexEnclosure& lambda, double radius) const {
+    const auto k = static_cast<double>(commands_);
+    EnclosedExpansion result;
+    result.slope = power(lambda, commands_ - 1) * Enclosure(k);
+    result.value = power(lambda, commands_);
+    if (commands_ < 2) return result;
+    const Enclosure reach = Enclosure(lambda.magnitude()) + radius;
+    const Enclosure curvature = power(ComplexEnclosure(reach), commands_ - 2).real();
+    result.rest = (Enclosure(0.5 * k * (k - 1.0)) * curvature * square(Enclosure(radius))).upper();
+    return result;
+  }
+
+  /// k, the commands on their way.
+  int held_commands() const { return commands_; }
+  /// How many of the plant's own eigenvalues e^{sτ} have a modulus above r; nothing where one may
+  /// lie on that circle.
+  /// @param radius  r, > 0
+  std::optional<int> poles_outside(double radius) const {
+    int count = 0;
+    for (const Section& section : sections_) {
+      // Of the unit circle Re s tells more than e^{sτ}.
+      const bool outside =
+          radius == 1.0 ? section.growth.is_positive() : section.pole.least_modulus() > radius;
+      const bool inside =
+          radius == 1.0 ? section.growth.is_negative() : section.pole.magnitude() < radius;
+      if (!outside && !inside) return std::nullopt;
+      if (outside) count += section.is_pair ? 2 : 1;
+    }
+    return count;
+  }
+
+ private:
+  /// n(λ) of one of F_z and F_v, constant coefficient first.
+  using Numerator = std::array<Enclosure, 3>;
+
+  struct Section {
+    ComplexEnclosure pole;  // e^{sτ}
+    Enclosure growth;       // Re s
+    bool is_pair;
+    Numerator displacement, velocity;
+
+    void add_to(EnclosedCommandResponse& sum, const ComplexEnclosure& lambda, double radius) const {
+      const ComplexEnclosure to_pole = lambda - pole;
+      double least = (Enclosure(to_pole.least_modulus()) - radius).lower();
+      ComplexEnclosure divisor = to_pole, divisor_slope(1.0);
+      if (is_pair) {
+        const ComplexEnclosure to_partner = lambda - conj(pole);
+        const double other = (Enclosure(to_partner.least_modulus()) - radius).lower();
+        least = least > 0.0 && other > 0.0 ? (Enclosure(least) * other).lower() : 0.0;
+        divisor = to_pole * to_partner;
+        divisor_slope = to_pole + to_partner;
+      }
+      const Around at{lambda, inverse(divisor), divisor_slope, radius, least};
+      at.add(displacement, is_pair, sum.displacement);
+      at.add(velocity, is_pair, sum.velocity);
+    }
+  };
+
+  /// g and its slope about a point.
+  struct Around {
+    const ComplexEnclosure& lambda;
+    ComplexEnclosure inverse_divisor, divisor_slope;
+    double radius, least_divisor;  // not above |g(λ + w)|
+
+    void add(const Numerator& n, bool is_pair, EnclosedExpansion& sum) const {
+      const ComplexEnclosure value =
+          (lambda * (lambda * n[2] + ComplexEnclosure(n[1])) + ComplexEnclosure(n[0])) *
+          inverse_divisor;
+      const ComplexEnclosure slope =
+          (lambda * (2.0 * n[2]) + n[1] - value * divisor_slope) * inverse_divisor;
+      sum.value += value;
+      sum.slope += slope;
+      ComplexEnclosure second = ComplexEnclosure(n[2]) - slope * divisor_slope;
+      Enclosure third;
+      if (is_pair) {
+        second = second - value;
+        third = slope.magnitude();
+      }
+      const Enclosure bound = square(Enclosure(radius)) *
+                              (Enclosure(second.magnitude()) + third * radius) / least_divisor;
+      sum.rest = (Enclosure(sum.rest) + bound).upper();
+    }
+  };
+
+  void add(const EnclosedPole& pole, const Enclosure& period, const Enclosure& late) {
+    const ComplexEnclosure present = exponential(pole.s * (period - late));
+    const ComplexEnclosure past = exponential(pole.s * late);
+    const ComplexEnclosure a = pole.residue * (present - 1.0);
+    const ComplexEnclosure b = pole.residue * present * (past - 1.0);
+    const ComplexEnclosure reached = present * past;
+    const auto numerator = [&](const ComplexEnclosure& now, const ComplexEnclosure& before) {
+      if (!pole.is_pair) return Numerator{before.real(), now.real(), 0.0};
+      return Numerator{-2.0 * (before * conj(reached)).real(),
+                       2.0 * (before.real() - (now * conj(reached)).real()), 2.0 * now.real()};
+    };
+    sections_.push_back(
+        {reached, pole.s.real(), pole.is_pair, numerator(a / pole.s, b / pole.s), numerator(a, b)});
+  }
+
+  std::vector<Section> sections_;
+  int commands_ = 1;
+};
+
+}  // namespace holdfast
