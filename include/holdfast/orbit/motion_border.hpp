@@ -14,20 +14,22 @@
 namespace holdfast {
 
 /// What ends a periodic motion at the border of the region of parameters where it is and attracts.
-enum class MotionEnd {
+enum class BorderKind {
   fold,              ///< a multiplier reaches 1
   flip,              ///< a multiplier reaches −1
   neimark_sacker,    ///< a pair of multipliers reaches the unit circle
   border_collision,  ///< switching at samples: a sample reaches a switching surface
   grazing,           ///< switching exactly: Δz or Δż only touches where the drive would switch
   sliding,           ///< switching exactly: whether a reversal begins with stick changes
+  switch_at_sample,  ///< switching exactly: a switch comes to a sample, where the force or the
+                     ///< command jumps and decides otherwise
   jump,              ///< beyond it no such motion was found, although nothing came to zero
   window,            ///< the end of what was asked for
 };
 
 /// A piece of that border, and the largest multiplier at a point of it.
 struct MotionBorder {
-  MotionEnd end = MotionEnd::window;
+  BorderKind kind = BorderKind::window;
   /// Of a collision or grazing: `reversal`, or an end of the gap; exactly switched ends of a gap
   /// are not told apart.
   SwitchingSurface surface = SwitchingSurface::reversal;
@@ -41,7 +43,7 @@ struct MotionBorder {
 
 /// Whether they are one piece.
 inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
-  return a.end == b.end && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
+  return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
 }
 
 /// A point of the border.
@@ -80,11 +82,11 @@ struct ParameterWindow {
 /// where a pair of multipliers comes to 1, −1, e^{±2πi/3} or ±i.
 /// @return nothing where the point has another reason
 inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
-  const auto pair = MotionEnd::neimark_sacker;
-  if (a.end != pair && b.end != pair) return std::nullopt;
-  if (a.end == MotionEnd::fold || b.end == MotionEnd::fold) return 1;
-  if (a.end == MotionEnd::flip || b.end == MotionEnd::flip) return 2;
-  if (a.end != b.end) return std::nullopt;
+  const auto pair = BorderKind::neimark_sacker;
+  if (a.kind != pair && b.kind != pair) return std::nullopt;
+  if (a.kind == BorderKind::fold || b.kind == BorderKind::fold) return 1;
+  if (a.kind == BorderKind::flip || b.kind == BorderKind::flip) return 2;
+  if (a.kind != b.kind) return std::nullopt;
   return std::min(a.part, b.part) == 0 ? 4 : 3;
 }
 
@@ -94,10 +96,10 @@ namespace detail {
 inline MotionBorder circle_border(const Multiplier& multiplier) {
   constexpr double pi = 3.14159265358979323846, real = 1e-7;
   const double angle = std::abs(multiplier.angle);
-  MotionBorder border{MotionEnd::neimark_sacker, {}, -1, 0, multiplier};
-  if (angle < real) border.end = MotionEnd::fold;
-  if (angle > pi - real) border.end = MotionEnd::flip;
-  if (border.end == MotionEnd::neimark_sacker)
+  MotionBorder border{BorderKind::neimark_sacker, {}, -1, 0, multiplier};
+  if (angle < real) border.kind = BorderKind::fold;
+  if (angle > pi - real) border.kind = BorderKind::flip;
+  if (border.kind == BorderKind::neimark_sacker)
     border.part = angle < pi / 2.0 ? 0 : angle < 2.0 * pi / 3.0 ? 1 : 2;
   return border;
 }
@@ -106,7 +108,7 @@ inline MotionBorder circle_border(const Multiplier& multiplier) {
 inline RegionLook<MotionBorder> look_at_window(const PlanePoint& shares) {
   const double sides[] = {shares.x, 1.0 - shares.x, shares.y, 1.0 - shares.y};
   const auto least = std::min_element(std::begin(sides), std::end(sides));
-  return {*least, {MotionEnd::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
+  return {*least, {BorderKind::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
 }
 
 /// The region of a motion within a window.
@@ -122,7 +124,7 @@ MotionRegion motion_region_by(const Look& look, const ParameterWindow& window,
     return seen.margin < edge.margin
                ? seen
                : RegionLook<MotionBorder>{edge.margin,
-                                          {edge.label.end, edge.label.surface, edge.label.sample,
+                                          {edge.label.kind, edge.label.surface, edge.label.sample,
                                            edge.label.part, seen.label.multiplier}};
   };
   const auto found = region_border<MotionBorder>(in_window, window.shares_of(start), steps);

@@ -34,7 +34,7 @@ inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t h
     return {point.margin(), circle_border(point.multiplier)};
   const bool velocity = point.by_velocity <= point.by_displacement;
   const Border& nearest = velocity ? point.borders.velocity : point.borders.displacement;
-  MotionBorder border{MotionEnd::border_collision, nearest.surface, nearest.sample, 0,
+  MotionBorder border{BorderKind::border_collision, nearest.surface, nearest.sample, 0,
                       point.multiplier};
   if (half > 0 && border.sample >= half) {
     border.sample -= half;
@@ -78,7 +78,7 @@ MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
   const auto look = [&](double x, double y) {
     auto seen = detail::look_of(continuation.at(x, y), half);
     // In which sample such a motion reaches farthest does not matter.
-    if (stays && seen.label.end == MotionEnd::border_collision) seen.label.sample = -1;
+    if (stays && seen.label.kind == BorderKind::border_collision) seen.label.sample = -1;
     return seen;
   };
   MotionRegion region = detail::motion_region_by(look, window, at, steps);

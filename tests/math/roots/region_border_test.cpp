@@ -54,10 +54,10 @@ TEST(RegionBorder, OfATriangleHasItsCornersWhereTwoSidesMeet) {
   ASSERT_EQ(found.size(), 3U);
   const std::vector<PlanePoint> expected = {{0.1 / 3.1, 1.0 / 3.1}, {0.0, 0.0}, {1.0, 0.0}};
   for (const PlanePoint& at : expected)
-    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const PlanePoint& other) {
-      return std::hypot(at.x - other.x, at.y - other.y) < 1e-8;
-    })) << at.x << ' '
-        << at.y;
+    EXPECT_TRUE(std::any_of(
+        found.begin(), found.end(),
+        [&](const PlanePoint& other) { return std::hypot(at.x - other.x, at.y - other.y) < 1e-8; }))
+        << at.x << ' ' << at.y;
   EXPECT_NEAR(area(border), 0.5 / 3.1, 1e-8);
 }
 
@@ -66,9 +66,8 @@ TEST(RegionBorder, PassesCornersThatPointInwards) {
   const auto angle = [](const PlanePoint& at) {
     const RegionLook<int> square = smallest({at.x, at.y, 1.0 - at.x, 1.0 - at.y});
     const double beyond = std::max(0.5 - at.x, 0.5 - at.y);
-    return beyond < square.margin
-               ? RegionLook<int>{beyond, 0.5 - at.x > 0.5 - at.y ? 4 : 5}
-               : square;
+    return beyond < square.margin ? RegionLook<int>{beyond, 0.5 - at.x > 0.5 - at.y ? 4 : 5}
+                                  : square;
   };
   const Border border = region_border<int>(angle, {0.2, 0.3});
   ASSERT_TRUE(border.closed);
@@ -87,13 +86,17 @@ TEST(RegionBorder, FindsARegionThatIsSmallerThanAStep) {
 
 TEST(RegionBorder, GoesAlongAJump) {
   const auto step = [](const PlanePoint& at) {
-    return RegionLook<int>{std::hypot(at.x, at.y) < 0.3 ? 1.0 : -1.0, 0};
+    const bool inside = std::hypot(at.x, at.y) < 0.3;
+    return RegionLook<int>{inside ? 1.0 : -1.0, inside ? 0 : 1};
   };
   BorderSteps steps;
   steps.tolerance = 1e-9;
   const Border border = region_border<int>(step, {0.1, 0.0}, steps);
   ASSERT_TRUE(border.closed);
-  for (const auto& point : border.points) EXPECT_NEAR(std::hypot(point.at.x, point.at.y), 0.3, 1e-8);
+  for (const auto& point : border.points) {
+    EXPECT_NEAR(std::hypot(point.at.x, point.at.y), 0.3, 1e-8);
+    EXPECT_EQ(point.label, 1) << "that of the outer side";
+  }
 }
 
 TEST(RegionBorder, IsEmptyFromOutside) {

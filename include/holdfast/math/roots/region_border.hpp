@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct RegionLook {
 template <class Label>
 struct BorderPoint {
   PlanePoint at;
-  Label label{};  ///< what ends the region there
+  Label label{};  ///< what ends the region there; at a jump of the margin that of the outer side
 };
 
 /// The border of a region, the region at its left.
@@ -43,6 +44,7 @@ struct BorderSteps {
   double longest = 0.02;     ///< of a step, in the unit of the plane
   double shortest = 1e-9;    ///< of a step, which is how well a corner is found
   double tolerance = 1e-13;  ///< of a point
+  double jump = 1e-4;        ///< margin inside at a point of the border above which it is a jump
   int most_looks = 1'000'000;
 };
 
@@ -88,27 +90,34 @@ class BorderWalk {
   }
   static double turned(double angle) { return std::remainder(angle, 2.0 * pi); }
 
-  /// The last point inside on the way from `in` (inside) to `out` (not) of place(parameter).
+  /// The last point inside on the way from `in` (inside) to `out` (not) of place(parameter); none
+  /// where rounding says otherwise of the two.
   template <class Place>
-  BorderPoint<Label> last_inside(double in, double out, double tolerance, const Place& place) {
-    BorderPoint<Label> best{place(in), {}};
-    double nearest = std::abs(out - in);
+  std::optional<BorderPoint<Label>> last_inside(double in, double out, double tolerance,
+                                                const Place& place) {
+    PlanePoint last = place(in);
+    RegionLook<Label> inner, outer;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = nearest;
     const auto margin = [&](double value) {
       const PlanePoint at = place(value);
       const RegionLook<Label> look = seen(at);
-      if (look.margin > 0.0 && (std::abs(value - out) <= nearest)) {
+      const bool is_inside = look.margin >= 0.0;  // where it is zero the search ends
+      if (is_inside && std::abs(value - out) <= nearest) {
         nearest = std::abs(value - out);
-        best = {at, look.label};
+        last = at;
+        inner = look;
+      } else if (!is_inside && std::abs(value - in) <= farthest) {
+        farthest = std::abs(value - in);
+        outer = look;
       }
       return look.margin;
     };
     const double at_in = margin(in), at_out = margin(out);
+    if (!(at_in > 0.0) || at_out > 0.0) return std::nullopt;
     const SignChange<double> bracket{std::min(in, out), std::max(in, out),
                                      in < out ? at_in : at_out, in < out ? at_out : at_in};
-    const auto narrowed = bracketing_root(margin, bracket, tolerance);
-    // Where it was zero exactly nothing inside was noted there.
-    if (narrowed.lower == narrowed.upper) best = {place(narrowed.lower), best.label};
-    return best;
+    bracketing_root(margin, bracket, tolerance);
+    return BorderPoint<Label>{last, inner.margin > steps_.jump ? outer.label : inner.label};
   }
 
   /// Where a ray leaves the region.
@@ -133,7 +142,7 @@ class BorderWalk {
 
   bool inside(const PlanePoint& at) { return seen(at).margin > 0.0; }
 
-  BorderPoint<Label> between(double step, double in, double out) {
+  std::optional<BorderPoint<Label>> between(double step, double in, double out) {
     const PlanePoint here = border_.points.back().at;
     return last_inside(in, out, steps_.tolerance / step,
                        [&](double angle) { return moved(here, step, angle); });
@@ -148,12 +157,12 @@ class BorderWalk {
     if (!fresh_ && is_inside(forward + ahead) && !is_inside(forward - ahead))
       return between(step, forward + ahead, forward - ahead);
     for (double width = sweep; width > 2e-3; width /= 4.0) {
-      bool was_inside = false;
+      std::optional<double> in;
       const double last = backward_ - 2.0 * pi;
       for (double angle = backward_ - width; angle > last; angle -= width) {
-        const bool here_inside = is_inside(angle);
-        if (was_inside && !here_inside) return between(step, angle + width, angle);
-        was_inside = here_inside;
+        const bool is_in = is_inside(angle);
+        if (in && !is_in) return between(step, *in, angle);
+        in = is_in ? std::optional<double>(angle) : std::nullopt;
       }
     }
     return std::nullopt;

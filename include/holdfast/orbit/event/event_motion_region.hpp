@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +16,24 @@
 #include "holdfast/orbit/motion_border.hpp"
 
 namespace holdfast {
+
+namespace detail {
+
+/// Whether two periods have the same modes in the same order, wherever they begin.
+inline bool change_alike(const std::vector<ContactSwitch>& one,
+                         const std::vector<ContactSwitch>& other) {
+  const std::size_t count = one.size();
+  if (other.size() != count) return false;
+  for (std::size_t shift = 0; shift < std::max<std::size_t>(count, 1); ++shift) {
+    bool same = true;
+    for (std::size_t k = 0; same && k < count; ++k)
+      same = one[k].mode == other[(k + shift) % count].mode;
+    if (same) return true;
+  }
+  return false;
+}
+
+}  // namespace detail
 
 /// The periodic motion of a loop that lies near one of another loop: same period, same modes in the
 /// same order; when they change may differ.
@@ -33,10 +51,9 @@ OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
   const auto fresh = event_motion(loop, orbit.states[at]);
   RepeatingMotion<Contact> motion(fresh, orbit.ratio.denominator);
   const double command = orbit.forces[(at + samples - 1) % samples];
-  const double reading =
-      fresh.readings().displacement(orbit.states[(at + samples - 1) % samples]);
-  motion.go_to({start % orbit.ratio.denominator, orbit.states[at], command, reading,
-                fresh.contact()});
+  const double reading = fresh.readings().displacement(orbit.states[(at + samples - 1) % samples]);
+  motion.go_to(
+      {start % orbit.ratio.denominator, orbit.states[at], command, reading, fresh.contact()});
   // On to the orbit's first sample.
   for (std::size_t j = at; j < samples; ++j) {
     motion.sense();
@@ -44,11 +61,8 @@ OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
   }
   auto found = detail::EventOrbitSolver<Contact>(motion, orbit.ratio)
                    .solve(motion.point(), orbit.period_samples());
-  const bool alike =
-      found.orbit && found.orbit->period_samples() == orbit.period_samples() &&
-      std::equal(found.orbit->switches.begin(), found.orbit->switches.end(),
-                 orbit.switches.begin(), orbit.switches.end(),
-                 [](const auto& one, const auto& other) { return one.mode == other.mode; });
+  const bool alike = found.orbit && found.orbit->period_samples() == orbit.period_samples() &&
+                     detail::change_alike(found.orbit->switches, orbit.switches);
   if (found.outcome == OrbitOutcome::certified && !alike)
     found.outcome = OrbitOutcome::not_reproduced;
   return {found.outcome, std::move(found.orbit), found.samples, found.candidates};
@@ -67,18 +81,17 @@ RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
                 extent.share_of_displacement(margins.shortest_travel),
                 // A turn that passes an end by a way s passes it at a speed like √s.
                 std::pow(extent.share_of_velocity(margins.exit_velocity), 2.0)});
-  const double at_reversal =
-      std::min(extent.share_of_velocity(margins.reversal_velocity),
-               std::pow(margins.reversal_acceleration / acceleration, 2.0));
+  const double at_reversal = std::min(extent.share_of_velocity(margins.reversal_velocity),
+                                      std::pow(margins.reversal_acceleration / acceleration, 2.0));
   const double stick = margins.stick_acceleration / acceleration;
   const Multiplier& largest = orbit.multipliers.front();
   RegionLook<MotionBorder> look{-largest.log_modulus, circle_border(largest)};
-  const auto take = [&](double margin, MotionEnd end, SwitchingSurface surface) {
-    if (margin < look.margin) look = {margin, {end, surface, -1, 0, largest}};
+  const auto take = [&](double margin, BorderKind kind, SwitchingSurface surface) {
+    if (margin < look.margin) look = {margin, {kind, surface, -1, 0, largest}};
   };
-  take(at_end, MotionEnd::grazing, SwitchingSurface::gap_upper);
-  take(at_reversal, MotionEnd::grazing, SwitchingSurface::reversal);
-  take(stick, MotionEnd::sliding, SwitchingSurface::reversal);
+  take(at_end, BorderKind::grazing, SwitchingSurface::gap_upper);
+  take(at_reversal, BorderKind::grazing, SwitchingSurface::reversal);
+  take(stick, BorderKind::sliding, SwitchingSurface::reversal);
   return look;
 }
 
@@ -94,11 +107,11 @@ class EventContinuation {
     const auto distance = [&](const Known& known) {
       return std::hypot((known.at.x - x) / unit_.x, (known.at.y - y) / unit_.y);
     };
-    const auto nearest = std::min_element(
-        known_.begin(), known_.end(),
-        [&](const Known& a, const Known& b) { return distance(a) < distance(b); });
+    const auto nearest =
+        std::min_element(known_.begin(), known_.end(),
+                         [&](const Known& a, const Known& b) { return distance(a) < distance(b); });
     auto found = continued_orbit(family_(x, y), nearest->orbit);
-    if (found.outcome != OrbitOutcome::certified) return {-1.0, {MotionEnd::jump}};
+    if (found.outcome != OrbitOutcome::certified) return {-1.0, beyond(nearest->orbit)};
     RegionLook<MotionBorder> look = look_of(*found.orbit);
     if (look.margin > 0.0) remember({{x, y}, std::move(*found.orbit)});
     return look;
@@ -113,6 +126,23 @@ class EventContinuation {
     PlanePoint at;
     Orbit orbit;
   };
+
+  /// Beyond a jump, seen from a motion beside it.
+  static MotionBorder beyond(const Orbit& orbit) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const BorderKind kind = nears_sample(orbit) ? BorderKind::switch_at_sample : BorderKind::jump;
+    return {kind, {}, -1, 0, {none, none}};
+  }
+
+  /// Whether one of the switches lies just beside a sample; those that a sample itself makes lie on
+  /// it.
+  static bool nears_sample(const Orbit& orbit) {
+    constexpr double near = 1e-3, rounding = 1e-9;
+    return std::any_of(orbit.switches.begin(), orbit.switches.end(), [&](const auto& change) {
+      const double apart = std::abs(std::remainder(change.time / orbit.sampling_period, 1.0));
+      return apart < near && apart > rounding;
+    });
+  }
 
   void remember(Known known) {
     constexpr std::size_t most = 64;
