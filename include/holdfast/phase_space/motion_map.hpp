@@ -24,6 +24,7 @@ namespace holdfast {
 /// Where the search of a periodic motion of a cell began.
 enum class MotionOrigin {
   start,      ///< at the initial state
+  state,      ///< at another one that was given
   continued,  ///< a neighbour's motion, continued by the order in which it switches
   neighbour,  ///< at the state of a neighbour's motion that does not go on as it is
 };
@@ -184,11 +185,12 @@ class MotionMapSearch {
                   const Tiles& for_tiles)
       : model_(model), loop_at_(loop_at), shape_(shape), for_tiles_(for_tiles) {}
 
-  std::vector<MapCell> run(const State& start, int most_rounds) {
+  /// @param starts  the initial state, and others
+  std::vector<MapCell> run(const std::vector<State>& starts, int most_rounds) {
     cells_.resize(shape_.cells());
     seeds_.resize(shape_.cells());
     fresh_.resize(shape_.cells());
-    for_each_cell([&](std::size_t cell) { begin(cell, start); });
+    for_each_cell([&](std::size_t cell) { begin(cell, starts); });
     for (int round = 0; round < most_rounds && take_over(); ++round)
       for_each_cell([&](std::size_t cell) { go_on(cell); });
     take_over();
@@ -224,12 +226,15 @@ class MotionMapSearch {
     return any;
   }
 
-  void begin(std::size_t cell, const State& start) {
+  void begin(std::size_t cell, const std::vector<State>& starts) {
     const auto loop = loop_at_(cell);
     if (!loop) return;
-    auto found = model_.from_start(*loop, start);
-    cells_[cell].outcome = found.outcome;
-    if (found.outcome == OrbitOutcome::certified) add(cell, *found.orbit, MotionOrigin::start);
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      auto found = model_.from_start(*loop, starts[k]);
+      if (k == 0) cells_[cell].outcome = found.outcome;
+      if (found.outcome == OrbitOutcome::certified)
+        add(cell, *found.orbit, k == 0 ? MotionOrigin::start : MotionOrigin::state);
+    }
   }
 
   void go_on(std::size_t cell) {
@@ -285,15 +290,18 @@ class MotionMapSearch {
 struct MotionMapOptions {
   /// Of each search; motions of longer periods are not found.
   OrbitLimits limits{10'000, 0, {}};
-  int most_rounds = 1000;  ///< after the first one; 0: from the initial state alone
+  int most_rounds = 1000;  ///< after the first one; 0: from the initial states alone
+  /// Other states from which each cell is searched, each (m, m/s, m, m/s), finite.
+  std::vector<Vector<double, 4>> more_starts{};
 };
 
 /// The periodic motions of many loops that lie beside one another in a plane of two parameters.
 ///
-/// Each cell is searched from the initial state, then from the motions of its neighbours: by
-/// their itinerary where it is that of a motion here too, else from their state; so until no cell
-/// finds another motion. What a cell does not have may still be there: a motion that no neighbour
-/// and no such start comes to. The result depends on no order in which cells are done.
+/// Each cell is searched from the initial state and what others are given, then from the motions of
+/// its neighbours: by their itinerary where it is that of a motion here too, else from their state;
+/// so until no cell finds another motion. What a cell does not have may still be there: a motion
+/// that no neighbour and no such start comes to. The result depends on no order in which cells are
+/// done.
 /// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop: nothing
 ///                   where the parameters are not admissible; called from many threads
 /// @param shape      of the plane
@@ -309,11 +317,13 @@ std::vector<MapCell> motion_map(const LoopAt& loop_at, const MapShape& shape,
   using Model =
       std::conditional_t<std::is_same_v<Loop, IdealLoop<double>>, detail::SampledMapModel<double>,
                          detail::EventMapModel<TwoMass<double>>>;
-  require_finite("initial state", start.sum(), "");
+  std::vector<Vector<double, 4>> starts{start};
+  starts.insert(starts.end(), options.more_starts.begin(), options.more_starts.end());
+  for (const auto& state : starts) require_finite("initial state", state.sum(), "");
   validate(options.limits);
   const Model model{options.limits};
   return detail::MotionMapSearch<Model, LoopAt, Tiles>(model, loop_at, shape, for_tiles)
-      .run(start, options.most_rounds);
+      .run(starts, options.most_rounds);
 }
 
 }  // namespace holdfast

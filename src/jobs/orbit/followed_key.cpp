@@ -2,7 +2,7 @@
 
 #include "case/case_keys.hpp"
 #include "io/text/text.hpp"
-#include "process/exit.hpp"
+#include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {

@@ -14,7 +14,7 @@
 #include "jobs/columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "jobs/orbit/followed_key.hpp"
-#include "process/exit.hpp"
+#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {

@@ -137,7 +137,7 @@ class EventContinuation {
   /// Whether one of the switches lies just beside a sample; those that a sample itself makes lie on
   /// it.
   static bool nears_sample(const Orbit& orbit) {
-    constexpr double near = 1e-3, rounding = 1e-9;
+    constexpr double near = 1e-3, rounding = 1e-12;
     return std::any_of(orbit.switches.begin(), orbit.switches.end(), [&](const auto& change) {
       const double apart = std::abs(std::remainder(change.time / orbit.sampling_period, 1.0));
       return apart < near && apart > rounding;
