@@ -196,9 +196,9 @@ struct BasinsQuestion {
   void add_to(const Job& job) {
     job.add("--axis", axes);
     job.add("--max-period", largest_period);
+    job.add("--fractions", fractions);
     job.add("--along", along);
     job.add("--map", map);
-    job.add("--fractions", fractions);
     job.add("--motions", motions);
     job.add("--switching", switching);
   }
