@@ -147,7 +147,11 @@ TEST(MotionRegion, WithoutBacklashIsThatOfStableGains) {
     }
     if (point.border == next.border) continue;
     const auto order = strong_resonance(point.border, next.border);
-    if (order) ++resonances[*order];
+    if (!order) continue;
+    ++resonances[*order];
+    const double turn = std::acos(-1.0);
+    const double angles[] = {0.0, 0.0, turn, 2.0 * turn / 3.0, turn / 2.0};
+    EXPECT_NEAR(std::abs(point.border.multiplier.angle), angles[*order], *order < 3 ? 0.01 : 1e-6);
   }
   EXPECT_GT(kinds[static_cast<int>(BorderKind::neimark_sacker)], 10);
   EXPECT_GT(kinds[static_cast<int>(BorderKind::fold)], 10);

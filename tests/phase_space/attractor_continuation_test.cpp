@@ -54,9 +54,13 @@ TEST(AttractorMatching, KeepsTheNumbersOfTheNearest) {
   std::vector<int> expected(orbits.size());
   std::iota(expected.begin(), expected.end(), 0);
   EXPECT_EQ(first, expected);
+  // However far they may lie apart, the nearest goes first.
+  AttractorMatching<PeriodicOrbit> loose(10.0);
+  loose.match(orbits);
   std::reverse(orbits.begin(), orbits.end());
   std::reverse(expected.begin(), expected.end());
   EXPECT_EQ(matching.match(orbits), expected);
+  EXPECT_EQ(loose.match(orbits), expected);
   // One is gone, and comes back as another.
   orbits.pop_back();
   expected.pop_back();

@@ -105,7 +105,7 @@ class CaseOfMap {
 std::string meeting_of(const MotionBorder& one, const MotionBorder& other) {
   if (const auto order = strong_resonance(one, other))
     return "resonance_1_" + std::to_string(*order);
-  if (one.kind == BorderKind::window || other.kind == BorderKind::window) return "";
+  if (one.kind == BorderKind::window || other.kind == BorderKind::window) return "none";
   const std::string a = name_in(border_names, one.kind), b = name_in(border_names, other.kind);
   return a < b ? a + "+" + b : b + "+" + a;
 }
@@ -154,7 +154,7 @@ void write_region(const JobContext& context, const std::vector<MapKey>& keys,
                                     : "gap_end";
     table.row(piece, name_in(border_names, border.kind), surface, border.sample, points[k].x,
               points[k].y, std::exp(border.multiplier.log_modulus), border.multiplier.angle,
-              begins && !(border == before) ? meeting_of(before, border) : std::string());
+              begins && !(border == before) ? meeting_of(before, border) : std::string("none"));
   }
   table.commit();
   if (!region.closed)

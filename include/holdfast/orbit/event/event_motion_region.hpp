@@ -68,6 +68,11 @@ OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
   return {found.outcome, std::move(found.orbit), found.samples, found.candidates};
 }
 
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitResultOf<EventOrbit> continued_orbit(const ImplementedLoop&,
+                                                          const EventOrbit&);
+#endif
+
 namespace detail {
 
 /// What is least of a motion between the samples: its margins as shares of its size.
