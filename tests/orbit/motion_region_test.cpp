@@ -14,7 +14,7 @@ IdealLoop<double> mapped_loop(double period, double width) {
   return {kollar2022_plant(), {period, 0.0}, {-557.0, -13.0}, {0.5, 10.0}, width};
 }
 
-PeriodicOrbit orbit_of(const IdealLoop<double>& loop) {
+PeriodicOrbit mapped_orbit(const IdealLoop<double>& loop) {
   const auto found = find_periodic_orbit(loop, Vector<double, 4>::Zero());
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return *found.orbit;
@@ -50,7 +50,7 @@ bool encloses(const MotionRegion& region, double x, double y) {
 
 TEST(MotionRegion, TheMotionLastsJustInsideAndNowhereJustOutside) {
   const IdealLoop<double> loop = mapped_loop(0.001, 0.0005);
-  const PeriodicOrbit orbit = orbit_of(loop);
+  const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = over_width_and_gain(loop);
   const ParameterWindow window{0.0004, 0.0006, -15.0, -11.0};
   const MotionRegion region = motion_region(family, orbit, window, {0.0005, -13.0});
@@ -75,7 +75,7 @@ TEST(MotionRegion, TheMotionLastsJustInsideAndNowhereJustOutside) {
 
 TEST(MotionRegion, RandomPointsOfTheWindowAreInsideWhereTheMotionLasts) {
   const IdealLoop<double> loop = mapped_loop(0.01, 0.002);
-  const PeriodicOrbit orbit = orbit_of(loop);
+  const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = over_width_and_gain(loop);
   const ParameterWindow window{0.0015, 0.0025, -16.0, -8.0};
   const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});
@@ -96,7 +96,7 @@ TEST(MotionRegion, RandomPointsOfTheWindowAreInsideWhereTheMotionLasts) {
 
 TEST(MotionRegion, OfBacklashAndForceIsBoundedByRays) {
   const IdealLoop<double> loop = mapped_loop(0.001, 0.002);
-  const PeriodicOrbit orbit = orbit_of(loop);
+  const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = [&](double width, double force) {
     IdealLoop<double> other = loop;
     other.backlash_width = width;
@@ -120,7 +120,7 @@ TEST(MotionRegion, OfBacklashAndForceIsBoundedByRays) {
 
 TEST(MotionRegion, WithoutBacklashIsThatOfStableGains) {
   const IdealLoop<double> loop = mapped_loop(0.01, 0.0);
-  const PeriodicOrbit orbit = orbit_of(loop);
+  const PeriodicOrbit orbit = mapped_orbit(loop);
   const auto family = [&](double p, double d) {
     IdealLoop<double> other = loop;
     other.gains = {p, d};
@@ -163,7 +163,7 @@ TEST(MotionRegion, WithoutBacklashIsThatOfStableGains) {
 
 TEST(MotionRegion, RefusesAWindowThatDoesNotHoldTheMotion) {
   const IdealLoop<double> loop = mapped_loop(0.001, 0.0005);
-  const PeriodicOrbit orbit = orbit_of(loop);
+  const PeriodicOrbit orbit = mapped_orbit(loop);
   EXPECT_THROW(motion_region(over_width_and_gain(loop), orbit, {0.0001, 0.0004, -15.0, -11.0},
                              {0.0005, -13.0}),
                InvalidParameter);

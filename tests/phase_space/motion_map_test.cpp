@@ -32,9 +32,9 @@ struct PaperPlane {
   }
 };
 
-const PaperPlane plane{{16, 5}, {0.001, 0.003, 0.005, 0.01, 0.011}};
+const PaperPlane paper_plane{{16, 5}, {0.001, 0.003, 0.005, 0.01, 0.011}};
 
-std::vector<MapCell> map_of(const PaperPlane& which, const MotionMapOptions& options = {}) {
+std::vector<MapCell> map_of_plane(const PaperPlane& which, const MotionMapOptions& options = {}) {
   return motion_map([&](std::size_t cell) { return std::optional(which.loop(cell)); }, which.shape,
                     Vector<double, 4>(Vector<double, 4>::Zero()), one_by_one, options);
 }
@@ -42,9 +42,9 @@ std::vector<MapCell> map_of(const PaperPlane& which, const MotionMapOptions& opt
 TEST(MotionMap, AgreesWithPlainSimulationInEveryCell) {
   MotionMapOptions options;
   options.most_rounds = 0;
-  const std::vector<MapCell> cells = map_of(plane, options);
+  const std::vector<MapCell> cells = map_of_plane(paper_plane, options);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    const IdealLoop<double> loop = plane.loop(cell);
+    const IdealLoop<double> loop = paper_plane.loop(cell);
     const std::int64_t coincidence = forcing_ratio(loop)->denominator;
     const test::PlainLoop plain{loop.sampling.period,
                                 loop.backlash_width,
@@ -63,9 +63,9 @@ TEST(MotionMap, AgreesWithPlainSimulationInEveryCell) {
 TEST(MotionMap, KnowsThePapersMotionsAndThatTheyCoexist) {
   MotionMapOptions options;
   options.more_starts = {{1e-5, 0.0, 0.0, 0.0}};
-  const std::vector<MapCell> cells = map_of(plane, options);
+  const std::vector<MapCell> cells = map_of_plane(paper_plane, options);
   // The last row has r₀ = 2 mm.
-  const MapCell* const row = &cells[cells.size() - plane.shape.columns];
+  const MapCell* const row = &cells[cells.size() - paper_plane.shape.columns];
   EXPECT_EQ(row[0].from_start()->forcing_periods, 5);
   EXPECT_EQ(row[3].from_start()->forcing_periods, 3);
   EXPECT_EQ(row[4].from_start()->forcing_periods, 231);
@@ -76,10 +76,10 @@ TEST(MotionMap, KnowsThePapersMotionsAndThatTheyCoexist) {
 }
 
 TEST(MotionMap, DependsOnNoOrderOfTheCells) {
-  const auto loop_at = [&](std::size_t cell) { return std::optional(plane.loop(cell)); };
+  const auto loop_at = [&](std::size_t cell) { return std::optional(paper_plane.loop(cell)); };
   const Vector<double, 4> rest = Vector<double, 4>::Zero();
-  const auto forwards = motion_map(loop_at, plane.shape, rest, one_by_one);
-  const auto backwards = motion_map(loop_at, plane.shape, rest, from_the_end);
+  const auto forwards = motion_map(loop_at, paper_plane.shape, rest, one_by_one);
+  const auto backwards = motion_map(loop_at, paper_plane.shape, rest, from_the_end);
   ASSERT_EQ(forwards.size(), backwards.size());
   for (std::size_t cell = 0; cell < forwards.size(); ++cell) {
     ASSERT_EQ(forwards[cell].motions.size(), backwards[cell].motions.size());
@@ -91,7 +91,7 @@ TEST(MotionMap, DependsOnNoOrderOfTheCells) {
 TEST(MotionMap, ContinuesAMotionOverTheCellsThatItsRegionHolds) {
   // So near to one another that the motion of 1 ms, 0.5 mm goes on in all of them.
   const auto loop_at = [](std::size_t cell) {
-    IdealLoop<double> loop = plane.loop(0);
+    IdealLoop<double> loop = paper_plane.loop(0);
     loop.backlash_width += 1e-7 * static_cast<double>(cell);
     return std::optional(loop);
   };
@@ -107,7 +107,7 @@ TEST(MotionMap, ContinuesAMotionOverTheCellsThatItsRegionHolds) {
 
 TEST(MotionMap, SwitchedExactlyThereIsOneMotionOfOneCoincidence) {
   const auto loop_at = [](std::size_t cell) {
-    ImplementedLoop loop = implemented_loop(plane.loop(cell));
+    ImplementedLoop loop = implemented_loop(paper_plane.loop(cell));
     loop.switching = Switching::exact;
     return std::optional(loop);
   };
@@ -117,13 +117,13 @@ TEST(MotionMap, SwitchedExactlyThereIsOneMotionOfOneCoincidence) {
     const MapCell& cell = cells[k];
     ASSERT_EQ(cell.outcome, OrbitOutcome::certified);
     EXPECT_EQ(cell.motions.size(), 1U);
-    EXPECT_EQ(cell.from_start()->period_samples, forcing_ratio(plane.loop(k))->denominator);
+    EXPECT_EQ(cell.from_start()->period_samples, forcing_ratio(paper_plane.loop(k))->denominator);
   }
 }
 
 TEST(MotionMap, ACellThatIsNotAdmissibleStaysEmpty) {
   const auto loop_at = [](std::size_t cell) {
-    return cell == 1 ? std::nullopt : std::optional(plane.loop(0));
+    return cell == 1 ? std::nullopt : std::optional(paper_plane.loop(0));
   };
   const auto cells =
       motion_map(loop_at, {1, 3}, Vector<double, 4>(Vector<double, 4>::Zero()), one_by_one);

@@ -112,7 +112,9 @@ class PlainMotion {
 /// many as fit into the samples.
 ///
 /// At 128, 256, 512, … coincidences the state is kept; the motion has a period where it comes back
-/// to that within 10⁻⁹ of its extent in the same contact, and does so twice more.
+/// to that within 10⁻⁹ of its extent in the same contact, does so twice more, and has the same
+/// period from the next of these instants on: what is left of a deviation that turns may come back
+/// sooner than it decays.
 inline std::int64_t plain_period(const PlainLoop& loop, std::int64_t most_samples) {
   PlainMotion motion(loop);
   PlainMotion::State extent{};
@@ -129,14 +131,16 @@ inline std::int64_t plain_period(const PlainLoop& loop, std::int64_t most_sample
       all = std::abs(motion.state()[i] - kept[i]) <= 1e-9 * extent[i];
     return all;
   };
+  std::int64_t before = 0;
   for (std::int64_t settled = 128; 2 * settled * loop.coincidence <= most_samples; settled *= 2) {
     while (taken < settled) step();
     const PlainMotion::State kept = motion.state();
     const bool inside = motion.inside();
+    const std::int64_t start = taken;
     std::int64_t period = 0;
-    while (taken < 2 * settled && period == 0) {
+    while (taken < start + settled && period == 0) {
       step();
-      if (near(kept, inside)) period = taken - settled;
+      if (near(kept, inside)) period = taken - start;
     }
     if (period == 0) continue;
     bool again = true;
@@ -144,7 +148,8 @@ inline std::int64_t plain_period(const PlainLoop& loop, std::int64_t most_sample
       for (std::int64_t k = 0; k < period; ++k) step();
       again = near(kept, inside);
     }
-    if (again) return period;
+    if (again && period == before) return period;
+    before = again ? period : 0;
   }
   return 0;
 }

@@ -13,7 +13,7 @@ ImplementedLoop exact_loop(double period, double width) {
   return exact;
 }
 
-EventOrbit orbit_of(const ImplementedLoop& loop) {
+EventOrbit exact_orbit(const ImplementedLoop& loop) {
   const auto found = find_event_orbit(event_motion(loop, Vector<double, 4>::Zero().eval()));
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
   return *found.orbit;
@@ -30,12 +30,12 @@ auto over_width_and_force(const ImplementedLoop& loop) {
 }
 
 TEST(ContinuedOrbit, IsThatWhichTheSearchFinds) {
-  const EventOrbit orbit = orbit_of(exact_loop(0.001, 0.0005));
+  const EventOrbit orbit = exact_orbit(exact_loop(0.001, 0.0005));
   for (const double width : {0.00045, 0.00055}) {
     const ImplementedLoop other = exact_loop(0.001, width);
     const auto found = continued_orbit(other, orbit);
     ASSERT_EQ(found.outcome, OrbitOutcome::certified);
-    const EventOrbit alone = orbit_of(other);
+    const EventOrbit alone = exact_orbit(other);
     ASSERT_EQ(found.orbit->switches.size(), alone.switches.size());
     for (std::size_t j = 0; j < alone.states.size(); ++j)
       EXPECT_LT((found.orbit->states[j] - alone.states[j]).norm(), 1e-12);
@@ -43,7 +43,7 @@ TEST(ContinuedOrbit, IsThatWhichTheSearchFinds) {
 }
 
 TEST(ContinuedOrbit, IsNotReproducedWhereItSwitchesOtherwise) {
-  const EventOrbit orbit = orbit_of(exact_loop(0.001, 0.0022));
+  const EventOrbit orbit = exact_orbit(exact_loop(0.001, 0.0022));
   EXPECT_EQ(continued_orbit(exact_loop(0.001, 0.00225), orbit).outcome, OrbitOutcome::certified);
   EXPECT_EQ(continued_orbit(exact_loop(0.001, 0.00226), orbit).outcome,
             OrbitOutcome::not_reproduced);
@@ -52,7 +52,7 @@ TEST(ContinuedOrbit, IsNotReproducedWhereItSwitchesOtherwise) {
 TEST(EventMotionRegion, OfBacklashAndForceIsBoundedByRays) {
   const ImplementedLoop loop = exact_loop(0.001, 0.0022);
   const auto family = over_width_and_force(loop);
-  const MotionRegion region = motion_region(family, orbit_of(loop), {0.002, 0.003, 0.4, 0.6},
+  const MotionRegion region = motion_region(family, exact_orbit(loop), {0.002, 0.003, 0.4, 0.6},
                                             {0.0022, 0.5}, {0.2, 1e-3, 1e-6});
   ASSERT_TRUE(region.closed);
   int on_border = 0;
@@ -74,7 +74,7 @@ TEST(EventMotionRegion, AtASlidingBorderAReversalBeginsOrEndsToStick) {
     other.digital.gains.differential = gain;
     return other;
   };
-  const MotionRegion region = motion_region(family, orbit_of(loop), {0.0017, 0.0019, -14.0, 0.0},
+  const MotionRegion region = motion_region(family, exact_orbit(loop), {0.0017, 0.0019, -14.0, 0.0},
                                             {0.0018, -13.0}, {0.2, 1e-3, 1e-6});
   ASSERT_TRUE(region.closed);
   int slides = 0;
