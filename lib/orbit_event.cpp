@@ -1,4 +1,5 @@
 // Explicit instantiations of orbit/event, for every contact that a loop may have.
+#include "holdfast/orbit/event/event_motion_region.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 
 namespace holdfast {
@@ -7,5 +8,7 @@ template EventOrbitResult<DriveContact<>> find_event_orbit(const EventMotion<Dri
                                                            const OrbitLimits&);
 template EventOrbitResult<DriveContact<ControlledPlant>> find_event_orbit(
     const EventMotion<DriveContact<ControlledPlant>>&, const OrbitLimits&);
+
+template OrbitResultOf<EventOrbit> continued_orbit(const ImplementedLoop&, const EventOrbit&);
 
 }  // namespace holdfast

@@ -1,4 +1,6 @@
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
@@ -8,6 +10,7 @@
 #include "case/model/modal/modes_warning.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/event_basins.hpp"
 #include "holdfast/phase_space/modal_basins.hpp"
@@ -15,6 +18,7 @@
 #include "io/grid/grid_output.hpp"
 #include "job.hpp"
 #include "jobs/charts/row_blocks.hpp"
+#include "jobs/orbit/motion_cells.hpp"
 #include "kernels/pack_kernels.hpp"
 
 namespace holdfast::program {
@@ -160,37 +164,61 @@ void require_attractors(const std::optional<Rational>& ratio, std::int64_t large
   }
 }
 
+/// Deals tiles of states out to threads.
+auto tiles_on(const JobContext& context) {
+  return [&context](std::size_t count, std::size_t tile, const auto& job) {
+    parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
+                  context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
+                    throw_if_interrupted();
+                    job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
+                  });
+  };
+}
+
+/// Moves states on in packs.
+auto travel_of(const JobContext& context) {
+  return [&context](const auto& motion) {
+    return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
+  };
+}
+
 /// Which attractor every initial state of a grid comes to: its number from 1 on in the order of the
 /// rows, 0 where the motion diverges, −1 where no orbit is found; and its period.
 struct BasinsQuestion {
   std::vector<std::string> axes;          ///< KEY=MIN:MAX:COUNT, two of initial.*
+  std::optional<std::string> along;       ///< KEY=MIN:MAX:COUNT: shares of the states at each value
+  std::vector<std::string> map;           ///< KEY=MIN:MAX:COUNT, two: cells in place of states
   std::int64_t largest_period = 100'000;  ///< samples
   bool fractions = false;  ///< a row for each attractor instead of one for each state
+  bool motions = false;    ///< of a map a row for each motion instead of one for each cell
   Switching switching = Switching::sampled;
 
   void add_to(const Job& job) {
     job.add("--axis", axes);
     job.add("--max-period", largest_period);
     job.add("--fractions", fractions);
+    job.add("--along", along);
+    job.add("--map", map);
+    job.add("--motions", motions);
     job.add("--switching", switching);
   }
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
+    refuse_on_modes(the_case, !map.empty(), "--map");
+    refuse_on_modes(the_case, along.has_value(), "--along");
+    if (motions && map.empty()) throw WrongInput("--motions is of a map: give --map");
+    if (!map.empty()) {
+      const auto more = axes.empty() ? States{} : states_of(context, grid_of(axes));
+      return write_motion_cells(context, {map, largest_period, switching, motions, more});
+    }
     const StateGrid grid = grid_of(axes);
-    for (const KeyAxis& axis : {grid.slow, grid.fast}) require_admissible_ends(axis, context);
-    const auto states = grid.states(the_case);
-    const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-    // Deals tiles of states out to threads.
-    const auto tiles = [&](std::size_t count, std::size_t tile, const auto& job) {
-      parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
-                    context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
-                      throw_if_interrupted();
-                      job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
-                    });
-    };
-    const auto write = [&](const auto& map) {
-      fractions ? write_fractions(context, map) : write_states(context, grid, map);
+    const States states = states_of(context, grid);
+    if (along) return follow(context, states);
+    const OrbitLimits limits = search_limits();
+    const auto tiles = tiles_on(context);
+    const auto write = [&](const auto& found) {
+      fractions ? write_fractions(context, found) : write_states(context, grid, found);
     };
     const bool of_paper = is_of_the_paper(the_case, switching);
     if (is_modal(the_case) && of_paper) {
@@ -206,17 +234,86 @@ struct BasinsQuestion {
     } else if (of_paper) {
       const IdealLoop<double> loop = ideal_loop_of(the_case);
       require_attractors(forcing_ratio(loop), largest_period);
-      const auto travel = [&](const auto& motion) {
-        return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
-      };
-      write(find_basins_by(travel, loop, states, limits, tiles));
+      write(find_basins_by(travel_of(context), loop, states, limits, tiles));
     } else {
       const ImplementedLoop loop = implemented_loop_of(the_case, switching);
       require_attractors(forcing_ratio(loop.digital), largest_period);
       write(find_basins(loop, states, limits, tiles));
     }
   }
+
+ private:
+  using States = std::vector<Vector<double, 4>>;
+
+  static States states_of(const JobContext& context, const StateGrid& grid) {
+    for (const KeyAxis& axis : {grid.slow, grid.fast}) require_admissible_ends(axis, context);
+    return grid.states(context.case_data);
+  }
+
+  OrbitLimits search_limits() const { return {largest_period, 0, throw_if_interrupted}; }
+
+  void follow(const JobContext& context, const std::vector<Vector<double, 4>>& states) const;
 };
+
+/// Attractors are still one where they lie nearer than this share of their extent.
+constexpr double largest_orbit_distance = 0.1;
+
+template <class Orbit>
+void write_followed(Table& table, double value, const FollowedBasins<Orbit>& followed,
+                    std::size_t states) {
+  for (const auto& attractor : followed.attractors) {
+    const Orbit& orbit = attractor.orbit;
+    table.row(value, attractor.number + 1, orbit.period_samples(), orbit.period(),
+              orbit.forcing_periods(), orbit.amplitude(), orbit.largest_multiplier(),
+              attractor.states, attractor.fraction, attractor.standard_error);
+  }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [number, count] :
+       {std::pair{0, followed.diverging}, std::pair{-1, followed.unknown}}) {
+    if (count == 0) continue;
+    const double fraction = static_cast<double>(count) / static_cast<double>(states);
+    table.row(value, number, 0, none, 0, none, none, count, fraction,
+              std::sqrt(fraction * (1.0 - fraction) / static_cast<double>(states)));
+  }
+}
+
+/// A row for each attractor at each value of a key.
+void BasinsQuestion::follow(const JobContext& context,
+                            const std::vector<Vector<double, 4>>& states) const {
+  const KeyAxis axis = parse_key_axis("--along", *along);
+  case_value(context.case_data, axis.key);  // throws where there is no such number
+  for (const double end : {axis.axis.min, axis.axis.max})
+    case_with(context.case_data, axis.key, end);
+  const double all = static_cast<double>(states.size()) * static_cast<double>(axis.axis.count);
+  if (all > most_states)
+    throw WrongInput("--along " + *along + ": " + format_number(all) + " motions are more than " +
+                     format_number(most_states));
+  Table table(context, columns_of("followed basins", {{"key", axis.key}}));
+  const auto tiles = tiles_on(context);
+  const auto each_value = [&](auto continuation, const auto& find) {
+    for (std::int64_t k = 0; k < axis.axis.count; ++k) {
+      const double value = axis.axis.at(k);
+      const Case there = case_with(context.case_data, axis.key, value);
+      write_followed(table, value,
+                     continuation.next([&](const auto& starts) { return find(there, starts); }),
+                     states.size());
+    }
+  };
+  if (is_of_the_paper(context.case_data, switching)) {
+    each_value(AttractorContinuation<PeriodicOrbit>(states, largest_orbit_distance),
+               [&](const Case& there, const auto& starts) {
+                 return find_basins_by(travel_of(context), ideal_loop_of(there), starts,
+                                       search_limits(), tiles);
+               });
+  } else {
+    each_value(AttractorContinuation<EventOrbit>(states, largest_orbit_distance),
+               [&](const Case& there, const auto& starts) {
+                 return find_basins(implemented_loop_of(there, switching), starts, search_limits(),
+                                    tiles);
+               });
+  }
+  table.commit();
+}
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 #include <limits>
 #include <utility>
+#include <vector>
 
-#include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
@@ -13,6 +13,8 @@
 #include "job.hpp"
 #include "jobs/motion/motion_columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
+#include "jobs/orbit/followed_key.hpp"
+#include "jobs/orbit/motion_borders.hpp"
 #include "jobs/orbit/proved_orbit.hpp"
 
 namespace holdfast::program {
@@ -24,6 +26,7 @@ struct OrbitQuestion {
   bool certificate = false;
   std::optional<std::string> follow;
   bool prove = false;
+  std::vector<std::string> map;
   Switching switching = Switching::sampled;
 
   void add_to(const Job& job) {
@@ -32,6 +35,7 @@ struct OrbitQuestion {
     job.add("--certificate", certificate);
     job.add("--follow", follow);
     job.add("--prove", prove);
+    job.add("--map", map);
     job.add("--switching", switching);
   }
   void run(const JobContext& context) const;
@@ -189,47 +193,6 @@ void write_orbit_trace(const JobContext& context, const OrbitQuestion& options) 
   table.commit();
 }
 
-std::pair<std::string, Range> parse_key_range(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) throw WrongInput("--follow " + text + ": expected KEY=MIN:MAX");
-  return {text.substr(0, equals), parse_range("--follow", text.substr(equals + 1))};
-}
-
-bool moves_the_orbit(const std::string& key) {
-  const bool of_the_loop = key == "control.proportional_gain" ||
-                           key == "control.differential_gain" || key == "control.processing_delay";
-  return of_the_loop || key.rfind("plant.", 0) == 0 || key == "backlash.width" ||
-         key == "excitation.amplitude";
-}
-
-/// The case's value of the key, which the orbit can be followed along within the range.
-double followed_value(const Case& the_case, const std::string& key, const std::string& axis,
-                      const Range& range) {
-  const double value = case_value(the_case, key);
-  if (key == "control.sampling_period" || key == "excitation.frequency")
-    throw WrongInput("--follow " + key +
-                     ": another value changes how sampling and excitation coincide, so the orbit "
-                     "cannot be followed along it");
-  if (!moves_the_orbit(key))
-    throw WrongInput(
-        "--follow " + key +
-        ": expected control.proportional_gain, differential_gain or processing_delay, a key "
-        "of [plant], backlash.width or excitation.amplitude");
-  const CaseKey& known = *find_case_key(key);
-  for (const double end : {range.min, range.max}) {
-    if (!known.range.contains(end))
-      throw WrongInput("--follow " + axis + ": " + key + " must be " + known.admissible());
-  }
-  if (!(range.min <= value && value <= range.max))
-    throw WrongInput("--follow " + axis + ": the case's " + key + " = " + format_number(value) +
-                     " lies outside");
-  if (key == "backlash.width" && value == 0.0)
-    throw WrongInput(
-        "--follow backlash.width: the case has no backlash, where the rule is another one; set a "
-        "width greater than 0 m");
-  return value;
-}
-
 constexpr Named<BranchEndOutcome> branch_end_names[] = {
     {BranchEndOutcome::border_collision, "border_collision"},
     {BranchEndOutcome::unit_circle, "unit_circle"},
@@ -239,8 +202,8 @@ constexpr Named<BranchEndOutcome> branch_end_names[] = {
 /// @param axis  KEY=MIN:MAX
 void write_branch_ends(const JobContext& context, std::int64_t largest_period,
                        const std::string& axis) {
-  const auto [key, range] = parse_key_range(axis);
-  const double value = followed_value(context.case_data, key, axis, range);
+  const auto [key, range] = parse_key_range("--follow", axis);
+  const double value = followed_value(context.case_data, "--follow", axis, key, range, false);
   Table table(context, columns_of("branch ends"));
   const PeriodicOrbit orbit =
       certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
@@ -297,6 +260,8 @@ void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
 }
 
 void OrbitQuestion::run(const JobContext& context) const {
+  refuse_on_modes(context.case_data, !map.empty(), "--map");
+  if (!map.empty()) return write_motion_borders(context, map, largest_period, switching);
   const std::string option = prove ? "--prove" : "--follow";
   refuse_on_modes(context.case_data, prove || follow, option);
   if ((prove || follow) && !is_of_the_paper(context.case_data, switching))

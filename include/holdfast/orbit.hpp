@@ -3,6 +3,7 @@
 /// Periodic orbits, their certificates, proofs and continuation.
 
 #include "holdfast/orbit/cyclic_system.hpp"
+#include "holdfast/orbit/event/event_motion_region.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/event/return_map.hpp"
@@ -11,6 +12,8 @@
 #include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_itinerary_maps.hpp"
 #include "holdfast/orbit/modal/modal_orbit_search.hpp"
+#include "holdfast/orbit/motion_border.hpp"
+#include "holdfast/orbit/motion_region.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"

@@ -2,6 +2,7 @@
 
 /// Basins, sections, diagrams.
 
+#include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/coverage.hpp"
@@ -9,5 +10,6 @@
 #include "holdfast/phase_space/event_basins.hpp"
 #include "holdfast/phase_space/modal_basins.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
+#include "holdfast/phase_space/motion_map.hpp"
 #include "holdfast/phase_space/orbit_diagram.hpp"
 #include "holdfast/phase_space/section.hpp"

@@ -708,6 +708,26 @@ class Case:
         ]
         return self._run("orbit", words, how)
 
+    def orbit_borders(
+        self,
+        keys: Mapping[str, Interval],
+        *,
+        max_period: Optional[int] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
+        """The border of the region of two keys in which the orbit is and attracts, in pieces, each named by what
+        ends it. Columns ``piece, border, surface, sample``, the two keys, ``largest_multiplier,
+        multiplier_angle_rad, meeting``.
+
+        :param keys: two, each with its (min, max): ``{"backlash.width": (0.0003, 0.001), …}``; along
+            ``control.sampling_period`` or ``excitation.frequency`` the other goes with it
+        :param switching: ``"sampled"`` or ``"exact"``
+        """
+        words = [f"--map={key}={_options.interval_text(ends, key)}" for key, ends in keys.items()]
+        words += _options.arguments({"max_period": max_period, "switching": switching})
+        return self._run("orbit", words, how)
+
     def lyapunov(
         self,
         *,
@@ -771,6 +791,51 @@ class Case:
             {"fractions": fractions, "duration": duration, "max_period": max_period, "switching": switching}
         )
         return self._run("basins", words, {**how, "store": store})
+
+    def motions(
+        self,
+        keys: Mapping[str, Range],
+        *,
+        starts: Optional[Mapping[str, Range]] = None,
+        each: bool = False,
+        max_period: Optional[int] = None,
+        switching: Optional[str] = None,
+        store: Optional[Path] = None,
+        **how: Any,
+    ) -> Union[Table, Store]:
+        """The periodic motions in the cells of a plane of two keys: what the case's initial state comes to, and how
+        many coexist. Columns ``outcome, forcing_periods, period_s, amplitude_m, border_share, motions, …`` over the
+        two keys.
+
+        :param keys: two, each with (min, max, count)
+        :param starts: further initial states of each cell, as the axes of :meth:`basins`
+        :param each: a row for each motion of each cell instead
+        """
+        words = _options.axes_texts(keys, 2, "--map")
+        words += _options.axes_texts(starts, 2) if starts else []
+        words += _options.arguments({"motions": each, "max_period": max_period, "switching": switching})
+        return self._run("basins", words, {**how, "store": store})
+
+    def basins_along(
+        self,
+        key: str,
+        values: Range,
+        axes: Mapping[str, Range],
+        *,
+        max_period: Optional[int] = None,
+        switching: Optional[str] = None,
+        **how: Any,
+    ) -> Table:
+        """The attractors at each value of a key, recognised from value to value, with the shares of the initial
+        states of a grid that come to them and their standard errors.
+
+        :param key: ``"backlash.width"``
+        :param values: (min, max, count) of it
+        :param axes: as of :meth:`basins`
+        """
+        words = _options.axes_texts({key: values}, 1, "--along") + _options.axes_texts(axes, 2)
+        words += _options.arguments({"max_period": max_period, "switching": switching})
+        return self._run("basins", words, how)
 
     def diagram(
         self,

@@ -104,13 +104,13 @@ def key_axis_text(key: str, value: Any) -> str:
     return f"{key}={list_text(value, key)}"
 
 
-def axes_texts(axes: Mapping[str, Any], exactly: int | None = None) -> list[str]:
-    """``--axis`` options of a mapping from keys of the case to their values."""
+def axes_texts(axes: Mapping[str, Any], exactly: int | None = None, option: str = "--axis") -> list[str]:
+    """``--axis`` options, or others, of a mapping from keys of the case to their values."""
     if not isinstance(axes, Mapping):
         raise TypeError(f"axes are a dict from keys of the case to their values, not {axes!r}")
     if exactly is not None and len(axes) != exactly:
         raise ValueError(f"{len(axes)} axes: admissible are {exactly}")
-    return [text for key, value in axes.items() for text in ("--axis", key_axis_text(key, value))]
+    return [text for key, value in axes.items() for text in (option, key_axis_text(key, value))]
 
 
 def arguments(options: Mapping[str, Any]) -> list[str]:

@@ -58,6 +58,23 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
   EXPECT_EQ(header_of("orbit --follow backlash.width=0:0.001"),
             "side,outcome,position,distance,surface,sample,largest_multiplier,"
             "multiplier_angle_rad");
+  EXPECT_EQ(header_of("orbit --map backlash.width=0.0004:0.0006 --map "
+                      "control.differential_gain=-14:-12"),
+            "piece,border,surface,sample,backlash.width,control.differential_gain,"
+            "largest_multiplier,multiplier_angle_rad,meeting");
+  const std::string cells =
+      "basins --map backlash.width=0.001:0.002:2 --map control.sampling_period=0.01:0.011:2";
+  EXPECT_EQ(header_of(cells),
+            "backlash.width,control.sampling_period,outcome,forcing_periods,period_s,amplitude_m,"
+            "border_share,motions,least_forcing_periods,most_forcing_periods,least_amplitude_m,"
+            "most_amplitude_m");
+  EXPECT_EQ(header_of(cells + " --motions"),
+            "backlash.width,control.sampling_period,motion,period_samples,period_s,"
+            "forcing_periods,amplitude_m,largest_multiplier,border_share,found_from");
+  EXPECT_EQ(header_of("basins --along backlash.width=0.001:0.002:2 --axis initial.z1=0:0.001:2 "
+                      "--axis initial.v2=0:0.1:2"),
+            "backlash.width,attractor,period_samples,period_s,forcing_periods,amplitude_m,"
+            "largest_multiplier,states,fraction,standard_error");
   EXPECT_EQ(header_of("basins --axis initial.z1=0:0.001:2 --axis initial.v2=0:0.1:2"),
             "initial.z1,initial.v2,attractor,period_s");
   EXPECT_EQ(header_of("section --duration 1 --from 0.5"),

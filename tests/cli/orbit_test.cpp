@@ -94,6 +94,75 @@ TEST(OrbitJob, FollowsTheOrbitToBothItsEnds) {
   for (const std::size_t row : {0U, 1U}) EXPECT_EQ(table.text(row, "outcome"), "border_collision");
 }
 
+TEST(OrbitJob, TheBorderOverTwoKeysHoldsTheEndsAlongOne) {
+  const CsvTable ends = table_of("orbit --follow backlash.width=0.001:0.003" + slow);
+  const CsvTable border = table_of(
+      "orbit --map backlash.width=0.0015:0.0025 --map control.differential_gain=-15:-10" + slow);
+  double below = 0.0, above = 1.0, nearest = 1.0;
+  for (std::size_t row = 0; row < border.rows(); ++row) {
+    EXPECT_EQ(border.text(row, "border"), "border_collision");
+    // The walk begins on the row of the case, to the right of it.
+    const double height = std::abs(border.number(row, "control.differential_gain") + 13.0);
+    if (height < nearest) above = border.number(row, "backlash.width");
+    nearest = std::min(nearest, height);
+    below = std::max(below, border.number(row, "backlash.width"));
+  }
+  EXPECT_LT(nearest, 0.01);
+  EXPECT_GT(below, ends.number(1, "position"));
+  EXPECT_NEAR(above, ends.number(above < 0.002 ? 0 : 1, "position"), 2e-6);
+}
+
+TEST(OrbitJob, AlongTheSamplingPeriodTheForceKeepsItsPhases) {
+  const CsvTable border = table_of(
+      "orbit --map control.sampling_period=0.0009:0.0012 --map backlash.width=0.0003:0.0007");
+  double shortest = 1.0, longest = 0.0;
+  for (std::size_t row = 0; row < border.rows(); ++row) {
+    shortest = std::min(shortest, border.number(row, "control.sampling_period"));
+    longest = std::max(longest, border.number(row, "control.sampling_period"));
+  }
+  EXPECT_LT(shortest, 0.99e-3);
+  EXPECT_GT(longest, 1.01e-3);
+  // Inside, away from the case, with the frequency that goes with the period.
+  const CsvTable there = table_of(
+      "orbit --certificate --set control.sampling_period=0.001005 --set "
+      "excitation.frequency=9.950248756218906");
+  EXPECT_EQ(quantity(there, "coincidence_samples"), 100.0);
+}
+
+TEST(OrbitJob, NamesTheBordersOfExactSwitching) {
+  const CsvTable border = table_of(
+      "orbit --switching exact --map backlash.width=0.0017:0.0019 --map "
+      "control.differential_gain=-3:0 --set backlash.width=0.0018 --set "
+      "control.differential_gain=-2.8");
+  bool slides = false;
+  for (std::size_t row = 0; row < border.rows(); ++row)
+    slides = slides || border.text(row, "border") == "sliding";
+  EXPECT_TRUE(slides);
+}
+
+TEST(BasinsJob, AMapKnowsTheLongPeriodOfTheIrregularMotion) {
+  const CsvTable map = table_of(
+      "basins --map backlash.width=0.001:0.002:2 --map control.sampling_period=0.01:0.011:2");
+  ASSERT_EQ(map.rows(), 4U);
+  EXPECT_EQ(map.number(3, "forcing_periods"), 231.0);
+  EXPECT_EQ(map.number(2, "forcing_periods"), 3.0);
+  EXPECT_EQ(map.number(1, "period_s"), 18.7);
+  for (std::size_t row = 0; row < 4; ++row) {
+    EXPECT_EQ(map.text(row, "outcome"), "certified");
+    EXPECT_GE(map.number(row, "motions"), 1.0);
+    EXPECT_LE(map.number(row, "least_forcing_periods"), map.number(row, "forcing_periods"));
+  }
+}
+
+TEST(BasinsJob, SharesAlongAKeyAddUpToOne) {
+  const CsvTable shares = table_of(
+      "basins --along backlash.width=0.0019:0.002:3 --axis initial.z1=-0.005:0.005:4 --axis "
+      "initial.z2=-0.005:0.005:4 --set control.sampling_period=0.003");
+  double all = 0.0;
+  for (std::size_t row = 0; row < shares.rows(); ++row) all += shares.number(row, "fraction");
+  EXPECT_NEAR(all, 3.0, 1e-12);
+}
+
 void expect_reason(const std::string& arguments, int exit_code, const std::string& word) {
   const Outcome outcome = run_holdfast(arguments);
   EXPECT_EQ(outcome.exit_code, exit_code) << arguments << '\n' << outcome.errors;
@@ -112,6 +181,21 @@ TEST(OrbitJob, SaysWhyThereIsNone) {
 
 TEST(OrbitJob, RefusesWhatItCannotFollow) {
   expect_reason("orbit --follow backlash.width", 2, "KEY=MIN:MAX");
+  const std::string map = "orbit --map backlash.width=0.0001:0.001 --map ";
+  expect_reason("orbit --map backlash.width=0.0001:0.001", 2, "two keys, not 1");
+  expect_reason(map + "backlash.width=0.0001:0.001", 2, "both keys");
+  expect_reason(map + "control.differential_gain=-5:-1", 2, "lies outside");
+  expect_reason(map + "control.differential_gain=-13:-13", 2, "smaller");
+  expect_reason(map + "plant.absorber_mass=-1:1", 2, "plant.absorber_mass must be");
+  expect_reason("orbit --map control.sampling_period=0.0005:0.002 --map excitation.frequency=5:15",
+                2, "together");
+  expect_reason(map + "control.differential_gain=-20:-1 --set backlash.law=immediate", 2,
+                "--switching exact");
+  const std::string cells = "basins --map backlash.width=0.001:0.002:2 --map ";
+  expect_reason("basins --map backlash.width=0.001:0.002:2", 2, "two keys, not 1");
+  expect_reason(cells + "backlash.width=0.001:0.002:2", 2, "both keys");
+  expect_reason(cells + "control.sampling_period=-1:1:2", 2, "must be greater than 0 s");
+  expect_reason("basins --motions", 2, "--map");
   expect_reason("orbit --follow backlash.width=0.001:0.002", 2, "lies outside");
   expect_reason("orbit --follow control.sampling_period=0.0005:0.002", 2, "coincide");
   expect_reason("orbit --follow initial.z1=0:1", 2, "[plant]");

@@ -55,7 +55,7 @@ struct BranchPoint {
   }
 };
 
-/// Continues an orbit along a family of loops by its itinerary.
+/// Continues an orbit along a family of loops, of one parameter or more, by its itinerary.
 template <class Family>
 class OrbitContinuation {
  public:
@@ -66,9 +66,10 @@ class OrbitContinuation {
         pattern_(switching_pattern(orbit.states, Backlash<double>(width, orbit.memory))),
         extent_(orbit.states) {}
 
-  BranchPoint at(double parameter) {
+  template <class... Parameters>
+  BranchPoint at(Parameters... parameters) {
     ++solutions_;
-    const IdealLoop<double> loop = family_(parameter);
+    const IdealLoop<double> loop = family_(parameters...);
     require_same_rule(loop);
     const ItineraryMaps<double> maps(loop, orbit_.ratio);
     const auto blocks = maps_of_blocks(maps, orbit_.itinerary);

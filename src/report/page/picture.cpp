@@ -81,9 +81,12 @@ const toml::array& row_for(const PictureRequest& request) {
 /// The keys of its axes and their values; of a chart over the gains P and D.
 std::vector<KeyValues> axes_of(const PictureRequest& request) {
   std::vector<KeyValues> axes;
-  for (const auto& [name, text] : request.context.options)
-    if (name == "--axis") axes.push_back(parse_key_values(name, text));
   const std::string& job = request.context.job;
+  const std::string axis_option = is_given(request, "--map") ? "--map" : "--axis";
+  // The border of a motion has no cells.
+  const std::string count = job == "orbit" ? ":2" : "";
+  for (const auto& [name, text] : request.context.options)
+    if (name == axis_option) axes.push_back(parse_key_values(name, text + count));
   if (axes.empty() && job == "diagram")
     return {parse_key_values("--axis", option_text(request, "--axis"))};
   if (!axes.empty() || (job != "stability" && job != "response")) return axes;
@@ -130,6 +133,13 @@ std::string ends_of(const Axis& axis) {
   return format_number(axis.min) + ":" + format_number(axis.max);
 }
 
+/// From one value of an axis in equal steps to the next, as it is shown.
+double step_of(const KeyValues& axis) {
+  const auto* const even = std::get_if<Axis>(&axis.values);
+  if (even == nullptr || even->count < 2) return 0.0;
+  return (even->max - even->min) / static_cast<double>(even->count - 1) * scale_of(axis.key);
+}
+
 /// What the texts leave open of a picture over axes.
 Values values_of_axes(const std::vector<KeyValues>& axes) {
   if (axes.size() > 2)
@@ -137,7 +147,10 @@ Values values_of_axes(const std::vector<KeyValues>& axes) {
   Values values;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const MapAxis axis = map_axis_of(axes[k], axes.size() == 2);
-    const Values shown = values_of(k == 0 ? "x" : "y", axis, "$" + std::to_string(k + 1));
+    const std::string letter = k == 0 ? "x" : "y";
+    const Values shown = joined(values_of(letter, axis, "$" + std::to_string(k + 1)),
+                                {{letter + " scale", format_number(axis.scale)},
+                                 {letter + " step", format_number(step_of(axes[k]))}});
     values =
         joined(joined(values, shown), {{"label", axis.label},
                                        {"scale", format_number(axis.scale)},

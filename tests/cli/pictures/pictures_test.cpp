@@ -41,6 +41,8 @@ const std::vector<std::string> drawn_commands = {
     "spectrum --duration 2",
     "deviation --duration 1",
     "basins --axis initial.z1=0:0.001:3 --axis initial.v2=0:0.1:3",
+    "basins --map backlash.width=0.001:0.002:3 --map control.sampling_period=0.01:0.011:2",
+    "orbit --map backlash.width=0.0004:0.0012 --map control.differential_gain=-14:-12",
     "diagram --axis backlash.width=0:0.001:3 --transient 1 --strobes 5",
     "diagram --axis control.differential_gain=-14:-12:3 --transient 1 --strobes 5",
     "section --duration 2 --from 1",
@@ -173,7 +175,7 @@ TEST(Pictures, AreRefusedWhereATableHasNone) {
   for (const std::string& command : std::vector<std::string>{
            "reduce", "margins", "answers", "boundary --regions", "boundary --stable-interval",
            "lyapunov --duration 1", "fatigue" + damped_line, "design", "design --band 9:11",
-           "basins --fractions", "sweep --dry-run --axis backlash.width=0:1:3",
+           "basins --fractions", "orbit", "sweep --dry-run --axis backlash.width=0:1:3",
            "stability --p -557 --d -20:0:11",
            "sweep --axis backlash.width=0:1:3 --axis initial.z1=0:1:3 --axis initial.z2=0:1:3",
            "sweep --axis backlash.width=0,1,3 --axis initial.z1=0:1:3"}) {

@@ -1,0 +1,230 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/math/roots/bracketing_root.hpp"
+
+namespace holdfast {
+
+/// A point of a plane.
+struct PlanePoint {
+  double x = 0.0, y = 0.0;
+};
+
+/// What a point of a plane tells of a region.
+/// @tparam Label  what ends the region nearby; compared by ==
+template <class Label>
+struct RegionLook {
+  double margin = -1.0;  ///< > 0 inside; continuous where the border is to be found fast
+  Label label{};         ///< of the condition that has this margin
+};
+
+/// A point of a region's border, on its inner side.
+template <class Label>
+struct BorderPoint {
+  PlanePoint at;
+  Label label{};  ///< what ends the region there; at a jump of the margin that of the outer side
+};
+
+/// The border of a region, the region at its left.
+template <class Label>
+struct RegionBorder {
+  std::vector<BorderPoint<Label>> points;  ///< where it closes the first one is the last one again
+  bool closed = false;                     ///< it came back to where it began
+  int looks = 0;                           ///< points that were looked at
+};
+
+/// How a border is followed.
+struct BorderSteps {
+  double longest = 0.02;     ///< of a step, in the unit of the plane
+  double shortest = 1e-9;    ///< of a step, which is how well a corner is found
+  double tolerance = 1e-13;  ///< of a point
+  double jump = 1e-4;        ///< margin inside at a point of the border above which it is a jump
+  int most_looks = 1'000'000;
+};
+
+namespace detail {
+
+/// Follows a border by circles: of one about a point of the border the next point is where it
+/// leaves the region first, seen clockwise from where the border came.
+template <class Label, class Look>
+class BorderWalk {
+ public:
+  BorderWalk(const Look& look, const BorderSteps& steps) : look_(look), steps_(steps) {}
+
+  RegionBorder<Label> run(const PlanePoint& start) {
+    if (!(seen(start).margin > 0.0)) return border_;
+    const double reach = reach_from(start);
+    const auto first = ray(start, 0.0);
+    if (!first) return border_;
+    longest_ = std::min(steps_.longest, reach / 4.0);
+    border_.points.push_back(*first);
+    // The inside is where it was come from.
+    backward_ = pi;
+    fresh_ = true;
+    for (double step = longest_; border_.looks < steps_.most_looks && !border_.closed;)
+      step = go_on(step);
+    return border_;
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+  static constexpr double ahead = 0.35;  // rad to either side, where the border is expected
+  static constexpr double sweep = 0.2;   // rad
+
+  RegionLook<Label> seen(const PlanePoint& at) {
+    ++border_.looks;
+    return look_(at);
+  }
+
+  static PlanePoint moved(const PlanePoint& from, double distance, double angle) {
+    return {from.x + distance * std::cos(angle), from.y + distance * std::sin(angle)};
+  }
+  static double distance(const PlanePoint& a, const PlanePoint& b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
+  }
+  static double turned(double angle) { return std::remainder(angle, 2.0 * pi); }
+
+  /// The last point inside on the way from `in` (inside) to `out` (not) of place(parameter); none
+  /// where rounding says otherwise of the two.
+  template <class Place>
+  std::optional<BorderPoint<Label>> last_inside(double in, double out, double tolerance,
+                                                const Place& place) {
+    PlanePoint last = place(in);
+    RegionLook<Label> inner, outer;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = nearest;
+    const auto margin = [&](double value) {
+      const PlanePoint at = place(value);
+      const RegionLook<Label> look = seen(at);
+      const bool is_inside = look.margin >= 0.0;  // where it is zero the search ends
+      if (is_inside && std::abs(value - out) <= nearest) {
+        nearest = std::abs(value - out);
+        last = at;
+        inner = look;
+      } else if (!is_inside && std::abs(value - in) <= farthest) {
+        farthest = std::abs(value - in);
+        outer = look;
+      }
+      return look.margin;
+    };
+    const double at_in = margin(in), at_out = margin(out);
+    if (!(at_in > 0.0) || at_out > 0.0) return std::nullopt;
+    const SignChange<double> bracket{std::min(in, out), std::max(in, out),
+                                     in < out ? at_in : at_out, in < out ? at_out : at_in};
+    bracketing_root(margin, bracket, tolerance);
+    return BorderPoint<Label>{last, inner.margin > steps_.jump ? outer.label : inner.label};
+  }
+
+  /// Where a ray leaves the region.
+  std::optional<BorderPoint<Label>> ray(const PlanePoint& from, double angle) {
+    for (double near = 0.0; border_.looks < steps_.most_looks;) {
+      const double far = near + steps_.longest;
+      if (!(seen(moved(from, far, angle)).margin > 0.0))
+        return last_inside(near, far, steps_.tolerance,
+                           [&](double value) { return moved(from, value, angle); });
+      near = far;
+    }
+    return std::nullopt;
+  }
+
+  /// The farthest that the region reaches from a point along the axes.
+  double reach_from(const PlanePoint& start) {
+    double reach = 0.0;
+    for (const double angle : {0.0, pi / 2.0, pi, -pi / 2.0})
+      if (const auto end = ray(start, angle)) reach = std::max(reach, distance(start, end->at));
+    return reach;
+  }
+
+  bool inside(const PlanePoint& at) { return seen(at).margin > 0.0; }
+
+  std::optional<BorderPoint<Label>> between(double step, double in, double out) {
+    const PlanePoint here = border_.points.back().at;
+    return last_inside(in, out, steps_.tolerance / step,
+                       [&](double angle) { return moved(here, step, angle); });
+  }
+
+  /// The next point of the border at a distance; none where the circle does not leave the region or
+  /// does not enter it.
+  std::optional<BorderPoint<Label>> next(double step) {
+    const PlanePoint here = border_.points.back().at;
+    const auto is_inside = [&](double angle) { return inside(moved(here, step, angle)); };
+    const double forward = backward_ - pi;
+    if (!fresh_ && is_inside(forward + ahead) && !is_inside(forward - ahead))
+      return between(step, forward + ahead, forward - ahead);
+    for (double width = sweep; width > 2e-3; width /= 4.0) {
+      std::optional<double> in;
+      const double last = backward_ - 2.0 * pi;
+      for (double angle = backward_ - width; angle > last; angle -= width) {
+        const bool is_in = is_inside(angle);
+        if (in && !is_in) return between(step, *in, angle);
+        in = is_in ? std::optional<double>(angle) : std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Tries one step. @return the length of the next one
+  double go_on(double step) {
+    const auto shorter = [&](double share) { return std::max(share * step, steps_.shortest); };
+    const bool least = step <= steps_.shortest;
+    const BorderPoint<Label> here = border_.points.back();
+    const auto found = next(step);
+    if (!found && least) border_.looks = steps_.most_looks;  // lost
+    if (!found) return shorter(0.25);
+    const double direction = std::atan2(found->at.y - here.at.y, found->at.x - here.at.x);
+    const bool corner = !(found->label == here.label);
+    if (corner && !least) return shorter(0.5);
+    const bool bent = !fresh_ && std::abs(turned(direction - backward_ + pi)) > 0.3;
+    if (bent && !least) return shorter(0.5);
+    border_.points.push_back(*found);
+    // Behind a corner the old piece still tells where the border came from.
+    if (!least) backward_ = direction + pi;
+    if (border_.points.size() == 2) first_direction_ = direction;
+    fresh_ = least;
+    close(step, direction);
+    return least ? longest_ : std::min(2.0 * step, longest_);
+  }
+
+  void close(double step, double direction) {
+    const auto& points = border_.points;
+    const bool there = points.size() > 4 && distance(points.back().at, points.front().at) <= step &&
+                       std::abs(turned(direction - first_direction_)) < 1.0;
+    if (!there) return;
+    border_.closed = true;
+    border_.points.push_back(border_.points.front());
+  }
+
+  const Look& look_;
+  BorderSteps steps_;
+  RegionBorder<Label> border_;
+  double longest_ = 0.0;
+  double backward_ = 0.0;         // angle of where the border comes from
+  double first_direction_ = 0.0;  // of the first step
+  bool fresh_ = true;             // at the first point or behind a corner: look all around
+};
+
+}  // namespace detail
+
+/// Follows the border of the plane region {margin > 0} around a point inside, until it closes.
+///
+/// Each point is the root of the margin on a circle about the one before, so that corners, where
+/// another condition takes over, need nothing else: the circles become smaller until the two
+/// successive points of different labels are `shortest` apart. What is narrower than a step
+/// may be passed over, and so is a hole of the region.
+///
+///     const auto border = region_border<int>(look, {0.5, 0.5});
+/// @tparam Label  of the conditions
+/// @param look   PlanePoint ↦ RegionLook<Label>; the region must be bounded
+/// @param start  inside; else the border is empty
+template <class Label, class Look>
+RegionBorder<Label> region_border(const Look& look, const PlanePoint& start,
+                                  const BorderSteps& steps = {}) {
+  return detail::BorderWalk<Label, Look>(look, steps).run(start);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,198 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
+#include "holdfast/orbit/motion_border.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Whether two periods have the same modes in the same order, wherever they begin.
+inline bool change_alike(const std::vector<ContactSwitch>& one,
+                         const std::vector<ContactSwitch>& other) {
+  const std::size_t count = one.size();
+  if (other.size() != count) return false;
+  for (std::size_t shift = 0; shift < std::max<std::size_t>(count, 1); ++shift) {
+    bool same = true;
+    for (std::size_t k = 0; same && k < count; ++k)
+      same = one[k].mode == other[(k + shift) % count].mode;
+    if (same) return true;
+  }
+  return false;
+}
+
+}  // namespace detail
+
+/// The periodic motion of a loop that lies near one of another loop: same period, same modes in the
+/// same order; when they change may differ.
+/// @param loop   with the same f τ
+/// @param orbit  of a loop nearby, whose drive is engaged at some sample
+/// @return not `certified` where there is none, or it switches otherwise
+template <class Plant>
+OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
+    const ImplementedLoopOf<Plant>& loop, const EventOrbitOf<states_of<Plant>>& orbit) {
+  using Contact = DriveContact<Plant>;
+  const std::int64_t start = detail::sample_far_from_switches(orbit, ContactMode::engaged);
+  if (start < 0) return {};
+  // An engaged drive remembers nothing of its gaps.
+  const std::size_t samples = orbit.states.size(), at = static_cast<std::size_t>(start);
+  const auto fresh = event_motion(loop, orbit.states[at]);
+  RepeatingMotion<Contact> motion(fresh, orbit.ratio.denominator);
+  const double command = orbit.forces[(at + samples - 1) % samples];
+  const double reading = fresh.readings().displacement(orbit.states[(at + samples - 1) % samples]);
+  motion.go_to(
+      {start % orbit.ratio.denominator, orbit.states[at], command, reading, fresh.contact()});
+  // On to the orbit's first sample.
+  for (std::size_t j = at; j < samples; ++j) {
+    motion.sense();
+    motion.advance();
+  }
+  auto found = detail::EventOrbitSolver<Contact>(motion, orbit.ratio)
+                   .solve(motion.point(), orbit.period_samples());
+  const bool alike = found.orbit && found.orbit->period_samples() == orbit.period_samples() &&
+                     detail::change_alike(found.orbit->switches, orbit.switches);
+  if (found.outcome == OrbitOutcome::certified && !alike)
+    found.outcome = OrbitOutcome::not_reproduced;
+  return {found.outcome, std::move(found.orbit), found.samples, found.candidates};
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template OrbitResultOf<EventOrbit> continued_orbit(const ImplementedLoop&,
+                                                          const EventOrbit&);
+#endif
+
+namespace detail {
+
+/// What is least of a motion between the samples: its margins as shares of its size.
+template <int States>
+RegionLook<MotionBorder> look_of(const EventOrbitOf<States>& orbit) {
+  const SwitchingMargins& margins = orbit.margins;
+  const StateScale& extent = orbit.extent;
+  const double acceleration = extent.velocity * extent.velocity / extent.displacement;
+  const double at_end =
+      std::min({extent.share_of_displacement(margins.border_distance),
+                extent.share_of_displacement(margins.shortest_travel),
+                // A turn that passes an end by a way s passes it at a speed like √s.
+                std::pow(extent.share_of_velocity(margins.exit_velocity), 2.0)});
+  const double at_reversal = std::min(extent.share_of_velocity(margins.reversal_velocity),
+                                      std::pow(margins.reversal_acceleration / acceleration, 2.0));
+  const double stick = margins.stick_acceleration / acceleration;
+  const Multiplier& largest = orbit.multipliers.front();
+  RegionLook<MotionBorder> look{-largest.log_modulus, circle_border(largest)};
+  const auto take = [&](double margin, BorderKind kind, SwitchingSurface surface) {
+    if (margin < look.margin) look = {margin, {kind, surface, -1, 0, largest}};
+  };
+  take(at_end, BorderKind::grazing, SwitchingSurface::gap_upper);
+  take(at_reversal, BorderKind::grazing, SwitchingSurface::reversal);
+  take(stick, BorderKind::sliding, SwitchingSurface::reversal);
+  return look;
+}
+
+/// Continues an exactly switched motion over a plane from the nearest point where it was found.
+template <class Family, class Orbit>
+class EventContinuation {
+ public:
+  EventContinuation(const Family& family, const PlanePoint& at, const Orbit& orbit)
+      : family_(family), known_{{at, orbit}} {}
+
+  RegionLook<MotionBorder> operator()(double x, double y) {
+    ++solutions_;
+    const auto distance = [&](const Known& known) {
+      return std::hypot((known.at.x - x) / unit_.x, (known.at.y - y) / unit_.y);
+    };
+    const auto nearest =
+        std::min_element(known_.begin(), known_.end(),
+                         [&](const Known& a, const Known& b) { return distance(a) < distance(b); });
+    auto found = continued_orbit(family_(x, y), nearest->orbit);
+    if (found.outcome != OrbitOutcome::certified) return {-1.0, beyond(nearest->orbit)};
+    RegionLook<MotionBorder> look = look_of(*found.orbit);
+    if (look.margin > 0.0) remember({{x, y}, std::move(*found.orbit)});
+    return look;
+  }
+
+  /// In which distances are measured.
+  void set_unit(const PlanePoint& unit) { unit_ = unit; }
+  int solutions() const { return solutions_; }
+
+ private:
+  struct Known {
+    PlanePoint at;
+    Orbit orbit;
+  };
+
+  /// Beyond a jump, seen from a motion beside it.
+  static MotionBorder beyond(const Orbit& orbit) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const BorderKind kind = nears_sample(orbit) ? BorderKind::switch_at_sample : BorderKind::jump;
+    return {kind, {}, -1, 0, {none, none}};
+  }
+
+  /// Whether one of the switches lies just beside a sample; those that a sample itself makes lie on
+  /// it.
+  static bool nears_sample(const Orbit& orbit) {
+    constexpr double near = 1e-3, rounding = 1e-12;
+    return std::any_of(orbit.switches.begin(), orbit.switches.end(), [&](const auto& change) {
+      const double apart = std::abs(std::remainder(change.time / orbit.sampling_period, 1.0));
+      return apart < near && apart > rounding;
+    });
+  }
+
+  void remember(Known known) {
+    constexpr std::size_t most = 64;
+    if (known_.size() < most) {
+      known_.push_back(std::move(known));
+      return;
+    }
+    known_[oldest_] = std::move(known);
+    oldest_ = (oldest_ + 1) % most;
+  }
+
+  const Family& family_;
+  PlanePoint unit_{1.0, 1.0};
+  std::vector<Known> known_;
+  std::size_t oldest_ = 0;
+  int solutions_ = 0;
+};
+
+}  // namespace detail
+
+/// The region of two parameters in which a periodic motion that switches between the samples is and
+/// attracts, by its border: where it keeps its period and the order of its modes, with all
+/// multipliers, saltation included, inside the unit circle.
+///
+/// What ends it is read off the margins of EventOrbit, of which the least names the piece. A
+/// switch may pass a sample: the motion goes on, its multipliers jump.
+/// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
+/// @param orbit   certified, its drive engaged at some sample
+/// @param window  around `at`
+/// @param at      (x, y) of the orbit
+/// @param steps   in shares of the window; its tolerance decides how near a jump is found
+/// @throws InvalidParameter where the window is not finite or does not hold the point
+template <class Family, int States>
+MotionRegion motion_region(const Family& family, const EventOrbitOf<States>& orbit,
+                           const ParameterWindow& window, const PlanePoint& at,
+                           const BorderSteps& steps = {0.02, 1e-6, 1e-9}) {
+  require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
+  require_within("first parameter", at.x, "", window.x_from, window.x_to);
+  require_within("second parameter", at.y, "", window.y_from, window.y_to);
+  detail::EventContinuation<Family, EventOrbitOf<States>> look(family, at, orbit);
+  look.set_unit({window.x_to - window.x_from, window.y_to - window.y_from});
+  const auto seen = [&](double x, double y) { return look(x, y); };
+  MotionRegion region = detail::motion_region_by(seen, window, at, steps);
+  region.solutions = look.solutions();
+  return region;
+}
+
+}  // namespace holdfast

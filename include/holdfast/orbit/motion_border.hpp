@@ -1,0 +1,141 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/math/roots/region_border.hpp"
+#include "holdfast/orbit/switching_borders.hpp"
+
+namespace holdfast {
+
+/// What ends a periodic motion at the border of the region of parameters where it is and attracts.
+enum class BorderKind {
+  fold,              ///< a multiplier reaches 1
+  flip,              ///< a multiplier reaches −1
+  neimark_sacker,    ///< a pair of multipliers reaches the unit circle
+  border_collision,  ///< switching at samples: a sample reaches a switching surface
+  grazing,           ///< switching exactly: Δz or Δż only touches where the drive would switch
+  sliding,           ///< switching exactly: whether a reversal begins with stick changes
+  switch_at_sample,  ///< switching exactly: a switch comes to a sample, where the force or the
+                     ///< command jumps and decides otherwise
+  jump,              ///< beyond it no such motion was found, although nothing came to zero
+  window,            ///< the end of what was asked for
+};
+
+/// A piece of that border, and the largest multiplier at a point of it.
+struct MotionBorder {
+  BorderKind kind = BorderKind::window;
+  /// Of a collision or grazing: `reversal`, or an end of the gap; exactly switched ends of a gap
+  /// are not told apart.
+  SwitchingSurface surface = SwitchingSurface::reversal;
+  std::int64_t sample = -1;  ///< of a collision; of a motion that is its own mirror image in the
+                             ///< first half of the period; else −1
+  /// Of a pair at angle θ the sector between strong resonances: 0 below π/2, 1, 2 above 2π/3; of
+  /// the window its side.
+  int part = 0;
+  Multiplier multiplier{};  ///< not compared
+};
+
+/// Whether they are one piece.
+inline bool operator==(const MotionBorder& a, const MotionBorder& b) {
+  return a.kind == b.kind && a.surface == b.surface && a.sample == b.sample && a.part == b.part;
+}
+
+/// A point of the border.
+struct MotionBorderPoint {
+  double x;             ///< the first parameter
+  double y;             ///< the second one
+  MotionBorder border;  ///< what ends the motion there
+};
+
+/// Where in the plane of two parameters a periodic motion is and attracts: the region around the
+/// motion's own point, by its border.
+struct MotionRegion {
+  /// Counter-clockwise; where another border takes over, two points lie beside each other, a point
+  /// of codimension two.
+  std::vector<MotionBorderPoint> border;
+  bool closed = false;  ///< all around; else it was lost at the last point
+  int solutions = 0;    ///< how often the motion was solved for
+};
+
+/// The window of two parameters that is looked at.
+struct ParameterWindow {
+  double x_from, x_to;  ///< x_from < x_to
+  double y_from, y_to;  ///< y_from < y_to
+
+  /// Of shares 0 … 1.
+  PlanePoint at(const PlanePoint& shares) const {
+    return {x_from + shares.x * (x_to - x_from), y_from + shares.y * (y_to - y_from)};
+  }
+  /// The shares of a point.
+  PlanePoint shares_of(const PlanePoint& point) const {
+    return {(point.x - x_from) / (x_to - x_from), (point.y - y_from) / (y_to - y_from)};
+  }
+};
+
+/// Of two pieces of the border that meet: k of the strong resonance 1:k, at which they do, that is
+/// where a pair of multipliers comes to 1, −1, e^{±2πi/3} or ±i.
+/// @return nothing where the point has another reason
+inline std::optional<int> strong_resonance(const MotionBorder& a, const MotionBorder& b) {
+  const auto pair = BorderKind::neimark_sacker;
+  if (a.kind != pair && b.kind != pair) return std::nullopt;
+  if (a.kind == BorderKind::fold || b.kind == BorderKind::fold) return 1;
+  if (a.kind == BorderKind::flip || b.kind == BorderKind::flip) return 2;
+  if (a.kind != b.kind) return std::nullopt;
+  return std::min(a.part, b.part) == 0 ? 4 : 3;
+}
+
+namespace detail {
+
+/// The border that the largest multiplier makes on the unit circle.
+inline MotionBorder circle_border(const Multiplier& multiplier) {
+  constexpr double pi = 3.14159265358979323846, real = 1e-7;
+  const double angle = std::abs(multiplier.angle);
+  MotionBorder border{BorderKind::neimark_sacker, {}, -1, 0, multiplier};
+  if (angle < real) border.kind = BorderKind::fold;
+  if (angle > pi - real) border.kind = BorderKind::flip;
+  if (border.kind == BorderKind::neimark_sacker)
+    border.part = angle < pi / 2.0 ? 0 : angle < 2.0 * pi / 3.0 ? 1 : 2;
+  return border;
+}
+
+/// How far shares lie within the window.
+inline RegionLook<MotionBorder> look_at_window(const PlanePoint& shares) {
+  const double sides[] = {shares.x, 1.0 - shares.x, shares.y, 1.0 - shares.y};
+  const auto least = std::min_element(std::begin(sides), std::end(sides));
+  return {*least, {BorderKind::window, {}, -1, static_cast<int>(least - std::begin(sides)), {}}};
+}
+
+/// The region of a motion within a window.
+/// @param look  (x, y) ↦ RegionLook<MotionBorder>
+template <class Look>
+MotionRegion motion_region_by(const Look& look, const ParameterWindow& window,
+                              const PlanePoint& start, const BorderSteps& steps) {
+  const auto in_window = [&](const PlanePoint& shares) {
+    const RegionLook<MotionBorder> edge = look_at_window(shares);
+    if (!(edge.margin > 0.0)) return edge;
+    const PlanePoint at = window.at(shares);
+    const RegionLook<MotionBorder> seen = look(at.x, at.y);
+    return seen.margin < edge.margin
+               ? seen
+               : RegionLook<MotionBorder>{edge.margin,
+                                          {edge.label.kind, edge.label.surface, edge.label.sample,
+                                           edge.label.part, seen.label.multiplier}};
+  };
+  const auto found = region_border<MotionBorder>(in_window, window.shares_of(start), steps);
+  MotionRegion region{{}, found.closed, found.looks};
+  region.border.reserve(found.points.size());
+  for (const auto& point : found.points) {
+    const PlanePoint at = window.at(point.at);
+    region.border.push_back({at.x, at.y, point.label});
+  }
+  return region;
+}
+
+}  // namespace detail
+}  // namespace holdfast

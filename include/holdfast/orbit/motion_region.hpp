@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/orbit/motion_border.hpp"
+#include "holdfast/orbit/orbit_continuation.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// Whether a motion is its own mirror image half a period later: then it meets a surface and its
+/// mirror image at once.
+inline bool mirrors_itself(const PeriodicOrbit& orbit) {
+  const std::size_t samples = orbit.states.size(), half = samples / 2;
+  if (samples % 2 != 0) return false;
+  const StateScale extent(orbit.states);
+  for (std::size_t j = 0; j < half; ++j) {
+    const Vector<double, 4> sum =
+        orbit.states[j].template head<4>() + orbit.states[j + half].template head<4>();
+    if (orbit.itinerary[j] != orbit.itinerary[j + half] || extent.share_of(sum) > 1e-9)
+      return false;
+  }
+  return true;
+}
+
+/// What a solved itinerary says of the border nearby.
+/// @param half  half a period of a motion that mirrors itself, in samples; else 0
+inline RegionLook<MotionBorder> look_of(const BranchPoint& point, std::int64_t half) {
+  if (point.by_multiplier == point.margin())
+    return {point.margin(), circle_border(point.multiplier)};
+  const bool velocity = point.by_velocity <= point.by_displacement;
+  const Border& nearest = velocity ? point.borders.velocity : point.borders.displacement;
+  MotionBorder border{BorderKind::border_collision, nearest.surface, nearest.sample, 0,
+                      point.multiplier};
+  if (half > 0 && border.sample >= half) {
+    border.sample -= half;
+    if (border.surface != SwitchingSurface::reversal)
+      border.surface = border.surface == SwitchingSurface::gap_lower ? SwitchingSurface::gap_upper
+                                                                     : SwitchingSurface::gap_lower;
+  }
+  return {point.margin(), border};
+}
+
+}  // namespace detail
+
+/// The region of two parameters in which a periodic motion that switches at samples is and
+/// attracts, by its border: where its itinerary is solved, every sample keeps its side of the
+/// switching surfaces and every multiplier lies inside the unit circle.
+///
+/// Of maps that are affine between switches a fold has no motion beside it: with a multiplier
+/// at 1 the solution grows beyond bounds, so that it meets a switching surface before, but where
+/// a symmetry breaks.
+///
+///     const auto family = [&](double width, double gain) { … return other; };
+///     const MotionRegion region = motion_region(family, orbit, window, {0.002, -13.0});
+///
+/// @param family  (x, y) ↦ IdealLoop<double>, with the same f τ everywhere
+/// @param orbit   certified
+/// @param window  around `at`
+/// @param at      (x, y) of the orbit
+/// @param steps   in shares of the window
+/// @throws InvalidParameter where f τ is another one somewhere, the backlash vanishes or appears,
+///         the window is not finite or empty, or does not hold the point
+template <class Family>
+MotionRegion motion_region(const Family& family, const PeriodicOrbit& orbit,
+                           const ParameterWindow& window, const PlanePoint& at,
+                           const BorderSteps& steps = {}) {
+  require_finite("window", window.x_from + window.x_to + window.y_from + window.y_to, "");
+  require_within("first parameter", at.x, "", window.x_from, window.x_to);
+  require_within("second parameter", at.y, "", window.y_from, window.y_to);
+  detail::OrbitContinuation<Family> continuation(family, orbit, family(at.x, at.y).backlash_width);
+  const std::int64_t half = detail::mirrors_itself(orbit) ? orbit.period_samples() / 2 : 0;
+  const bool stays = orbit.engaged_fraction() == 0.0;
+  const auto look = [&](double x, double y) {
+    auto seen = detail::look_of(continuation.at(x, y), half);
+    // In which sample such a motion reaches farthest does not matter.
+    if (stays && seen.label.kind == BorderKind::border_collision) seen.label.sample = -1;
+    return seen;
+  };
+  MotionRegion region = detail::motion_region_by(look, window, at, steps);
+  region.solutions = continuation.solutions();
+  return region;
+}
+
+}  // namespace holdfast

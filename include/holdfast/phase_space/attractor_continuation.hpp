@@ -1,0 +1,164 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+#include "holdfast/phase_space/basins.hpp"
+
+namespace holdfast {
+
+/// How far two orbits of neighbouring loops lie apart: the Hausdorff distance of their states at
+/// the stroboscopic instants (sampling and forcing in phase), as a share of the extent of the
+/// larger one. Shifted copies of one orbit are at distance 0.
+/// @tparam Orbit  PeriodicOrbit or EventOrbit
+template <class Orbit>
+double orbit_distance(const Orbit& one, const Orbit& other) {
+  StateScale extent(one.states);
+  for (const auto& state : other.states) extent.include(state);
+  const auto farthest = [&](const Orbit& from, const Orbit& to) {
+    double most = 0.0;
+    for (std::size_t j = 0; j < from.states.size();
+         j += static_cast<std::size_t>(from.ratio.denominator)) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < to.states.size();
+           k += static_cast<std::size_t>(to.ratio.denominator)) {
+        const Vector<double, 4> apart =
+            from.states[j].template head<4>() - to.states[k].template head<4>();
+        least = std::min(least, extent.share_of(apart));
+      }
+      most = std::max(most, least);
+    }
+    return most;
+  };
+  return std::max(farthest(one, other), farthest(other, one));
+}
+
+/// Gives the attractors of successive loops numbers by which they are recognised.
+///
+/// Of all pairs of an attractor and one of the loop before, the nearest is matched first, then the
+/// nearest of those that are left, up to a largest distance. What is left gets a new number; a
+/// number that has gone is not given again.
+/// Source: G. Datseris, K. Luiz Rossi, A. Wagemakers, Framework for global stability analysis of
+/// dynamical systems, Chaos 33 (2023).
+/// @tparam Orbit  PeriodicOrbit or EventOrbit
+template <class Orbit>
+class AttractorMatching {
+ public:
+  /// @param largest_distance  of orbit_distance(), > 0
+  explicit AttractorMatching(double largest_distance) : largest_distance_(largest_distance) {}
+
+  /// The numbers, from 0 on, of the attractors of the next loop.
+  std::vector<int> match(std::vector<Orbit> orbits) {
+    struct Pair {
+      double distance;
+      std::size_t known, next;
+    };
+    std::vector<Pair> pairs;
+    for (std::size_t k = 0; k < known_.size(); ++k)
+      for (std::size_t n = 0; n < orbits.size(); ++n)
+        pairs.push_back({orbit_distance(known_[k], orbits[n]), k, n});
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    std::vector<int> numbers(orbits.size(), -1);
+    std::vector<bool> taken(known_.size(), false);
+    for (const Pair& pair : pairs) {
+      if (pair.distance > largest_distance_ || taken[pair.known] || numbers[pair.next] >= 0)
+        continue;
+      taken[pair.known] = true;
+      numbers[pair.next] = numbers_[pair.known];
+    }
+    for (int& number : numbers)
+      if (number < 0) number = count_++;
+    known_ = std::move(orbits);
+    numbers_ = numbers;
+    return numbers;
+  }
+
+  /// Those of the last loop.
+  const std::vector<Orbit>& orbits() const { return known_; }
+  /// How many numbers were given.
+  int count() const { return count_; }
+
+ private:
+  double largest_distance_;
+  std::vector<Orbit> known_;
+  std::vector<int> numbers_;
+  int count_ = 0;
+};
+
+/// An attractor of one of the loops, recognised.
+template <class Orbit>
+struct FollowedAttractor {
+  int number;             ///< from 0 on, the same as that of the loop before where it is matched
+  Orbit orbit;            ///< certified
+  std::size_t states;     ///< how many of the initial states come to it; 0 where a seed alone does
+  double fraction;        ///< of all of them
+  double standard_error;  ///< √(fraction (1 − fraction)/n)
+};
+
+/// The attractors of one of the loops.
+template <class Orbit>
+struct FollowedBasins {
+  std::vector<FollowedAttractor<Orbit>> attractors;
+  std::size_t diverging = 0;  ///< initial states
+  std::size_t unknown = 0;    ///< initial states of which no orbit was found
+};
+
+/// Follows all attractors of a loop along a parameter, with the share of the initial states that
+/// comes to each.
+///
+/// Every loop is searched from the same initial states and from one state of each attractor of
+/// the loop before, a seed, so that an attractor is not lost because its basin has become small.
+/// Seeds do not count among the states.
+/// @tparam Orbit  PeriodicOrbit or EventOrbit
+template <class Orbit>
+class AttractorContinuation {
+ public:
+  /// @param initial_states    [z₁, ż₁, z₂, ż₂] (m, m/s), at least one
+  /// @param largest_distance  at which an attractor is still the one before
+  AttractorContinuation(std::vector<Vector<double, 4>> initial_states, double largest_distance)
+      : states_(std::move(initial_states)), matching_(largest_distance) {}
+
+  /// @param find  states ↦ BasinsOf<Orbit> of the next loop
+  template <class Find>
+  FollowedBasins<Orbit> next(const Find& find) {
+    std::vector<Vector<double, 4>> starts = states_;
+    for (const Orbit& orbit : matching_.orbits())
+      starts.push_back(orbit.states.front().template head<4>());
+    const BasinsOf<Orbit> basins = find(starts);
+    std::vector<Orbit> orbits;
+    for (const auto& attractor : basins.attractors) orbits.push_back(attractor.orbit);
+    const std::vector<int> numbers = matching_.match(orbits);
+    FollowedBasins<Orbit> followed;
+    for (std::size_t k = 0; k < orbits.size(); ++k)
+      followed.attractors.push_back({numbers[k], std::move(orbits[k]), 0, 0.0, 0.0});
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const BasinLabel& label = basins.labels[k];
+      if (label.attractor >= 0)
+        ++followed.attractors[static_cast<std::size_t>(label.attractor)].states;
+      else
+        ++(label.outcome == OrbitOutcome::diverges ? followed.diverging : followed.unknown);
+    }
+    const auto all = static_cast<double>(states_.size());
+    for (auto& attractor : followed.attractors) {
+      attractor.fraction = static_cast<double>(attractor.states) / all;
+      attractor.standard_error = std::sqrt(attractor.fraction * (1.0 - attractor.fraction) / all);
+    }
+    std::sort(followed.attractors.begin(), followed.attractors.end(),
+              [](const auto& a, const auto& b) { return a.number < b.number; });
+    return followed;
+  }
+
+ private:
+  std::vector<Vector<double, 4>> states_;
+  AttractorMatching<Orbit> matching_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,329 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/orbit/event/event_motion_region.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
+#include "holdfast/phase_space/attractor_set.hpp"
+#include "holdfast/phase_space/motion_batch.hpp"
+
+namespace holdfast {
+
+/// Where the search of a periodic motion of a cell began.
+enum class MotionOrigin {
+  start,      ///< at the initial state
+  state,      ///< at another one that was given
+  continued,  ///< a neighbour's motion, continued by the order in which it switches
+  neighbour,  ///< at the state of a neighbour's motion that does not go on as it is
+};
+
+/// A periodic motion of a cell: certified and attracting.
+struct MappedMotion {
+  std::int64_t period_samples;   ///< N
+  double period;                 ///< N τ (s)
+  std::int64_t forcing_periods;  ///< in one of the motion
+  double amplitude;              ///< largest |z₁| (m) at a sample
+  double largest_multiplier;     ///< largest modulus
+  double border_share;           ///< PeriodicOrbit::border_share(), EventOrbit::border_share()
+  MotionOrigin origin;           ///< how it was found
+};
+
+/// What was found at one cell of a map.
+struct MapCell {
+  /// Of the motion from the initial state: `certified`, or why it has no orbit.
+  OrbitOutcome outcome = OrbitOutcome::none_found;
+  std::vector<MappedMotion> motions;  ///< different ones; that from the initial state is the first
+
+  /// That of the initial state; null where it comes to none.
+  const MappedMotion* from_start() const {
+    return outcome == OrbitOutcome::certified ? &motions.front() : nullptr;
+  }
+};
+
+/// How a plane of two parameters is cut into cells.
+struct MapShape {
+  std::size_t rows;     ///< of the first parameter, the slower one; ≥ 1
+  std::size_t columns;  ///< of the second one; ≥ 1
+
+  /// rows × columns, row by row.
+  std::size_t cells() const { return rows * columns; }
+};
+
+namespace detail {
+
+template <class Orbit>
+MappedMotion mapped(const Orbit& orbit, MotionOrigin origin) {
+  return {orbit.period_samples(),
+          orbit.period(),
+          orbit.forcing_periods(),
+          orbit.amplitude(),
+          orbit.largest_multiplier(),
+          orbit.border_share(),
+          origin};
+}
+
+/// The motions of IdealLoops: what a cell keeps of one, and how another cell goes on from it.
+template <class Scalar>
+struct SampledMapModel {
+  using Loop = IdealLoop<Scalar>;
+  using Orbit = PeriodicOrbit;
+
+  /// The itinerary decides the orbit.
+  struct Seed {
+    Rational ratio;
+    Itinerary itinerary;
+    ForcedMotionMemory<Scalar> memory;
+  };
+
+  OrbitLimits limits;
+
+  std::optional<Rational> ratio_of(const Loop& loop) const { return forcing_ratio(loop); }
+
+  Seed seed_of(const Orbit& orbit) const {
+    return {orbit.ratio,
+            orbit.itinerary,
+            {orbit.states.front().template head<4>(), orbit.states.front()[4], orbit.memory}};
+  }
+
+  bool is_same(const Seed& known, const Seed& other) const {
+    const std::size_t samples = known.itinerary.size();
+    if (other.itinerary.size() != samples) return false;
+    const auto step = static_cast<std::size_t>(known.ratio.denominator);
+    for (std::size_t shift = 0; shift < samples; shift += step) {
+      const auto middle = other.itinerary.begin() + static_cast<std::ptrdiff_t>(shift);
+      const auto split = known.itinerary.end() - static_cast<std::ptrdiff_t>(shift);
+      if (std::equal(known.itinerary.begin(), split, middle) &&
+          std::equal(split, known.itinerary.end(), other.itinerary.begin()))
+        return true;
+    }
+    return false;
+  }
+
+  OrbitResult from_start(const Loop& loop, const Vector<Scalar, 4>& state) const {
+    return find_periodic_orbit(loop, state, limits);
+  }
+
+  OrbitResult continued(const Loop& loop, const Rational& ratio, const Seed& seed) const {
+    if (ratio.numerator != seed.ratio.numerator || ratio.denominator != seed.ratio.denominator)
+      return {};
+    const Backlash<Scalar> law(loop.backlash_width, resized(seed.memory, loop).backlash);
+    return orbit_of_itinerary(loop, ratio, ItineraryMaps<Scalar>(loop, ratio), seed.itinerary, law);
+  }
+
+  OrbitResult from_neighbour(const Loop& loop, const Rational& ratio, const Seed& seed) const {
+    auto motion = periodically_forced_motion(loop, ratio, Vector<Scalar, 4>::Zero().eval());
+    motion.restore(resized(seed.memory, loop));
+    return orbit_of_motion(loop, ratio, limits, motion);
+  }
+
+ private:
+  /// With a gap as wide as the loop's, about the middle of the other one and where the drive is.
+  static ForcedMotionMemory<Scalar> resized(ForcedMotionMemory<Scalar> memory, const Loop& loop) {
+    auto& gap = memory.backlash;
+    const Scalar half = loop.backlash_width / 2.0, here = relative_displacement(memory.state);
+    const Scalar middle = std::clamp((gap.lower + gap.upper) / 2.0, here - half, here + half);
+    gap.lower = middle - half;
+    gap.upper = middle + half;
+    return memory;
+  }
+};
+
+/// The same of loops whose contact switches between the samples.
+template <class Plant>
+struct EventMapModel {
+  using Loop = ImplementedLoopOf<Plant>;
+  using Orbit = EventOrbitOf<states_of<Plant>>;
+  using Seed = Orbit;
+  using Result = OrbitResultOf<Orbit>;
+
+  OrbitLimits limits;
+
+  std::optional<Rational> ratio_of(const Loop& loop) const { return forcing_ratio(loop.digital); }
+  Seed seed_of(const Orbit& orbit) const { return orbit; }
+  bool is_same(const Seed& known, const Seed& other) const {
+    return is_phase_shifted_copy(known, other);
+  }
+
+  Result from_start(const Loop& loop, const StateOf<Plant>& state) const {
+    auto found = find_event_orbit(event_motion(loop, state), limits);
+    return {found.outcome, std::move(found.orbit), found.samples, found.candidates};
+  }
+
+  Result continued(const Loop& loop, const Rational& ratio, const Seed& seed) const {
+    if (ratio.numerator != seed.ratio.numerator || ratio.denominator != seed.ratio.denominator)
+      return {};
+    return continued_orbit(loop, seed);
+  }
+
+  /// It begins engaged.
+  Result from_neighbour(const Loop& loop, const Rational&, const Seed& seed) const {
+    return from_start(loop, seed.states.front());
+  }
+};
+
+/// Finds the motions of all cells: from the initial state first, then in rounds from those that
+/// the neighbours have found in the round before, until there are no new ones.
+template <class Model, class LoopAt, class Tiles>
+class MotionMapSearch {
+  using Seed = typename Model::Seed;
+  using State = Vector<double, 4>;
+
+ public:
+  MotionMapSearch(const Model& model, const LoopAt& loop_at, const MapShape& shape,
+                  const Tiles& for_tiles)
+      : model_(model), loop_at_(loop_at), shape_(shape), for_tiles_(for_tiles) {}
+
+  /// @param starts  the initial state, and others
+  std::vector<MapCell> run(const std::vector<State>& starts, int most_rounds) {
+    cells_.resize(shape_.cells());
+    seeds_.resize(shape_.cells());
+    fresh_.resize(shape_.cells());
+    for_each_cell([&](std::size_t cell) { begin(cell, starts); });
+    for (int round = 0; round < most_rounds && take_over(); ++round)
+      for_each_cell([&](std::size_t cell) { go_on(cell); });
+    take_over();
+    return std::move(cells_);
+  }
+
+ private:
+  struct Found {
+    Seed seed;
+    MappedMotion motion;
+  };
+
+  template <class Job>
+  void for_each_cell(const Job& job) {
+    for_tiles_(shape_.cells(), std::size_t{1}, [&](std::size_t first, std::size_t number) {
+      for (std::size_t cell = first; cell < first + number; ++cell) job(cell);
+    });
+  }
+
+  /// What a round has found becomes known to the neighbours. @return whether there is any
+  bool take_over() {
+    bool any = false;
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      known_before_.resize(cells_.size());
+      known_before_[cell] = seeds_[cell].size();
+      for (Found& found : fresh_[cell]) {
+        seeds_[cell].push_back(std::move(found.seed));
+        cells_[cell].motions.push_back(found.motion);
+        any = true;
+      }
+      fresh_[cell].clear();
+    }
+    return any;
+  }
+
+  void begin(std::size_t cell, const std::vector<State>& starts) {
+    const auto loop = loop_at_(cell);
+    if (!loop) return;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+      auto found = model_.from_start(*loop, starts[k]);
+      if (k == 0) cells_[cell].outcome = found.outcome;
+      if (found.outcome == OrbitOutcome::certified)
+        add(cell, *found.orbit, k == 0 ? MotionOrigin::start : MotionOrigin::state);
+    }
+  }
+
+  void go_on(std::size_t cell) {
+    for (const std::size_t neighbour : neighbours(cell))
+      for (std::size_t k = known_before_[neighbour]; k < seeds_[neighbour].size(); ++k)
+        go_on_from(cell, seeds_[neighbour][k]);
+  }
+
+  std::vector<std::size_t> neighbours(std::size_t cell) const {
+    const std::size_t row = cell / shape_.columns, column = cell % shape_.columns;
+    std::vector<std::size_t> found;
+    if (row > 0) found.push_back(cell - shape_.columns);
+    if (column > 0) found.push_back(cell - 1);
+    if (column + 1 < shape_.columns) found.push_back(cell + 1);
+    if (row + 1 < shape_.rows) found.push_back(cell + shape_.columns);
+    return found;
+  }
+
+  void go_on_from(std::size_t cell, const Seed& seed) {
+    // Their motions are told apart by their itineraries, or else by their states.
+    const auto loop = loop_at_(cell);
+    const auto ratio = loop ? model_.ratio_of(*loop) : std::nullopt;
+    if (!ratio || ratio->denominator > model_.limits.largest_period) return;
+    auto found = model_.continued(*loop, *ratio, seed);
+    const bool goes_on = found.outcome == OrbitOutcome::certified && found.orbit->is_attracting();
+    if (!goes_on) found = model_.from_neighbour(*loop, *ratio, seed);
+    if (found.outcome == OrbitOutcome::certified)
+      add(cell, *found.orbit, goes_on ? MotionOrigin::continued : MotionOrigin::neighbour);
+  }
+
+  void add(std::size_t cell, const typename Model::Orbit& orbit, MotionOrigin origin) {
+    Seed seed = model_.seed_of(orbit);
+    for (const Seed& known : seeds_[cell])
+      if (model_.is_same(known, seed)) return;
+    for (const Found& known : fresh_[cell])
+      if (model_.is_same(known.seed, seed)) return;
+    fresh_[cell].push_back({std::move(seed), mapped(orbit, origin)});
+  }
+
+  const Model& model_;
+  const LoopAt& loop_at_;
+  MapShape shape_;
+  const Tiles& for_tiles_;
+  std::vector<MapCell> cells_;
+  std::vector<std::vector<Seed>> seeds_;   // of the motions that are known
+  std::vector<std::vector<Found>> fresh_;  // of this round
+  std::vector<std::size_t> known_before_;  // how many seeds of a cell the neighbours have seen
+};
+
+}  // namespace detail
+
+/// How a map is searched.
+struct MotionMapOptions {
+  /// Of each search; motions of longer periods are not found.
+  OrbitLimits limits{10'000, 0, {}};
+  int most_rounds = 1000;  ///< after the first one; 0: from the initial states alone
+  /// Other states from which each cell is searched, each (m, m/s, m, m/s), finite.
+  std::vector<Vector<double, 4>> more_starts{};
+};
+
+/// The periodic motions of many loops that lie beside one another in a plane of two parameters.
+///
+/// Each cell is searched from the initial state and what others are given, then from the motions of
+/// its neighbours: by their itinerary where it is that of a motion here too, else from their state;
+/// so until no cell finds another motion. What a cell does not have may still be there: a motion
+/// that no neighbour and no such start comes to. The result depends on no order in which cells are
+/// done.
+/// @param loop_at    (cell) ↦ std::optional<IdealLoop<double>>, or of an ImplementedLoop: nothing
+///                   where the parameters are not admissible; called from many threads
+/// @param shape      of the plane
+/// @param start      [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
+/// @param for_tiles  as find_basins() takes it
+/// @return a cell for each, row by row
+/// @throws InvalidParameter where start or limits are not admissible
+template <class LoopAt, class Tiles>
+std::vector<MapCell> motion_map(const LoopAt& loop_at, const MapShape& shape,
+                                const Vector<double, 4>& start, const Tiles& for_tiles,
+                                const MotionMapOptions& options = {}) {
+  using Loop = typename std::decay_t<decltype(loop_at(std::size_t{0}))>::value_type;
+  using Model =
+      std::conditional_t<std::is_same_v<Loop, IdealLoop<double>>, detail::SampledMapModel<double>,
+                         detail::EventMapModel<TwoMass<double>>>;
+  std::vector<Vector<double, 4>> starts{start};
+  starts.insert(starts.end(), options.more_starts.begin(), options.more_starts.end());
+  for (const auto& state : starts) require_finite("initial state", state.sum(), "");
+  validate(options.limits);
+  const Model model{options.limits};
+  return detail::MotionMapSearch<Model, LoopAt, Tiles>(model, loop_at, shape, for_tiles)
+      .run(starts, options.most_rounds);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,198 @@
+#include "jobs/orbit/motion_borders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "case/axes/axis.hpp"
+#include "case/case_keys.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "holdfast/orbit/event/event_motion_region.hpp"
+#include "holdfast/orbit/motion_region.hpp"
+#include "io/text/names.hpp"
+#include "io/text/table.hpp"
+#include "jobs/columns.hpp"
+#include "jobs/orbit/certified_orbit.hpp"
+#include "jobs/orbit/followed_key.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr Named<BorderKind> border_names[] = {{BorderKind::fold, "fold"},
+                                              {BorderKind::flip, "flip"},
+                                              {BorderKind::neimark_sacker, "neimark_sacker"},
+                                              {BorderKind::border_collision, "border_collision"},
+                                              {BorderKind::grazing, "grazing"},
+                                              {BorderKind::sliding, "sliding"},
+                                              {BorderKind::switch_at_sample, "switch_at_sample"},
+                                              {BorderKind::jump, "jump"},
+                                              {BorderKind::window, "range_end"}};
+
+constexpr Named<SwitchingSurface> border_surface_names[] = {
+    {SwitchingSurface::reversal, "reversal"},
+    {SwitchingSurface::gap_lower, "gap_lower"},
+    {SwitchingSurface::gap_upper, "gap_upper"}};
+
+/// One of the two keys.
+struct MapKey {
+  std::string name;
+  Range range;
+  double value;  // of the case
+};
+
+MapKey map_key(const Case& the_case, const std::string& text) {
+  const auto [key, range] = parse_key_range("--map", text);
+  if (!(range.min < range.max))
+    throw WrongInput("--map " + text + ": MIN must be smaller than MAX");
+  return {key, range, followed_value(the_case, "--map", text, key, range, true)};
+}
+
+std::vector<MapKey> map_keys(const Case& the_case, const std::vector<std::string>& axes) {
+  if (axes.size() != 2)
+    throw WrongInput("--map: a map needs two keys, not " + std::to_string(axes.size()) +
+                     ", for example --map backlash.width=0.0005:0.002 --map "
+                     "control.differential_gain=-20:0");
+  std::vector<MapKey> keys{map_key(the_case, axes[0]), map_key(the_case, axes[1])};
+  if (keys[0].name == keys[1].name) throw WrongInput("--map: both keys are " + keys[0].name);
+  if (moves_the_coincidence(keys[0].name) && moves_the_coincidence(keys[1].name))
+    throw WrongInput(
+        "--map: control.sampling_period and excitation.frequency together change how sampling and "
+        "excitation coincide, so the orbit cannot be followed over both");
+  for (const MapKey& key : keys)
+    if (moves_the_coincidence(key.name) && !the_case.excitation.harmonics.empty())
+      throw WrongInput("--map " + key.name +
+                       ": with excitation.harmonics not every force keeps its phases");
+  return keys;
+}
+
+/// The case at a point of the map. f τ and δ/τ stay, and a tuned gain too.
+class CaseOfMap {
+ public:
+  CaseOfMap(const Case& the_case, const std::vector<MapKey>& keys)
+      : keys_(keys), case_(the_case), cycles_(frequency() * period()), delay_(delay() / period()) {
+    set_case_value(case_, "control.proportional_gain",
+                   case_value(case_, "control.proportional_gain"));
+  }
+
+  Case operator()(double x, double y) const {
+    Case there = case_;
+    set_case_value(there, keys_[0].name, x);
+    set_case_value(there, keys_[1].name, y);
+    for (const MapKey& key : keys_) {
+      if (key.name == "control.sampling_period")
+        set_case_value(there, "excitation.frequency", cycles_ / there.control.sampling_period);
+      if (key.name == "excitation.frequency")
+        set_case_value(there, "control.sampling_period", cycles_ / there.excitation.frequency);
+      if (moves_the_coincidence(key.name) && keys_[0].name != "control.processing_delay" &&
+          keys_[1].name != "control.processing_delay")
+        there.control.processing_delay = delay_ * there.control.sampling_period;
+    }
+    return there;
+  }
+
+ private:
+  double frequency() const { return case_value(case_, "excitation.frequency"); }
+  double period() const { return case_.control.sampling_period; }
+  double delay() const { return case_.control.processing_delay; }
+
+  const std::vector<MapKey>& keys_;
+  Case case_;
+  double cycles_, delay_;
+};
+
+std::string meeting_of(const MotionBorder& one, const MotionBorder& other) {
+  if (const auto order = strong_resonance(one, other))
+    return "resonance_1_" + std::to_string(*order);
+  if (one.kind == BorderKind::window || other.kind == BorderKind::window) return "none";
+  const std::string a = name_in(border_names, one.kind), b = name_in(border_names, other.kind);
+  return a < b ? a + "+" + b : b + "+" + a;
+}
+
+/// The border begun where a piece begins, without the last point, which repeats the first one.
+std::vector<MotionBorderPoint> from_a_corner(const MotionRegion& region) {
+  std::vector<MotionBorderPoint> points = region.border;
+  if (!region.closed || points.size() < 3) return points;
+  points.pop_back();
+  const auto corner =
+      std::adjacent_find(points.begin(), points.end(),
+                         [](const auto& a, const auto& b) { return !(a.border == b.border); });
+  if (corner != points.end()) std::rotate(points.begin(), corner + 1, points.end());
+  return points;
+}
+
+/// Steps that only look for a corner are left out.
+bool is_shown(const std::vector<MotionBorderPoint>& points, std::size_t k,
+              const ParameterWindow& window, const MotionBorderPoint& last) {
+  const bool begins = k == 0 || !(points[k].border == points[k - 1].border);
+  const bool ends = k + 1 == points.size() || !(points[k].border == points[k + 1].border);
+  const PlanePoint a = window.shares_of({last.x, last.y});
+  const PlanePoint b = window.shares_of({points[k].x, points[k].y});
+  return begins || ends || std::hypot(a.x - b.x, a.y - b.y) > 1e-3;
+}
+
+void write_region(const JobContext& context, const std::vector<MapKey>& keys,
+                  const ParameterWindow& window, const MotionRegion& region) {
+  Table table(context, columns_of("motion borders", {{"x", keys[0].name}, {"y", keys[1].name}}));
+  const std::vector<MotionBorderPoint> points = from_a_corner(region);
+  int piece = 0;
+  MotionBorderPoint last{};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const MotionBorder& border = points[k].border;
+    const MotionBorder& before = points[(k + points.size() - 1) % points.size()].border;
+    const bool begins = k == 0 || !(border == before);
+    if (begins) ++piece;
+    if (!is_shown(points, k, window, last)) continue;
+    last = points[k];
+    const bool touches = border.kind == BorderKind::border_collision ||
+                         border.kind == BorderKind::grazing || border.kind == BorderKind::sliding;
+    const bool collides = border.kind == BorderKind::border_collision;
+    const char* const surface = !touches ? ""
+                                : collides || border.surface == SwitchingSurface::reversal
+                                    ? name_in(border_surface_names, border.surface)
+                                    : "gap_end";
+    table.row(piece, name_in(border_names, border.kind), surface, border.sample, points[k].x,
+              points[k].y, std::exp(border.multiplier.log_modulus), border.multiplier.angle,
+              begins && !(border == before) ? meeting_of(before, border) : std::string("none"));
+  }
+  table.commit();
+  if (!region.closed)
+    report_warning("the border is lost at its last row: what lies beyond is not told",
+                   context.quiet);
+}
+
+/// Follows the border of the motion of a loop, `loop_at(case)` being the one at a point.
+template <class LoopAt>
+void write_borders_of(const JobContext& context, const std::vector<MapKey>& keys,
+                      std::int64_t largest_period, const LoopAt& loop_at) {
+  const CaseOfMap case_at(context.case_data, keys);
+  const auto family = [&](double x, double y) {
+    throw_if_interrupted();
+    return loop_at(case_at(x, y));
+  };
+  const auto orbit = certified_orbit(context, loop_at(context.case_data), largest_period);
+  const ParameterWindow window{keys[0].range.min, keys[0].range.max, keys[1].range.min,
+                               keys[1].range.max};
+  write_region(context, keys, window,
+               motion_region(family, orbit, window, {keys[0].value, keys[1].value}));
+}
+
+}  // namespace
+
+void write_motion_borders(const JobContext& context, const std::vector<std::string>& axes,
+                          std::int64_t largest_period, Switching switching) {
+  const Case& the_case = context.case_data;
+  const std::vector<MapKey> keys = map_keys(the_case, axes);
+  if (is_of_the_paper(the_case, switching))
+    return write_borders_of(context, keys, largest_period,
+                            [](const Case& there) { return ideal_loop_of(there); });
+  if (switching == Switching::sampled)
+    throw WrongInput(
+        "--map goes with the paper's backlash, one harmonic and an ideal computer, or with "
+        "--switching exact");
+  write_borders_of(context, keys, largest_period,
+                   [&](const Case& there) { return implemented_loop_of(there, switching); });
+}
+
+}  // namespace holdfast::program

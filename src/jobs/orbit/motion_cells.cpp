@@ -1,0 +1,194 @@
+#include "jobs/orbit/motion_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "case/axes/axis.hpp"
+#include "case/axes/grid.hpp"
+#include "case/case_keys.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "holdfast/phase_space/motion_map.hpp"
+#include "io/grid/grid_output.hpp"
+#include "io/text/names.hpp"
+#include "io/text/table.hpp"
+#include "io/text/text.hpp"
+#include "jobs/charts/row_blocks.hpp"
+#include "jobs/columns.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
+
+namespace holdfast::program {
+namespace {
+
+constexpr double most_map_cells = 1e6;
+
+constexpr Named<MotionOrigin> origin_names[] = {{MotionOrigin::start, "start"},
+                                                {MotionOrigin::state, "state"},
+                                                {MotionOrigin::continued, "continued"},
+                                                {MotionOrigin::neighbour, "neighbour"}};
+
+/// Two keys over their values.
+struct MapGrid {
+  KeyAxis slow, fast;
+
+  MapShape shape() const {
+    return {static_cast<std::size_t>(slow.axis.count), static_cast<std::size_t>(fast.axis.count)};
+  }
+  double slow_at(std::size_t cell) const {
+    return slow.axis.at(static_cast<std::int64_t>(cell / shape().columns));
+  }
+  double fast_at(std::size_t cell) const {
+    return fast.axis.at(static_cast<std::int64_t>(cell % shape().columns));
+  }
+};
+
+KeyAxis map_axis(const Case& the_case, const std::string& text) {
+  KeyAxis axis = parse_key_axis("--map", text);
+  case_value(the_case, axis.key);  // throws where there is no such number
+  const CaseKey& known = *find_case_key(axis.key);
+  for (const double end : {axis.axis.min, axis.axis.max})
+    if (!known.range.contains(end))
+      throw WrongInput("--map " + text + ": " + axis.key + " must be " + known.admissible());
+  return axis;
+}
+
+MapGrid map_grid(const Case& the_case, const std::vector<std::string>& axes) {
+  if (axes.size() != 2)
+    throw WrongInput("--map: a map needs two keys, not " + std::to_string(axes.size()) +
+                     ", for example --map backlash.width=0.0005:0.002:31 --map "
+                     "control.sampling_period=0.001:0.012:12");
+  MapGrid grid{map_axis(the_case, axes[0]), map_axis(the_case, axes[1])};
+  if (grid.slow.key == grid.fast.key) throw WrongInput("--map: both keys are " + grid.slow.key);
+  const double cells =
+      static_cast<double>(grid.slow.axis.count) * static_cast<double>(grid.fast.axis.count);
+  if (cells > most_map_cells)
+    throw WrongInput("--map: " + format_number(cells) + " cells are more than " +
+                     format_number(most_map_cells));
+  return grid;
+}
+
+/// The case of a cell; nothing where it is no admissible one.
+std::optional<Case> case_of_cell(const Case& the_case, const MapGrid& grid, std::size_t cell) {
+  Case there = the_case;
+  set_case_value(there, grid.slow.key, grid.slow_at(cell));
+  set_case_value(there, grid.fast.key, grid.fast_at(cell));
+  if (!first_fault(there).message.empty()) return std::nullopt;
+  return there;
+}
+
+template <class LoopOf>
+std::vector<MapCell> cells_by(const JobContext& context, const MapGrid& grid,
+                              const MotionCellsQuestion& question, const LoopOf& loop_of) {
+  using Loop = std::decay_t<decltype(loop_of(context.case_data))>;
+  const auto loop_at = [&](std::size_t cell) -> std::optional<Loop> {
+    const auto there = case_of_cell(context.case_data, grid, cell);
+    if (!there) return std::nullopt;
+    return loop_of(*there);
+  };
+  const auto tiles = [&](std::size_t count, std::size_t tile, const auto& job) {
+    parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
+                  context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
+                    throw_if_interrupted();
+                    job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
+                  });
+  };
+  MotionMapOptions options;
+  options.limits = {question.largest_period, 0, throw_if_interrupted};
+  options.more_starts = question.more_starts;
+  return motion_map(loop_at, grid.shape(), initial_state_of(context.case_data), tiles, options);
+}
+
+/// Whether every cell is one of the paper's model: the ends of the axes tell.
+bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switching) {
+  const std::size_t last = grid.shape().cells() - 1, across = grid.shape().columns - 1;
+  for (const std::size_t cell : {std::size_t{0}, across, last - across, last}) {
+    const auto there = case_of_cell(the_case, grid, cell);
+    if (there && !is_of_the_paper(*there, switching)) return false;
+  }
+  return true;
+}
+
+/// The number of the outcome among the words of the column.
+double outcome_number(const MapCell& cell) {
+  constexpr std::array<OrbitOutcome, 7> order = {
+      OrbitOutcome::certified,     OrbitOutcome::approaching,    OrbitOutcome::on_surface,
+      OrbitOutcome::diverges,      OrbitOutcome::incommensurate, OrbitOutcome::none_found,
+      OrbitOutcome::not_reproduced};
+  return static_cast<double>(std::find(order.begin(), order.end(), cell.outcome) - order.begin());
+}
+
+/// The least and the most of a number over the motions of a cell.
+template <class Number>
+std::pair<double, double> extremes(const MapCell& cell, const Number& number) {
+  if (cell.motions.empty()) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none};
+  }
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const MappedMotion& motion : cell.motions) {
+    least = std::min(least, number(motion));
+    most = std::max(most, number(motion));
+  }
+  return {least, most};
+}
+
+void write_cells(const JobContext& context, const MapGrid& grid,
+                 const std::vector<MapCell>& cells) {
+  GridOutput output(context,
+                    {{grid_axis(grid.slow), grid_axis(grid.fast)}, cell_columns_of("motion map")});
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (const MapCell& cell : cells) {
+    const MappedMotion* const start = cell.from_start();
+    const auto periods = extremes(
+        cell, [](const auto& motion) { return static_cast<double>(motion.forcing_periods); });
+    const auto amplitudes = extremes(cell, [](const auto& motion) { return motion.amplitude; });
+    const std::array<double, 10> row = {
+        outcome_number(cell),
+        start != nullptr ? static_cast<double>(start->forcing_periods) : 0.0,
+        start != nullptr ? start->period : none,
+        start != nullptr ? start->amplitude : none,
+        start != nullptr ? start->border_share : none,
+        static_cast<double>(cell.motions.size()),
+        cell.motions.empty() ? 0.0 : periods.first,
+        cell.motions.empty() ? 0.0 : periods.second,
+        amplitudes.first,
+        amplitudes.second};
+    std::vector<const double*> columns;
+    for (const double& value : row) columns.push_back(&value);
+    output.append(1, columns);
+  }
+  output.commit();
+}
+
+void write_motions(const JobContext& context, const MapGrid& grid,
+                   const std::vector<MapCell>& cells) {
+  Table table(context, columns_of("map motions", {{"x", grid.slow.key}, {"y", grid.fast.key}}));
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    int number = 0;
+    for (const MappedMotion& motion : cells[k].motions)
+      table.row(grid.slow_at(k), grid.fast_at(k), ++number, motion.period_samples, motion.period,
+                motion.forcing_periods, motion.amplitude, motion.largest_multiplier,
+                motion.border_share, name_in(origin_names, motion.origin));
+  }
+  table.commit();
+}
+
+}  // namespace
+
+void write_motion_cells(const JobContext& context, const MotionCellsQuestion& question) {
+  const Case& the_case = context.case_data;
+  const MapGrid grid = map_grid(the_case, question.axes);
+  const Switching switching = question.switching;
+  const std::vector<MapCell> cells =
+      all_of_the_paper(the_case, grid, switching)
+          ? cells_by(context, grid, question,
+                     [](const Case& there) { return ideal_loop_of(there); })
+          : cells_by(context, grid, question,
+                     [&](const Case& there) { return implemented_loop_of(there, switching); });
+  question.each_motion ? write_motions(context, grid, cells) : write_cells(context, grid, cells);
+}
+
+}  // namespace holdfast::program
