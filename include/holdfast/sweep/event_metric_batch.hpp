@@ -52,8 +52,7 @@ struct PreparedEventMotions {
                      [](const auto& a, const auto& b) { return a.samples < b.samples; });
     for (const SampleSpan& span : spans) {
       const EventSweepMotion& motion = of[span.motion];
-      motions.push_back(
-          {{motion.loop, &table_of(*motion.loop), motion.initial_state}, span});
+      motions.push_back({{motion.loop, &table_of(*motion.loop), motion.initial_state}, span});
     }
   }
 
@@ -66,16 +65,14 @@ struct PreparedEventMotions {
   }
 };
 
-/// As many motions as a pack has lanes, from their start to their metrics.
+/// As many motions as a pack has lanes, with their metrics.
 template <class Scalar>
-class EventMetricGroup {
-  using Lane = Lanes<Scalar>;
-
+class EventMetricTrack {
  public:
-  static constexpr std::size_t lanes = Lane::count;
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;
 
   /// @param motions  `count` of them, 1 ≤ count ≤ lanes
-  EventMetricGroup(const PreparedEventMotion* motions, std::size_t count)
+  EventMetricTrack(const PreparedEventMotion* motions, std::size_t count)
       : pack_(starts_of(motions, count)) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       spans_[lane] = motions[std::min(lane, count - 1)].span;
@@ -84,22 +81,52 @@ class EventMetricGroup {
     }
   }
 
-  /// @param results  one for each motion of the batch
-  /// @param pause    called every some hundred samples; may throw
-  template <class Pause>
-  void run(MotionMetrics* results, const Pause& pause) {
-    constexpr std::int64_t samples_between_pauses = 256;
-    while (std::find(open_.begin(), open_.end(), true) != open_.end()) {
-      pause();
-      const std::int64_t end = next_stop(pack_.index() + samples_between_pauses);
-      begins_steady_ = begins_steady();
-      while (pack_.index() < end) {
-        close_diverged(results);
-        take();
-        close_accumulating(results);
-      }
-      close_completed(results);
+  bool is_open() const { return std::find(open_.begin(), open_.end(), true) != open_.end(); }
+
+  /// The sample before which a lane begins to be steady or has had its samples, none after
+  /// `latest`.
+  std::int64_t next_stop(std::int64_t latest) const {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!open_[lane]) continue;
+      latest = std::min(latest, spans_[lane].samples);
+      if (spans_[lane].first_steady > pack_.index())
+        latest = std::min(latest, spans_[lane].first_steady);
     }
+    return latest;
+  }
+
+  /// To be called at such a sample.
+  void begin_stretch() {
+    const auto begin = from_lanes<Scalar>(
+        [&](std::size_t lane) { return static_cast<double>(spans_[lane].first_steady); });
+    begins_steady_ = begin == Scalar(static_cast<double>(pack_.index()));
+    begins_ = any(begins_steady_);
+    steady_ = false;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      steady_ = steady_ || (open_[lane] && pack_.index() >= spans_[lane].first_steady);
+  }
+
+  /// Takes one sample.
+  void take(MotionMetrics* results) {
+    close_diverged(results);
+    const auto sample = pack_.sense();
+    const Scalar velocity = sample.state[3] - sample.state[1];
+    const Mask<Scalar> reverses = is_reversal(velocity_before_, velocity);
+    velocity_before_ = velocity;
+    observer_.observe_extremum(sample.state[0]);
+    observer_.observe_load(sample.control_force, Scalar(sample.state[2] - sample.state[0]));
+    if (begins_) observer_.begin_steady(begins_steady_, reverses);
+    begins_ = false;
+    if (steady_)
+      observer_.observe_steady(sample.state[0], sample.control_force, sample.engaged, reverses);
+    pack_.advance();
+    if (pack_.some_accumulate()) close_accumulating(results);
+  }
+
+  void close_completed(MotionMetrics* results) {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (open_[lane] && spans_[lane].samples == pack_.index())
+        close(lane, completed_metrics(observer_.lane(lane), spans_[lane]), results);
   }
 
  private:
@@ -111,39 +138,6 @@ class EventMetricGroup {
     return starts;
   }
 
-  std::int64_t next_stop(std::int64_t latest) const {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (!open_[lane]) continue;
-      latest = std::min(latest, spans_[lane].samples);
-      if (spans_[lane].first_steady > pack_.index())
-        latest = std::min(latest, spans_[lane].first_steady);
-    }
-    return latest;
-  }
-
-  Mask<Scalar> begins_steady() {
-    steady_ = false;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      steady_ = steady_ || (open_[lane] && pack_.index() >= spans_[lane].first_steady);
-    return from_lanes<Scalar>([&](std::size_t lane) {
-             return static_cast<double>(spans_[lane].first_steady);
-           }) == Scalar(static_cast<double>(pack_.index()));
-  }
-
-  void take() {
-    const auto sample = pack_.sense();
-    const Scalar velocity = sample.state[3] - sample.state[1];
-    const Mask<Scalar> reverses = is_reversal(velocity_before_, velocity);
-    velocity_before_ = velocity;
-    observer_.observe_extremum(sample.state[0]);
-    observer_.observe_load(sample.control_force, Scalar(sample.state[2] - sample.state[0]));
-    if (any(begins_steady_)) observer_.begin_steady(begins_steady_, reverses);
-    begins_steady_ = Scalar(0) > Scalar(0);
-    if (steady_)
-      observer_.observe_steady(sample.state[0], sample.control_force, sample.engaged, reverses);
-    pack_.advance();
-  }
-
   void close(std::size_t lane, const MotionMetrics& metrics, MotionMetrics* results) {
     open_[lane] = false;
     results[spans_[lane].motion] = metrics;
@@ -152,7 +146,7 @@ class EventMetricGroup {
 
   void close_diverged(MotionMetrics* results) {
     const std::array<Scalar, 4> z = pack_.state();
-    const Scalar sum = z[0] + z[1] + z[2] + z[3];
+    const Scalar sum = (z[0] + z[1]) + (z[2] + z[3]);
     if (all(Scalar(0) * sum == Scalar(0))) return;
     for (std::size_t lane = 0; lane < lanes; ++lane)
       if (open_[lane] && !std::isfinite(lane_of(sum, lane)))
@@ -160,16 +154,9 @@ class EventMetricGroup {
   }
 
   void close_accumulating(MotionMetrics* results) {
-    if (!pack_.some_accumulate()) return;
     for (std::size_t lane = 0; lane < lanes; ++lane)
       if (open_[lane] && pack_.accumulates(lane))
         close(lane, {MotionEnd::accumulates, pack_.index()}, results);
-  }
-
-  void close_completed(MotionMetrics* results) {
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      if (open_[lane] && spans_[lane].samples == pack_.index())
-        close(lane, completed_metrics(observer_.lane(lane), spans_[lane]), results);
   }
 
   EventPack<Scalar> pack_;
@@ -178,16 +165,33 @@ class EventMetricGroup {
   Mask<Scalar> begins_steady_ = Scalar(0) > Scalar(0);
   std::array<SampleSpan, lanes> spans_{};
   std::array<bool, lanes> open_{};
-  bool steady_ = false;
+  bool steady_ = false, begins_ = false;
 };
 
-/// The metrics of motions that are prepared, group by group.
+/// The metrics of motions that are prepared, group by group: the packs of a group hide each other's
+/// latency.
 template <class Scalar, class Pause>
 void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
                          MotionMetrics* results, const Pause& pause) {
-  constexpr std::size_t lanes = EventMetricGroup<Scalar>::lanes;
-  for (std::size_t first = 0; first < count; first += lanes)
-    EventMetricGroup<Scalar>(motions + first, std::min(lanes, count - first)).run(results, pause);
+  constexpr std::size_t packs = 2, lanes = EventMetricTrack<Scalar>::lanes;
+  constexpr std::int64_t samples_between_pauses = 256;
+  std::vector<EventMetricTrack<Scalar>> tracks;
+  tracks.reserve(packs);
+  for (std::size_t first = 0; first < count;) {
+    for (; first < count && tracks.size() < packs; first += lanes)
+      tracks.emplace_back(motions + first, std::min(lanes, count - first));
+    for (std::int64_t index = 0; !tracks.empty();) {
+      pause();
+      std::int64_t end = index + samples_between_pauses;
+      for (auto& track : tracks) end = track.next_stop(end);
+      for (auto& track : tracks) track.begin_stretch();
+      for (; index < end; ++index)
+        for (auto& track : tracks) track.take(results);
+      for (auto& track : tracks) track.close_completed(results);
+      const auto ended = [](const auto& track) { return !track.is_open(); };
+      tracks.erase(std::remove_if(tracks.begin(), tracks.end(), ended), tracks.end());
+    }
+  }
 }
 
 }  // namespace detail
@@ -195,9 +199,9 @@ void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
 /// event_metrics() of many motions with exact switching, which may differ in every parameter, as
 /// many at a time as `Scalar` has lanes.
 ///
-/// The metrics are those of event_metrics() but for rounding, and do not depend on the other motions
-/// of the batch. Work: that of EventPack, and a few matrix exponentials for each plant, sampling and
-/// force among them.
+/// The metrics are those of event_metrics() but for rounding, and do not depend on the other
+/// motions of the batch. Work: that of EventPack, and a few matrix exponentials for each plant,
+/// sampling and force among them.
 /// @param motions   each of a loop of which has_event_pack(), with a finite state
 /// @param count     number of motions, ≥ 0
 /// @param duration  s, ≥ 0

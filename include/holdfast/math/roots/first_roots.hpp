@@ -28,14 +28,13 @@ namespace detail {
 /// The search of first_root() in every lane of a pack.
 template <class Scalar>
 struct RootSearch {
-  LaneSeries<Scalar> p{};
-  Mask<Scalar> active, found;
-  Scalar x = Scalar(0), at = Scalar(1), rounding = Scalar(0), bend = Scalar(0);
+  LaneSeries<Scalar>& p;
+  Mask<Scalar> active = Scalar(0) > Scalar(0), found = active;
+  Scalar x = Scalar(0), at = Scalar(1), rounding = Scalar(0), bend = Scalar(0), sag = Scalar(0);
 
   /// Divides leading coefficients out that are exactly zero; what is left begins above zero.
-  void begin(int terms, const Mask<Scalar>& lanes) {
-    active = lanes;
-    found = Scalar(0) > Scalar(0);
+  RootSearch(LaneSeries<Scalar>& polynomial, int terms, const Mask<Scalar>& lanes)
+      : p(polynomial), active(lanes) {
     divide_out_zeros(terms);
     const Scalar zero(0);
     const Mask<Scalar> below = active & (p[0] < zero);
@@ -49,23 +48,42 @@ struct RootSearch {
   void step(const Scalar& value, const Scalar& slope) {
     using std::max;
     using std::min;
-    using std::sqrt;
-    const Scalar zero(0), one(1), two(2);
+    const Scalar zero(0), one(1);
     const Mask<Scalar> down = active & (value <= rounding) & (slope < zero);
-    const Mask<Scalar> touches = slope * slope <= Scalar(32) * bend * rounding;
-    const Scalar beyond = select(touches, zero, Scalar(max(value, zero) / -slope));
-    at = select(down, Scalar(min(Scalar(x + beyond), one)), at);
-    found = found | down;
-    const Scalar height = max(value, rounding);
-    const Scalar root = sqrt(Scalar(slope * slope + two * bend * height));
-    const Mask<Scalar> rises = slope > zero;
-    const Scalar way = select(rises, Scalar(slope + root), Scalar(two * height)) /
-                       select(rises, bend, Scalar(root - slope));
-    x = x + select(way == way, way, one);
-    active = active & !down & (x < one);
+    if (any(down)) {
+      const Mask<Scalar> touches = slope * slope <= Scalar(32) * bend * rounding;
+      const Scalar beyond = select(touches, zero, Scalar(max(value, zero) / -slope));
+      at = select(down, Scalar(min(Scalar(x + beyond), one)), at);
+      found = found | down;
+      active = active & !down;
+      if (!any(active)) return;
+    }
+    const Scalar way = safe_way(max(value, rounding), slope);
+    x = x + way;
+    active = active & (x < one);
+    // The next value lies between zero and its rounding for sure, and falls.
+    const Mask<Scalar> there = active & (bend * way * way <= Scalar(0.125) * rounding) &
+                               (slope * slope > Scalar(64) * bend * rounding) & (slope < zero);
+    at = select(there, x, at);
+    found = found | there;
+    active = active & !there;
   }
 
  private:
+  /// From x to where value + slope s + sag s²/2 comes to zero; infinite where it does not.
+  Scalar safe_way(const Scalar& height, const Scalar& slope) const {
+    using std::max;
+    using std::sqrt;
+    const Scalar zero(0), two(2), never(std::numeric_limits<double>::infinity());
+    const Scalar square = slope * slope - two * sag * height;
+    const Scalar root = sqrt(max(square, zero));
+    const Mask<Scalar> rises = slope > zero;
+    const Scalar way = select(rises, Scalar(slope + root), Scalar(two * height)) /
+                       select(rises, Scalar(-sag), Scalar(root - slope));
+    const Mask<Scalar> meets = (square >= zero) & !(rises & (sag >= zero)) & (way == way);
+    return select(meets, way, never);
+  }
+
   void divide_out_zeros(int terms) {
     const auto last = static_cast<std::size_t>(terms - 1);
     for (int shifts = 1; shifts < terms; ++shifts) {
@@ -94,6 +112,7 @@ struct RootSearch {
       sum = sum * factor;
       bend = bend * factor;
     }
+    if (terms > 2) sag = Scalar(2) * (p[2] + abs(p[2])) - bend;
     rounding = Scalar(4.0 * std::numeric_limits<double>::epsilon()) * sum;
   }
 };
@@ -161,23 +180,25 @@ void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
 ///
 /// Work: `terms` multiply-adds twice for each step and polynomial; some five steps where a lane has
 /// a root, mostly none where no lane has one.
-/// @param polynomials  of each its coefficients in all lanes
+/// @param polynomials  of each its coefficients in all lanes, one or two; they are worked upon
 /// @param terms        of all of them, 1 … `most_terms`
 /// @param lanes        that are searched, for each polynomial; the others have no root
 template <class Scalar, std::size_t Count>
 std::array<FirstRoots<Scalar>, Count> first_roots(
-    const std::array<LaneSeries<Scalar>, Count>& polynomials, int terms,
+    std::array<LaneSeries<Scalar>, Count>& polynomials, int terms,
     const std::array<Mask<Scalar>, Count>& lanes) {
-  std::array<detail::RootSearch<Scalar>, Count> searches;
-  std::array<FirstRoots<Scalar>, Count> roots;
-  for (std::size_t g = 0; g < Count; ++g) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(terms); ++k)
-      searches[g].p[k] = polynomials[g][k];
-    searches[g].begin(terms, lanes[g]);
+  using Search = detail::RootSearch<Scalar>;
+  if constexpr (Count == 1) {
+    std::array<Search, 1> searches{Search(polynomials[0], terms, lanes[0])};
+    detail::search_all(searches, terms);
+    return {{{searches[0].found, searches[0].at}}};
+  } else {
+    static_assert(Count == 2, "a mode has two guards at most");
+    std::array<Search, 2> searches{Search(polynomials[0], terms, lanes[0]),
+                                   Search(polynomials[1], terms, lanes[1])};
+    detail::search_all(searches, terms);
+    return {{{searches[0].found, searches[0].at}, {searches[1].found, searches[1].at}}};
   }
-  detail::search_all(searches, terms);
-  for (std::size_t g = 0; g < Count; ++g) roots[g] = {searches[g].found, searches[g].at};
-  return roots;
 }
 
 }  // namespace holdfast

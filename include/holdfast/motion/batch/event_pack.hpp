@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,7 @@ class LaneExcitation {
     for (std::size_t l = 0; l < lines; ++l) lines_.push_back(line_of_lanes(of_lane, l));
     for (std::size_t lane = 0; lane < lanes; ++lane)
       held_[lane] = of_lane(lane).hold == ForceHold::sampled ? 1.0 : 0.0;
+    any_held_ = any(held_.all() > Scalar(0.5));
     phases_.resize(lines);
   }
 
@@ -52,8 +54,8 @@ class LaneExcitation {
       held_force = held_force + lines_[l].at_sample.cosine * phases_[l].cosine -
                    lines_[l].at_sample.sine * phases_[l].sine;
     }
+    if (!any_held_) return;
     const Mask<Scalar> held = held_.all() > Scalar(0.5);
-    if (!any(held)) return;
     for (std::size_t l = 0; l < lines_.size(); ++l)
       phases_[l] = {select(held, l == 0 ? held_force : Scalar(0), phases_[l].cosine),
                     select(held, Scalar(0), phases_[l].sine)};
@@ -73,10 +75,9 @@ class LaneExcitation {
       const Line& line = lines_[l];
       const Scalar cycles = line.frequency * after + line.phase_cycles;
       const ExcitationSample<Scalar> turn = unit_phasor(Scalar(cycles - floor(cycles)));
-      phasors[l] = {
-          line.angular_frequency,
-          {turn.cosine * phases_[l].cosine - turn.sine * phases_[l].sine,
-           turn.cosine * phases_[l].sine + turn.sine * phases_[l].cosine}};
+      phasors[l] = {line.angular_frequency,
+                    {turn.cosine * phases_[l].cosine - turn.sine * phases_[l].sine,
+                     turn.cosine * phases_[l].sine + turn.sine * phases_[l].cosine}};
     }
   }
 
@@ -92,7 +93,7 @@ class LaneExcitation {
 
   struct Line {
     RotatingPhasor<Scalar> turning;
-    ExcitationSample<Scalar> at_sample;              // cos φ and sin φ
+    ExcitationSample<Scalar> at_sample;                 // cos φ and sin φ
     Scalar frequency, phase_cycles, angular_frequency;  // 0 where the force is held
   };
 
@@ -107,24 +108,25 @@ class LaneExcitation {
     };
     const Scalar period =
         detail::from_lanes<Scalar>([&](std::size_t lane) { return of_lane(lane).sampling.period; });
-    return {RotatingPhasor<Scalar>(
-                {number([](const Harmonic& line, bool) { return line.amplitude; }),
-                 number([](const Harmonic& line, bool) { return line.frequency; })},
-                period),
-            {number([](const Harmonic& line, bool) { return std::cos(line.phase); }),
-             number([](const Harmonic& line, bool) { return std::sin(line.phase); })},
-            number([](const Harmonic& line, bool exact) { return exact ? line.frequency : 0.0; }),
-            number([](const Harmonic& line, bool exact) {
-              return exact ? line.phase / (2.0 * pi<double>) : 0.0;
-            }),
-            number([](const Harmonic& line, bool exact) {
-              return exact ? line.angular_frequency() : 0.0;
-            })};
+    return {
+        RotatingPhasor<Scalar>({number([](const Harmonic& line, bool) { return line.amplitude; }),
+                                number([](const Harmonic& line, bool) { return line.frequency; })},
+                               period),
+        {number([](const Harmonic& line, bool) { return std::cos(line.phase); }),
+         number([](const Harmonic& line, bool) { return std::sin(line.phase); })},
+        number([](const Harmonic& line, bool exact) { return exact ? line.frequency : 0.0; }),
+        number([](const Harmonic& line, bool exact) {
+          return exact ? line.phase / (2.0 * pi<double>) : 0.0;
+        }),
+        number([](const Harmonic& line, bool exact) {
+          return exact ? line.angular_frequency() : 0.0;
+        })};
   }
 
   std::vector<Line> lines_;
   std::vector<ExcitationSample<Scalar>> phases_;
   LaneNumbers<Scalar> held_;
+  bool any_held_;
 };
 
 /// One motion of an EventPack.
@@ -137,9 +139,9 @@ struct EventStart {
 /// Motions whose contact changes between the samples, side by side: those of EventMotion, each with
 /// its own loop, at the same sample all of them.
 ///
-/// The steps are those of EventMotion. Lanes in which a guard may come to zero go from one change of
-/// contact to the next together, the others waiting for them; the transition itself is DriveContact's,
-/// lane by lane. Each lane's arithmetic is the same whoever its neighbours are.
+/// The steps are those of EventMotion. Lanes in which a guard may come to zero go from one change
+/// of contact to the next together, the others waiting for them; the transition itself is
+/// DriveContact's, lane by lane. Each lane's arithmetic is the same whoever its neighbours are.
 ///
 /// Work per sample without a change of contact: some 90 operations on packs; for each stretch of a
 /// lane, of which a change of contact needs one or two, some 1500. Nothing is allocated.
@@ -161,7 +163,8 @@ class EventPack {
 
   /// @param starts  one for each lane; lanes beyond the last motion repeat one and are to `sleep`
   explicit EventPack(const std::array<EventStart, lanes>& starts)
-      : excitation_([&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
+      : excitation_(
+            [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
         phasors_(excitation_.lines()) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto& [loop, table, state] = starts[lane];
@@ -178,6 +181,8 @@ class EventPack {
     any_delay_ = any(delay_.all() > Scalar(0));
     any_late_ = any(delay_.all() < period_.all());
     for (auto& step : steps_) step.lines.resize(excitation_.lines());
+    modes_.fill(-1);
+    stepped_modes_.fill(-1);
     for (std::size_t lane = 0; lane < lanes; ++lane) enter_mode(lane);
   }
 
@@ -191,7 +196,7 @@ class EventPack {
     jump(Scalar(0), first, awake(), IgnoreFlowOfLanes());
     Sample sample{z, select(engaged_.all() > Scalar(0.5), command_, Scalar(0)),
                   engaged_.all() > Scalar(0.5)};
-    if (sticking_ > 0) sample.control_force = with_sticking(sample.control_force);
+    if (sticking_.any()) sample.control_force = with_sticking(sample.control_force);
     return sample;
   }
 
@@ -208,8 +213,7 @@ class EventPack {
   template <class Observer>
   void advance(Observer&& observer) {
     const Scalar delay = delay_.all(), period = period_.all(), zero(0);
-    if (any_delay_)
-      flow({0, previous_command_, zero, delay}, awake() & (delay > zero), observer);
+    if (any_delay_) flow({0, previous_command_, zero, delay}, awake() & (delay > zero), observer);
     if (any_late_) {
       const LaneMask late = awake() & (delay < period);
       if (any_delay_) jump(delay, command_, late & (delay > zero), observer);
@@ -280,52 +284,82 @@ class EventPack {
 
   // What a lane's contact is, spread out for the packs.
 
+  /// After a change of contact; the steps follow when they are next asked for.
   void enter_mode(std::size_t lane) {
     const DriveContact<>& contact = contacts_[lane];
     const int mode = contact.mode();
-    const auto& motion = tables_[lane]->motion(mode);
-    for (std::size_t part = 0; part < 2; ++part) enter_step(lane, part, motion.step(part));
-    const auto& dynamics = motion.dynamics();
+    const EventTable& table = *tables_[lane];
+    const auto& dynamics = table.motion(mode).dynamics();
+    for (std::size_t mass = 0; mass < 2; ++mass)
+      by_command_[mass][lane] = dynamics.command[static_cast<Eigen::Index>(2 * mass + 1)];
+    if (!table.move_alike(modes_[lane], mode)) enter_dynamics(lane, dynamics);
+    modes_[lane] = mode;
+    rate_[lane] = table.rate(mode);
+    engaged_[lane] = contact.word() == ContactMode::engaged ? 1.0 : 0.0;
+    sticks_[lane] = contact.word() == ContactMode::stick ? 1.0 : 0.0;
+    sticking_.set(lane, contact.word() == ContactMode::stick);
+    stale_.set(lane, true);
+    refresh_guards(lane);
+  }
+
+  void enter_dynamics(std::size_t lane, const AffineDynamics& dynamics) {
     for (std::size_t mass = 0; mass < 2; ++mass) {
       const auto row = static_cast<Eigen::Index>(2 * mass + 1);
       for (std::size_t i = 0; i < 4; ++i)
         acceleration_[mass][i][lane] = dynamics.state(row, static_cast<Eigen::Index>(i));
-      by_command_[mass][lane] = dynamics.command[row];
       drift_[mass][lane] = dynamics.drift[row];
       by_force_[mass][lane] = dynamics.force[row];
     }
-    rate_[lane] = tables_[lane]->rate(mode);
-    const TwoMass<double> plant = contact.plant(mode);
-    energy_[0][lane] = plant.conductor_stiffness;
-    energy_[1][lane] = plant.conductor_mass;
-    energy_[2][lane] = plant.absorber_stiffness;
-    energy_[3][lane] = plant.absorber_mass;
-    engaged_[lane] = contact.word() == ContactMode::engaged ? 1.0 : 0.0;
-    sticks_[lane] = contact.word() == ContactMode::stick ? 1.0 : 0.0;
-    refresh_guards(lane);
+  }
+
+  /// The steps of the present modes.
+  void refresh_steps() {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!stale_[lane]) continue;
+      const int mode = modes_[lane];
+      const EventTable& table = *tables_[lane];
+      const bool alike = table.move_alike(stepped_modes_[lane], mode);
+      stepped_modes_[lane] = mode;
+      for (std::size_t part = 0; part < 2; ++part) {
+        const SubintervalStep<4>& step = table.motion(mode).step(part);
+        for (std::size_t i = 0; i < 4; ++i)
+          steps_[part].command[i][lane] = step.command[static_cast<Eigen::Index>(i)];
+        if (!alike) enter_step(lane, part, step);
+        if (contacts_[lane].changes_between_samples()) enter_drop(lane, part);
+      }
+      if (alike) continue;
+      const TwoMass<double> plant = contacts_[lane].plant(mode);
+      energy_[0][lane] = plant.conductor_stiffness;
+      energy_[1][lane] = plant.conductor_mass;
+      energy_[2][lane] = plant.absorber_stiffness;
+      energy_[3][lane] = plant.absorber_mass;
+    }
+    stale_.reset();
   }
 
   void enter_step(std::size_t lane, std::size_t part, const SubintervalStep<4>& from) {
     Step& to = steps_[part];
+    const bool held = excitation_.is_held(lane);
     for (std::size_t i = 0; i < 4; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       for (std::size_t k = 0; k < 4; ++k)
         to.transition[i][k][lane] = from.transition(row, static_cast<Eigen::Index>(k));
-      to.command[i][lane] = from.command[row];
       to.drift[i][lane] = from.drift[row];
-      const bool held = excitation_.is_held(lane);
       for (std::size_t l = 0; l < to.lines.size(); ++l) {
         const bool has = !held && l < from.lines.size();
-        to.lines[l][0][i][lane] =
-            has ? from.lines[l].cosine[row] : held && l == 0 ? from.held[row] : 0.0;
+        to.lines[l][0][i][lane] = has              ? from.lines[l].cosine[row]
+                                  : held && l == 0 ? from.held[row]
+                                                   : 0.0;
         to.lines[l][1][i][lane] = has ? from.lines[l].sine[row] : 0.0;
       }
     }
-    if (!contacts_[lane].changes_between_samples()) return;
+  }
+
+  void enter_drop(std::size_t lane, std::size_t part) {
     const EventTable::Drop drop = tables_[lane]->drop(contacts_[lane], part);
-    to.drop_by_norm[lane] = drop.by_norm;
-    to.drop_by_command[lane] = drop.by_command;
-    to.drop_constant[lane] = drop.constant;
+    steps_[part].drop_by_norm[lane] = drop.by_norm;
+    steps_[part].drop_by_command[lane] = drop.by_command;
+    steps_[part].drop_constant[lane] = drop.constant;
   }
 
   /// A guard that a lane has not got is far above zero for good.
@@ -334,27 +368,26 @@ class EventPack {
     const Guards guards = accumulates_[lane] ? Guards() : contacts_[lane].guards();
     bool fresh = false;
     for (std::size_t g = 0; g < 2; ++g) {
-      Guard guard{Vector<double, 4>::Zero(), 0.0, 0.0, far};
-      if (static_cast<int>(g) < guards.count) guard = guards.guard[g];
+      const bool has = static_cast<int>(g) < guards.count;
+      const Guard& guard = guards.guard[g];
       LaneGuard& to = guards_[g];
-      for (std::size_t i = 0; i < 4; ++i) to.state[i][lane] = guard.state[static_cast<Eigen::Index>(i)];
-      to.command[lane] = guard.command;
-      to.force[lane] = guard.force;
-      to.constant[lane] = guard.constant;
-      to.zeros[lane] = guard.zeros;
-      fresh = fresh || guard.zeros > 0 || guard.unsigned_yet;
+      for (std::size_t i = 0; i < 4; ++i)
+        to.state[i][lane] = has ? guard.state[static_cast<Eigen::Index>(i)] : 0.0;
+      to.command[lane] = has ? guard.command : 0.0;
+      to.force[lane] = has ? guard.force : 0.0;
+      to.constant[lane] = has ? guard.constant : far;
+      to.zeros[lane] = has ? guard.zeros : 0;
+      fresh = fresh || (has && (guard.zeros > 0 || guard.unsigned_yet));
     }
-    unsigned_[lane] = guards.count > 0 && guards.guard[0].unsigned_yet ? 1.0 : 0.0;
-    fresh_[lane] = fresh ? 1.0 : 0.0;
+    unsigned_.set(lane, guards.count > 0 && guards.guard[0].unsigned_yet);
+    set_fresh(lane, fresh);
+    two_guards_.set(lane, guards.count > 1);
     has_guard_[lane] = guards.count > 0 ? 1.0 : 0.0;
-    fresh_lanes_ = sticking_ = unsigned_lanes_ = two_guards_ = 0;
-    guard_counts_[lane] = guards.count;
-    for (std::size_t k = 0; k < lanes; ++k) {
-      fresh_lanes_ += fresh_[k] > 0.5 ? 1 : 0;
-      sticking_ += sticks_[k] > 0.5 ? 1 : 0;
-      unsigned_lanes_ += unsigned_[k] > 0.5 ? 1 : 0;
-      two_guards_ += guard_counts_[k] > 1 ? 1 : 0;
-    }
+  }
+
+  void set_fresh(std::size_t lane, bool fresh) {
+    fresh_[lane] = fresh ? 1.0 : 0.0;
+    fresh_lanes_.set(lane, fresh);
   }
 
   // Jumps of the command.
@@ -365,11 +398,12 @@ class EventPack {
     return LaneExcitation<Scalar>::force(phasors_);
   }
 
-  /// Lanes whose contact looks at a jump: in stick, where its condition fails under the new command,
-  /// and just after a change.
+  /// Lanes whose contact looks at a jump: in stick, where its condition fails under the new
+  /// command, and just after a change.
   template <class Observer>
-  void jump(const Scalar& after, const Scalar& command, const LaneMask& which, Observer&& observer) {
-    if (sticking_ == 0 && fresh_lanes_ == 0) return;
+  void jump(const Scalar& after, const Scalar& command, const LaneMask& which,
+            Observer&& observer) {
+    if (sticking_.none() && fresh_lanes_.none()) return;
     const Scalar zero(0), force = force_at(after);
     const std::array<Scalar, 4> z = state();
     LaneMask stays = zero == zero;
@@ -382,7 +416,8 @@ class EventPack {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       if (lane_asked[lane] == 0) continue;
       const int before = contacts_[lane].mode();
-      contacts_[lane].jumped({state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)});
+      contacts_[lane].jumped(
+          {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)});
       if (contacts_[lane].mode() == before) {
         refresh_guards(lane);
         continue;
@@ -426,16 +461,20 @@ class EventPack {
   /// The whole part at once in the lanes where it is sure that the contact does not change in it.
   /// @return those lanes
   LaneMask flow_without_event(const Part& part, const LaneMask& which) {
+    if (stale_.any()) refresh_steps();
     const std::array<Scalar, 4> before = state();
     std::array<Scalar, 4> after = stepped(steps_[part.number], before, part.command);
-    if (sticking_ > 0) {
+    if (sticking_.any()) {
       const LaneMask sticks = sticks_.all() > Scalar(0.5);
       after[2] = select(sticks, Scalar(after[0] + (before[2] - before[0])), after[2]);
       after[3] = select(sticks, after[1], after[3]);
     }
     const LaneMask through =
         which & ((has_guard_.all() < Scalar(0.5)) | no_guard_falls(part, before, after));
-    for (std::size_t i = 0; i < 4; ++i) state_[i].set(select(through, after[i], before[i]));
+    // What comes next need not wait for the bound where all lanes are through.
+    const bool whole = all(through);
+    for (std::size_t i = 0; i < 4; ++i)
+      state_[i].set(whole ? after[i] : select(through, after[i], before[i]));
     return through;
   }
 
@@ -444,13 +483,15 @@ class EventPack {
     std::array<Scalar, 4> after;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& row = step.transition[i];
-      after[i] = row[0].all() * z[0] + row[1].all() * z[1] + row[2].all() * z[2] +
-                 row[3].all() * z[3] + (step.command[i].all() * command + step.drift[i].all());
+      after[i] = step.drift[i].all();
       for (std::size_t l = 0; l < step.lines.size(); ++l) {
         const ExcitationSample<Scalar>& phase = excitation_.phase(l);
-        after[i] = after[i] + step.lines[l][0][i].all() * phase.cosine +
-                   step.lines[l][1][i].all() * phase.sine;
+        after[i] = step.lines[l][1][i].all() * phase.sine +
+                   (step.lines[l][0][i].all() * phase.cosine + after[i]);
       }
+      // The command is known last.
+      for (std::size_t k = 0; k < 4; ++k) after[i] = row[k].all() * z[k] + after[i];
+      after[i] = step.command[i].all() * command + after[i];
     }
     return after;
   }
@@ -461,7 +502,7 @@ class EventPack {
     using std::min;
     using std::sqrt;
     Scalar force_before(0), force_after(0);
-    if (sticking_ > 0) {
+    if (sticking_.any()) {
       force_before = force_at(part.begin);
       force_after = force_at(part.end);
     }
@@ -489,11 +530,7 @@ class EventPack {
     const Scalar zero(0), one(1), begin = reached.all();
     const Scalar wanted = part.end - begin;
     const Scalar length = select(pending, min(wanted, Scalar(one / rate_.all())), zero);
-    Numbers turns;
-    turns.set(rate_.all() * length);
-    double most = 0.0;
-    for (std::size_t lane = 0; lane < lanes; ++lane) most = std::max(most, turns[lane]);
-    const int terms = terms_for(most);
+    const int terms = terms_of(rate_.all() * length);
     excitation_.turned(begin, phasors_);
     const std::array<Scalar, 4> z = state();
     const TwoMassSeries<Scalar> series(accelerations(part.command), z, phasors_, length, terms);
@@ -503,18 +540,42 @@ class EventPack {
     const Scalar came = select(event.found, Scalar(begin + event.at * length),
                                select(length == wanted, part.end, Scalar(begin + length)));
     reached.set(select(pending, came, begin));
-    if (fresh_lanes_ > 0) tell_flowed(pending & (event.at * length > zero));
+    if (fresh_lanes_.any()) tell_flowed(pending & (event.at * length > zero));
     if (any(event.found))
       change(event, part.command, series.value(series.force, terms, event.at), reached, observer);
+  }
+
+  /// terms_for() of the lane that turns most.
+  int terms_of(const Scalar& turns) const {
+    Numbers of_lane;
+    of_lane.set(turns);
+    double most = 0.0;
+    for (std::size_t lane = 0; lane < lanes; ++lane) most = std::max(most, of_lane[lane]);
+    int terms = 1;
+    for (const double longest : longest_) terms += most > longest ? 1 : 0;
+    return std::min(terms, most_terms);
+  }
+
+  /// How long a series of 1, 2, … terms may be, in turns.
+  static std::array<double, most_terms> lengths_of_series() {
+    std::array<double, most_terms> longest{};
+    for (int terms = 1; terms <= most_terms; ++terms) {
+      double low = 0.0, high = 2.0;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (terms_for(middle) <= terms ? low : high) = middle;
+      }
+      longest[static_cast<std::size_t>(terms - 1)] = low;
+    }
+    return longest;
   }
 
   std::array<LaneAcceleration<Scalar>, 2> accelerations(const Scalar& command) const {
     const auto row = [&](std::size_t mass) {
       const auto& of = acceleration_[mass];
-      return LaneAcceleration<Scalar>{
-          {of[0].all(), of[1].all(), of[2].all(), of[3].all()},
-          by_command_[mass].all() * command + drift_[mass].all(),
-          by_force_[mass].all()};
+      return LaneAcceleration<Scalar>{{of[0].all(), of[1].all(), of[2].all(), of[3].all()},
+                                      by_command_[mass].all() * command + drift_[mass].all(),
+                                      by_force_[mass].all()};
     };
     return {row(0), row(1)};
   }
@@ -522,46 +583,46 @@ class EventPack {
   /// The first change of contact over a stretch, in every lane.
   struct Event {
     LaneMask found;
-    Scalar at;             // in lengths of the stretch; 1 where there is none
-    LaneMask second;       // it is the second guard's
+    Scalar at;        // in lengths of the stretch; 1 where there is none
+    LaneMask second;  // it is the second guard's
   };
 
   Event next_event(const TwoMassSeries<Scalar>& series, const Scalar& command, int terms,
                    const LaneMask& pending) {
     const LaneMask guarded = pending & (has_guard_.all() > Scalar(0.5));
-    const LaneSeries<Scalar> first = guard_series(0, series, command, terms, guarded);
-    if (two_guards_ == 0) {
-      const auto [root] = first_roots<Scalar, 1>({first}, terms, {guarded});
+    if (two_guards_.none()) {
+      std::array<LaneSeries<Scalar>, 1> guards;
+      guard_series(0, series, command, terms, guarded, guards[0]);
+      const auto [root] = first_roots<Scalar, 1>(guards, terms, {guarded});
       return {root.found, root.at, Scalar(0) > Scalar(0)};
     }
-    const LaneSeries<Scalar> second = guard_series(1, series, command, terms, guarded);
-    const auto [one, two] = first_roots<Scalar, 2>({first, second}, terms, {guarded, guarded});
+    std::array<LaneSeries<Scalar>, 2> guards;
+    for (std::size_t g = 0; g < 2; ++g) guard_series(g, series, command, terms, guarded, guards[g]);
+    const auto [one, two] = first_roots<Scalar, 2>(guards, terms, {guarded, guarded});
     const LaneMask later = two.found & !(one.found & (one.at <= two.at));
     const LaneMask found = one.found | two.found;
     return {found, select(later, two.at, one.at), later};
   }
 
   /// A guard along a stretch; leading coefficients that are nothing but rounding are zero.
-  LaneSeries<Scalar> guard_series(std::size_t number, const TwoMassSeries<Scalar>& series,
-                                  const Scalar& command, int terms, const LaneMask& which) {
+  void guard_series(std::size_t number, const TwoMassSeries<Scalar>& series, const Scalar& command,
+                    int terms, const LaneMask& which, LaneSeries<Scalar>& result) {
     const LaneGuard& guard = guards_[number];
     const std::array<Scalar, 4> row{guard.state[0].all(), guard.state[1].all(),
                                     guard.state[2].all(), guard.state[3].all()};
     const Scalar by_force = guard.force.all(), zeros = guard.zeros.all(), zero(0);
     const auto count = static_cast<std::size_t>(terms);
-    LaneSeries<Scalar> result;
     for (std::size_t k = 0; k < count; ++k)
       result[k] = row[0] * series.state[0][k] + row[1] * series.state[1][k] +
                   row[2] * series.state[2][k] + row[3] * series.state[3][k];
-    if (sticking_ > 0)
+    if (sticking_.any())
       for (std::size_t k = 0; k < count; ++k) result[k] = result[k] + by_force * series.force[k];
     result[0] = result[0] + guard.command.all() * command + guard.constant.all();
-    if (fresh_lanes_ > 0)
+    if (fresh_lanes_.any())
       for (std::size_t k = 0; k < std::min<std::size_t>(count, 4); ++k)
         result[k] = select(zeros > Scalar(static_cast<double>(k)), zero, result[k]);
     clear_rounding(guard, row, series, command, terms, which, result);
-    if (number == 0 && unsigned_lanes_ > 0) learn_signs(terms, which, result);
-    return result;
+    if (number == 0 && unsigned_.any()) learn_signs(terms, which, result);
   }
 
   void clear_rounding(const LaneGuard& guard, const std::array<Scalar, 4>& row,
@@ -584,7 +645,7 @@ class EventPack {
   /// The sign that a guard takes first where it was not known, as detail::first_sign() has it.
   void learn_signs(int terms, const LaneMask& which, LaneSeries<Scalar>& series) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (unsigned_[lane] < 0.5 || flags(which)[lane] == 0) continue;
+      if (!unsigned_[lane] || flags(which)[lane] == 0) continue;
       Series alone(terms);
       for (Eigen::Index k = 0; k < terms; ++k)
         alone[k] = detail::lane_of(series[static_cast<std::size_t>(k)], lane);
@@ -605,9 +666,14 @@ class EventPack {
   void tell_flowed(const LaneMask& passed) {
     const auto lane_passed = flags(passed);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (lane_passed[lane] == 0 || fresh_[lane] < 0.5) continue;
+      if (lane_passed[lane] == 0 || !fresh_lanes_[lane]) continue;
       contacts_[lane].flowed();
-      refresh_guards(lane);
+      if (unsigned_[lane]) {
+        refresh_guards(lane);
+        continue;
+      }
+      for (LaneGuard& guard : guards_) guard.zeros[lane] = 0.0;
+      set_fresh(lane, false);
     }
   }
 
@@ -633,6 +699,7 @@ class EventPack {
 
   LaneExcitation<Scalar> excitation_;
   std::vector<LanePhasor<Scalar>> phasors_;
+  std::array<double, most_terms> longest_ = lengths_of_series();
   std::array<EventTable*, lanes> tables_{};
   std::vector<DriveContact<>> contacts_;
   Numbers period_, delay_, proportional_, differential_, awake_;
@@ -647,11 +714,11 @@ class EventPack {
   std::array<Numbers, 2> by_command_, drift_, by_force_;
   std::array<Numbers, 4> energy_;
   std::array<LaneGuard, 2> guards_;
-  Numbers rate_, engaged_, sticks_, unsigned_, fresh_, has_guard_;
-  std::array<int, lanes> guard_counts_{}, switches_{};
+  Numbers rate_, engaged_, sticks_, fresh_, has_guard_;
+  std::array<int, lanes> modes_{}, stepped_modes_{}, switches_{};
   std::array<bool, lanes> accumulates_{};
   bool some_accumulate_ = false;
-  int fresh_lanes_ = 0, sticking_ = 0, unsigned_lanes_ = 0, two_guards_ = 0;
+  std::bitset<lanes> fresh_lanes_, sticking_, unsigned_, two_guards_, stale_;
 };
 
 }  // namespace holdfast

@@ -30,16 +30,14 @@ inline bool has_event_pack(const ImplementedLoop& loop) {
 }
 
 /// The rate of the powers of A (1/s): the largest ‖Aᵏ‖^{1/k}, k = 10 … most_terms, in balanced
-/// coordinates. A series of e^{A h} with as many terms as terms_for(rate h) asks for leaves out what
-/// that of balanced_norm() does; it is nearer to the spectral radius.
+/// coordinates. A series of e^{A h} with as many terms as terms_for(rate h) asks for leaves out
+/// what that of balanced_norm() does; it is nearer to the spectral radius.
 /// @tparam States  N, the order of the plant
 template <int States>
 double rate_of_powers(const Matrix<double, States>& a) {
   constexpr int first = 10;
   const Matrix<double, States> balanced = BalancedMatrix<double, States>(a).balanced;
-  const auto norm = [](const auto& matrix) {
-    return matrix.cwiseAbs().rowwise().sum().maxCoeff();
-  };
+  const auto norm = [](const auto& matrix) { return matrix.cwiseAbs().rowwise().sum().maxCoeff(); };
   const double size = norm(balanced);
   if (!(size > 0.0)) return 0.0;
   const Matrix<double, States> unit = balanced / size;
@@ -69,6 +67,9 @@ class EventTable {
       rates_[at(mode)] = std::max(rate_of_powers(motions_.back().dynamics().state),
                                   force_.highest_angular_frequency());
     }
+    for (std::size_t mode = 0; mode < motions_.size(); ++mode)
+      for (std::size_t other = 0; other < motions_.size(); ++other)
+        alike_[mode][other] = alike(motions_[mode].dynamics(), motions_[other].dynamics());
   }
 
   /// Whether it serves another loop too.
@@ -83,6 +84,10 @@ class EventTable {
 
   /// How they move in a mode.
   const Motion& motion(int mode) const { return motions_[at(mode)]; }
+  /// Whether two modes differ in what the command does alone; −1 is no mode, like none.
+  bool move_alike(int mode, int other) const {
+    return mode == other || (mode >= 0 && other >= 0 && alike_[at(mode)][at(other)]);
+  }
   /// 1 / the largest length (s) of a series in a mode.
   double rate(int mode) const { return rates_[at(mode)]; }
   /// The excitation, at no sample.
@@ -111,12 +116,15 @@ class EventTable {
             plant.absorber_mass,  plant.absorber_stiffness,  plant.absorber_damping};
   }
 
+  static bool alike(const AffineDynamics& mode, const AffineDynamics& other) {
+    return mode.state == other.state && mode.force == other.force && mode.drift == other.drift;
+  }
+
   static bool same_force(const std::vector<Harmonic>& mine, const std::vector<Harmonic>& its) {
-    return std::equal(mine.begin(), mine.end(), its.begin(), its.end(),
-                      [](const Harmonic& a, const Harmonic& b) {
-                        return a.amplitude == b.amplitude && a.frequency == b.frequency &&
-                               a.phase == b.phase;
-                      });
+    return std::equal(
+        mine.begin(), mine.end(), its.begin(), its.end(), [](const Harmonic& a, const Harmonic& b) {
+          return a.amplitude == b.amplitude && a.frequency == b.frequency && a.phase == b.phase;
+        });
   }
 
   static bool same_stops(const BacklashParameters& mine, const BacklashParameters& its) {
@@ -130,6 +138,7 @@ class EventTable {
   ForceOverSamples force_;
   std::vector<Motion> motions_;
   std::array<double, 3> rates_{};
+  std::array<std::array<bool, 3>, 3> alike_{};
   std::array<std::optional<std::array<Drop, 2>>, 3> drops_;
 };
 

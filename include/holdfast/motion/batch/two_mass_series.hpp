@@ -10,6 +10,21 @@
 
 namespace holdfast {
 
+namespace detail {
+
+/// 1/k!, k < most_terms.
+constexpr std::array<double, most_terms> inverse_factorials() {
+  std::array<double, most_terms> result{};
+  double factorial = 1.0;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (k > 0) factorial *= static_cast<double>(k);
+    result[k] = 1.0 / factorial;
+  }
+  return result;
+}
+
+}  // namespace detail
+
 /// How a mass of the two is accelerated in one mode of the contact, in every lane:
 /// state · [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
 template <class Scalar>
@@ -31,8 +46,8 @@ struct LanePhasor {
 ///
 ///     d_{k+1} = h (A d_k + w_k),   z(t + x h) = Σ d_k x^k / k!
 ///
-/// with w_k as there. Two of the four rows of A say that ż = dz/dt and cost one product. Work per term: 8
-/// multiply-adds and 9 products, 3 for each harmonic.
+/// with w_k as there. Two of the four rows of A say that ż = dz/dt and cost one product. Work per
+/// term: 8 multiply-adds and 9 products, 3 for each harmonic.
 template <class Scalar>
 struct TwoMassSeries {
   std::array<LaneSeries<Scalar>, 4> state;  ///< of z₁, ż₁, z₂, ż₂
@@ -56,19 +71,18 @@ struct TwoMassSeries {
     const LaneAcceleration<Scalar> one = scaled(masses[0]), two = scaled(masses[1]);
     std::array<Scalar, 4> now = begin;
     Scalar constant_one = one.constant, constant_two = two.constant;
-    double inverse_factorial = 1.0;
+    constexpr auto inverse_factorial = detail::inverse_factorials();
     for (std::size_t k = 0;; ++k) {
-      for (std::size_t i = 0; i < 4; ++i) state[i][k] = now[i] * Scalar(inverse_factorial);
+      for (std::size_t i = 0; i < 4; ++i) state[i][k] = now[i] * Scalar(inverse_factorial[k]);
       if (k + 1 == static_cast<std::size_t>(terms)) break;
       const Scalar next_one = rate(one, now, constant_one, force[k]);
       const Scalar next_two = rate(two, now, constant_two, force[k]);
-      force[k] = force[k] * Scalar(inverse_factorial);
+      force[k] = force[k] * Scalar(inverse_factorial[k]);
       now = {now[1] * length, next_one, now[3] * length, next_two};
       constant_one = constant_two = Scalar(0);
-      inverse_factorial /= static_cast<double>(k + 1);
     }
-    force[static_cast<std::size_t>(terms - 1)] =
-        force[static_cast<std::size_t>(terms - 1)] * Scalar(inverse_factorial);
+    const auto last = static_cast<std::size_t>(terms - 1);
+    force[last] = force[last] * Scalar(inverse_factorial[last]);
   }
 
   /// The value of one of the series at x.
@@ -80,7 +94,8 @@ struct TwoMassSeries {
 
  private:
   /// The derivatives of the force, not yet divided.
-  void expand_force(const std::vector<LanePhasor<Scalar>>& phasors, const Scalar& length, int terms) {
+  void expand_force(const std::vector<LanePhasor<Scalar>>& phasors, const Scalar& length,
+                    int terms) {
     const auto count = static_cast<std::size_t>(terms);
     for (std::size_t k = 0; k < count; ++k) force[k] = Scalar(0);
     for (const LanePhasor<Scalar>& phasor : phasors) {
