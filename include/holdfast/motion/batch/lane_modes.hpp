@@ -156,7 +156,7 @@ class LaneModes {
     refresh_guards(lane);
   }
 
-  /// Some time has passed in a lane since its last change, of which it is_fresh().
+  /// Some time has passed in a lane since its last change: for those in freshly_changed().
   void flowed(std::size_t lane) {
     contacts_[lane].flowed();
     if (unsigned_[lane]) return refresh_guards(lane);
