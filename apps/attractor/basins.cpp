@@ -238,7 +238,9 @@ struct BasinsQuestion {
     } else {
       const ImplementedLoop loop = implemented_loop_of(the_case, switching);
       require_attractors(forcing_ratio(loop.digital), largest_period);
-      write(find_basins(loop, states, limits, tiles));
+      if (!has_event_pack(loop)) return write(find_basins(loop, states, limits, tiles));
+      write(find_basins_by(pack_kernels(context.instructions).approaches, loop, states, limits,
+                           tiles));
     }
   }
 

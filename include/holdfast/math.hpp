@@ -27,6 +27,7 @@
 #include "holdfast/math/roots/bracketing_root.hpp"
 #include "holdfast/math/roots/first_crossing.hpp"
 #include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/first_roots.hpp"
 #include "holdfast/math/roots/region_border.hpp"
 #include "holdfast/math/roots/root_from_pole.hpp"
 #include "holdfast/math/roots/series.hpp"

@@ -2,6 +2,13 @@
 
 /// Motions of the loop: sampled map and event-driven flow.
 
+#include "holdfast/motion/batch/event_pack.hpp"
+#include "holdfast/motion/batch/event_table.hpp"
+#include "holdfast/motion/batch/lane_events.hpp"
+#include "holdfast/motion/batch/lane_excitation.hpp"
+#include "holdfast/motion/batch/lane_modes.hpp"
+#include "holdfast/motion/batch/lane_numbers.hpp"
+#include "holdfast/motion/batch/two_mass_series.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "holdfast/motion/event_motion.hpp"

@@ -2,6 +2,7 @@
 
 /// Basins, sections, diagrams.
 
+#include "holdfast/phase_space/approaches.hpp"
 #include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"

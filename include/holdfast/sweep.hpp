@@ -2,6 +2,7 @@
 
 /// Metrics of many motions.
 
+#include "holdfast/sweep/event_metric_batch.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/metric_group.hpp"

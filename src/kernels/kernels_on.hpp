@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "holdfast/phase_space/approaches.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/stability/chart/loop_chart_rows.hpp"
+#include "holdfast/sweep/event_metric_batch.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "kernels/pack_kernels.hpp"
 
@@ -71,12 +73,21 @@ class KernelsOn {
     detail::group_metrics<Pack>(motions, spans, count, results, of_caller);
   }
 
+  static void event_metrics(const detail::PreparedEventMotion* motions, std::size_t count,
+                            MotionMetrics* results, MotionSource& source) {
+    detail::group_event_metrics<Pack>(motions, count, results, [&] { source.pause(); });
+  }
+
+  static void approaches(const ImplementedLoop& loop, LaneApproaches& all) {
+    run_approaches<Pack>(loop, all);
+  }
+
   static std::unique_ptr<TravelKernel> travel(const PeriodicallyForcedMotion<double>& motion) {
     return std::make_unique<Travel>(MotionBatch<Pack>(motion));
   }
 
  public:
-  static constexpr PackKernels all{chart, metrics, travel};
+  static constexpr PackKernels all{chart, metrics, event_metrics, approaches, travel};
 };
 
 }  // namespace holdfast::program

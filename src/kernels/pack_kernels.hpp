@@ -5,8 +5,10 @@
 #include <memory>
 #include <utility>
 
+#include "holdfast/phase_space/approaches.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/stability/chart/loop_chart.hpp"
+#include "holdfast/sweep/event_metric_batch.hpp"
 #include "holdfast/sweep/metric_observer.hpp"
 #include "holdfast/sweep/sweep_matrices.hpp"
 #include "kernels/instruction_set.hpp"
@@ -82,6 +84,11 @@ struct PackKernels {
   /// detail::group_metrics().
   void (*metrics)(const SweepMotion* motions, const detail::SampleSpan* spans, std::size_t count,
                   MotionMetrics* results, MotionSource& source);
+  /// detail::group_event_metrics(); the source gives its pause.
+  void (*event_metrics)(const detail::PreparedEventMotion* motions, std::size_t count,
+                        MotionMetrics* results, MotionSource& source);
+  /// run_approaches().
+  void (*approaches)(const ImplementedLoop& loop, LaneApproaches& approaches);
   std::unique_ptr<TravelKernel> (*travel)(const PeriodicallyForcedMotion<double>& motion);
 };
 

@@ -70,6 +70,17 @@ TEST(Instructions, EachSetFindsTheSameBasins) {
       "basins --axis initial.z1=-0.005:0.005:9 --axis initial.z2=-0.005:0.005:9", 0.0);
 }
 
+TEST(Instructions, EachSetGivesTheSameSweepAndBasinsWithExactSwitching) {
+  expect_same_on_every_set(
+      "sweep --duration 4 --switching exact --axis control.differential_gain=-20:-5:5 --axis "
+      "backlash.width=0:0.002:5 --metric first_peak --metric steady_peak --metric steady_rms "
+      "--metric force_peak --metric absorber_stroke --metric outcome",
+      1e-12);
+  expect_same_on_every_set(
+      "basins --switching exact --axis initial.z1=-0.005:0.005:5 --axis initial.z2=-0.005:0.005:5",
+      0.0);
+}
+
 TEST(Instructions, AnUnknownSetIsWrongInput) {
   const Outcome outcome = run_holdfast("stability --instructions sse9");
   EXPECT_EQ(outcome.exit_code, 2);

@@ -85,6 +85,16 @@ struct EventModel {
   static constexpr double widest_growing = switching == Switching::sampled ? 0.002 : 0.0;
 };
 
+/// That of exact switching in lanes.
+struct EventLanesModel : EventModel<Switching::exact> {
+  template <class Tiles>
+  static BasinsOf<EventOrbit> basins(const ImplementedLoop& loop,
+                                     const std::vector<Vector<double, 4>>& states,
+                                     const OrbitLimits& limits, const Tiles& tiles) {
+    return find_basins_by(run_approaches<double>, loop, states, limits, tiles);
+  }
+};
+
 /// The same of a plant under a controller of its own, its order known at run time alone.
 struct ControlledModel {
   using Loop = ImplementedLoopOf<ControlledPlant>;
@@ -149,7 +159,7 @@ class Basins : public testing::Test {
 };
 
 using BasinModels = testing::Types<PaperModel, ModalModel, EventModel<Switching::sampled>,
-                                   EventModel<Switching::exact>, ControlledModel>;
+                                   EventModel<Switching::exact>, EventLanesModel, ControlledModel>;
 TYPED_TEST_SUITE(Basins, BasinModels, );
 
 TYPED_TEST(Basins, EveryStateHasTheLabelThatItHasAlone) {

@@ -48,13 +48,24 @@ class NoEventBoundOf {
                 std::abs(guard.force) * force.second_rate;
   }
 
+  /// What `drop_below_chord` is over one length: by_norm ‖z‖ + by_command |u| + constant.
+  struct Drop {
+    double by_norm;     ///< of the norm of the state at the begin
+    double by_command;  ///< per newton of |u|
+    double constant;    ///< in the unit of the guard
+  };
+  /// Over a length (s), ≥ 0.
+  Drop drop_over(double length) const {
+    const double share = length * length / 8.0, by_size = share * by_state_;
+    return {by_size, by_size * length * command_growth_ + share * by_command_,
+            by_size * length * other_growth_ + share * by_force_};
+  }
+
   /// How far below the chord of its ends a guard may come.
   double drop_below_chord(const Vector<double, States>& begin, double command,
                           double length) const {
-    const double largest =
-        energy_(begin) + length * (command_growth_ * std::abs(command) + other_growth_);
-    const double bend = by_state_ * largest + by_command_ * std::abs(command) + by_force_;
-    return bend * length * length / 8.0;
+    const Drop drop = drop_over(length);
+    return drop.by_norm * energy_(begin) + drop.by_command * std::abs(command) + drop.constant;
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,11 +19,13 @@
 #include "holdfast/orbit/event/return_map.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/state_scale.hpp"
+#include "holdfast/phase_space/approaches.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
 #include "holdfast/phase_space/basins.hpp"
 #include "holdfast/phase_space/motion_batch.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
+#include "holdfast/plant/two_mass.hpp"
 
 namespace holdfast {
 
@@ -64,68 +67,110 @@ struct Neighbourhoods<ImplementedLoopOf<Plant>> {
   static constexpr double nearness = 1e-6;
 };
 
-/// A motion that may come to an orbit of a set.
-template <class Contact>
-class ApproachingMotion {
-  using Plant = typename EventMotion<Contact>::Plant;
+/// Whether a motion comes to an orbit of a set, told from its states at the stroboscopic instants
+/// and its modes in between.
+/// @tparam Plant  of an ImplementedLoopOf
+template <class Plant>
+class ApproachOf {
   using Attractors = AttractorSet<ImplementedLoopOf<Plant>>;
   using Orbit = typename Attractors::Orbit;
 
  public:
-  /// @param start  at a stroboscopic instant (sampling and forcing in phase)
-  ApproachingMotion(const EventMotion<Contact>& start, const Rational& ratio)
-      : motion_(start, ratio.denominator) {}
+  /// @param known    at least as long-lived
+  /// @param samples  after which it is given up
+  /// @param period   q, samples from one stroboscopic instant to the next
+  ApproachOf(const Attractors& known, std::int64_t samples, std::int64_t period)
+      : known_(&known), samples_(samples), period_(period) {}
 
-  /// @return the number of the orbit of `known` that it comes to; −1: none in so many samples
-  int run(const Attractors& known, const OrbitLimits& limits, std::int64_t samples) {
-    while (taken_ < samples && is_followed()) {
-      if (limits.watch) limits.watch();
-      const auto* const entry = known.near(motion_.point());
-      if (entry != nullptr) {
-        const Orbit& orbit = known.orbits()[static_cast<std::size_t>(entry->orbit)];
-        if (comes_to(orbit, entry->point)) return entry->orbit;
-      }
-      for (std::int64_t j = 0; j < motion_.period(); ++j) take();
+  /// Takes the state at a stroboscopic instant, before the sample.
+  /// @param is_followed  the changes of contact do not accumulate
+  /// @return whether the motion is to go on to the next one
+  bool goes_on(const StateOf<Plant>& state, bool is_followed) {
+    const bool followed = is_followed && state.cwiseAbs().maxCoeff() < 1e100;
+    if (entry_ != nullptr) {
+      if (followed && compared_ < static_cast<std::int64_t>(orbit().modes.size())) return true;
+      if (followed && keeps_course(state)) return orbit_ < 0;
+      entry_ = nullptr;
+      return followed;
     }
-    return -1;
+    if (taken_ >= samples_ || !followed) return false;
+    entry_ = known_->near(Place{state});
+    if (entry_ != nullptr) {
+      distances_[0] = entry_->point.distance(state);
+      periods_ = 0;
+      begin_period();
+    }
+    return true;
   }
+
+  /// Takes the mode of a sample.
+  void took(ContactMode mode) {
+    ++taken_;
+    if (entry_ == nullptr) return;
+    const auto& modes = orbit().modes;
+    const auto at = (entry_->point.sample + static_cast<std::size_t>(compared_)) % modes.size();
+    keeps_ = mode == modes[at] && keeps_;
+    ++compared_;
+  }
+
+  /// The number of the orbit that it comes to; −1: none.
+  int found() const { return orbit_; }
+  /// Samples between two stroboscopic instants.
+  std::int64_t period() const { return period_; }
 
  private:
-  const StateOf<Plant>& state() const { return motion_.motion().state(); }
+  struct Place {
+    const StateOf<Plant>& state;
+  };
 
-  bool is_followed() const {
-    return state().cwiseAbs().maxCoeff() < 1e100 && !motion_.motion().counts().accumulates;
+  const Orbit& orbit() const { return known_->orbits()[static_cast<std::size_t>(entry_->orbit)]; }
+
+  void begin_period() {
+    compared_ = 0;
+    keeps_ = true;
   }
 
-  ContactMode take() {
-    const ContactMode mode = motion_.sense().mode;
-    motion_.advance();
-    ++taken_;
-    return mode;
-  }
-
-  /// Whether the motion keeps to the orbit's modes and comes nearer over two of its periods, in the
-  /// second one as its largest multiplier asks.
-  template <class Point>
-  bool comes_to(const Orbit& orbit, const Point& point) {
-    double distances[3] = {point.distance(state())};
-    for (const int period : {1, 2}) {
-      bool keeps = true;
-      for (std::size_t j = 0; j < orbit.modes.size(); ++j)
-        keeps = take() == orbit.modes[(point.sample + j) % orbit.modes.size()] && keeps;
-      if (!keeps) return false;
-      distances[period] = point.distance(state());
-    }
+  /// After one of two periods of the orbit: whether the motion has kept to its modes and, after the
+  /// second, come nearer over both, over that one as its largest multiplier asks.
+  bool keeps_course(const StateOf<Plant>& state) {
+    if (!keeps_) return false;
+    distances_[++periods_] = entry_->point.distance(state);
+    begin_period();
+    if (periods_ < 2) return true;
     // μ itself is the factor in the long run only: a deviation turns while it shrinks.
     constexpr double share = 0.9, rounding = 1e-11;
-    const double factor = std::exp(share * orbit.multipliers.front().log_modulus);
-    return distances[1] <= std::max(distances[0], rounding) &&
-           distances[2] <= std::max(factor * distances[1], rounding);
+    const double factor = std::exp(share * orbit().multipliers.front().log_modulus);
+    if (!(distances_[1] <= std::max(distances_[0], rounding) &&
+          distances_[2] <= std::max(factor * distances_[1], rounding)))
+      return false;
+    orbit_ = entry_->orbit;
+    return true;
   }
 
-  RepeatingMotion<Contact> motion_;
-  std::int64_t taken_ = 0;
+  const Attractors* known_;
+  std::int64_t samples_, period_, taken_ = 0, compared_ = 0;
+  const typename Attractors::Entry* entry_ = nullptr;  // whose orbit it may come to
+  int periods_ = 0, orbit_ = -1;
+  bool keeps_ = true;
+  double distances_[3] = {};
 };
+
+/// The number of the orbit of a set that a motion comes to; −1: none in so many samples.
+/// @param start  at a stroboscopic instant (sampling and forcing in phase)
+template <class Contact, class Attractors>
+int approached_orbit(const EventMotion<Contact>& start, const Rational& ratio,
+                     const Attractors& known, const OrbitLimits& limits, std::int64_t samples) {
+  RepeatingMotion<Contact> motion(start, ratio.denominator);
+  ApproachOf<typename EventMotion<Contact>::Plant> approach(known, samples, motion.period());
+  while (approach.goes_on(motion.motion().state(), !motion.motion().counts().accumulates)) {
+    if (limits.watch) limits.watch();
+    for (std::int64_t j = 0; j < motion.period(); ++j) {
+      approach.took(motion.sense().mode);
+      motion.advance();
+    }
+  }
+  return approach.found();
+}
 
 /// Within so many samples most motions that come to one of the orbits are near it: those in which a
 /// deviation shrinks by 10⁸, and a few periods.
@@ -140,6 +185,56 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
   const std::int64_t most =
       limits.most_samples > 0 ? limits.most_samples : 8 * limits.largest_period;
   return static_cast<std::int64_t>(std::min(samples, static_cast<double>(most)));
+}
+
+/// Hands motions of two masses out to lanes that go past the orbits of a set together, and marks
+/// those that come to one.
+class EventApproaches final : public LaneApproaches {
+ public:
+  using Approach = ApproachOf<TwoMass<double>>;
+
+  /// @param motions  `count` of them
+  /// @param fresh    an approach that has not begun
+  EventApproaches(ActiveTrajectory* motions, std::size_t count, const Approach& fresh,
+                  const OrbitLimits& limits)
+      : next_(motions), end_(motions + count), fresh_(fresh), limits_(limits) {}
+
+  bool next(std::size_t lane, Vector<double, 4>& start) override {
+    if (next_ == end_) return false;
+    places_[lane] = {next_++, fresh_};
+    start = places_[lane]->motion->memory.state;
+    return true;
+  }
+  bool goes_on(std::size_t lane, const Vector<double, 4>& state, bool is_followed) override {
+    if (limits_.watch) limits_.watch();
+    Place& place = *places_[lane];
+    const bool on = place.approach.goes_on(state, is_followed);
+    if (!on) place.motion->orbit = place.approach.found();
+    return on;
+  }
+  void took(std::size_t lane, ContactMode mode) override { places_[lane]->approach.took(mode); }
+  std::int64_t period() const override { return fresh_.period(); }
+
+ private:
+  struct Place {
+    ActiveTrajectory* motion;
+    Approach approach;
+  };
+
+  ActiveTrajectory* next_;
+  ActiveTrajectory* end_;
+  Approach fresh_;
+  const OrbitLimits& limits_;
+  std::array<std::optional<Place>, 8> places_;
+};
+
+/// A motion's own orbit.
+template <class Motion>
+auto own_orbit(const Motion& motion, const OrbitLimits& limits) {
+  auto found = find_event_orbit(motion, limits);
+  if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
+  using Orbit = typename decltype(found.orbit)::value_type;
+  return FoundOrbit<Orbit>{{found.outcome, -1}, std::move(found.orbit)};
 }
 
 /// Motions of an ImplementedLoopOf a plant: each goes past the orbits that the rounds before have
@@ -160,11 +255,9 @@ struct SingleMotions {
   FoundOrbit<Orbit> search(const ActiveTrajectory& from, const AttractorSet<Loop>& known) const {
     const auto motion = event_motion(loop, begin(from.memory.state));
     const int number =
-        ApproachingMotion(motion, ratio).run(known, limits, patience(known.orbits(), limits));
+        approached_orbit(motion, ratio, known, limits, patience(known.orbits(), limits));
     if (number >= 0) return {{OrbitOutcome::certified, number}, {}};
-    auto found = find_event_orbit(motion, limits);
-    if (found.outcome != OrbitOutcome::certified) found.orbit.reset();
-    return {{found.outcome, -1}, std::move(found.orbit)};
+    return own_orbit(motion, limits);
   }
 
   /// They move on in their searches alone.
@@ -172,7 +265,57 @@ struct SingleMotions {
   void advance(std::vector<ActiveTrajectory>&, const AttractorSet<Loop>&, const Tiles&) const {}
 };
 
+/// Motions of an ImplementedLoop of which has_event_pack(): all that are left go past the orbits
+/// that are known by now side by side, from their begins; each may be searched for its own orbit.
+template <class Travel>
+struct BatchedEventMotions {
+  using Loop = ImplementedLoop;
+
+  Loop loop;
+  Rational ratio;
+  OrbitLimits limits;
+  const Travel& travel;
+  std::size_t passed = 0;  // orbits that all have gone past
+
+  static std::optional<Rational> ratio_of(const Loop& loop) { return forcing_ratio(loop.digital); }
+
+  FoundOrbit<EventOrbit> search(const ActiveTrajectory& from,
+                                const AttractorSet<Loop>& /*known*/) const {
+    return own_orbit(event_motion(loop, from.memory.state), limits);
+  }
+
+  template <class Tiles>
+  void advance(std::vector<ActiveTrajectory>& motions, const AttractorSet<Loop>& known,
+               const Tiles& for_tiles) {
+    if (known.orbits().size() == passed) return;
+    passed = known.orbits().size();
+    const std::int64_t samples = patience(known.orbits(), limits);
+    constexpr std::size_t tile = 64;
+    for_tiles(motions.size(), tile, [&](std::size_t first, std::size_t number) {
+      EventApproaches approaches(motions.data() + first, number,
+                                 {known, samples, ratio.denominator}, limits);
+      travel(loop, approaches);
+    });
+  }
+};
+
 }  // namespace detail
+
+/// find_basins() of an ImplementedLoop of which has_event_pack(), with another way to move the
+/// motions on.
+/// @param travel          travel(loop, approaches) runs what EventApproaches hands out
+/// @param loop            as it is built
+/// @param initial_states  each [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite; may be none
+/// @param limits          of each search for one motion's own orbit
+/// @param for_tiles       as find_basins() of an IdealLoop takes it
+/// @throws InvalidParameter where loop, states or limits are not admissible
+template <class Travel, class Tiles>
+BasinsOf<EventOrbit> find_basins_by(const Travel& travel, const ImplementedLoop& loop,
+                                    const std::vector<Vector<double, 4>>& initial_states,
+                                    const OrbitLimits& limits, const Tiles& for_tiles) {
+  return detail::basins_by<detail::BatchedEventMotions<Travel>>(loop, initial_states, limits,
+                                                                for_tiles, travel);
+}
 
 /// find_basins() of an implemented loop.
 ///

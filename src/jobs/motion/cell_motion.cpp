@@ -15,6 +15,7 @@
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/control/late_controller.hpp"
 #include "holdfast/motion/divergence.hpp"
+#include "holdfast/sweep/event_metric_batch.hpp"
 #include "holdfast/sweep/event_metrics.hpp"
 #include "holdfast/sweep/metric_batch.hpp"
 #include "holdfast/sweep/modal_metrics.hpp"
@@ -51,6 +52,21 @@ void batch_metrics(const std::vector<SweepMotion>& motions, const std::vector<st
     const auto spans = detail::ordered_spans(motions.data() + first, count, duration);
     BatchSource source;
     kernels.metrics(motions.data() + first, spans.data(), count, metrics.data() + first, source);
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
+}
+
+/// Likewise of some motions with exact switching.
+void batch_event_metrics(const std::vector<EventSweepMotion>& motions,
+                         const std::vector<std::size_t>& places, double duration,
+                         InstructionSet set, std::vector<MotionMetrics>& all) {
+  const PackKernels& kernels = pack_kernels(set);
+  std::vector<MotionMetrics> metrics(motions.size());
+  BatchSource source;
+  for (std::size_t first = 0; first < motions.size(); first += motions_of_batch) {
+    const std::size_t count = std::min(motions_of_batch, motions.size() - first);
+    const detail::PreparedEventMotions prepared(motions.data() + first, count, duration);
+    kernels.event_metrics(prepared.motions.data(), count, metrics.data() + first, source);
   }
   for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = metrics[k];
 }
@@ -172,7 +188,8 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
                                       InstructionSet set) {
   std::vector<MotionMetrics> all(motions.size());
   std::vector<SweepMotion> of_paper;
-  std::vector<std::size_t> places;
+  std::vector<EventSweepMotion> of_events;
+  std::vector<std::size_t> places, places_of_events;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const CellMotion& motion = motions[k];
     if (motion.built_conductor) {
@@ -182,6 +199,9 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
       const ConductorMotion& conductor = *motion.conductor;
       all[k] = modal_metrics(conductor.loop, conductor.poles, conductor.state, duration,
                              throw_if_interrupted);
+    } else if (motion.built && has_event_pack(*motion.built)) {
+      of_events.push_back({&*motion.built, motion.of_paper.initial_state});
+      places_of_events.push_back(k);
     } else if (motion.built) {
       all[k] = event_metrics(*motion.built, motion.of_paper.initial_state, duration,
                              throw_if_interrupted);
@@ -191,6 +211,7 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
     }
   }
   batch_metrics(of_paper, places, duration, set, all);
+  batch_event_metrics(of_events, places_of_events, duration, set, all);
   for (std::size_t k = 0; k < motions.size(); ++k)
     if (all[k].steady_peak > divergence_bound(motions[k])) all[k] = diverging(all[k]);
   return all;

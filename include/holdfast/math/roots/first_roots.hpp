@@ -1,0 +1,204 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+#include "holdfast/math/roots/first_root.hpp"
+#include "holdfast/math/roots/series.hpp"
+
+namespace holdfast {
+
+/// Coefficients c₀, c₁, … of a polynomial in every lane; those beyond its terms mean nothing.
+template <class Scalar>
+using LaneSeries = std::array<Scalar, most_terms>;
+
+/// Where the polynomial of each lane first meets zero in [0, 1]: FirstRoot of every lane.
+template <class Scalar>
+struct FirstRoots {
+  Mask<Scalar> found;  ///< it does, by falling through or by grazing
+  Scalar at;           ///< 0 ≤ x ≤ 1; 1 where there is none
+};
+
+namespace detail {
+
+/// The search of first_root() in every lane of a pack.
+template <class Scalar>
+struct RootSearch {
+  LaneSeries<Scalar>& p;
+  Mask<Scalar> active = Scalar(0) > Scalar(0), found = active;
+  Scalar x = Scalar(0), at = Scalar(1), rounding = Scalar(0), bend = Scalar(0), sag = Scalar(0);
+
+  /// Divides leading coefficients out that are exactly zero; what is left begins above zero.
+  RootSearch(LaneSeries<Scalar>& polynomial, int terms, const Mask<Scalar>& lanes)
+      : p(polynomial), active(lanes) {
+    divide_out_zeros(terms);
+    const Scalar zero(0);
+    const Mask<Scalar> below = active & (p[0] < zero);
+    found = below;
+    at = select(below, zero, at);
+    scale(terms);
+    active = active & (p[0] > zero);
+  }
+
+  /// p(x) and p′(x) are known: takes the root, or goes to where none can lie before.
+  void step(const Scalar& value, const Scalar& slope) {
+    using std::max;
+    using std::min;
+    const Scalar zero(0), one(1);
+    const Mask<Scalar> down = active & (value <= rounding) & (slope < zero);
+    if (any(down)) {
+      const Mask<Scalar> touches = slope * slope <= Scalar(32) * bend * rounding;
+      const Scalar beyond = select(touches, zero, Scalar(max(value, zero) / -slope));
+      at = select(down, Scalar(min(Scalar(x + beyond), one)), at);
+      found = found | down;
+      active = active & !down;
+      if (!any(active)) return;
+    }
+    const Scalar way = safe_way(max(value, rounding), slope);
+    x = x + way;
+    active = active & (x < one);
+    // The next value lies between zero and its rounding for sure, and falls.
+    const Mask<Scalar> there = active & (bend * way * way <= Scalar(0.125) * rounding) &
+                               (slope * slope > Scalar(64) * bend * rounding) & (slope < zero);
+    at = select(there, x, at);
+    found = found | there;
+    active = active & !there;
+  }
+
+ private:
+  /// From x to where value + slope s + sag s²/2 comes to zero; infinite where it does not.
+  Scalar safe_way(const Scalar& height, const Scalar& slope) const {
+    using std::max;
+    using std::sqrt;
+    const Scalar zero(0), two(2), never(std::numeric_limits<double>::infinity());
+    const Scalar square = slope * slope - two * sag * height;
+    const Scalar root = sqrt(max(square, zero));
+    const Mask<Scalar> rises = slope > zero;
+    const Scalar way = select(rises, Scalar(slope + root), Scalar(two * height)) /
+                       select(rises, Scalar(-sag), Scalar(root - slope));
+    const Mask<Scalar> meets = (square >= zero) & !(rises & (sag >= zero)) & (way == way);
+    return select(meets, way, never);
+  }
+
+  void divide_out_zeros(int terms) {
+    const auto last = static_cast<std::size_t>(terms - 1);
+    for (int shifts = 1; shifts < terms; ++shifts) {
+      const Mask<Scalar> zero = active & (p[0] == Scalar(0));
+      if (!any(zero)) return;
+      for (std::size_t k = 0; k < last; ++k) p[k] = select(zero, p[k + 1], p[k]);
+      p[last] = select(zero, Scalar(0), p[last]);
+    }
+  }
+
+  /// Takes the sizes of the polynomial, so scaled that their squares are numbers.
+  void scale(int terms) {
+    using std::abs;
+    const auto count = static_cast<std::size_t>(terms);
+    Scalar sum(0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Scalar size = abs(p[k]);
+      sum = sum + size;
+      bend = bend + Scalar(static_cast<double>(k) * (static_cast<double>(k) - 1.0)) * size;
+    }
+    const Mask<Scalar> squares_fit = (sum > Scalar(1e-100)) & (sum < Scalar(1e100));
+    active = active & (sum < Scalar(std::numeric_limits<double>::infinity()));
+    if (any(active & !squares_fit)) {
+      const Scalar factor = select(squares_fit, Scalar(1), Scalar(Scalar(1) / sum));
+      for (std::size_t k = 0; k < count; ++k) p[k] = p[k] * factor;
+      sum = sum * factor;
+      bend = bend * factor;
+    }
+    if (terms > 2) sag = Scalar(2) * (p[2] + abs(p[2])) - bend;
+    rounding = Scalar(4.0 * std::numeric_limits<double>::epsilon()) * sum;
+  }
+};
+
+/// The scalar search of a lane, for a polynomial that is hard.
+template <class Scalar>
+void search_alone(RootSearch<Scalar>& search, int terms, std::size_t lane) {
+  typename Lanes<Scalar>::Value at[Lanes<Scalar>::count], found[Lanes<Scalar>::count];
+  Series series(terms);
+  for (Eigen::Index k = 0; k < terms; ++k)
+    series[k] = lane_of(search.p[static_cast<std::size_t>(k)], lane);
+  const FirstRoot root = first_root_of_positive(series);
+  Lanes<Scalar>::store(search.at, at);
+  Lanes<Scalar>::store(select(search.found, Scalar(1), Scalar(0)), found);
+  at[lane] = root.at;
+  found[lane] = root.outcome == RootOutcome::none ? 0.0 : 1.0;
+  search.at = Lanes<Scalar>::load(at);
+  search.found = Lanes<Scalar>::load(found) > Scalar(0.5);
+}
+
+/// p(x) and p′(x) of all searches, side by side, so that none waits for its own last term.
+template <class Scalar, std::size_t Count>
+void step_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
+  std::array<Scalar, Count> value, slope;
+  for (std::size_t g = 0; g < Count; ++g) {
+    value[g] = searches[g].p[static_cast<std::size_t>(terms - 1)];
+    slope[g] = Scalar(0);
+  }
+  for (auto k = static_cast<std::size_t>(terms - 1); k-- > 0;) {
+    for (std::size_t g = 0; g < Count; ++g) {
+      slope[g] = slope[g] * searches[g].x + value[g];
+      value[g] = value[g] * searches[g].x + searches[g].p[k];
+    }
+  }
+  for (std::size_t g = 0; g < Count; ++g) searches[g].step(value[g], slope[g]);
+}
+
+/// All searches to their ends.
+template <class Scalar, std::size_t Count>
+void search_all(std::array<RootSearch<Scalar>, Count>& searches, int terms) {
+  constexpr int patience = 16;
+  const auto left = [&] {
+    Mask<Scalar> some = searches[0].active;
+    for (std::size_t g = 1; g < Count; ++g) some = some | searches[g].active;
+    return some;
+  };
+  // At x = 0 value and slope lie bare.
+  for (RootSearch<Scalar>& search : searches)
+    search.step(search.p[0], terms > 1 ? search.p[1] : Scalar(0));
+  for (int evaluations = 1; evaluations < patience && any(left()); ++evaluations)
+    step_all(searches, terms);
+  for (RootSearch<Scalar>& search : searches) {
+    if (!any(search.active)) continue;
+    std::uint8_t open[Lanes<Scalar>::count];
+    Lanes<Scalar>::store_flags(search.active, open);
+    for (std::size_t lane = 0; lane < Lanes<Scalar>::count; ++lane)
+      if (open[lane] != 0) search_alone(search, terms, lane);
+  }
+}
+
+}  // namespace detail
+
+/// first_root() of `Count` polynomials in every lane: the lanes step together until each has its
+/// root or has shown that it has none; a lane that is not through after 16 steps goes on alone.
+///
+/// Work: `terms` multiply-adds twice for each step and polynomial; some five steps where a lane has
+/// a root, mostly none where no lane has one.
+/// @param polynomials  of each its coefficients in all lanes, one or two; they are worked upon
+/// @param terms        of all of them, 1 … `most_terms`
+/// @param lanes        that are searched, for each polynomial; the others have no root
+template <class Scalar, std::size_t Count>
+std::array<FirstRoots<Scalar>, Count> first_roots(
+    std::array<LaneSeries<Scalar>, Count>& polynomials, int terms,
+    const std::array<Mask<Scalar>, Count>& lanes) {
+  using Search = detail::RootSearch<Scalar>;
+  if constexpr (Count == 1) {
+    std::array<Search, 1> searches{Search(polynomials[0], terms, lanes[0])};
+    detail::search_all(searches, terms);
+    return {{{searches[0].found, searches[0].at}}};
+  } else {
+    static_assert(Count == 2, "a mode has two guards at most");
+    std::array<Search, 2> searches{Search(polynomials[0], terms, lanes[0]),
+                                   Search(polynomials[1], terms, lanes[1])};
+    detail::search_all(searches, terms);
+    return {{{searches[0].found, searches[0].at}, {searches[1].found, searches[1].at}}};
+  }
+}
+
+}  // namespace holdfast

@@ -1,0 +1,324 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "holdfast/contact/contact.hpp"
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/batch/lane_events.hpp"
+#include "holdfast/motion/batch/lane_excitation.hpp"
+#include "holdfast/motion/batch/lane_modes.hpp"
+#include "holdfast/motion/batch/lane_numbers.hpp"
+#include "holdfast/motion/batch/two_mass_series.hpp"
+#include "holdfast/motion/event_motion.hpp"
+
+namespace holdfast {
+
+/// Motions whose contact changes between the samples, side by side: those of EventMotion, each with
+/// its own loop, at the same sample all of them.
+///
+/// The steps are those of EventMotion. Lanes in which a guard may come to zero go from one change
+/// of contact to the next together, the others waiting for them; the transition itself is
+/// DriveContact's, lane by lane. Each lane's arithmetic is the same whoever its neighbours are.
+///
+/// Work per sample without a change of contact: some 90 operations on packs; for each stretch of a
+/// lane, of which a change of contact needs one or two, some 1500. Nothing is allocated.
+/// @tparam Scalar  `double` or a pack
+template <class Scalar>
+class EventPack {
+  using Lane = Lanes<Scalar>;
+  using LaneMask = Mask<Scalar>;
+
+ public:
+  static constexpr std::size_t lanes = Lane::count;  ///< motions at a time
+
+  /// What `sense` takes, of all lanes.
+  struct Sample {
+    std::array<Scalar, 4> state;  ///< z_j
+    Scalar control_force;         ///< what the drive transmits (N)
+    LaneMask engaged;             ///< it transmits the command
+  };
+
+  /// @param starts  one for each lane; lanes beyond the last motion repeat one and are to `sleep`
+  explicit EventPack(const std::array<EventStart, lanes>& starts)
+      : excitation_(
+            [&](std::size_t lane) -> const DigitalLoop& { return starts[lane].loop->digital; }),
+        modes_(starts, excitation_),
+        phasors_(excitation_.lines()) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const DigitalLoop& digital = starts[lane].loop->digital;
+      period_[lane] = digital.sampling.period;
+      delay_[lane] = std::min(digital.sampling.processing_delay, digital.sampling.period);
+      proportional_[lane] = digital.gains.proportional;
+      differential_[lane] = digital.gains.differential;
+      begin(lane, starts[lane].state);
+    }
+    any_delay_ = any(delay_.all() > Scalar(0));
+    any_late_ = any(delay_.all() < period_.all());
+  }
+
+  /// Takes sample j. Call once per sample.
+  Sample sense() {
+    excitation_.begin_sample(index_);
+    switches_.fill(0);
+    const std::array<Scalar, 4> z = state();
+    command_ = proportional_.all() * z[0] + differential_.all() * z[1];
+    const Scalar first = select(delay_.all() > Scalar(0), previous_command_.all(), command_);
+    jump(Scalar(0), first, awake(), IgnoreFlowOfLanes());
+    Sample sample{z, select(modes_.engaged(), command_, Scalar(0)), modes_.engaged()};
+    if (modes_.sticking().any()) sample.control_force = with_sticking(sample.control_force);
+    return sample;
+  }
+
+  /// What `advance` does without an observer.
+  struct IgnoreFlowOfLanes {
+    /// The contact of a lane changed, s after the sample: the numbers of its modes, and that of the
+    /// guard, −1 for a jump.
+    void switched(std::size_t, int, int, int, double) const {}
+  };
+
+  /// Moves all lanes from t_j to t_{j+1} under the commands that the last `sense()` decided.
+  void advance() { advance(IgnoreFlowOfLanes()); }
+  /// The same past an observer as IgnoreFlowOfLanes is one.
+  template <class Observer>
+  void advance(Observer&& observer) {
+    const Scalar delay = delay_.all(), period = period_.all(), zero(0);
+    if (any_delay_)
+      flow({0, previous_command_.all(), zero, delay}, awake() & (delay > zero), observer);
+    if (any_late_) {
+      const LaneMask late = awake() & (delay < period);
+      if (any_delay_) jump(delay, command_, late & (delay > zero), observer);
+      flow({1, command_, delay, period}, late, observer);
+    }
+    previous_command_.set(command_);
+    ++index_;
+  }
+
+  /// j, the sample that `sense()` will take or has taken.
+  std::int64_t index() const { return index_; }
+  /// The present sample is number j from now on, at which the excitation is what it was.
+  void restart_index(std::int64_t index) { index_ = index; }
+  /// z_j of all lanes.
+  std::array<Scalar, 4> state() const {
+    return {state_[0].all(), state_[1].all(), state_[2].all(), state_[3].all()};
+  }
+  /// z_j of one lane.
+  Vector<double, 4> state(std::size_t lane) const {
+    return {state_[0][lane], state_[1][lane], state_[2][lane], state_[3][lane]};
+  }
+  /// The contact of a lane in its present mode.
+  const DriveContact<>& contact(std::size_t lane) const { return modes_.contact(lane); }
+  /// Whether the changes of contact of a lane accumulate (SwitchCounts::accumulates).
+  bool accumulates(std::size_t lane) const { return accumulates_[lane]; }
+  /// Whether those of any lane do or did.
+  bool some_accumulate() const { return accumulates_.any(); }
+  /// Begins a motion of the lane's loop from z (m, m/s, m, m/s), at rest in its drive.
+  void restart(std::size_t lane, const Vector<double, 4>& z) {
+    modes_.restart(lane, z);
+    begin(lane, z);
+  }
+  /// The lane's motion has ended: it is at rest, and no other waits for it.
+  void sleep(std::size_t lane) {
+    awake_[lane] = 0.0;
+    for (auto& number : state_) number[lane] = 0.0;
+  }
+
+ private:
+  using Numbers = LaneNumbers<Scalar>;
+
+  /// A part of the sampling period, in every lane.
+  struct Part {
+    std::size_t number;
+    Scalar command, begin, end;
+  };
+
+  LaneMask awake() const { return awake_.all() > Scalar(0.5); }
+
+  void begin(std::size_t lane, const Vector<double, 4>& z) {
+    for (std::size_t i = 0; i < 4; ++i) state_[i][lane] = z[static_cast<Eigen::Index>(i)];
+    previous_command_[lane] = 0.0;
+    accumulates_.reset(lane);
+    awake_[lane] = 1.0;
+  }
+
+  /// F (N) some time after the sample.
+  Scalar force_at(const Scalar& after) {
+    excitation_.turned(after, phasors_);
+    return LaneExcitation<Scalar>::force(phasors_);
+  }
+
+  ContactInstant instant(std::size_t lane, const Scalar& command, const Scalar& force) const {
+    return {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)};
+  }
+
+  /// Lanes whose contact looks at a jump: in stick, where its condition fails under the new
+  /// command, and just after a change.
+  template <class Observer>
+  void jump(const Scalar& after, const Scalar& command, const LaneMask& which,
+            Observer&& observer) {
+    if (modes_.sticking().none() && modes_.freshly_changed().none()) return;
+    const Scalar zero(0), force = force_at(after);
+    const std::array<Scalar, 4> z = state();
+    LaneMask stays = zero == zero;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const LaneGuard<Scalar>& guard = modes_.guard(g);
+      stays = stays & (guard.at(z, command) + guard.force.all() * force > zero);
+    }
+    const LaneMask asked = which & (modes_.fresh() | (modes_.sticks() & !stays));
+    if (!any(asked)) return;
+    const auto lane_asked = detail::lane_flags<Scalar>(asked);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (lane_asked[lane] == 0) continue;
+      DriveContact<>& contact = modes_.contact(lane);
+      const int before = contact.mode();
+      contact.jumped(instant(lane, command, force));
+      if (contact.mode() == before) {
+        modes_.refresh_guards(lane);
+        continue;
+      }
+      enter(lane);
+      observer.switched(lane, before, contact.mode(), -1, detail::lane_of(after, lane));
+    }
+  }
+
+  Scalar with_sticking(const Scalar& transmitted) {
+    const Scalar force = force_at(Scalar(0));
+    Numbers numbers;
+    numbers.set(transmitted);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (modes_.sticking()[lane])
+        numbers[lane] = modes_.contact(lane).transmitted(instant(lane, command_, force));
+    return numbers.all();
+  }
+
+  /// After a change of contact.
+  void enter(std::size_t lane) {
+    modes_.enter(lane);
+    if (++switches_[lane] <= EventMotion<>::most_switches) return;
+    accumulates_.set(lane);
+    modes_.ignore_guards(lane);
+  }
+
+  template <class Observer>
+  void flow(const Part& part, const LaneMask& which, Observer& observer) {
+    LaneMask pending = which & !flow_without_event(part, which);
+    if (!any(pending)) return;
+    Numbers reached;
+    reached.set(part.begin);
+    while (any(pending)) {
+      flow_to_event(part, pending, reached, observer);
+      pending = pending & (reached.all() < part.end);
+    }
+  }
+
+  /// The whole part at once in the lanes where it is sure that the contact does not change in it.
+  /// @return those lanes
+  LaneMask flow_without_event(const Part& part, const LaneMask& which) {
+    const LaneStep<Scalar>& step = modes_.step(part.number);
+    const std::array<Scalar, 4> before = state();
+    std::array<Scalar, 4> after = step.state(before, part.command, excitation_);
+    if (modes_.sticking().any()) {
+      const LaneMask sticks = modes_.sticks();
+      after[2] = select(sticks, Scalar(after[0] + (before[2] - before[0])), after[2]);
+      after[3] = select(sticks, after[1], after[3]);
+    }
+    const LaneMask through =
+        which & (no_guard_falls(part, step, before, after) | !modes_.guarded());
+    // What comes next need not wait for the bound where all lanes are through.
+    const bool whole = all(through);
+    for (std::size_t i = 0; i < 4; ++i)
+      state_[i].set(whole ? after[i] : select(through, after[i], before[i]));
+    return through;
+  }
+
+  LaneMask no_guard_falls(const Part& part, const LaneStep<Scalar>& step,
+                          const std::array<Scalar, 4>& before, const std::array<Scalar, 4>& after) {
+    using std::abs;
+    using std::min;
+    Scalar force_before(0), force_after(0);
+    if (modes_.sticking().any()) {
+      force_before = force_at(part.begin);
+      force_after = force_at(part.end);
+    }
+    Scalar least(std::numeric_limits<double>::infinity());
+    for (std::size_t g = 0; g < 2; ++g) {
+      const LaneGuard<Scalar>& guard = modes_.guard(g);
+      const Scalar by_force = guard.force.all();
+      least = min(least, min(Scalar(guard.at(before, part.command) + by_force * force_before),
+                             Scalar(guard.at(after, part.command) + by_force * force_after)));
+    }
+    const Scalar drop = step.drop_by_norm.all() * modes_.norm(before) +
+                        step.drop_by_command.all() * abs(part.command) + step.drop_constant.all();
+    return (least > drop) & !modes_.fresh();
+  }
+
+  /// Goes on to the next change of contact, or to the end of the part, in some lanes.
+  template <class Observer>
+  void flow_to_event(const Part& part, const LaneMask& pending, Numbers& reached,
+                     Observer& observer) {
+    using std::min;
+    const Scalar zero(0), one(1), begin = reached.all();
+    const Scalar wanted = part.end - begin;
+    const Scalar length = select(pending, Scalar(min(wanted, Scalar(one / modes_.rate()))), zero);
+    excitation_.turned(begin, phasors_);
+    const std::array<Scalar, 4> z = state();
+    const TwoMassSeries<Scalar> series(modes_.accelerations(part.command), z, phasors_, length,
+                                       terms_(Scalar(modes_.rate() * length)));
+    const LaneEvent<Scalar> event = next_event(modes_, series, part.command, pending);
+    for (std::size_t i = 0; i < 4; ++i)
+      state_[i].set(select(pending, series.value(series.state[i], event.at), z[i]));
+    const Scalar came = select(event.found, Scalar(begin + event.at * length),
+                               select(length == wanted, part.end, Scalar(begin + length)));
+    reached.set(select(pending, came, begin));
+    if (modes_.freshly_changed().any()) tell_flowed(pending & (event.at * length > zero));
+    if (any(event.found))
+      change(event, part.command, series.value(series.force, event.at), reached, observer);
+  }
+
+  /// Some time has passed in the lanes of a mask.
+  void tell_flowed(const LaneMask& passed) {
+    const auto lane_passed = detail::lane_flags<Scalar>(passed);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (lane_passed[lane] != 0 && modes_.freshly_changed()[lane]) modes_.flowed(lane);
+  }
+
+  template <class Observer>
+  void change(const LaneEvent<Scalar>& event, const Scalar& command, const Scalar& force,
+              const Numbers& reached, Observer& observer) {
+    const auto found = detail::lane_flags<Scalar>(event.found),
+               second = detail::lane_flags<Scalar>(event.second);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (found[lane] == 0) continue;
+      DriveContact<>& contact = modes_.contact(lane);
+      const int before = contact.mode(), guard = second[lane];
+      ContactInstant now = instant(lane, command, force);
+      contact.reached(guard, now);
+      for (std::size_t i = 0; i < 4; ++i) state_[i][lane] = now.state[static_cast<Eigen::Index>(i)];
+      enter(lane);
+      observer.switched(lane, before, contact.mode(), guard, reached[lane]);
+    }
+  }
+
+  LaneExcitation<Scalar> excitation_;
+  LaneModes<Scalar> modes_;
+  LaneTerms<Scalar> terms_;
+  std::vector<LanePhasor<Scalar>> phasors_;
+  Numbers period_, delay_, proportional_, differential_, awake_, previous_command_;
+  bool any_delay_ = false, any_late_ = true;
+  std::array<Numbers, 4> state_;
+  Scalar command_ = Scalar(0);
+  std::int64_t index_ = 0;
+  std::array<int, lanes> switches_{};
+  std::bitset<lanes> accumulates_;
+};
+
+}  // namespace holdfast

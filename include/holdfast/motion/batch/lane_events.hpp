@@ -1,0 +1,145 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+#include "holdfast/math/roots/first_roots.hpp"
+#include "holdfast/math/roots/series.hpp"
+#include "holdfast/motion/batch/lane_modes.hpp"
+#include "holdfast/motion/batch/lane_numbers.hpp"
+#include "holdfast/motion/batch/two_mass_series.hpp"
+#include "holdfast/motion/next_event.hpp"
+
+namespace holdfast {
+
+/// The first change of contact over a stretch, in every lane.
+template <class Scalar>
+struct LaneEvent {
+  Mask<Scalar> found;   ///< a guard comes to zero
+  Scalar at;            ///< where, in lengths of the stretch; 1 where none does
+  Mask<Scalar> second;  ///< it is the second guard
+};
+
+namespace detail {
+
+/// One byte a lane: 1 where the mask is set.
+template <class Scalar>
+std::array<std::uint8_t, Lanes<Scalar>::count> lane_flags(const Mask<Scalar>& mask) {
+  std::array<std::uint8_t, Lanes<Scalar>::count> flags;
+  Lanes<Scalar>::store_flags(mask, flags.data());
+  return flags;
+}
+
+/// A guard along a stretch.
+template <class Scalar>
+struct GuardOnStretch {
+  const LaneGuard<Scalar>& guard;
+  const TwoMassSeries<Scalar>& stretch;
+  Scalar command;
+  std::array<Scalar, 4> row{guard.state[0].all(), guard.state[1].all(), guard.state[2].all(),
+                            guard.state[3].all()};
+  std::size_t terms = static_cast<std::size_t>(stretch.terms.most);
+
+  /// g as a series.
+  /// @param forced  the force enters some lane's guard
+  /// @param fresh   some lane's contact has just changed
+  void expand(bool forced, bool fresh, const Mask<Scalar>& which, LaneSeries<Scalar>& g) const {
+    for (std::size_t k = 0; k < terms; ++k)
+      g[k] = row[0] * stretch.state[0][k] + row[1] * stretch.state[1][k] +
+             row[2] * stretch.state[2][k] + row[3] * stretch.state[3][k];
+    const Scalar by_force = guard.force.all(), zeros = guard.zeros.all();
+    if (forced)
+      for (std::size_t k = 0; k < terms; ++k) g[k] = g[k] + by_force * stretch.force[k];
+    g[0] = g[0] + guard.command.all() * command + guard.constant.all();
+    if (fresh)
+      for (std::size_t k = 0; k < std::min<std::size_t>(terms, 4); ++k)
+        g[k] = select(zeros > Scalar(static_cast<double>(k)), Scalar(0), g[k]);
+    clear_rounding(which, g);
+  }
+
+ private:
+  /// As that of next_event().
+  void clear_rounding(const Mask<Scalar>& which, LaneSeries<Scalar>& g) const {
+    using std::abs;
+    const Scalar rounding(4.0 * std::numeric_limits<double>::epsilon());
+    Scalar known = abs(Scalar(guard.command.all() * command)) + abs(guard.constant.all());
+    Mask<Scalar> still = which;
+    for (std::size_t k = 0; k < terms; ++k) {
+      Scalar size = known + abs(Scalar(guard.force.all() * stretch.force[k]));
+      for (std::size_t i = 0; i < 4; ++i) size = size + abs(Scalar(row[i] * stretch.state[i][k]));
+      still = still & !(abs(g[k]) > rounding * size);
+      if (!any(still)) return;
+      g[k] = select(still, Scalar(0), g[k]);
+      known = Scalar(0);
+    }
+  }
+};
+
+/// The sign that a lane's guard takes first where it was not known: first_sign(), which the contact
+/// learns.
+template <class Scalar>
+void learn_sign(LaneModes<Scalar>& modes, std::size_t lane, int terms, LaneSeries<Scalar>& g) {
+  Series alone(terms);
+  for (Eigen::Index k = 0; k < terms; ++k) alone[k] = lane_of(g[static_cast<std::size_t>(k)], lane);
+  const double sign = first_sign(alone);
+  if (sign != 0.0) alone *= sign;
+  for (Eigen::Index k = 0; k < terms; ++k) {
+    LaneNumbers<Scalar> numbers;
+    numbers.set(g[static_cast<std::size_t>(k)]);
+    numbers[lane] = alone[k];
+    g[static_cast<std::size_t>(k)] = numbers.all();
+  }
+  if (sign != 0.0) modes.contact(lane).learn_sign(0, sign);
+}
+
+template <class Scalar>
+void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
+                 LaneSeries<Scalar>& g) {
+  const auto asked = lane_flags<Scalar>(which);
+  for (std::size_t lane = 0; lane < asked.size(); ++lane)
+    if (asked[lane] != 0 && modes.without_sign()[lane]) learn_sign(modes, lane, terms, g);
+}
+
+}  // namespace detail
+
+/// next_event() in every lane: the first root of any guard over a stretch, none passed over.
+///
+/// Work: 5 multiply-adds for each guard and term, and first_roots().
+/// @param modes    of the lanes; a contact learns the sign of its velocity here
+/// @param stretch  at most 1 / modes.rate() long
+/// @param command  u in force (N)
+/// @param which    lanes that are looked at; the others have no event
+template <class Scalar>
+LaneEvent<Scalar> next_event(LaneModes<Scalar>& modes, const TwoMassSeries<Scalar>& stretch,
+                             const Scalar& command, const Mask<Scalar>& which) {
+  const Mask<Scalar> guarded = which & modes.guarded();
+  const bool forced = modes.sticking().any(), fresh = modes.freshly_changed().any();
+  const int terms = stretch.terms.most;
+  const auto expand = [&](std::size_t number, LaneSeries<Scalar>& g) {
+    detail::GuardOnStretch<Scalar>{modes.guard(number), stretch, command}.expand(forced, fresh,
+                                                                                 guarded, g);
+  };
+  std::array<LaneSeries<Scalar>, 1> first;
+  if (modes.with_two_guards().none()) {
+    expand(0, first[0]);
+    if (modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, first[0]);
+    const auto [root] = first_roots<Scalar, 1>(first, terms, {guarded});
+    return {root.found, root.at, Scalar(0) > Scalar(0)};
+  }
+  std::array<LaneSeries<Scalar>, 2> both;
+  expand(0, both[0]);
+  expand(1, both[1]);
+  if (modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, both[0]);
+  const auto [one, two] = first_roots<Scalar, 2>(both, terms, {guarded, guarded});
+  const Mask<Scalar> later = two.found & !(one.found & (one.at <= two.at));
+  const Mask<Scalar> found = one.found | two.found;
+  return {found, select(later, two.at, one.at), later};
+}
+
+}  // namespace holdfast

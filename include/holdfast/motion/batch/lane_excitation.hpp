@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/control/digital_loop.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/harmonic.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/excitation/harmonic_input.hpp"
+#include "holdfast/excitation/phasor_table.hpp"
+#include "holdfast/motion/batch/lane_numbers.hpp"
+#include "holdfast/motion/batch/two_mass_series.hpp"
+
+namespace holdfast {
+
+/// The excitation of a pack of motions, each with its own harmonics, held or exact: a lane whose
+/// force is held has one harmonic that stands still.
+template <class Scalar>
+class LaneExcitation {
+ public:
+  /// @param of_lane  (lane) → const DigitalLoop&
+  template <class OfLane>
+  explicit LaneExcitation(const OfLane& of_lane) {
+    std::size_t lines = 1;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      lines = std::max(lines, of_lane(lane).force.harmonics.size());
+    for (std::size_t l = 0; l < lines; ++l) lines_.push_back(line_of_lanes(of_lane, l));
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      held_[lane] = of_lane(lane).hold == ForceHold::sampled ? 1.0 : 0.0;
+    any_held_ = any(held_.all() > Scalar(0.5));
+    phases_.resize(lines);
+  }
+
+  /// Sample j, one after the other or from 0 again.
+  void begin_sample(std::int64_t index) {
+    const auto k = static_cast<std::size_t>(index) % RotatingPhasor<Scalar>::block;
+    Scalar held_force(0);
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      if (k == 0) lines_[l].turning.turn_to(index);
+      phases_[l] = lines_[l].turning.at(k);
+      held_force = held_force + lines_[l].at_sample.cosine * phases_[l].cosine -
+                   lines_[l].at_sample.sine * phases_[l].sine;
+    }
+    if (!any_held_) return;
+    const Mask<Scalar> held = held_.all() > Scalar(0.5);
+    for (std::size_t l = 0; l < lines_.size(); ++l)
+      phases_[l] = {select(held, l == 0 ? held_force : Scalar(0), phases_[l].cosine),
+                    select(held, Scalar(0), phases_[l].sine)};
+  }
+
+  /// Whether the force of a lane is held over its samples.
+  bool is_held(std::size_t lane) const { return held_[lane] > 0.5; }
+  /// How many harmonics a lane has at the most.
+  std::size_t lines() const { return lines_.size(); }
+  /// F_l cos ω_l t_j and F_l sin ω_l t_j; of a held force F_j and 0.
+  const ExcitationSample<Scalar>& phase(std::size_t line) const { return phases_[line]; }
+
+  /// The harmonics with their own phases some time (s) after the sample.
+  void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
+    using std::floor;
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      const Line& line = lines_[l];
+      const Scalar cycles = line.frequency * after + line.phase_cycles;
+      const ExcitationSample<Scalar> turn = unit_phasor(Scalar(cycles - floor(cycles)));
+      phasors[l] = {line.angular_frequency,
+                    {turn.cosine * phases_[l].cosine - turn.sine * phases_[l].sine,
+                     turn.cosine * phases_[l].sine + turn.sine * phases_[l].cosine}};
+    }
+  }
+
+  /// F (N) of harmonics.
+  static Scalar force(const std::vector<LanePhasor<Scalar>>& phasors) {
+    Scalar sum(0);
+    for (const LanePhasor<Scalar>& phasor : phasors) sum = sum + phasor.phase.cosine;
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;
+
+  struct Line {
+    RotatingPhasor<Scalar> turning;
+    ExcitationSample<Scalar> at_sample;                 // cos φ and sin φ
+    Scalar frequency, phase_cycles, angular_frequency;  // 0 where the force is held
+  };
+
+  template <class OfLane>
+  static Line line_of_lanes(const OfLane& of_lane, std::size_t l) {
+    const auto number = [&](const auto& part) {
+      return detail::from_lanes<Scalar>([&](std::size_t lane) -> double {
+        const auto& lines = of_lane(lane).force.harmonics;
+        return part(l < lines.size() ? lines[l] : Harmonic{0.0, 1.0, 0.0},
+                    of_lane(lane).hold == ForceHold::exact);
+      });
+    };
+    const Scalar period =
+        detail::from_lanes<Scalar>([&](std::size_t lane) { return of_lane(lane).sampling.period; });
+    return {
+        RotatingPhasor<Scalar>({number([](const Harmonic& line, bool) { return line.amplitude; }),
+                                number([](const Harmonic& line, bool) { return line.frequency; })},
+                               period),
+        {number([](const Harmonic& line, bool) { return std::cos(line.phase); }),
+         number([](const Harmonic& line, bool) { return std::sin(line.phase); })},
+        number([](const Harmonic& line, bool exact) { return exact ? line.frequency : 0.0; }),
+        number([](const Harmonic& line, bool exact) {
+          return exact ? line.phase / (2.0 * pi<double>) : 0.0;
+        }),
+        number([](const Harmonic& line, bool exact) {
+          return exact ? line.angular_frequency() : 0.0;
+        })};
+  }
+
+  std::vector<Line> lines_;
+  std::vector<ExcitationSample<Scalar>> phases_;
+  LaneNumbers<Scalar> held_;
+  bool any_held_;
+};
+
+}  // namespace holdfast

@@ -1,0 +1,298 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/contact/contact.hpp"
+#include "holdfast/contact/contact_guard.hpp"
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/select.hpp"
+#include "holdfast/motion/batch/event_table.hpp"
+#include "holdfast/motion/batch/lane_excitation.hpp"
+#include "holdfast/motion/batch/lane_numbers.hpp"
+#include "holdfast/motion/batch/two_mass_series.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/motion/subinterval_step.hpp"
+#include "holdfast/plant/affine_dynamics.hpp"
+#include "holdfast/plant/two_mass.hpp"
+
+namespace holdfast {
+
+/// One motion of an EventPack.
+struct EventStart {
+  const ImplementedLoop* loop;  ///< of which has_event_pack()
+  EventTable* table;            ///< that serves it; as long-lived as the pack
+  Vector<double, 4> state;      ///< z_0 (m, m/s, m, m/s), finite
+};
+
+/// GuardOf of all lanes: g = state · z + command u + force F + constant.
+template <class Scalar>
+struct LaneGuard {
+  std::array<LaneNumbers<Scalar>, 4> state;  ///< of z₁, ż₁, z₂, ż₂
+  LaneNumbers<Scalar> command;               ///< per newton of u
+  LaneNumbers<Scalar> force;                 ///< per newton of F
+  LaneNumbers<Scalar> constant;              ///< in the unit of g
+  LaneNumbers<Scalar> zeros;  ///< how many of g, ġ, … are zero, the contact having just changed
+
+  /// g without its force.
+  Scalar at(const std::array<Scalar, 4>& z, const Scalar& u) const {
+    return state[0].all() * z[0] + state[1].all() * z[1] + state[2].all() * z[2] +
+           state[3].all() * z[3] + (command.all() * u + constant.all());
+  }
+};
+
+/// SubintervalStep of all lanes over a part of the period, and NoEventBound's drop over it.
+template <class Scalar>
+struct LaneStep {
+  using Numbers = LaneNumbers<Scalar>;                       ///< a number of every lane
+  std::array<std::array<Numbers, 4>, 4> transition;          ///< rows
+  std::array<Numbers, 4> command;                            ///< per newton of u
+  std::array<Numbers, 4> drift;                              ///< of a stop
+  std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< cosine and sine of each harmonic
+  Numbers drop_by_norm, drop_by_command, drop_constant;      ///< as Drop has them
+
+  /// The state at the end of the part from z under the command u.
+  std::array<Scalar, 4> state(const std::array<Scalar, 4>& z, const Scalar& u,
+                              const LaneExcitation<Scalar>& excitation) const {
+    std::array<Scalar, 4> after;
+    for (std::size_t i = 0; i < 4; ++i) {
+      after[i] = drift[i].all();
+      for (std::size_t l = 0; l < lines.size(); ++l) {
+        const ExcitationSample<Scalar>& phase = excitation.phase(l);
+        after[i] =
+            lines[l][1][i].all() * phase.sine + (lines[l][0][i].all() * phase.cosine + after[i]);
+      }
+      // The command is known last.
+      for (std::size_t k = 0; k < 4; ++k) after[i] = transition[i][k].all() * z[k] + after[i];
+      after[i] = command[i].all() * u + after[i];
+    }
+    return after;
+  }
+};
+
+/// The contacts of a pack of motions, each in its mode, and what of the modes the packs need,
+/// spread out over the lanes.
+template <class Scalar>
+class LaneModes {
+  using Numbers = LaneNumbers<Scalar>;
+
+ public:
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;  ///< motions at a time
+
+  /// @param starts      one for each lane
+  /// @param excitation  of the same motions
+  LaneModes(const std::array<EventStart, lanes>& starts, const LaneExcitation<Scalar>& excitation)
+      : starts_(starts) {
+    for (auto& step : steps_) step.lines.resize(excitation.lines());
+    modes_.fill(none);
+    stepped_modes_.fill(none);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      held_.set(lane, excitation.is_held(lane));
+      contacts_.push_back(contact_of(lane, starts[lane].state));
+      enter(lane);
+    }
+  }
+
+  /// Begins again with the contact that belongs to an initial state.
+  void restart(std::size_t lane, const Vector<double, 4>& state) {
+    contacts_[lane] = contact_of(lane, state);
+    ignored_.reset(lane);
+    enter(lane);
+  }
+
+  /// That of a lane. Where it changes, `enter` or `refresh_guards` must follow.
+  DriveContact<>& contact(std::size_t lane) { return contacts_[lane]; }
+  /// That of a lane.
+  const DriveContact<>& contact(std::size_t lane) const { return contacts_[lane]; }
+
+  /// Takes the mode of a lane's contact, after it has changed; the steps follow when they are next
+  /// asked for.
+  void enter(std::size_t lane) {
+    const DriveContact<>& contact = contacts_[lane];
+    const int mode = contact.mode();
+    const EventTable& table = *starts_[lane].table;
+    const auto& dynamics = table.motion(mode).dynamics();
+    for (std::size_t mass = 0; mass < 2; ++mass)
+      by_command_[mass][lane] = dynamics.command[static_cast<Eigen::Index>(2 * mass + 1)];
+    if (!table.move_alike(modes_[lane], mode)) enter_dynamics(lane, dynamics);
+    modes_[lane] = mode;
+    rate_[lane] = table.rate(mode);
+    engaged_[lane] = contact.word() == ContactMode::engaged ? 1.0 : 0.0;
+    sticks_[lane] = contact.word() == ContactMode::stick ? 1.0 : 0.0;
+    sticking_.set(lane, contact.word() == ContactMode::stick);
+    stale_.set(lane, true);
+    refresh_guards(lane);
+  }
+
+  /// Takes the guards of a lane's contact.
+  void refresh_guards(std::size_t lane) {
+    constexpr double far = 1e90;
+    const Guards guards = ignored_[lane] ? Guards() : contacts_[lane].guards();
+    bool fresh = false;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const bool has = static_cast<int>(g) < guards.count;
+      const Guard& guard = guards.guard[g];
+      LaneGuard<Scalar>& to = guards_[g];
+      for (std::size_t i = 0; i < 4; ++i)
+        to.state[i][lane] = has ? guard.state[static_cast<Eigen::Index>(i)] : 0.0;
+      to.command[lane] = has ? guard.command : 0.0;
+      to.force[lane] = has ? guard.force : 0.0;
+      to.constant[lane] = has ? guard.constant : far;
+      to.zeros[lane] = has ? guard.zeros : 0;
+      fresh = fresh || (has && (guard.zeros > 0 || guard.unsigned_yet));
+    }
+    unsigned_.set(lane, guards.count > 0 && guards.guard[0].unsigned_yet);
+    set_fresh(lane, fresh);
+    two_guards_.set(lane, guards.count > 1);
+    has_guard_[lane] = guards.count > 0 ? 1.0 : 0.0;
+  }
+
+  /// No change of the lane's contact is followed from now on.
+  void ignore_guards(std::size_t lane) {
+    ignored_.set(lane);
+    refresh_guards(lane);
+  }
+
+  /// Some time has passed in a lane since its last change: for those in freshly_changed().
+  void flowed(std::size_t lane) {
+    contacts_[lane].flowed();
+    if (unsigned_[lane]) return refresh_guards(lane);
+    for (LaneGuard<Scalar>& guard : guards_) guard.zeros[lane] = 0.0;
+    set_fresh(lane, false);
+  }
+
+  /// How the masses are accelerated, conductor and absorber, under the command u.
+  std::array<LaneAcceleration<Scalar>, 2> accelerations(const Scalar& u) const {
+    const auto row = [&](std::size_t mass) {
+      const auto& of = acceleration_[mass];
+      return LaneAcceleration<Scalar>{{of[0].all(), of[1].all(), of[2].all(), of[3].all()},
+                                      by_command_[mass].all() * u + drift_[mass].all(),
+                                      by_force_[mass].all()};
+    };
+    return {row(0), row(1)};
+  }
+
+  /// The step over a part of the period, 0 or 1, in the present modes.
+  const LaneStep<Scalar>& step(std::size_t part) {
+    if (stale_.any()) refresh_steps();
+    return steps_[part];
+  }
+
+  /// ‖z‖ of EnergyNorm in the present modes; after `step`.
+  Scalar norm(const std::array<Scalar, 4>& z) const {
+    using std::sqrt;
+    const Scalar relative = z[2] - z[0];
+    return sqrt(Scalar(energy_[0].all() * z[0] * z[0] + energy_[2].all() * relative * relative +
+                       energy_[1].all() * z[1] * z[1] + energy_[3].all() * z[3] * z[3]));
+  }
+
+  /// The first or the second guard; far above zero in a lane that has none.
+  const LaneGuard<Scalar>& guard(std::size_t number) const { return guards_[number]; }
+  /// 1 / the largest length (s) of a series.
+  Scalar rate() const { return rate_.all(); }
+  /// Lanes whose drive transmits the command.
+  Mask<Scalar> engaged() const { return engaged_.all() > Scalar(0.5); }
+  /// Lanes in which Δż = 0 is kept.
+  Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
+  /// Lanes in which a contact has just changed, or a sign is not known yet.
+  Mask<Scalar> fresh() const { return fresh_.all() > Scalar(0.5); }
+  /// Lanes that have a guard.
+  Mask<Scalar> guarded() const { return has_guard_.all() > Scalar(0.5); }
+  /// The same, lane by lane.
+  const std::bitset<lanes>& sticking() const { return sticking_; }
+  /// The same, lane by lane.
+  const std::bitset<lanes>& freshly_changed() const { return fresh_lanes_; }
+  /// Lanes that have two guards.
+  const std::bitset<lanes>& with_two_guards() const { return two_guards_; }
+  /// Lanes in which the sign of the first guard is not known.
+  const std::bitset<lanes>& without_sign() const { return unsigned_; }
+
+ private:
+  static constexpr int none = -1;
+
+  DriveContact<> contact_of(std::size_t lane, const Vector<double, 4>& state) const {
+    const ImplementedLoop& loop = *starts_[lane].loop;
+    return {loop.plant, loop.backlash, loop.switching, state};
+  }
+
+  void enter_dynamics(std::size_t lane, const AffineDynamics& dynamics) {
+    for (std::size_t mass = 0; mass < 2; ++mass) {
+      const auto row = static_cast<Eigen::Index>(2 * mass + 1);
+      for (std::size_t i = 0; i < 4; ++i)
+        acceleration_[mass][i][lane] = dynamics.state(row, static_cast<Eigen::Index>(i));
+      drift_[mass][lane] = dynamics.drift[row];
+      by_force_[mass][lane] = dynamics.force[row];
+    }
+  }
+
+  /// The steps of the present modes.
+  void refresh_steps() {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!stale_[lane]) continue;
+      const int mode = modes_[lane];
+      const EventTable& table = *starts_[lane].table;
+      const bool alike = table.move_alike(stepped_modes_[lane], mode);
+      stepped_modes_[lane] = mode;
+      for (std::size_t part = 0; part < 2; ++part) {
+        const SubintervalStep<4>& step = table.motion(mode).step(part);
+        for (std::size_t i = 0; i < 4; ++i)
+          steps_[part].command[i][lane] = step.command[static_cast<Eigen::Index>(i)];
+        if (!alike) enter_step(lane, part, step);
+        if (contacts_[lane].changes_between_samples()) enter_drop(lane, part);
+      }
+      if (alike) continue;
+      const TwoMass<double> plant = contacts_[lane].plant(mode);
+      energy_[0][lane] = plant.conductor_stiffness;
+      energy_[1][lane] = plant.conductor_mass;
+      energy_[2][lane] = plant.absorber_stiffness;
+      energy_[3][lane] = plant.absorber_mass;
+    }
+    stale_.reset();
+  }
+
+  void enter_step(std::size_t lane, std::size_t part, const SubintervalStep<4>& from) {
+    LaneStep<Scalar>& to = steps_[part];
+    const bool held = held_[lane];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      for (std::size_t k = 0; k < 4; ++k)
+        to.transition[i][k][lane] = from.transition(row, static_cast<Eigen::Index>(k));
+      to.drift[i][lane] = from.drift[row];
+      for (std::size_t l = 0; l < to.lines.size(); ++l) {
+        const bool has = !held && l < from.lines.size();
+        to.lines[l][0][i][lane] = has              ? from.lines[l].cosine[row]
+                                  : held && l == 0 ? from.held[row]
+                                                   : 0.0;
+        to.lines[l][1][i][lane] = has ? from.lines[l].sine[row] : 0.0;
+      }
+    }
+  }
+
+  void enter_drop(std::size_t lane, std::size_t part) {
+    const EventTable::Drop drop = starts_[lane].table->drop(contacts_[lane], part);
+    steps_[part].drop_by_norm[lane] = drop.by_norm;
+    steps_[part].drop_by_command[lane] = drop.by_command;
+    steps_[part].drop_constant[lane] = drop.constant;
+  }
+
+  void set_fresh(std::size_t lane, bool fresh) {
+    fresh_[lane] = fresh ? 1.0 : 0.0;
+    fresh_lanes_.set(lane, fresh);
+  }
+
+  std::array<EventStart, lanes> starts_;
+  std::vector<DriveContact<>> contacts_;
+  std::array<int, lanes> modes_{}, stepped_modes_{};
+  std::array<LaneStep<Scalar>, 2> steps_;
+  std::array<std::array<Numbers, 4>, 2> acceleration_;
+  std::array<Numbers, 2> by_command_, drift_, by_force_;
+  std::array<Numbers, 4> energy_;
+  std::array<LaneGuard<Scalar>, 2> guards_;
+  Numbers rate_, engaged_, sticks_, fresh_, has_guard_;
+  std::bitset<lanes> fresh_lanes_, sticking_, unsigned_, two_guards_, stale_, ignored_, held_;
+};
+
+}  // namespace holdfast

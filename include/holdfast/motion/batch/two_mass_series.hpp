@@ -1,0 +1,182 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "holdfast/core/select.hpp"
+#include "holdfast/excitation/harmonic_excitation.hpp"
+#include "holdfast/math/roots/first_roots.hpp"
+#include "holdfast/math/roots/series.hpp"
+#include "holdfast/motion/batch/lane_numbers.hpp"
+#include "holdfast/motion/taylor_step.hpp"
+
+namespace holdfast {
+
+namespace detail {
+
+/// 1/k!, k < most_terms.
+constexpr std::array<double, most_terms> inverse_factorials() {
+  std::array<double, most_terms> result{};
+  double factorial = 1.0;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (k > 0) factorial *= static_cast<double>(k);
+    result[k] = 1.0 / factorial;
+  }
+  return result;
+}
+
+}  // namespace detail
+
+/// How many terms the series of each lane has: as many as its own length asks for, so that its
+/// numbers do not depend on its neighbours, to the last bit.
+template <class Scalar>
+struct TermsOfLanes {
+  int most;        ///< 1 … most_terms, of any lane
+  int least;       ///< of any lane
+  Scalar of_lane;  ///< of each
+};
+
+/// terms_for() of all lanes.
+template <class Scalar>
+class LaneTerms {
+ public:
+  /// @param turns  rate times length of each lane, 0 … 1
+  TermsOfLanes<Scalar> operator()(const Scalar& turns) const {
+    Scalar terms(1);
+    for (std::size_t k = 0; k + 1 < longest_.size(); ++k)
+      terms = terms + select(turns > Scalar(longest_[k]), Scalar(1), Scalar(0));
+    LaneNumbers<Scalar> of_lane;
+    of_lane.set(terms);
+    double most = of_lane[0], least = of_lane[0];
+    for (std::size_t lane = 1; lane < of_lane.lanes; ++lane) {
+      most = std::max(most, of_lane[lane]);
+      least = std::min(least, of_lane[lane]);
+    }
+    return {static_cast<int>(most), static_cast<int>(least), terms};
+  }
+
+ private:
+  /// How long a series of 1, 2, … terms may be, in turns.
+  static std::array<double, most_terms> lengths() {
+    std::array<double, most_terms> longest{};
+    for (int terms = 1; terms <= most_terms; ++terms) {
+      double low = 0.0, high = 2.0;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (terms_for(middle) <= terms ? low : high) = middle;
+      }
+      longest[static_cast<std::size_t>(terms - 1)] = low;
+    }
+    return longest;
+  }
+
+  std::array<double, most_terms> longest_ = lengths();
+};
+
+/// How a mass of the two is accelerated in one mode of the contact, in every lane:
+/// state · [z₁, ż₁, z₂, ż₂] + constant + force F (m/s²).
+template <class Scalar>
+struct LaneAcceleration {
+  std::array<Scalar, 4> state;  ///< of the row of A
+  Scalar constant;              ///< drift + b u (m/s²)
+  Scalar force;                 ///< per newton of F
+};
+
+/// A harmonic of the excitation at the begin of a stretch, in every lane.
+template <class Scalar>
+struct LanePhasor {
+  Scalar angular_frequency;        ///< ω (rad/s); 0 of a force that is held
+  ExcitationSample<Scalar> phase;  ///< F_l cos and F_l sin of its angle there (N)
+};
+
+/// Taylor's series of two masses over a length h, in every lane: TaylorStep on packs, and the force
+/// with it.
+///
+///     d_{k+1} = h (A d_k + w_k),   z(t + x h) = Σ d_k x^k / k!
+///
+/// with w_k as there. Two of the four rows of A say that ż = dz/dt and cost one product. Work per
+/// term: 8 multiply-adds and 9 products, 3 for each harmonic.
+template <class Scalar>
+struct TwoMassSeries {
+  std::array<LaneSeries<Scalar>, 4> state;  ///< of z₁, ż₁, z₂, ż₂
+  LaneSeries<Scalar> force;                 ///< of F (N)
+  TermsOfLanes<Scalar> terms;               ///< of all of them
+
+  /// @param masses   accelerations of conductor and absorber
+  /// @param begin    z₁, ż₁, z₂, ż₂ at x = 0
+  /// @param phasors  of the excitation there
+  /// @param length   h (s), ≥ 0
+  /// @param count    of the terms
+  TwoMassSeries(const std::array<LaneAcceleration<Scalar>, 2>& masses,
+                const std::array<Scalar, 4>& begin, const std::vector<LanePhasor<Scalar>>& phasors,
+                const Scalar& length, const TermsOfLanes<Scalar>& count)
+      : terms(count) {
+    const auto most = static_cast<std::size_t>(count.most);
+    expand_force(phasors, length, most);
+    const auto scaled = [&](const LaneAcceleration<Scalar>& row) {
+      return LaneAcceleration<Scalar>{{row.state[0] * length, row.state[1] * length,
+                                       row.state[2] * length, row.state[3] * length},
+                                      row.constant * length,
+                                      row.force * length};
+    };
+    const LaneAcceleration<Scalar> one = scaled(masses[0]), two = scaled(masses[1]);
+    std::array<Scalar, 4> now = begin;
+    Scalar constant_one = one.constant, constant_two = two.constant;
+    constexpr auto inverse_factorial = detail::inverse_factorials();
+    for (std::size_t k = 0;; ++k) {
+      for (std::size_t i = 0; i < 4; ++i) state[i][k] = now[i] * Scalar(inverse_factorial[k]);
+      if (k + 1 == most) break;
+      const Scalar next_one = rate(one, now, constant_one, force[k]);
+      const Scalar next_two = rate(two, now, constant_two, force[k]);
+      force[k] = force[k] * Scalar(inverse_factorial[k]);
+      now = {now[1] * length, next_one, now[3] * length, next_two};
+      constant_one = constant_two = Scalar(0);
+    }
+    force[most - 1] = force[most - 1] * Scalar(inverse_factorial[most - 1]);
+    for (auto k = static_cast<std::size_t>(count.least); k < most; ++k) end_lanes(k);
+  }
+
+  /// The value of one of the series at x.
+  Scalar value(const LaneSeries<Scalar>& series, const Scalar& x) const {
+    auto k = static_cast<std::size_t>(terms.most - 1);
+    Scalar sum = series[k];
+    while (k-- > 0) sum = sum * x + series[k];
+    return sum;
+  }
+
+ private:
+  /// No term k in the lanes that have fewer.
+  void end_lanes(std::size_t k) {
+    const Mask<Scalar> has = terms.of_lane > Scalar(static_cast<double>(k));
+    for (auto& series : state) series[k] = select(has, series[k], Scalar(0));
+    force[k] = select(has, force[k], Scalar(0));
+  }
+
+  /// The derivatives of the force, not yet divided.
+  void expand_force(const std::vector<LanePhasor<Scalar>>& phasors, const Scalar& length,
+                    std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) force[k] = Scalar(0);
+    for (const LanePhasor<Scalar>& phasor : phasors) {
+      const Scalar turn = phasor.angular_frequency * length;
+      Scalar cosine = phasor.phase.cosine, sine = phasor.phase.sine;
+      for (std::size_t k = 0; k < count; ++k) {
+        force[k] = force[k] + cosine;
+        const Scalar next = -turn * sine;
+        sine = turn * cosine;
+        cosine = next;
+      }
+    }
+  }
+
+  /// What was computed last comes in last.
+  static Scalar rate(const LaneAcceleration<Scalar>& row, const std::array<Scalar, 4>& now,
+                     const Scalar& constant, const Scalar& force) {
+    const Scalar early =
+        row.state[0] * now[0] + (row.state[2] * now[2] + (row.force * force + constant));
+    return row.state[3] * now[3] + (row.state[1] * now[1] + early);
+  }
+};
+
+}  // namespace holdfast

@@ -1,0 +1,219 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "holdfast/control/sampling_clock.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/lanes.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/batch/event_pack.hpp"
+#include "holdfast/motion/batch/event_table.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/sweep/metric_observer.hpp"
+#include "holdfast/sweep/motion_metrics.hpp"
+
+namespace holdfast {
+
+/// One motion of a sweep with exact switching: its loop, of which has_event_pack(), and its start.
+struct EventSweepMotion {
+  const ImplementedLoop* loop;      ///< its own, every parameter of which may differ
+  Vector<double, 4> initial_state;  ///< [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s)
+};
+
+namespace detail {
+
+/// A motion of a batch with all that it needs.
+struct PreparedEventMotion {
+  EventStart start;
+  SampleSpan span;
+};
+
+/// The motions of a batch ordered by their numbers of samples, and the tables that they share.
+struct PreparedEventMotions {
+  std::vector<PreparedEventMotion> motions;
+  std::vector<std::unique_ptr<EventTable>> tables;
+
+  /// @throws InvalidParameter where a motion or the duration is not admissible
+  PreparedEventMotions(const EventSweepMotion* of, std::size_t count, double duration) {
+    std::vector<SampleSpan> spans(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const ImplementedLoop& loop = *of[k].loop;
+      validate(loop);
+      for (const double entry : of[k].initial_state) require_finite("initial state", entry, "SI");
+      spans[k] = sample_span(k, duration, SamplingClock(loop.digital.sampling.period));
+    }
+    std::stable_sort(spans.begin(), spans.end(),
+                     [](const auto& a, const auto& b) { return a.samples < b.samples; });
+    for (const SampleSpan& span : spans) {
+      const EventSweepMotion& motion = of[span.motion];
+      motions.push_back({{motion.loop, &table_of(*motion.loop), motion.initial_state}, span});
+    }
+  }
+
+  /// One that serves a loop; mostly it is the last one.
+  EventTable& table_of(const ImplementedLoop& loop) {
+    const auto serving = std::find_if(tables.rbegin(), tables.rend(),
+                                      [&](const auto& table) { return table->serves(loop); });
+    if (serving != tables.rend()) return **serving;
+    return *tables.emplace_back(std::make_unique<EventTable>(loop));
+  }
+};
+
+/// As many motions as a pack has lanes, with their metrics.
+template <class Scalar>
+class EventMetricTrack {
+ public:
+  static constexpr std::size_t lanes = Lanes<Scalar>::count;
+
+  /// @param motions  `count` of them, 1 ≤ count ≤ lanes
+  EventMetricTrack(const PreparedEventMotion* motions, std::size_t count)
+      : pack_(starts_of(motions, count)) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      spans_[lane] = motions[std::min(lane, count - 1)].span;
+      open_[lane] = lane < count;
+      if (!open_[lane]) pack_.sleep(lane);
+    }
+  }
+
+  bool is_open() const { return std::find(open_.begin(), open_.end(), true) != open_.end(); }
+
+  /// The sample before which a lane begins to be steady or has had its samples, none after
+  /// `latest`.
+  std::int64_t next_stop(std::int64_t latest) const {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!open_[lane]) continue;
+      latest = std::min(latest, spans_[lane].samples);
+      if (spans_[lane].first_steady > pack_.index())
+        latest = std::min(latest, spans_[lane].first_steady);
+    }
+    return latest;
+  }
+
+  /// To be called at such a sample.
+  void begin_stretch() {
+    const auto begin = from_lanes<Scalar>(
+        [&](std::size_t lane) { return static_cast<double>(spans_[lane].first_steady); });
+    begins_steady_ = begin == Scalar(static_cast<double>(pack_.index()));
+    begins_ = any(begins_steady_);
+    steady_ = false;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      steady_ = steady_ || (open_[lane] && pack_.index() >= spans_[lane].first_steady);
+  }
+
+  /// Takes one sample.
+  void take(MotionMetrics* results) {
+    close_diverged(results);
+    const auto sample = pack_.sense();
+    const Scalar velocity = sample.state[3] - sample.state[1];
+    const Mask<Scalar> reverses = is_reversal(velocity_before_, velocity);
+    velocity_before_ = velocity;
+    observer_.observe_extremum(sample.state[0]);
+    observer_.observe_load(sample.control_force, Scalar(sample.state[2] - sample.state[0]));
+    if (begins_) observer_.begin_steady(begins_steady_, reverses);
+    begins_ = false;
+    if (steady_)
+      observer_.observe_steady(sample.state[0], sample.control_force, sample.engaged, reverses);
+    pack_.advance();
+    if (pack_.some_accumulate()) close_accumulating(results);
+  }
+
+  void close_completed(MotionMetrics* results) {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (open_[lane] && spans_[lane].samples == pack_.index())
+        close(lane, completed_metrics(observer_.lane(lane), spans_[lane]), results);
+  }
+
+ private:
+  static std::array<EventStart, lanes> starts_of(const PreparedEventMotion* motions,
+                                                 std::size_t count) {
+    std::array<EventStart, lanes> starts;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      starts[lane] = motions[std::min(lane, count - 1)].start;
+    return starts;
+  }
+
+  void close(std::size_t lane, const MotionMetrics& metrics, MotionMetrics* results) {
+    open_[lane] = false;
+    results[spans_[lane].motion] = metrics;
+    pack_.sleep(lane);
+  }
+
+  void close_diverged(MotionMetrics* results) {
+    const std::array<Scalar, 4> z = pack_.state();
+    const Scalar sum = (z[0] + z[1]) + (z[2] + z[3]);
+    if (all(Scalar(0) * sum == Scalar(0))) return;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (open_[lane] && !std::isfinite(lane_of(sum, lane)))
+        close(lane, diverged_metrics(observer_.lane(lane), pack_.index()), results);
+  }
+
+  void close_accumulating(MotionMetrics* results) {
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      if (open_[lane] && pack_.accumulates(lane))
+        close(lane, {MotionEnd::accumulates, pack_.index()}, results);
+  }
+
+  EventPack<Scalar> pack_;
+  MetricObserver<Scalar> observer_;
+  Scalar velocity_before_ = Scalar(0);
+  Mask<Scalar> begins_steady_ = Scalar(0) > Scalar(0);
+  std::array<SampleSpan, lanes> spans_{};
+  std::array<bool, lanes> open_{};
+  bool steady_ = false, begins_ = false;
+};
+
+/// The metrics of motions that are prepared, group by group: the packs of a group hide each other's
+/// latency.
+template <class Scalar, class Pause>
+void group_event_metrics(const PreparedEventMotion* motions, std::size_t count,
+                         MotionMetrics* results, const Pause& pause) {
+  constexpr std::size_t packs = 2, lanes = EventMetricTrack<Scalar>::lanes;
+  constexpr std::int64_t samples_between_pauses = 256;
+  std::vector<EventMetricTrack<Scalar>> tracks;
+  tracks.reserve(packs);
+  for (std::size_t first = 0; first < count;) {
+    for (; first < count && tracks.size() < packs; first += lanes)
+      tracks.emplace_back(motions + first, std::min(lanes, count - first));
+    for (std::int64_t index = 0; !tracks.empty();) {
+      pause();
+      std::int64_t end = index + samples_between_pauses;
+      for (auto& track : tracks) end = track.next_stop(end);
+      for (auto& track : tracks) track.begin_stretch();
+      for (; index < end; ++index)
+        for (auto& track : tracks) track.take(results);
+      for (auto& track : tracks) track.close_completed(results);
+      const auto ended = [](const auto& track) { return !track.is_open(); };
+      tracks.erase(std::remove_if(tracks.begin(), tracks.end(), ended), tracks.end());
+    }
+  }
+}
+
+}  // namespace detail
+
+/// event_metrics() of many motions with exact switching, which may differ in every parameter, as
+/// many at a time as `Scalar` has lanes.
+///
+/// The metrics are those of event_metrics() but for rounding, and do not depend on the other
+/// motions of the batch. Work: that of EventPack, and a few matrix exponentials for each plant,
+/// sampling and force among them.
+/// @param motions   each of a loop of which has_event_pack(), with a finite state
+/// @param count     number of motions, ≥ 0
+/// @param duration  s, ≥ 0
+/// @param results   as many, in the order of the motions
+/// @param pause     called every some hundred samples; may throw to end all
+/// @throws InvalidParameter where a motion or the duration is not admissible
+template <class Scalar, class Pause>
+void event_metrics(const EventSweepMotion* motions, std::size_t count, double duration,
+                   MotionMetrics* results, const Pause& pause) {
+  const detail::PreparedEventMotions prepared(motions, count, duration);
+  detail::group_event_metrics<Scalar>(prepared.motions.data(), count, results, pause);
+}
+
+}  // namespace holdfast

@@ -1,0 +1,52 @@
+#include "holdfast/motion/batch/lane_events.hpp"
+
+#include "motion/batch/event_pack_setting.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast {
+namespace {
+
+/// In the gap of a play, all lanes of one motion.
+TEST(LaneEvents, AreThoseOfNextEvent) {
+  test::Random random(61);
+  int events = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    test::ExactMotion motion = test::kollar_exact(0.005, 0.001);
+    EventTable table(motion.loop);
+    const LaneExcitation<double> excitation(
+        [&](std::size_t) -> const DigitalLoop& { return motion.loop.digital; });
+    LaneModes<double> modes({EventStart{&motion.loop, &table, motion.state}}, excitation);
+    DriveContact<>& contact = modes.contact(0);
+    contact.learn_sign(0, 1.0);
+    const Vector<double, 4> z(0.001 * random.unit(), 0.1 * random.unit(), 0.001 * random.unit(),
+                              0.0);
+    ContactInstant now{z, 0.0, 0.0};
+    now.state[3] = now.state[1];
+    contact.reached(0, now);
+    modes.enter(0);
+    modes.flowed(0);
+    Vector<double, 4> begin = now.state;
+    begin[2] -= 0.0005;
+    begin[3] += random.uniform(-1.0, 1.0);
+
+    const double rate = modes.rate(), length = random.unit() / rate;
+    const auto terms = LaneTerms<double>()(rate * length);
+    const std::vector<LanePhasor<double>> none{{0.0, {0.0, 0.0}}};
+    const TwoMassSeries<double> series(
+        modes.accelerations(0.0), {begin[0], begin[1], begin[2], begin[3]}, none, length, terms);
+    const LaneEvent<double> event = next_event(modes, series, 0.0, true);
+    const NextEvent<4> alone =
+        next_event(table.motion(1).dynamics(), contact.guards(),
+                   ModeStretch<4>{begin, 0.0, Series::Zero(terms.most), length});
+    ASSERT_EQ(event.found, alone.guard >= 0);
+    EXPECT_NEAR(event.at, alone.root.at, 1e-13);
+    if (!event.found) continue;
+    EXPECT_EQ(event.second, alone.guard == 1);
+    EXPECT_FALSE(next_event(modes, series, 0.0, false).found);
+    ++events;
+  }
+  EXPECT_GT(events, 300);
+}
+
+}  // namespace
+}  // namespace holdfast
