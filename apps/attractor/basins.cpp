@@ -9,6 +9,7 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
+#include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_continuation.hpp"
 #include "holdfast/phase_space/basins.hpp"
@@ -146,7 +147,7 @@ void write_fractions(const JobContext& context, const BasinsOf<Orbit>& map) {
     if (states == 0) continue;
     const double fraction = static_cast<double>(states) / all;
     table.row(static_cast<int>(kind), 0, none, none, none, states, fraction,
-              std::sqrt(fraction * (1.0 - fraction) / all), 0);
+              share_error(states, map.labels.size()), 0);
   }
   table.commit();
 }
@@ -274,8 +275,7 @@ void write_followed(Table& table, double value, const FollowedBasins<Orbit>& fol
        {std::pair{0, followed.diverging}, std::pair{-1, followed.unknown}}) {
     if (count == 0) continue;
     const double fraction = static_cast<double>(count) / static_cast<double>(states);
-    table.row(value, number, 0, none, 0, none, none, count, fraction,
-              std::sqrt(fraction * (1.0 - fraction) / static_cast<double>(states)));
+    table.row(value, number, 0, none, 0, none, none, count, fraction, share_error(count, states));
   }
 }
 

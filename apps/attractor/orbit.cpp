@@ -246,8 +246,8 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
 /// @param axis  KEY=MIN:MAX
 void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
                          const std::string& axis) {
-  const auto [key, range] = parse_key_range(axis);
-  followed_value(context.case_data, key, axis, range);
+  const auto [key, range] = parse_key_range("--follow", axis);
+  followed_value(context.case_data, "--follow", axis, key, range, false);
   Table table(context, columns_of("proved ranges"));
   const PeriodicOrbit orbit =
       certified_orbit(context, ideal_loop_of(context.case_data), largest_period);

@@ -35,6 +35,7 @@
 #include "holdfast/math/signal/spectrum.hpp"
 #include "holdfast/math/signal/spectrum_lines.hpp"
 #include "holdfast/math/stats/batch_sums.hpp"
+#include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/math/stats/slab_quadrature.hpp"
 #include "holdfast/math/stats/student_quantile.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"

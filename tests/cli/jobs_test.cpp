@@ -162,6 +162,13 @@ TEST(Stability, RefusesProofsOfWhatItCannotProve) {
   expect_refused("stability --prove --continuous --set plant.model=string", {"two_masses"});
   expect_refused("stability --prove --set plant.model=infinite_string", {"without ends"});
   expect_refused("stability --prove --output x.nc", {"x.nc", ".csv"});
+  for (const std::string computer :
+       {"velocity=difference", "displacement_quantum=1e-5", "largest_force=3", "jitter=1e-4"}) {
+    expect_refused("stability --prove --set control." + computer, {"--prove", "ideal computer"});
+    expect_refused("stability --prove --set plant.model=string --set control." + computer,
+                   {"--prove", "ideal computer"});
+  }
+  expect_refused("stability --prove --p -557:-556.9999999999999:5", {"cell"});
 }
 
 TEST(Boundary, NamesItsCurves) {

@@ -208,6 +208,8 @@ TEST(OrbitJob, RefusesWhatItCannotProve) {
   expect_reason("orbit --prove --switching exact", 2, "--prove");
   expect_reason("orbit --prove --set plant.model=string", 2, "--prove");
   expect_reason("orbit --prove --certificate", 2, "--certificate");
+  expect_reason("orbit --prove --map backlash.width=0:1 --map plant.absorber_mass=0.1:0.2", 2,
+                "--map");
   expect_reason("orbit --prove --follow plant.absorber_mass=0.15:0.17", 2, "linear");
   expect_reason("orbit --prove --follow backlash.width=0:0.002 --set backlash.width=0", 2,
                 "no backlash");

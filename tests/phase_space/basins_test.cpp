@@ -242,7 +242,7 @@ TYPED_TEST(Basins, WithoutBacklashOneOrbitTakesAll) {
   ASSERT_EQ(map.attractors.size(), 1U);
   EXPECT_EQ(map.attractors[0].states, 100U);
   EXPECT_EQ(map.attractors[0].fraction, 1.0);
-  EXPECT_EQ(map.attractors[0].standard_error, 0.0);
+  EXPECT_GT(map.attractors[0].standard_error, 0.0);
   EXPECT_FALSE(map.attractors[0].mirror_image.has_value());
 }
 
@@ -299,7 +299,7 @@ TEST(BasinMap, FractionsAndErrorsAreThoseOfTheCounts) {
     EXPECT_EQ(attractor.states, static_cast<std::size_t>(members));
     EXPECT_DOUBLE_EQ(attractor.fraction, static_cast<double>(members) / 200.0);
     const double variance = attractor.fraction * (1.0 - attractor.fraction) / 200.0;
-    EXPECT_DOUBLE_EQ(attractor.standard_error, std::sqrt(variance));
+    EXPECT_NEAR(attractor.standard_error, std::sqrt(variance), 0.02 * std::sqrt(variance) + 3e-3);
     counted += attractor.states;
     fractions += attractor.fraction;
     for (std::size_t earlier = 0; earlier < number; ++earlier)

@@ -29,7 +29,7 @@ enum class BorderKind {
 
 /// A piece of that border, and the largest multiplier at a point of it.
 struct MotionBorder {
-  BorderKind kind = BorderKind::window;
+  BorderKind kind = BorderKind::window;  ///< what ends the motion there
   /// Of a collision or grazing: `reversal`, or an end of the gap; exactly switched ends of a gap
   /// are not told apart.
   SwitchingSurface surface = SwitchingSurface::reversal;
@@ -65,8 +65,10 @@ struct MotionRegion {
 
 /// The window of two parameters that is looked at.
 struct ParameterWindow {
-  double x_from, x_to;  ///< x_from < x_to
-  double y_from, y_to;  ///< y_from < y_to
+  double x_from;  ///< least x
+  double x_to;    ///< largest x, above x_from
+  double y_from;  ///< least y
+  double y_to;    ///< largest y, above y_from
 
   /// Of shares 0 … 1.
   PlanePoint at(const PlanePoint& shares) const {

@@ -34,8 +34,9 @@ class LaneApproaches {
 /// Moves motions of one loop with exact switching on side by side, a lane taking the next one at
 /// the stroboscopic instant at which its own has ended. Samples are counted from each of those
 /// instants, so that no rounding of late instants lets sampling and forcing drift apart.
-/// @param loop  of which has_event_pack(), whose sampling and forcing coincide every
-/// approaches.period() samples
+/// @param loop        of which has_event_pack(), whose sampling and forcing coincide every
+///                    approaches.period() samples
+/// @param approaches  hands the motions out
 /// @throws InvalidParameter where the loop is not admissible
 template <class Scalar>
 void run_approaches(const ImplementedLoop& loop, LaneApproaches& approaches) {

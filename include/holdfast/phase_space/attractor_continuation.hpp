@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/orbit/state_scale.hpp"
 #include "holdfast/phase_space/basins.hpp"
 
@@ -100,15 +101,15 @@ struct FollowedAttractor {
   Orbit orbit;            ///< certified
   std::size_t states;     ///< how many of the initial states come to it; 0 where a seed alone does
   double fraction;        ///< of all of them
-  double standard_error;  ///< √(fraction (1 − fraction)/n)
+  double standard_error;  ///< share_error()
 };
 
 /// The attractors of one of the loops.
 template <class Orbit>
 struct FollowedBasins {
-  std::vector<FollowedAttractor<Orbit>> attractors;
-  std::size_t diverging = 0;  ///< initial states
-  std::size_t unknown = 0;    ///< initial states of which no orbit was found
+  std::vector<FollowedAttractor<Orbit>> attractors;  ///< by their numbers
+  std::size_t diverging = 0;                         ///< initial states
+  std::size_t unknown = 0;                           ///< initial states of which no orbit was found
 };
 
 /// Follows all attractors of a loop along a parameter, with the share of the initial states that
@@ -149,7 +150,7 @@ class AttractorContinuation {
     const auto all = static_cast<double>(states_.size());
     for (auto& attractor : followed.attractors) {
       attractor.fraction = static_cast<double>(attractor.states) / all;
-      attractor.standard_error = std::sqrt(attractor.fraction * (1.0 - attractor.fraction) / all);
+      attractor.standard_error = share_error(attractor.states, states_.size());
     }
     std::sort(followed.attractors.begin(), followed.attractors.end(),
               [](const auto& a, const auto& b) { return a.number < b.number; });

@@ -11,6 +11,7 @@
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/phase_space/attractor_set.hpp"
@@ -31,7 +32,7 @@ struct AttractorOf {
   Orbit orbit;  ///< certified; of copies begun at other stroboscopic instants the one found first
   std::size_t states;               ///< how many of the initial states come to it
   double fraction;                  ///< of all of them
-  double standard_error;            ///< √(fraction (1 − fraction)/n): the states being a sample
+  double standard_error;            ///< share_error(): the states being a sample
   std::optional<int> mirror_image;  ///< of an earlier attractor
 };
 
@@ -67,7 +68,7 @@ BasinsOf<Orbit> numbered_basins(std::vector<BasinLabel> labels, const std::vecto
   for (std::size_t k = 0; k < basins.attractors.size(); ++k) {
     AttractorOf<Orbit>& attractor = basins.attractors[k];
     attractor.fraction = static_cast<double>(attractor.states) / all;
-    attractor.standard_error = std::sqrt(attractor.fraction * (1.0 - attractor.fraction) / all);
+    attractor.standard_error = share_error(attractor.states, basins.labels.size());
     for (std::size_t earlier = 0; earlier < k && !attractor.mirror_image; ++earlier) {
       if (is_mirror_image(attractor.orbit, basins.attractors[earlier].orbit))
         attractor.mirror_image = static_cast<int>(earlier);

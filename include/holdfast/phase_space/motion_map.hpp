@@ -289,10 +289,10 @@ class MotionMapSearch {
 /// How a map is searched.
 struct MotionMapOptions {
   /// Of each search; motions of longer periods are not found.
-  OrbitLimits limits{10'000, 0, {}};
+  OrbitLimits limits{10000, 0, {}};
   int most_rounds = 1000;  ///< after the first one; 0: from the initial states alone
-  /// Other states from which each cell is searched, each (m, m/s, m, m/s), finite.
-  std::vector<Vector<double, 4>> more_starts{};
+  std::vector<Vector<double, 4>> more_starts =
+      {};  ///< other states to search each cell from (m, m/s, m, m/s), finite
 };
 
 /// The periodic motions of many loops that lie beside one another in a plane of two parameters.
@@ -307,6 +307,7 @@ struct MotionMapOptions {
 /// @param shape      of the plane
 /// @param start      [z₁, ż₁, z₂, ż₂] (m, m/s, m, m/s), finite
 /// @param for_tiles  as find_basins() takes it
+/// @param options    how it is searched
 /// @return a cell for each, row by row
 /// @throws InvalidParameter where start or limits are not admissible
 template <class LoopAt, class Tiles>

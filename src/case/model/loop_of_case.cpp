@@ -60,14 +60,18 @@ SampledMotion<double> motion_of(const Case& the_case) {
   return harmonically_forced_motion(ideal_loop_of(the_case), initial_state_of(the_case));
 }
 
+bool has_ideal_computer(const Case& the_case) {
+  return is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0;
+}
+
 bool is_of_the_paper(const Case& the_case, Switching switching) {
   const auto excitation = effective_excitation(the_case);
   const ContactLaw law = law_of(the_case.backlash.law);
   const bool late = the_case.control.processing_delay > the_case.control.sampling_period;
   return switching == Switching::sampled && the_case.own == nullptr && !has_hardware(the_case) &&
-         !late && is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0 &&
-         the_case.force_record == nullptr && excitation.harmonics.empty() &&
-         !(excitation.noise_rms > 0.0) && (law == ContactLaw::none || law == ContactLaw::kollar);
+         !late && has_ideal_computer(the_case) && the_case.force_record == nullptr &&
+         excitation.harmonics.empty() && !(excitation.noise_rms > 0.0) &&
+         (law == ContactLaw::none || law == ContactLaw::kollar);
 }
 
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {

@@ -27,6 +27,9 @@ Loop uncontrolled(Loop loop) {
   return loop;
 }
 
+/// Whether the computer reads and commands without quanta, differences, limits and jitter.
+bool has_ideal_computer(const Case& the_case);
+
 /// Whether the motion is one of the paper's model, which IdealLoop describes: switching at
 /// samples, the paper's backlash or none, one harmonic, an ideal computer and drive whose force
 /// comes within the sample.

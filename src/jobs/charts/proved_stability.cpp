@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/own/own_parts.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -23,9 +24,19 @@ ProvedChart chart_by(const Proof& proof, const GainGrid& grid, double undecided)
   return proved_chart(decide, grid, undecided);
 }
 
+/// What is not the law u = P z + D ż of a measured velocity: of that the proof is.
+void refuse_other_computers(const Case& the_case) {
+  refuse_for_own_plant(the_case, true, "--prove");
+  if (the_case.own != nullptr)
+    throw WrongInput("--prove is of the gains P and D, without a controller of one's own");
+  if (!has_ideal_computer(the_case))
+    throw WrongInput(
+        "--prove is of an ideal computer: leave control.velocity at \"measured\", and quanta, "
+        "largest force and jitter at 0");
+}
+
 /// What is not a conductor by its modes, whose poles can be proved.
 void refuse_other_plants(const Case& the_case) {
-  refuse_for_own_plant(the_case, true, "--prove");
   if (is_infinite(the_case))
     throw WrongInput("--prove: a string without ends drifts, which no gain damps");
   if (!the_case.devices.empty())
@@ -56,6 +67,7 @@ ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double un
 
 ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
                                 double undecided) {
+  refuse_other_computers(the_case);
   if (is_modal(the_case)) return modal_chart_of(the_case, grid, undecided);
   const TwoMass<double> plant = plant_of(the_case);
   if (continuous) return chart_by(gain_box_proof(plant), grid, undecided);

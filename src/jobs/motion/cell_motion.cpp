@@ -63,8 +63,14 @@ void batch_event_metrics(const std::vector<EventSweepMotion>& motions,
   const PackKernels& kernels = pack_kernels(set);
   std::vector<MotionMetrics> metrics(motions.size());
   BatchSource source;
-  for (std::size_t first = 0; first < motions.size(); first += motions_of_batch) {
-    const std::size_t count = std::min(motions_of_batch, motions.size() - first);
+  std::size_t lines = 1;
+  for (const EventSweepMotion& motion : motions)
+    lines = std::max(lines, motion.loop->digital.force.harmonics.size());
+  // What is prepared at once, a table a motion with maps for each line, stays small.
+  const std::size_t at_once = std::clamp<std::size_t>(4096 / lines, 8, motions_of_batch);
+  for (std::size_t first = 0; first < motions.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, motions.size() - first);
+    throw_if_interrupted();
     const detail::PreparedEventMotions prepared(motions.data() + first, count, duration);
     kernels.event_metrics(prepared.motions.data(), count, metrics.data() + first, source);
   }

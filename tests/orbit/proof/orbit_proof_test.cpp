@@ -93,6 +93,29 @@ bool keeps_contacts(const IdealLoop<double>& loop, const PeriodicOrbit& orbit,
          1e-3 * orbit.states.front().head<4>().norm();
 }
 
+/// The drive may leave its gap at the very first sample: its ball is no smaller for that.
+TEST(OrbitProof, TheBallOfAnOrbitThatLeavesItsGapFirst) {
+  IdealLoop<double> loop = proved_loop(0.01, 0.0074603);
+  int found = 0;
+  test::Random random(53);
+  for (int trial = 0; trial < 400 && found < 5; ++trial) {
+    loop.gains = {random.uniform(-900.0, 0.0), random.uniform(-15.0, 0.0)};
+    loop.backlash_width = random.log_uniform(1e-4, 3e-3);
+    const OrbitResult result =
+        find_periodic_orbit(loop, Vector<double, 4>::Zero(), {1000, 100'000});
+    if (result.outcome != OrbitOutcome::certified) continue;
+    const PeriodicOrbit& orbit = *result.orbit;
+    if (!orbit.memory.inside || orbit.itinerary.front() == 0) continue;
+    ++found;
+    const auto balls = attraction_balls(loop, orbit);
+    ASSERT_FALSE(balls.empty());
+    const OrbitProof proof = prove_orbit(loop, orbit);
+    EXPECT_EQ(proof.outcome, OrbitProofOutcome::proved);
+    EXPECT_GE(proof.radius, balls.front().radius * (1.0 - 1e-3));
+  }
+  EXPECT_EQ(found, 5);
+}
+
 /// Every start in the ball keeps the contacts; of those on a sphere three times as large some do
 /// not: the proved radius is within that of the true one.
 TEST(OrbitProof, TheBallIsNearlyTheLargest) {
@@ -222,6 +245,36 @@ TEST(OrbitProof, WithoutBacklashAllIsAttracted) {
   const OrbitProof proof = prove_orbit(loop, orbit_to_prove(loop));
   EXPECT_EQ(proof.outcome, OrbitProofOutcome::proved);
   EXPECT_EQ(proof.radius, HUGE_VAL);
+}
+
+/// Without backlash a drive never is in a gap, whatever it is said to remember.
+TEST(OrbitProof, IsNotOfAGapThatIsNotThere) {
+  const IdealLoop<double> loop = proved_loop(0.001, 0.05);
+  const PeriodicOrbit orbit = orbit_to_prove(loop);
+  ASSERT_EQ(orbit.engaged_fraction(), 0.0);
+  IdealLoop<double> without = loop;
+  without.backlash_width = 0.0;
+  EXPECT_NE(prove_orbit(without, orbit).outcome, OrbitProofOutcome::proved);
+}
+
+TEST(OrbitProof, RefusesWhatIsNoOrbitOfTheLoop) {
+  const IdealLoop<double> loop = proved_loop(0.01, 0.002);
+  const PeriodicOrbit orbit = orbit_to_prove(loop);
+  PeriodicOrbit other = orbit;
+  other.states.pop_back();
+  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter) << "not a multiple of q";
+  other = orbit;
+  other.itinerary.pop_back();
+  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter);
+  other = orbit;
+  other.multipliers.clear();
+  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter);
+  other = orbit;
+  other.ratio = {1, 5};
+  EXPECT_THROW(prove_orbit(loop, other), InvalidParameter) << "another fraction";
+  IdealLoop<double> beside = loop;
+  beside.excitation.frequency = 10.0000000000005;
+  EXPECT_THROW(prove_orbit(beside, orbit), InvalidParameter) << "f tau is not 1/10";
 }
 
 TEST(OrbitProof, RefusesContactsThatAreNotThoseOfTheStates) {

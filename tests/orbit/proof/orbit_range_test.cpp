@@ -79,6 +79,30 @@ TEST(OrbitRange, BoundsHowTheStatesBend) {
   EXPECT_LE(most, proof.displacement_error);
 }
 
+/// What is said of a range holds in all of its parts: the largest bound of the multipliers.
+TEST(OrbitRange, BoundsTheMultipliersOfAllItsLoops) {
+  const IdealLoop<double> loop = test::proved_loop(0.001, 0.0);
+  const PeriodicOrbit orbit = test::orbit_to_prove(loop);
+  const auto family = [&](double gain) {
+    IdealLoop<double> other = loop;
+    other.gains.differential = gain;
+    return other;
+  };
+  const auto multiplier = [&](double gain) {
+    const auto at = family(gain);
+    return orbit_of_itinerary(at, orbit.ratio, ItineraryMaps<double>(at, orbit.ratio),
+                              orbit.itinerary, Backlash<double>(0.0))
+        .orbit->largest_multiplier();
+  };
+  for (const ProvedOrbitRange& range : prove_orbit_along(family, orbit, -24.0, -4.0, 1e-2)) {
+    if (range.proof.outcome != OrbitProofOutcome::proved) continue;
+    for (int k = 0; k <= 40; ++k) {
+      const double gain = range.from + (range.to - range.from) * k / 40.0;
+      EXPECT_LE(multiplier(gain), range.proof.multiplier_bound) << gain;
+    }
+  }
+}
+
 TEST(OrbitRange, RefusesOtherFamilies) {
   const IdealLoop<double> loop = test::proved_loop(0.01, 0.002);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);

@@ -40,6 +40,19 @@ TEST(SwitchingTests, AreTheDistancesFromTheSurfaces) {
   }
 }
 
+TEST(SwitchingTests, EntriesAreReversals) {
+  const IdealLoop<double> loop = test::proved_loop(0.01, 0.002);
+  const PeriodicOrbit orbit = test::orbit_to_prove(loop);
+  auto pattern = switching_pattern(orbit.states, Backlash<double>(0.002, orbit.memory));
+  EXPECT_TRUE(enters_at_reversals(pattern));
+  for (auto& decision : pattern.decisions) {
+    if (decision.was_inside || decision.velocity_sign == 0) continue;
+    decision.engaged = !decision.engaged;
+    EXPECT_FALSE(enters_at_reversals(pattern));
+    decision.engaged = !decision.engaged;
+  }
+}
+
 TEST(SwitchingTests, AreNoneWithoutBacklash) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);

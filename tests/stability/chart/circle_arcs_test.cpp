@@ -7,6 +7,7 @@
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "support/dense_routes.hpp"
+#include "support/lagging_plant.hpp"
 #include "support/random.hpp"
 #include "support/testing.hpp"
 
@@ -75,6 +76,41 @@ TEST(CircleArcs, CountRootsAsEigenvaluesDo) {
     EXPECT_GT(compared, 150);
     EXPECT_GE(most, 2);
   }
+}
+
+/// Real poles, of overdamped absorbers and slow filters, and samples as long as the plant's own
+/// periods.
+TEST(CircleArcs, CountRootsBesideRealPoles) {
+  Random random(9);
+  int compared = 0, real = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const TwoMass<double> plant{1.0,
+                                39.5,
+                                random.uniform(0.0, 1.0),
+                                random.log_uniform(0.03, 1.0),
+                                random.log_uniform(1.0, 150.0),
+                                random.log_uniform(0.5, 20.0)};
+    LoopHardware hardware;
+    if (trial % 2 == 0) hardware.measurement_filter = random.log_uniform(0.2, 3.0);
+    const double period = random.uniform(0.05, 0.6);
+    const Sampling<double> sampling{period, random.uniform(0.0, 2.0) * period};
+    const auto poles = enclosed_poles(plant, hardware);
+    if (poles.empty()) continue;
+    for (const EnclosedPole& pole : poles) real += pole.is_pair ? 0 : 1;
+    CircleArcs circle(EnclosedResponse(poles, sampling));
+    const LoopMap<double> map = loop_map(with_hardware(through_ports(plant), hardware), sampling);
+    for (int k = 0; k < 30; ++k) {
+      const PdGains<double> gains{random.uniform(-400.0, 200.0), random.uniform(-60.0, 60.0)};
+      const int expected = roots_by_eigenvalues(map, gains, 1.0);
+      const auto counted = circle.roots_outside(gains);
+      if (expected < 0 || !counted) continue;
+      EXPECT_EQ(*counted, expected)
+          << trial << ": " << gains.proportional << " " << gains.differential;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 3500);
+  EXPECT_GT(real, 100);
 }
 
 /// Within the circle of some of the plant's own poles too.

@@ -140,6 +140,22 @@ TEST(EnclosedResponse, KnowsNothingBesideAPole) {
   }
 }
 
+/// The same of one real pole alone, as of a filter or of an overdamped absorber.
+TEST(EnclosedResponse, KnowsNothingBesideARealPole) {
+  const EnclosedResponse response({EnclosedPole{-3.0, 0.01, false}}, {0.01, 0.0});
+  const double pole = std::exp(-0.03);
+  for (const double radius : {0.01, 0.05, 0.5, 1.9}) {
+    for (const double share : {-0.99, 0.0, 0.3, 0.99}) {
+      const auto about = response.about(ComplexEnclosure(pole + share * radius, 0.0), radius);
+      EXPECT_EQ(about.displacement.rest, std::numeric_limits<double>::infinity());
+      EXPECT_EQ(about.velocity.rest, std::numeric_limits<double>::infinity());
+    }
+    const auto beside = response.about(ComplexEnclosure(pole + 1.01 * radius, 0.0), radius);
+    EXPECT_GE(beside.displacement.rest, 0.0);
+    EXPECT_TRUE(std::isfinite(beside.displacement.rest));
+  }
+}
+
 TEST(EnclosedResponse, CountsThePolesOutside) {
   const Setting setting{span(5, 0.02), {0.01, 0.0}};
   const EnclosedResponse response = response_of(setting);

@@ -63,7 +63,8 @@ class ComplexEnclosure {
   double least_modulus() const {
     const double modulus = detail::rounded_modulus(centre_);
     const double below = modulus * (1.0 - 0x1.0p-48) - detail::above_roundings(radius_);
-    return modulus > 1e-140 && below > 0.0 ? below : 0.0;
+    // Neither where squares vanish nor where they overflow.
+    return modulus > 2e-140 && modulus < 1e150 && below > 0.0 ? below : 0.0;
   }
   /// Re z.
   Enclosure real() const { return centre_.real() + Enclosure(-radius_, radius_); }

@@ -6,8 +6,8 @@
 
 #include "holdfast/core/types.hpp"
 
-#ifdef __FAST_MATH__
-#error "-ffast-math lets the compiler round as it likes: nothing is proved then"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "-ffast-math lets the compiler round and compare as it likes: nothing is proved then"
 #endif
 
 namespace holdfast {

@@ -97,6 +97,7 @@ struct RootSearch {
   /// Takes the sizes of the polynomial, so scaled that their squares are numbers.
   void scale(int terms) {
     using std::abs;
+    using std::max;
     const auto count = static_cast<std::size_t>(terms);
     Scalar sum(0);
     for (std::size_t k = 0; k < count; ++k) {
@@ -107,7 +108,8 @@ struct RootSearch {
     const Mask<Scalar> squares_fit = (sum > Scalar(1e-100)) & (sum < Scalar(1e100));
     active = active & (sum < Scalar(std::numeric_limits<double>::infinity()));
     if (any(active & !squares_fit)) {
-      const Scalar factor = select(squares_fit, Scalar(1), Scalar(Scalar(1) / sum));
+      const Scalar factor =
+          select(squares_fit, Scalar(1), Scalar(Scalar(1) / max(sum, Scalar(1e-300))));
       for (std::size_t k = 0; k < count; ++k) p[k] = p[k] * factor;
       sum = sum * factor;
       bend = bend * factor;

@@ -13,7 +13,8 @@ namespace holdfast {
 
 /// A point of a plane.
 struct PlanePoint {
-  double x = 0.0, y = 0.0;
+  double x = 0.0;  ///< to the right
+  double y = 0.0;  ///< upward
 };
 
 /// What a point of a plane tells of a region.
@@ -27,7 +28,7 @@ struct RegionLook {
 /// A point of a region's border, on its inner side.
 template <class Label>
 struct BorderPoint {
-  PlanePoint at;
+  PlanePoint at;  ///< where it lies
   Label label{};  ///< what ends the region there; at a jump of the margin that of the outer side
 };
 
@@ -41,11 +42,11 @@ struct RegionBorder {
 
 /// How a border is followed.
 struct BorderSteps {
-  double longest = 0.02;     ///< of a step, in the unit of the plane
-  double shortest = 1e-9;    ///< of a step, which is how well a corner is found
-  double tolerance = 1e-13;  ///< of a point
-  double jump = 1e-4;        ///< margin inside at a point of the border above which it is a jump
-  int most_looks = 1'000'000;
+  double longest = 0.02;       ///< of a step, in the unit of the plane
+  double shortest = 1e-9;      ///< of a step, which is how well a corner is found
+  double tolerance = 1e-13;    ///< of a point
+  double jump = 1e-4;          ///< margin inside at a point of the border above which it is a jump
+  int most_looks = 1'000'000;  ///< at points, after which the border is left open
 };
 
 namespace detail {
@@ -221,6 +222,7 @@ class BorderWalk {
 /// @tparam Label  of the conditions
 /// @param look   PlanePoint ↦ RegionLook<Label>; the region must be bounded
 /// @param start  inside; else the border is empty
+/// @param steps  how long they may be, and how well a point is found
 template <class Label, class Look>
 RegionBorder<Label> region_border(const Look& look, const PlanePoint& start,
                                   const BorderSteps& steps = {}) {

@@ -52,7 +52,9 @@ struct LaneStep {
   std::array<Numbers, 4> command;                            ///< per newton of u
   std::array<Numbers, 4> drift;                              ///< of a stop
   std::vector<std::array<std::array<Numbers, 4>, 2>> lines;  ///< cosine and sine of each harmonic
-  Numbers drop_by_norm, drop_by_command, drop_constant;      ///< as Drop has them
+  Numbers drop_by_norm;                                      ///< as Drop has it
+  Numbers drop_by_command;                                   ///< the same
+  Numbers drop_constant;                                     ///< the same
 
   /// The state at the end of the part from z under the command u.
   std::array<Scalar, 4> state(const std::array<Scalar, 4>& z, const Scalar& u,

@@ -37,8 +37,8 @@ struct OpenRange {
 };
 
 /// A theorem on a periodic motion of the sampled loop, where the outcome is `proved`: the loop has
-/// exactly one motion that repeats the orbit's contacts for ever; it lies within the errors of the
-/// given states; all its multipliers are within the bound; and every motion that begins in the ball
+/// exactly one periodic motion with the orbit's contacts; it lies within the errors of the given
+/// states; all its multipliers are within the bound; and every motion that begins in the ball
 /// keeps its contacts for ever and tends to it.
 struct OrbitProof {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< how far it came
@@ -50,15 +50,32 @@ struct OrbitProof {
   /// 1, of `near_surface` the one that was not decided.
   Border nearest;
   double decided_by = std::numeric_limits<double>::infinity();  ///< that multiple
-  /// r₀ (m): for every one of them this same motion is the loop's, whatever the case's is.
+  /// r₀ (m): for every one of them this same motion is the loop's, whatever the case's is; of an
+  /// orbit that stays inside, in some gap.
   OpenRange widths;
-  /// Radius of the ball of attraction about the first state (m), measured as AttractionBall says
-  /// with the same weights; of an orbit that stays inside its gap in the gap that it is in; ∞
-  /// without backlash.
+  /// Radius of the ball of attraction about the first of the given states (m), measured as
+  /// AttractionBall says with the same weights; of an orbit that stays inside its gap in the gap
+  /// that it is in; ∞ without backlash.
   double radius = 0.0;
 };
 
 namespace detail {
+
+/// Refuses an orbit that cannot be of a loop, and a loop of which f τ is not quite the fraction.
+inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
+  const auto [p, q] = orbit.ratio;
+  const auto samples = orbit.period_samples();
+  const bool is_whole = samples > 0 && q > 0 && samples % q == 0;
+  if (!is_whole || orbit.itinerary.size() != orbit.states.size() || orbit.multipliers.empty())
+    throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
+                           "a multiple of q, with a contact each, and multipliers");
+  if (!(loop.excitation.amplitude > 0.0)) return;
+  const Enclosure cycles = Enclosure::of_decimal(loop.excitation.frequency) *
+                           Enclosure::of_decimal(loop.sampling.period);
+  if (!(cycles * Enclosure(static_cast<double>(q))).contains(static_cast<double>(p)))
+    throw InvalidParameter("f tau", cycles.middle(), "",
+                           "exactly p/q in the decimals of f and tau, for a proof");
+}
 
 /// The proof of one orbit, step by step. States are counted in plant_scaling() units.
 /// @tparam Number  Enclosure; a template so that only who asks compiles it
@@ -150,6 +167,7 @@ class OrbitProver {
       around = carried(around, j);
     }
     Number error = around / (Number(1.0) - Number(norms_->contraction()));
+    first_error_ = Number(error.upper());
     proof_.displacement_error = proof_.velocity_error = 0.0;
     for (std::size_t j = 0; j < samples(); ++j) {
       const auto most = [&](const RowVector<double, 5>& row) {
@@ -206,10 +224,16 @@ class OrbitProver {
     proof_.nearest = {value.middle() * unit, surface, sample};
   }
 
+  bool is_engaged_throughout() const {
+    const Itinerary& contacts = orbit_.itinerary;
+    return std::all_of(contacts.begin(), contacts.end(), [](auto contact) { return contact != 0; });
+  }
+
   /// Whether every contact is the one of the pattern.
   bool decide() {
-    if (!loops_.has_backlash()) return true;
+    if (!loops_.has_backlash()) return is_engaged_throughout();
     if (pattern_.stays_inside()) return decide_inside();
+    if (!enters_at_reversals(pattern_)) return false;
     tests_ = switching_tests(pattern_);
     bool all = over_segment(loops_.width()).is_positive();
     for (const SwitchingTest& test : tests_) {
@@ -225,21 +249,24 @@ class OrbitProver {
 
   /// Whether the gap that the drive is in holds the orbit.
   bool decide_inside() {
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, error = 0.0;
+    std::size_t least = 0, most = 0;
     for (std::size_t j = 0; j < samples(); ++j) {
       const Number here = over_segment(relative(j, false)) + around_zero(errors_[j].displacement);
-      lowest = std::min(lowest, here.lower());
-      highest = std::max(highest, here.upper());
+      if (here.lower() < lowest) lowest = here.lower(), least = j;
+      if (here.upper() > highest) highest = here.upper(), most = j;
+      keep_most(error, errors_[j].displacement);
     }
     proof_.widths.from = (Number(highest) - Number(lowest)).upper();
     const Number lower(pattern_.memory.lower);
-    const Number below = Number(lowest) - lower;
-    const Number above = lower + over_segment(loops_.width()) - Number(highest);
-    const bool is_below = below.lower() < above.lower();
-    clearance_ = std::min(below.lower(), above.lower());
-    proof_.nearest = {clearance_,
-                      is_below ? SwitchingSurface::gap_lower : SwitchingSurface::gap_upper, 0};
-    proof_.decided_by = clearance_ / proof_.displacement_error;
+    const double below = (Number(lowest) - lower).lower();
+    const double above = (lower + over_segment(loops_.width()) - Number(highest)).lower();
+    clearance_ = std::min(below, above);
+    const bool is_below = below < above;
+    proof_.nearest = {clearance_ + error,
+                      is_below ? SwitchingSurface::gap_lower : SwitchingSurface::gap_upper,
+                      static_cast<std::int64_t>(is_below ? least : most)};
+    proof_.decided_by = (clearance_ + error) / error;
     return clearance_ > 0.0;
   }
 
@@ -251,12 +278,34 @@ class OrbitProver {
     if (!loops_.has_backlash()) return true;
     EnclosedDeviations<Number> deviations(*norms_, weights, loops_.units());
     const bool with_gap = !pattern_.stays_inside();
-    for (std::int64_t done = 0; done < most_samples; done += orbit_.period_samples()) {
-      proof_.radius = std::min(proof_.radius, limit_over_period(deviations));
-      if (deviations.have_contracted(with_gap)) return proof_.radius > 0.0;
-    }
+    double radius = proof_.radius;
     proof_.radius = 0.0;
+    for (std::int64_t done = 0; done < most_samples; done += orbit_.period_samples()) {
+      radius = std::min(radius, limit_over_period(deviations));
+      if (!deviations.have_contracted(with_gap)) continue;
+      proof_.radius = (Number(radius) - distance_of_start(weights)).lower();
+      return proof_.radius > 0.0;
+    }
     return false;
+  }
+
+  /// At least how far the motion's first state, and its gap, are from the given ones (m).
+  Number distance_of_start(const Vector<double, 6>& weights) const {
+    Number distance;
+    for (Eigen::Index i = 0; i < 5; ++i)
+      distance += Number(weights[i]) * Number(loops_.units()[i]) * first_error_ *
+                  Number(norms_->reading(0, RowVector<double, 5>::Unit(i)));
+    if (pattern_.stays_inside() || !pattern_.decisions.front().was_inside) return distance;
+    const auto test = std::find_if(tests_.begin(), tests_.end(),
+                                   [](const auto& one) { return !one.is_of_velocity(); });
+    const std::size_t entry = wrapped(test->entry);
+    // Entered with Δż > 0, the gap lies below Δz.
+    const bool from_positive =
+        (test->surface == SwitchingSurface::gap_lower) == (test->widths != 0);
+    const Number entered = over_segment(relative(entry, false));
+    const Number lower = from_positive ? entered - over_segment(loops_.width()) : entered;
+    return distance + abs(lower - Number(pattern_.memory.lower)) +
+           Number(errors_[entry].displacement);
   }
 
   /// What one more period allows a deviation to be at the beginning.
@@ -289,6 +338,7 @@ class OrbitProver {
   std::vector<AlongSegment<Vector<double, 5>>> states_;  // proposed, in units
   std::optional<ContractingNorms<5>> norms_;
   std::vector<Errors> errors_;
+  Number first_error_;  // of the first state, in its norm
   std::vector<SwitchingTest> tests_;
   double clearance_ = 0.0;  // of an orbit that stays inside (m)
   OrbitProof proof_;
@@ -304,15 +354,17 @@ class OrbitProver {
 /// motion, and what the given states miss each other by bounds their distance from it. That every
 /// sample decides its contact as it does is then a strict inequality (SwitchingTest). Deviations
 /// are followed with all errors until they are shorter than they began, which makes the ball.
+/// @param loop           of doubles
 /// @param orbit          its states and contacts are taken for a proposal
 /// @param largest_miss   of each state by the image of the one before, as a share of their extent:
 ///                       above, the proposal is refused
-/// @throws InvalidParameter where the loop is not admissible
+/// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
 /// Work: about 30 µs a sample, and 20 µs for every sample until deviations have become shorter.
 /// @tparam Scalar  `double`; a template so that only who calls it compiles it
 template <class Scalar>
 OrbitProof prove_orbit(const IdealLoop<Scalar>& loop, const PeriodicOrbit& orbit,
                        double largest_miss = 1e-12) {
+  detail::validate_proposal(loop, orbit);
   const detail::SegmentOfLoops loops(enclosed(loop), orbit.ratio);
   return detail::OrbitProver(loops, orbit, orbit.states, orbit.states)
       .prove_with_ball(deviation_weights(loop), largest_miss);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -22,6 +23,16 @@ struct ProvedOrbitRange {
 };
 
 namespace detail {
+
+/// Of two neighbouring ranges of one outcome: what holds of both.
+inline OrbitProof joined(const OrbitProof& a, const OrbitProof& b) {
+  OrbitProof both = b.decided_by < a.decided_by ? b : a;
+  both.multiplier_bound = std::max(a.multiplier_bound, b.multiplier_bound);
+  both.displacement_error = std::max(a.displacement_error, b.displacement_error);
+  both.velocity_error = std::max(a.velocity_error, b.velocity_error);
+  both.widths = {std::max(a.widths.from, b.widths.from), std::min(a.widths.to, b.widths.to)};
+  return both;
+}
 
 /// Whether two loops differ in P, D, F_m and r₀ alone.
 inline bool differ_linearly(const IdealLoop<double>& a, const IdealLoop<double>& b) {
@@ -76,6 +87,7 @@ std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const Peri
     throw InvalidParameter(
         "range of the parameter", to - from, "",
         "such that P, D, the amplitude of the force and the backlash differ alone");
+  detail::validate_proposal(family(from), orbit);
   std::vector<ProvedOrbitRange> proved;
   std::vector<Scalar> open{to};  // right ends of what is to be proved, the next one last
   for (Scalar left = from; !open.empty();) {
@@ -89,7 +101,7 @@ std::vector<ProvedOrbitRange> prove_orbit_along(const Family& family, const Peri
     const bool joins = !proved.empty() && proved.back().proof.outcome == proof.outcome;
     if (joins) {
       proved.back().to = right;
-      if (proof.decided_by < proved.back().proof.decided_by) proved.back().proof = proof;
+      proved.back().proof = detail::joined(proved.back().proof, proof);
     } else {
       proved.push_back({left, right, proof});
     }

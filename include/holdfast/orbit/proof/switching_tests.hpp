@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -40,9 +41,21 @@ inline void append_gap_tests(const ContactDecision& decision, std::int64_t sampl
 
 }  // namespace detail
 
+/// Whether every sample outside the gap enters one just where its velocity has another sign than
+/// that of the sample before.
+inline bool enters_at_reversals(const SwitchingPattern& pattern) {
+  const auto& all = pattern.decisions;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const ContactDecision& before = all[j == 0 ? all.size() - 1 : j - 1];
+    const bool reverses = all[j].velocity_sign != before.velocity_sign;
+    if (!all[j].was_inside && all[j].engaged == reverses) return false;
+  }
+  return true;
+}
+
 /// All inequalities of one period, by samples: together they say that a motion with these Δz and Δż
-/// decides as the pattern says for ever, whatever the rounding of who computes it.
-/// @param pattern  that repeats, and does not stay inside
+/// decides as the pattern says for ever.
+/// @param pattern  that repeats, does not stay inside, and enters at reversals
 inline std::vector<SwitchingTest> switching_tests(const SwitchingPattern& pattern) {
   std::vector<SwitchingTest> tests;
   const auto samples = static_cast<std::int64_t>(pattern.decisions.size());

@@ -97,7 +97,9 @@ class CircleArcs {
       before = side;
     }
     if (quarters % 2 != 0) return std::nullopt;
-    return *own + response_.held_commands() - quarters / 2;
+    const int outside = *own + response_.held_commands() - quarters / 2;
+    if (outside < 0) return std::nullopt;  // a premiss is wrong
+    return outside;
   }
 
   /// Arcs that have been made, halved ones included.

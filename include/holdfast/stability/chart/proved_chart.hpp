@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
 #include <vector>
@@ -168,9 +170,16 @@ inline std::vector<GainBox> cells_of(const GainGrid& grid) {
 /// Refuses a grid without cells, or another share.
 inline void validate_proved(const GainGrid& grid, double undecided) {
   validate(grid);
-  for (const Axis& axis : {grid.proportional, grid.differential})
-    require_within("points along a side of the chart", static_cast<double>(axis.count), "", 2.0,
-                   1e9);
+  for (const Axis& axis : {grid.proportional, grid.differential}) {
+    const auto count = static_cast<double>(axis.count);
+    require_within("points along a side of the chart", count, "", 2.0, 1e9);
+    // Else rounding might turn the order of the points.
+    const double size = std::max(std::abs(axis.min), std::abs(axis.max));
+    const double least = 16.0 * std::numeric_limits<double>::epsilon() * size;
+    if (!((axis.max - axis.min) / count > least))
+      throw InvalidParameter("width of a cell of the chart", (axis.max - axis.min) / (count - 1.0),
+                             "", "above the rounding of its gains");
+  }
   require_within("undecided share", undecided, "", 0.0, 1.0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -17,8 +18,9 @@ namespace holdfast {
 
 /// f(λ + w) = value + slope · w + r, |r| ≤ rest, wherever |w| is no more than a radius.
 struct EnclosedExpansion {
-  ComplexEnclosure value, slope;  ///< f(λ) and f′(λ)
-  double rest = 0.0;              ///< of r; infinite where f may have a pole that near
+  ComplexEnclosure value;  ///< f(λ)
+  ComplexEnclosure slope;  ///< f′(λ)
+  double rest = 0.0;       ///< of r; infinite where f may have a pole that near
 };
 
 /// What P and what D multiply, F_z and F_v of `EnclosedResponse`, about a point.
@@ -111,12 +113,13 @@ class EnclosedResponse {
 
     void add_to(EnclosedCommandResponse& sum, const ComplexEnclosure& lambda, double radius) const {
       const ComplexEnclosure to_pole = lambda - pole;
-      double least = (Enclosure(to_pole.least_modulus()) - radius).lower();
+      // 0 where the disc may reach the pole: nothing is known of the rest then.
+      double least = std::max((Enclosure(to_pole.least_modulus()) - radius).lower(), 0.0);
       ComplexEnclosure divisor = to_pole, divisor_slope(1.0);
       if (is_pair) {
         const ComplexEnclosure to_partner = lambda - conj(pole);
         const double other = (Enclosure(to_partner.least_modulus()) - radius).lower();
-        least = least > 0.0 && other > 0.0 ? (Enclosure(least) * other).lower() : 0.0;
+        least = other > 0.0 ? std::max((Enclosure(least) * other).lower(), 0.0) : 0.0;
         divisor = to_pole * to_partner;
         divisor_slope = to_pole + to_partner;
       }
