@@ -189,9 +189,11 @@ std::int64_t patience(const std::vector<Orbit>& orbits, const OrbitLimits& limit
 
 /// Hands motions of two masses out to lanes that go past the orbits of a set together, and marks
 /// those that come to one.
+/// @tparam Plant  TwoMass<double>; a template so that only who calls it compiles it
+template <class Plant = TwoMass<double>>
 class EventApproaches final : public LaneApproaches {
  public:
-  using Approach = ApproachOf<TwoMass<double>>;
+  using Approach = ApproachOf<Plant>;
 
   /// @param motions  `count` of them
   /// @param fresh    an approach that has not begun
@@ -267,9 +269,10 @@ struct SingleMotions {
 
 /// Motions of an ImplementedLoop of which has_event_pack(): all that are left go past the orbits
 /// that are known by now side by side, from their begins; each may be searched for its own orbit.
-template <class Travel>
+/// @tparam LoopModel  ImplementedLoop; a parameter so that only who calls it compiles it
+template <class Travel, class LoopModel = ImplementedLoop>
 struct BatchedEventMotions {
-  using Loop = ImplementedLoop;
+  using Loop = LoopModel;
 
   Loop loop;
   Rational ratio;
@@ -292,8 +295,8 @@ struct BatchedEventMotions {
     const std::int64_t samples = patience(known.orbits(), limits);
     constexpr std::size_t tile = 64;
     for_tiles(motions.size(), tile, [&](std::size_t first, std::size_t number) {
-      EventApproaches approaches(motions.data() + first, number,
-                                 {known, samples, ratio.denominator}, limits);
+      EventApproaches<> approaches(motions.data() + first, number,
+                                   {known, samples, ratio.denominator}, limits);
       travel(loop, approaches);
     });
   }

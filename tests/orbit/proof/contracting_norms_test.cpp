@@ -25,7 +25,7 @@ std::vector<std::uint8_t> norm_sequence(test::Random& random) {
 std::optional<ContractingNorms<3>> norms_of(const NormMaps& maps,
                                             const std::vector<std::uint8_t>& sequence,
                                             double log_modulus) {
-  return ContractingNorms<3>::of({maps[0].cast<Enclosure>(), maps[1].cast<Enclosure>()}, sequence,
+  return ContractingNorms<3>::of({{maps[0].cast<Enclosure>(), maps[1].cast<Enclosure>()}}, sequence,
                                  log_modulus);
 }
 
@@ -97,15 +97,50 @@ TEST(ContractingNorms, AreNotFoundWhereTheSequenceDoesNotContract) {
 }
 
 TEST(ContractingNorms, AreOfEveryMapInside) {
-  NormMaps maps{Matrix<double, 3>::Identity() * 0.9, Matrix<double, 3>::Identity() * 0.5};
-  const Matrix<Enclosure, 3> wide =
-      maps[0].cast<Enclosure>() + Matrix<Enclosure, 3>::Identity() * Enclosure(-0.05, 0.05);
-  const Matrix<Enclosure, 3> too_wide =
-      maps[0].cast<Enclosure>() + Matrix<Enclosure, 3>::Identity() * Enclosure(-0.1, 0.1);
-  const Matrix<Enclosure, 3> other = maps[1].cast<Enclosure>();
-  EXPECT_TRUE(ContractingNorms<3>::of({wide, other}, {0, 0}, 2.0 * std::log(0.96)).has_value());
-  EXPECT_FALSE(
-      ContractingNorms<3>::of({too_wide, other}, {0, 0}, 2.0 * std::log(0.96)).has_value());
+  using Corner = ContractingNorms<3>::Maps;
+  const Matrix<Enclosure, 3> identity = Matrix<Enclosure, 3>::Identity();
+  const double log_modulus = 2.0 * std::log(0.96);
+  const auto found = [&](const std::vector<Corner>& corners) {
+    return ContractingNorms<3>::of(corners, {0, 0}, log_modulus).has_value();
+  };
+  const auto maps = [&](const Enclosure& factor) { return Corner{identity * factor, identity}; };
+  EXPECT_TRUE(found({maps(Enclosure(0.85, 0.95))}));
+  EXPECT_FALSE(found({maps(Enclosure(0.8, 1.0))}));
+  EXPECT_TRUE(found({maps(0.95), maps(-0.95)}));
+  EXPECT_FALSE(found({maps(0.5), maps(1.0)}));
+  EXPECT_FALSE(found({maps(1.0), maps(0.5)}));
+}
+
+/// What is proved at the corners holds between them.
+TEST(ContractingNorms, HoldBetweenTheCorners) {
+  test::Random random(44);
+  int found = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    NormMaps first = norm_maps(random);
+    const auto sequence = norm_sequence(random);
+    const double log_modulus = scale_norm_maps(first, sequence, 0.7);
+    NormMaps last = first;
+    for (auto& map : last)
+      for (double& entry : map.reshaped()) entry += 0.02 * random.normal();
+    const auto enclosed_maps = [](const NormMaps& maps) {
+      return ContractingNorms<3>::Maps{maps[0].cast<Enclosure>(), maps[1].cast<Enclosure>()};
+    };
+    const auto norms =
+        ContractingNorms<3>::of({enclosed_maps(first), enclosed_maps(last)}, sequence, log_modulus);
+    if (!norms) continue;
+    ++found;
+    for (std::size_t j = 0; j < sequence.size(); ++j) {
+      const std::size_t next = j + 1 == sequence.size() ? 0 : j + 1;
+      const double share = random.unit();
+      const Matrix<double, 3> map =
+          (1.0 - share) * first.at(sequence[j]) + share * last.at(sequence[j]);
+      const Vector<double, 3> vector(random.normal(), random.normal(), random.normal());
+      const Vector<double, 3> image = map * vector;
+      EXPECT_LE(norms->size(next, image.cast<Enclosure>()).lower(),
+                norms->factor(j) * norms->size(j, vector.cast<Enclosure>()).upper());
+    }
+  }
+  EXPECT_GT(found, 20);
 }
 
 }  // namespace

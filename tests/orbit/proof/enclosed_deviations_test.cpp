@@ -17,7 +17,7 @@ TEST(EnclosedDeviations, HoldThoseOfExtendedPrecision) {
   const Vector<double, 6> weights = deviation_weights(loop);
   const detail::SegmentOfLoops loops(enclosed(loop), orbit.ratio);
   const auto norms =
-      ContractingNorms<5>::of(loops.maps(), orbit.itinerary, orbit.multipliers.front().log_modulus);
+      ContractingNorms<5>::of(loops.ends(), orbit.itinerary, orbit.multipliers.front().log_modulus);
   ASSERT_TRUE(norms.has_value());
   const auto pattern =
       switching_pattern(orbit.states, Backlash<double>(loop.backlash_width, orbit.memory));
@@ -42,7 +42,7 @@ TEST(EnclosedDeviations, HoldThoseOfExtendedPrecision) {
     if (decision.engaged) gap.setZero();
     if (!decision.engaged && !decision.was_inside) gap = exact.row(2) - exact.row(0);
     exact = (maps.map_in_units(orbit.itinerary[j] != 0) * exact).eval();
-    ours.advance(j, (j + 1) % samples, decision, loops.maps().at(orbit.itinerary[j]));
+    ours.advance(j, (j + 1) % samples, decision, loops.ends().front().at(orbit.itinerary[j]));
   }
 }
 
@@ -53,7 +53,7 @@ TEST(EnclosedDeviations, ContractAsTheMultipliersSay) {
   const Vector<double, 6> weights = deviation_weights(loop);
   const detail::SegmentOfLoops loops(enclosed(loop), orbit.ratio);
   const auto norms =
-      ContractingNorms<5>::of(loops.maps(), orbit.itinerary, orbit.multipliers.front().log_modulus);
+      ContractingNorms<5>::of(loops.ends(), orbit.itinerary, orbit.multipliers.front().log_modulus);
   ASSERT_TRUE(norms.has_value());
   const auto pattern =
       switching_pattern(orbit.states, Backlash<double>(loop.backlash_width, orbit.memory));
@@ -68,7 +68,7 @@ TEST(EnclosedDeviations, ContractAsTheMultipliersSay) {
   for (int turn = 0; turn < 60; ++turn) {
     for (std::size_t j = 0; j < orbit.states.size(); ++j)
       ours.advance(j, (j + 1) % orbit.states.size(), pattern.decisions[j],
-                   loops.maps().at(orbit.itinerary[j]));
+                   loops.ends().front().at(orbit.itinerary[j]));
     all = period * all;
     have = ours.have_contracted(true);
     if (std::abs(all.norm() - 1.0) > 1e-3) {

@@ -28,11 +28,16 @@ namespace holdfast {
 template <int Size>
 class ContractingNorms {
  public:
-  /// @param maps          two of them in enclosures, narrow or of a whole box of parameters
-  /// @param sequence      which of the two moves sample j; not empty
-  /// @param log_modulus   ln of the largest multiplier, as it is thought to be
+  /// The two maps of which the sequence consists, in enclosures.
+  using Maps = std::array<Matrix<Enclosure, Size>, 2>;
+
+  /// MᵀPM being convex in M, what is proved at the corners holds between them.
+  /// @param corners      of a segment or a box of loops: the norms are those of all loops between;
+  ///                     one, of a single loop
+  /// @param sequence     which of the two moves sample j; not empty
+  /// @param log_modulus  ln of the largest multiplier, as it is thought to be
   /// @return nothing where no such norms were found
-  static std::optional<ContractingNorms> of(const std::array<Matrix<Enclosure, Size>, 2>& maps,
+  static std::optional<ContractingNorms> of(const std::vector<Maps>& corners,
                                             const std::vector<std::uint8_t>& sequence,
                                             double log_modulus);
 
@@ -51,14 +56,20 @@ class ContractingNorms {
  private:
   using Form = Matrix<double, Size>;
 
-  static Form middle(const Matrix<Enclosure, Size>& map) { return map.template cast<double>(); }
+  /// The mean of the corners.
+  static Form middle(const std::vector<Maps>& corners, std::size_t which) {
+    Form sum = corners.front().at(which).template cast<double>();
+    for (std::size_t k = 1; k < corners.size(); ++k)
+      sum += corners[k].at(which).template cast<double>();
+    return sum / static_cast<double>(corners.size());
+  }
   static Form symmetric(const Form& form) { return 0.5 * (form + form.transpose()); }
 
   /// P_j of all samples from that after the last one, back to the first.
   void go_back(const std::array<Form, 2>& maps, const std::vector<std::uint8_t>& sequence,
                Form last, double rate);
-  bool prove(const std::array<Matrix<Enclosure, Size>, 2>& maps,
-             const std::vector<std::uint8_t>& sequence, double rate);
+  bool prove(const std::vector<Maps>& corners, const std::vector<std::uint8_t>& sequence,
+             double rate);
 
   std::vector<Form> forms_;
   std::vector<double> factors_;
@@ -92,7 +103,7 @@ double ContractingNorms<Size>::reading(std::size_t sample,
 }
 
 template <int Size>
-bool ContractingNorms<Size>::prove(const std::array<Matrix<Enclosure, Size>, 2>& maps,
+bool ContractingNorms<Size>::prove(const std::vector<Maps>& corners,
                                    const std::vector<std::uint8_t>& sequence, double rate) {
   Enclosure product(1.0);
   for (std::size_t j = 0; j < sequence.size(); ++j) {
@@ -101,18 +112,19 @@ bool ContractingNorms<Size>::prove(const std::array<Matrix<Enclosure, Size>, 2>&
     const Matrix<Enclosure, Size> half =
         Matrix<Enclosure, Size>::Identity(form.rows(), form.cols()) * Enclosure(0.5);
     if (!is_positive_definite<Size>(form - half)) return false;
-    const Matrix<Enclosure, Size>& map = maps.at(sequence[j]);
-    const Matrix<Enclosure, Size> moved =
-        map.transpose() * (next.template cast<Enclosure>() * map).eval();
-    // The last step closes a solution that rounding leaves open.
-    double factor = rate, more = 1e-12;
-    const auto shrinks = [&] {
-      const Enclosure squared = square(Enclosure(factor));
-      return is_positive_definite<Size>(form * squared - moved);
+    const auto shrinks = [&](const Maps& maps, double factor) {
+      const Matrix<Enclosure, Size>& map = maps.at(sequence[j]);
+      const Matrix<Enclosure, Size> moved =
+          map.transpose() * (next.template cast<Enclosure>() * map).eval();
+      return is_positive_definite<Size>(form * square(Enclosure(factor)) - moved);
     };
-    for (; !shrinks(); more *= 100.0) {
-      if (more > 1e-3) return false;
+    // Rounding leaves the solution open at the seam, and the corners are not the middle.
+    double factor = rate, more = 1e-12;
+    while (!std::all_of(corners.begin(), corners.end(),
+                        [&](const Maps& maps) { return shrinks(maps, factor); })) {
+      if (more > 0.1) return false;
       factor = rate * (1.0 + more);
+      more *= 10.0;
     }
     factors_[j] = factor;
     product *= Enclosure(factor);
@@ -123,15 +135,15 @@ bool ContractingNorms<Size>::prove(const std::array<Matrix<Enclosure, Size>, 2>&
 
 template <int Size>
 std::optional<ContractingNorms<Size>> ContractingNorms<Size>::of(
-    const std::array<Matrix<Enclosure, Size>, 2>& maps, const std::vector<std::uint8_t>& sequence,
+    const std::vector<Maps>& corners, const std::vector<std::uint8_t>& sequence,
     double log_modulus) {
   if (!(log_modulus < 0.0)) return std::nullopt;
   // Half of what is lost, so that the forms stay small.
   const double log_rate =
       std::max(0.5 * log_modulus / static_cast<double>(sequence.size()), std::log(0.5));
   const double rate = std::exp(log_rate);
-  const std::array<Form, 2> middles{middle(maps[0]), middle(maps[1])};
-  Form period = Form::Identity(maps[0].rows(), maps[0].cols());
+  const std::array<Form, 2> middles{middle(corners, 0), middle(corners, 1)};
+  Form period = Form::Identity(middles[0].rows(), middles[0].cols());
   for (const std::uint8_t which : sequence) period = middles.at(which) * period / rate;
   ContractingNorms norms;
   norms.forms_.resize(sequence.size());
@@ -145,7 +157,7 @@ std::optional<ContractingNorms<Size>> ContractingNorms<Size>::of(
   }
   if (!sum.allFinite()) return std::nullopt;
   norms.go_back(middles, sequence, sum, rate);
-  if (!norms.prove(maps, sequence, rate)) return std::nullopt;
+  if (!norms.prove(corners, sequence, rate)) return std::nullopt;
   return norms;
 }
 

@@ -100,7 +100,7 @@ class OrbitProver {
   /// Proves that every loop has the orbit, and how near it is to the proposal.
   OrbitProof prove(double largest_miss) {
     proof_.outcome = OrbitProofOutcome::not_contracting;
-    norms_ = ContractingNorms<5>::of(loops_.maps(), orbit_.itinerary,
+    norms_ = ContractingNorms<5>::of(loops_.ends(), orbit_.itinerary,
                                      orbit_.multipliers.front().log_modulus);
     if (!norms_) return proof_;
     proof_.multiplier_bound = norms_->contraction();
@@ -113,7 +113,7 @@ class OrbitProver {
     return proof_;
   }
 
-  /// The same with the ball that it attracts.
+  /// The same of a single loop, with the ball that it attracts.
   /// @param weights  deviation_weights(), of which the last one is 1
   OrbitProof prove_with_ball(const Vector<double, 6>& weights, double largest_miss) {
     if (prove(largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
@@ -320,7 +320,8 @@ class OrbitProver {
       }
       if (pattern_.stays_inside())
         limit = std::min(limit, allowed(clearance_, deviations.relative(j, false)));
-      deviations.advance(j, after(j), pattern_.decisions[j], loops_.maps().at(orbit_.itinerary[j]));
+      deviations.advance(j, after(j), pattern_.decisions[j],
+                         loops_.ends().front().at(orbit_.itinerary[j]));
     }
     return limit;
   }

@@ -60,8 +60,8 @@ class SegmentOfLoops {
   /// s.
   static Number position() { return {-0.5, 0.5}; }
 
-  /// S* or S of every loop of the segment.
-  const std::array<Map, 2>& maps() const { return hull_; }
+  /// S* and S at the ends of the segment, or of the one loop.
+  const std::vector<std::array<Map, 2>>& ends() const { return ends_; }
   /// S or S*.
   const AlongSegment<Map>& map(std::uint8_t engaged) const { return maps_.at(engaged); }
   /// What the excitation adds in sample j.
@@ -82,10 +82,9 @@ class SegmentOfLoops {
 
   explicit SegmentOfLoops(const ItineraryMaps<Number>& maps)
       : units_(maps.units().template cast<double>()) {
-    for (const bool engaged : {false, true}) {
-      hull_.at(engaged) = maps.map_in_units(engaged);
-      maps_.at(engaged) = {hull_.at(engaged), Map::Zero()};
-    }
+    ends_.push_back(maps_of(maps));
+    for (const std::size_t engaged : {0, 1})
+      maps_.at(engaged) = {ends_.front().at(engaged), Map::Zero()};
     for (std::size_t k = 0; k < maps.samples_of_forcing(); ++k)
       additions_.push_back({in_units(maps, k), State::Zero()});
   }
@@ -93,10 +92,10 @@ class SegmentOfLoops {
   SegmentOfLoops(const ItineraryMaps<Number>& first, const ItineraryMaps<Number>& last)
       : units_(first.units().template cast<double>()) {
     const Number half(0.5);
-    for (const bool engaged : {false, true}) {
-      const Map from = first.map_in_units(engaged), to = last.map_in_units(engaged);
+    ends_ = {maps_of(first), maps_of(last)};
+    for (const std::size_t engaged : {0, 1}) {
+      const Map &from = ends_[0].at(engaged), &to = ends_[1].at(engaged);
       maps_.at(engaged) = {(from + to) * half, to - from};
-      hull_.at(engaged) = maps_.at(engaged).centre + maps_.at(engaged).slope * position();
     }
     for (std::size_t k = 0; k < first.samples_of_forcing(); ++k) {
       const State from = in_units(first, k), to = in_units(last, k);
@@ -104,6 +103,9 @@ class SegmentOfLoops {
     }
   }
 
+  static std::array<Map, 2> maps_of(const ItineraryMaps<Number>& maps) {
+    return {maps.map_in_units(false), maps.map_in_units(true)};
+  }
   static State in_units(const ItineraryMaps<Number>& maps, std::size_t phase) {
     State addition = State::Zero();
     addition.template head<4>() =
@@ -112,7 +114,7 @@ class SegmentOfLoops {
   }
 
   std::array<AlongSegment<Map>, 2> maps_;  // S*, S
-  std::array<Map, 2> hull_;
+  std::vector<std::array<Map, 2>> ends_;
   std::vector<AlongSegment<State>> additions_;
   AlongSegment<Number> widths_;
   Vector<double, 5> units_;
