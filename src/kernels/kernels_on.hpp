@@ -78,8 +78,8 @@ class KernelsOn {
     detail::group_event_metrics<Pack>(motions, count, results, [&] { source.pause(); });
   }
 
-  static void approaches(const ImplementedLoop& loop, LaneApproaches& all) {
-    run_approaches<Pack>(loop, all);
+  static void approaches(const ImplementedLoop& loop, LaneApproaches& of_caller) {
+    run_approaches<Pack>(loop, of_caller);
   }
 
   static std::unique_ptr<TravelKernel> travel(const PeriodicallyForcedMotion<double>& motion) {

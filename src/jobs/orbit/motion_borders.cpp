@@ -15,6 +15,7 @@
 #include "jobs/orbit/certified_orbit.hpp"
 #include "jobs/orbit/followed_key.hpp"
 #include "process/errors.hpp"
+#include "process/exit.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {

@@ -21,7 +21,7 @@ TEST(PositiveDefinite, AgreesWithEigenvalues) {
   for (int trial = 0; trial < 500; ++trial) {
     Vector<double, 4> eigenvalues;
     for (double& value : eigenvalues) value = random.log_uniform(1e-6, 1e3);
-    if (trial % 2 == 0) eigenvalues[random.index(4)] *= -1.0;
+    if (trial % 2 == 0) eigenvalues[static_cast<Eigen::Index>(random.index(4))] *= -1.0;
     const Matrix<double, 4> form = symmetric(eigenvalues, random);
     EXPECT_EQ(is_positive_definite<4>(form.cast<Enclosure>()), eigenvalues.minCoeff() > 0.0);
   }

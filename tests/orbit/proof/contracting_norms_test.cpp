@@ -121,7 +121,7 @@ TEST(ContractingNorms, HoldBetweenTheCorners) {
     const double log_modulus = scale_norm_maps(first, sequence, 0.7);
     NormMaps last = first;
     for (auto& map : last)
-      for (double& entry : map.reshaped()) entry += 0.02 * random.normal();
+      for (double& entry : map.reshaped()) entry += 1e-3 * random.normal();
     const auto enclosed_maps = [](const NormMaps& maps) {
       return ContractingNorms<3>::Maps{maps[0].cast<Enclosure>(), maps[1].cast<Enclosure>()};
     };

@@ -173,7 +173,8 @@ class EventPack {
       const LaneGuard<Scalar>& guard = modes_.guard(g);
       stays = stays & (guard.at(z, command) + guard.force.all() * force > zero);
     }
-    const LaneMask asked = which & (modes_.fresh() | (modes_.sticks() & !stays));
+    const LaneMask fresh = modes_.fresh(), sticks = modes_.sticks();
+    const LaneMask asked = which & (fresh | (sticks & !stays));
     if (!any(asked)) return;
     const auto lane_asked = detail::lane_flags<Scalar>(asked);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -231,8 +232,9 @@ class EventPack {
       after[2] = select(sticks, Scalar(after[0] + (before[2] - before[0])), after[2]);
       after[3] = select(sticks, after[1], after[3]);
     }
-    const LaneMask through =
-        which & (no_guard_falls(part, step, before, after) | !modes_.guarded());
+    const LaneMask none_falls = no_guard_falls(part, step, before, after);
+    const LaneMask guarded = modes_.guarded();
+    const LaneMask through = which & (none_falls | !guarded);
     // What comes next need not wait for the bound where all lanes are through.
     const bool whole = all(through);
     for (std::size_t i = 0; i < 4; ++i)

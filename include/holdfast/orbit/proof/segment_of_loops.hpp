@@ -83,7 +83,7 @@ class SegmentOfLoops {
   explicit SegmentOfLoops(const ItineraryMaps<Number>& maps)
       : units_(maps.units().template cast<double>()) {
     ends_.push_back(maps_of(maps));
-    for (const std::size_t engaged : {0, 1})
+    for (const std::size_t engaged : {std::size_t{0}, std::size_t{1}})
       maps_.at(engaged) = {ends_.front().at(engaged), Map::Zero()};
     for (std::size_t k = 0; k < maps.samples_of_forcing(); ++k)
       additions_.push_back({in_units(maps, k), State::Zero()});
@@ -93,7 +93,7 @@ class SegmentOfLoops {
       : units_(first.units().template cast<double>()) {
     const Number half(0.5);
     ends_ = {maps_of(first), maps_of(last)};
-    for (const std::size_t engaged : {0, 1}) {
+    for (const std::size_t engaged : {std::size_t{0}, std::size_t{1}}) {
       const Map &from = ends_[0].at(engaged), &to = ends_[1].at(engaged);
       maps_.at(engaged) = {(from + to) * half, to - from};
     }
