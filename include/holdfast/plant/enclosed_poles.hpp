@@ -216,6 +216,7 @@ inline std::vector<EnclosedPole> enclosed_poles(const EnclosedTransfer& transfer
   if (approximate.empty() || paired.size() != transfer.degree()) return {};
   const auto points = paired.all();
   std::vector<ComplexEnclosure> centres;
+  centres.reserve(points.size());
   for (const std::complex<double>& point : points) centres.emplace_back(point, 0.0);
   const std::vector<double> radii = disc_radii(transfer, centres);
   if (!are_apart(centres, radii)) return {};

@@ -80,7 +80,8 @@ struct RootSearch {
     const Mask<Scalar> rises = slope > zero;
     const Scalar way = select(rises, Scalar(slope + root), Scalar(two * height)) /
                        select(rises, Scalar(-sag), Scalar(root - slope));
-    const Mask<Scalar> meets = (square >= zero) & !(rises & (sag >= zero)) & (way == way);
+    const Mask<Scalar> is_number = (way <= zero) | (way > zero);
+    const Mask<Scalar> meets = (square >= zero) & !(rises & (sag >= zero)) & is_number;
     return select(meets, way, never);
   }
 

@@ -168,7 +168,7 @@ class EventPack {
     if (modes_.sticking().none() && modes_.freshly_changed().none()) return;
     const Scalar zero(0), force = force_at(after);
     const std::array<Scalar, 4> z = state();
-    LaneMask stays = zero == zero;
+    LaneMask stays = zero < Scalar(1);
     for (std::size_t g = 0; g < 2; ++g) {
       const LaneGuard<Scalar>& guard = modes_.guard(g);
       stays = stays & (guard.at(z, command) + guard.force.all() * force > zero);
