@@ -157,6 +157,7 @@ void write_cells(const JobContext& context, const MapGrid& grid,
         amplitudes.first,
         amplitudes.second};
     std::vector<const double*> columns;
+    columns.reserve(row.size());
     for (const double& value : row) columns.push_back(&value);
     output.append(1, columns);
   }
