@@ -56,14 +56,7 @@ double timed(std::size_t count, unsigned threads, const Job& job) {
 }
 
 std::int64_t plain_period_of(const IdealLoop<double>& loop, std::int64_t coincidence) {
-  const test::PlainLoop plain{loop.sampling.period,
-                              loop.backlash_width,
-                              loop.gains.proportional,
-                              loop.gains.differential,
-                              loop.excitation.amplitude,
-                              loop.excitation.frequency,
-                              coincidence};
-  return test::plain_period(plain, 32 * largest_period);
+  return test::plain_period(test::plain_loop(loop, coincidence), 32 * largest_period);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "jobs/orbit/followed_key.hpp"
 #include "jobs/orbit/motion_borders.hpp"
 #include "jobs/orbit/proved_orbit.hpp"
+#include "jobs/orbit/surface_names.hpp"
 
 namespace holdfast::program {
 namespace {

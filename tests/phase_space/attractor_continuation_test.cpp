@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "support/kollar_case.hpp"
-#include "support/random.hpp"
+#include "support/random_states.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -19,13 +19,7 @@ IdealLoop<double> followed_loop(double width) {
 }
 
 std::vector<Vector<double, 4>> some_states(std::size_t count) {
-  test::Random random(17);
-  std::vector<Vector<double, 4>> states;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vector<double, 4> unit = random.matrix<Vector<double, 4>>();
-    states.push_back(unit.cwiseProduct(Vector<double, 4>(0.005, 0.2, 0.005, 0.2)));
-  }
-  return states;
+  return test::random_states(17, count);
 }
 
 BasinMap basins_at(double width, const std::vector<Vector<double, 4>>& states) {

@@ -4,7 +4,7 @@
 #include "holdfast/phase_space/event_basins.hpp"
 #include "holdfast/phase_space/modal_basins.hpp"
 #include "support/kollar_case.hpp"
-#include "support/random.hpp"
+#include "support/random_states.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -26,13 +26,7 @@ IdealLoop<double> basin_loop(double period, double width, double delay_fraction 
 }
 
 std::vector<Vector<double, 4>> basin_states(std::size_t count) {
-  test::Random random(871);
-  std::vector<Vector<double, 4>> states;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vector<double, 4> unit = random.matrix<Vector<double, 4>>();
-    states.push_back(unit.cwiseProduct(Vector<double, 4>(0.005, 0.2, 0.005, 0.2)));
-  }
-  return states;
+  return test::random_states(871, count);
 }
 
 template <class Orbit>

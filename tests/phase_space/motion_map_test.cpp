@@ -46,13 +46,7 @@ TEST(MotionMap, AgreesWithPlainSimulationInEveryCell) {
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     const IdealLoop<double> loop = paper_plane.loop(cell);
     const std::int64_t coincidence = forcing_ratio(loop)->denominator;
-    const test::PlainLoop plain{loop.sampling.period,
-                                loop.backlash_width,
-                                loop.gains.proportional,
-                                loop.gains.differential,
-                                loop.excitation.amplitude,
-                                loop.excitation.frequency,
-                                coincidence};
+    const test::PlainLoop plain = test::plain_loop(loop, coincidence);
     ASSERT_EQ(cells[cell].outcome, OrbitOutcome::certified) << cell;
     EXPECT_EQ(cells[cell].from_start()->period_samples,
               coincidence * test::plain_period(plain, 1'000'000))

@@ -4,8 +4,8 @@
 
 #include "holdfast/plant/enclosed_poles.hpp"
 
-#include "holdfast/cable/taut_string.hpp"
 #include "support/random.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -16,11 +16,7 @@ using Long = std::complex<long double>;
 
 ConductorWithAbsorber span(int modes, double damping, const Absorber<double>& absorber,
                            double place = 0.64, const LoopHardware& hardware = {}) {
-  auto string = taut_string(kollar2022_conductor());
-  string.damping_ratio = damping;
-  ConductorWithAbsorber conductor{string_modes(string, place, modes), absorber, {}, hardware};
-  conductor.poles = plant_poles(conductor.modes, absorber);
-  return conductor;
+  return string_with_absorber(modes, damping, hardware, place, absorber);
 }
 
 const Absorber<double> paper{0.16, 74.4, 4.0, 0.01};

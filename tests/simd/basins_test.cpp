@@ -1,7 +1,7 @@
 #include "holdfast/simd/basins.hpp"
 
 #include "support/kollar_case.hpp"
-#include "support/random.hpp"
+#include "support/random_states.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -17,13 +17,7 @@ IdealLoop<double> packed_loop(double period, double width) {
 }
 
 std::vector<Vector<double, 4>> packed_states(std::size_t count) {
-  test::Random random(881);
-  std::vector<Vector<double, 4>> states;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vector<double, 4> unit = random.matrix<Vector<double, 4>>();
-    states.push_back(unit.cwiseProduct(Vector<double, 4>(0.005, 0.2, 0.005, 0.2)));
-  }
-  return states;
+  return test::random_states(881, count);
 }
 
 void expect_same_map(const BasinMap& one, const BasinMap& other) {

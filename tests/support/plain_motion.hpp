@@ -21,6 +21,19 @@ struct PlainLoop {
   std::array<double, 6> plant{0.0767, 50.3, 0.079, 0.16, 74.4, 4.0};  ///< m1 k1 c1 m2 k2 c2
 };
 
+/// The numbers of a loop of the library, which has the paper's plant and no delay.
+/// @param coincidence  q, samples
+template <class Loop>
+PlainLoop plain_loop(const Loop& loop, std::int64_t coincidence) {
+  return {loop.sampling.period,
+          loop.backlash_width,
+          loop.gains.proportional,
+          loop.gains.differential,
+          loop.excitation.amplitude,
+          loop.excitation.frequency,
+          coincidence};
+}
+
 /// The motion from rest.
 class PlainMotion {
  public:

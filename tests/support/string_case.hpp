@@ -2,7 +2,11 @@
 
 #include <vector>
 
+#include "holdfast/cable/taut_string.hpp"
+#include "holdfast/plant/conductor_with_absorber.hpp"
+#include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
+#include "holdfast/plant/plant_poles.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "support/random.hpp"
 
@@ -12,6 +16,19 @@ namespace holdfast::test {
 inline Absorber<double> papers_absorber(double clamp_mass) {
   const TwoMass<double> masses = kollar2022_plant();
   return {masses.absorber_mass, masses.absorber_stiffness, masses.absorber_damping, clamp_mass};
+}
+
+/// The paper's string by its modes, with the absorber and the poles of both.
+/// @param damping  ratio of all modes
+/// @param place    of the absorber (m)
+inline ConductorWithAbsorber string_with_absorber(
+    int modes, double damping, const LoopHardware& hardware = {}, double place = 0.64,
+    const Absorber<double>& absorber = papers_absorber(0.01)) {
+  auto string = taut_string(kollar2022_conductor());
+  string.damping_ratio = damping;
+  ConductorWithAbsorber conductor{string_modes(string, place, modes), absorber, {}, hardware};
+  conductor.poles = plant_poles(conductor.modes, absorber);
+  return conductor;
 }
 
 /// The two masses that a conductor of one mode is, with an absorber without a clamp mass.

@@ -14,6 +14,7 @@
 #include "jobs/columns.hpp"
 #include "jobs/orbit/certified_orbit.hpp"
 #include "jobs/orbit/followed_key.hpp"
+#include "jobs/orbit/surface_names.hpp"
 #include "process/errors.hpp"
 #include "process/exit.hpp"
 #include "process/interrupt.hpp"
@@ -30,11 +31,6 @@ constexpr Named<BorderKind> border_names[] = {{BorderKind::fold, "fold"},
                                               {BorderKind::switch_at_sample, "switch_at_sample"},
                                               {BorderKind::jump, "jump"},
                                               {BorderKind::window, "range_end"}};
-
-constexpr Named<SwitchingSurface> border_surface_names[] = {
-    {SwitchingSurface::reversal, "reversal"},
-    {SwitchingSurface::gap_lower, "gap_lower"},
-    {SwitchingSurface::gap_upper, "gap_upper"}};
 
 /// One of the two keys.
 struct MapKey {
@@ -151,7 +147,7 @@ void write_region(const JobContext& context, const std::vector<MapKey>& keys,
     const bool collides = border.kind == BorderKind::border_collision;
     const char* const surface = !touches ? ""
                                 : collides || border.surface == SwitchingSurface::reversal
-                                    ? name_in(border_surface_names, border.surface)
+                                    ? name_in(surface_names, border.surface)
                                     : "gap_end";
     table.row(piece, name_in(border_names, border.kind), surface, border.sample, points[k].x,
               points[k].y, std::exp(border.multiplier.log_modulus), border.multiplier.angle,

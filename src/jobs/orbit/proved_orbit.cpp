@@ -4,6 +4,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "io/text/text.hpp"
 #include "jobs/job_texts.hpp"
+#include "jobs/orbit/surface_names.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 

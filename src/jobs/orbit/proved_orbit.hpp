@@ -21,11 +21,6 @@ inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
     {OrbitProofOutcome::near_surface, "near_surface"},
     {OrbitProofOutcome::no_ball, "no_ball"}};
 
-inline constexpr Named<SwitchingSurface> surface_names[] = {
-    {SwitchingSurface::reversal, "reversal"},
-    {SwitchingSurface::gap_lower, "gap_lower"},
-    {SwitchingSurface::gap_upper, "gap_upper"}};
-
 /// The proof of a case's orbit. Throws NoAnswer, saying what could not be decided and by how much.
 OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit);
 

@@ -10,22 +10,38 @@ namespace {
 
 using Wide = Eigen::Matrix<long double, 5, 6>;
 
+/// An orbit of 30 samples and what its deviations are followed by.
+struct FollowedOrbit {
+  IdealLoop<double> loop = test::proved_loop(0.01, 0.002);
+  PeriodicOrbit orbit = test::orbit_to_prove(loop);
+  Vector<double, 6> weights = deviation_weights(loop);
+  detail::SegmentOfLoops<Enclosure> loops{enclosed(loop), orbit.ratio};
+  ContractingNorms<5> norms =
+      ContractingNorms<5>::of(loops.ends(), orbit.itinerary, orbit.multipliers.front().log_modulus)
+          .value();
+  SwitchingPattern pattern =
+      switching_pattern(orbit.states, Backlash<double>(loop.backlash_width, orbit.memory));
+
+  detail::EnclosedDeviations<Enclosure> deviations() const {
+    return {norms, weights, loops.units()};
+  }
+
+  void advance(detail::EnclosedDeviations<Enclosure>& deviations, std::size_t j) const {
+    deviations.advance(j, (j + 1) % orbit.states.size(), pattern.decisions[j],
+                       loops.ends().front().at(orbit.itinerary[j]));
+  }
+};
+
 /// Deviations of extended precision lie as near to the doubles as is claimed, over many periods.
 TEST(EnclosedDeviations, HoldThoseOfExtendedPrecision) {
-  const IdealLoop<double> loop = test::proved_loop(0.01, 0.002);
-  const PeriodicOrbit orbit = test::orbit_to_prove(loop);
-  const Vector<double, 6> weights = deviation_weights(loop);
-  const detail::SegmentOfLoops loops(enclosed(loop), orbit.ratio);
-  const auto norms =
-      ContractingNorms<5>::of(loops.ends(), orbit.itinerary, orbit.multipliers.front().log_modulus);
-  ASSERT_TRUE(norms.has_value());
-  const auto pattern =
-      switching_pattern(orbit.states, Backlash<double>(loop.backlash_width, orbit.memory));
+  const FollowedOrbit followed;
+  const IdealLoop<double>& loop = followed.loop;
+  const PeriodicOrbit& orbit = followed.orbit;
   const ItineraryMaps<long double> maps(converted<long double>(loop), orbit.ratio);
-  detail::EnclosedDeviations<Enclosure> ours(*norms, weights, loops.units());
+  auto ours = followed.deviations();
   Wide exact = Wide::Zero();
   for (int i = 0; i < 5; ++i)
-    exact(i, i) = 1.0L / (static_cast<long double>(weights[i]) * maps.units()[i]);
+    exact(i, i) = 1.0L / (static_cast<long double>(followed.weights[i]) * maps.units()[i]);
   const auto expect_near = [](const detail::RowWithError& row, const auto& wide) {
     const long double apart = (row.row.cast<long double>() - wide).norm();
     EXPECT_LE(apart, row.error.upper() * (1.0 + 1e-9) + 1e-18);
@@ -38,26 +54,20 @@ TEST(EnclosedDeviations, HoldThoseOfExtendedPrecision) {
     expect_near(ours.relative(j, false), exact.row(2) - exact.row(0));
     expect_near(ours.relative(j, true), exact.row(3) - exact.row(1));
     expect_near(ours.gap(), gap);
-    const ContactDecision& decision = pattern.decisions[j];
+    const ContactDecision& decision = followed.pattern.decisions[j];
     if (decision.engaged) gap.setZero();
     if (!decision.engaged && !decision.was_inside) gap = exact.row(2) - exact.row(0);
     exact = (maps.map_in_units(orbit.itinerary[j] != 0) * exact).eval();
-    ours.advance(j, (j + 1) % samples, decision, loops.ends().front().at(orbit.itinerary[j]));
+    followed.advance(ours, j);
   }
 }
 
 /// √Σ of the weighted entries is below one when they say so, and they do say so in the end.
 TEST(EnclosedDeviations, ContractAsTheMultipliersSay) {
-  const IdealLoop<double> loop = test::proved_loop(0.01, 0.002);
-  const PeriodicOrbit orbit = test::orbit_to_prove(loop);
-  const Vector<double, 6> weights = deviation_weights(loop);
-  const detail::SegmentOfLoops loops(enclosed(loop), orbit.ratio);
-  const auto norms =
-      ContractingNorms<5>::of(loops.ends(), orbit.itinerary, orbit.multipliers.front().log_modulus);
-  ASSERT_TRUE(norms.has_value());
-  const auto pattern =
-      switching_pattern(orbit.states, Backlash<double>(loop.backlash_width, orbit.memory));
-  detail::EnclosedDeviations<Enclosure> ours(*norms, weights, loops.units());
+  const FollowedOrbit followed;
+  const IdealLoop<double>& loop = followed.loop;
+  const PeriodicOrbit& orbit = followed.orbit;
+  auto ours = followed.deviations();
   EXPECT_FALSE(ours.have_contracted(true));
   detail::DeviationFlow<detail::SampledDeviations<double>> flow(
       detail::SampledDeviations<double>(loop, ItineraryMaps<double>(loop, orbit.ratio)),
@@ -66,9 +76,7 @@ TEST(EnclosedDeviations, ContractAsTheMultipliersSay) {
   const Matrix<double, 6> period = flow.over(orbit.period_samples());
   bool have = false;
   for (int turn = 0; turn < 60; ++turn) {
-    for (std::size_t j = 0; j < orbit.states.size(); ++j)
-      ours.advance(j, (j + 1) % orbit.states.size(), pattern.decisions[j],
-                   loops.ends().front().at(orbit.itinerary[j]));
+    for (std::size_t j = 0; j < orbit.states.size(); ++j) followed.advance(ours, j);
     all = period * all;
     have = ours.have_contracted(true);
     if (std::abs(all.norm() - 1.0) > 1e-3) {

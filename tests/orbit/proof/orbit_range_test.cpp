@@ -21,6 +21,15 @@ const std::vector<Along> keys{
     {"F", [](auto& loop, double x) { loop.excitation.amplitude = x; }, 0.5, 0.45, 0.55},
     {"r0", [](auto& loop, double x) { loop.backlash_width = x; }, 0.0005, 0.0004, 0.0006}};
 
+/// D ↦ the same loop with this D.
+auto along_differential_gain(const IdealLoop<double>& loop) {
+  return [loop](double gain) {
+    IdealLoop<double> other = loop;
+    other.gains.differential = gain;
+    return other;
+  };
+}
+
 /// What is proved ends where the continuation, which solves the orbit anew at each value, ends.
 TEST(OrbitRange, IsThatOfTheContinuation) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0005);
@@ -53,11 +62,7 @@ TEST(OrbitRange, IsThatOfTheContinuation) {
 TEST(OrbitRange, BoundsHowTheStatesBend) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0005);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);
-  const auto family = [&](double gain) {
-    IdealLoop<double> other = loop;
-    other.gains.differential = gain;
-    return other;
-  };
+  const auto family = along_differential_gain(loop);
   const auto states_at = [&](double gain) {
     const ItineraryMaps<double> maps(family(gain), orbit.ratio);
     return periodic_solution(maps, orbit.itinerary, maps_of_blocks(maps, orbit.itinerary))->states;
@@ -83,11 +88,7 @@ TEST(OrbitRange, BoundsHowTheStatesBend) {
 TEST(OrbitRange, BoundsTheMultipliersOfAllItsLoops) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);
-  const auto family = [&](double gain) {
-    IdealLoop<double> other = loop;
-    other.gains.differential = gain;
-    return other;
-  };
+  const auto family = along_differential_gain(loop);
   const auto multiplier = [&](double gain) {
     const auto at = family(gain);
     return orbit_of_itinerary(at, orbit.ratio, ItineraryMaps<double>(at, orbit.ratio),

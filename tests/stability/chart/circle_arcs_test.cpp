@@ -3,12 +3,12 @@
 
 #include "holdfast/stability/chart/circle_arcs.hpp"
 
-#include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "support/dense_routes.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/random.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -20,12 +20,7 @@ struct Setting {
 
   Setting(int modes, double damping, const Sampling<double>& sampled, double place = 0.64,
           const LoopHardware& hardware = {})
-      : conductor{{}, {0.16, 74.4, 4.0, 0.01}, {}, hardware}, sampling(sampled) {
-    auto string = taut_string(kollar2022_conductor());
-    string.damping_ratio = damping;
-    conductor.modes = string_modes(string, place, modes);
-    conductor.poles = plant_poles(conductor.modes, conductor.absorber);
-  }
+      : conductor(string_with_absorber(modes, damping, hardware, place)), sampling(sampled) {}
   EnclosedResponse enclosed() const { return {enclosed_poles(conductor), sampling}; }
   ModalResponse<double> doubles() const { return modal_response<double>(conductor, sampling); }
   LoopMap<double> map() const { return loop_map(linear_plant(conductor), sampling); }

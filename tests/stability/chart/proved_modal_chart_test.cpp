@@ -3,24 +3,15 @@
 
 #include "holdfast/stability/chart/proved_modal_chart.hpp"
 
-#include "holdfast/cable/taut_string.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "support/dense_routes.hpp"
 #include "support/random.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
 namespace {
-
-ConductorWithAbsorber span(int modes, double damping, const LoopHardware& hardware = {}) {
-  auto string = taut_string(kollar2022_conductor());
-  string.damping_ratio = damping;
-  ConductorWithAbsorber conductor{
-      string_modes(string, 0.64, modes), {0.16, 74.4, 4.0, 0.01}, {}, hardware};
-  conductor.poles = plant_poles(conductor.modes, conductor.absorber);
-  return conductor;
-}
 
 struct Setting {
   ConductorWithAbsorber conductor;
@@ -28,10 +19,10 @@ struct Setting {
 };
 
 std::vector<Setting> settings() {
-  return {{span(40, 0.02), {0.001, 0.0}},
-          {span(12, 0.02), {0.003, 0.003}},
-          {span(10, 1e-3), {0.004, 0.0107}},
-          {span(6, 0.02, {80.0, 60.0, 0.7}), {0.003, 0.002}}};
+  return {{string_with_absorber(40, 0.02), {0.001, 0.0}},
+          {string_with_absorber(12, 0.02), {0.003, 0.003}},
+          {string_with_absorber(10, 1e-3), {0.004, 0.0107}},
+          {string_with_absorber(6, 0.02, {80.0, 60.0, 0.7}), {0.003, 0.002}}};
 }
 
 const GainGrid grid{{-1000.0, 200.0, 13}, {-40.0, 20.0, 13}};
@@ -144,7 +135,7 @@ TEST(ProvedModalChart, OfOneModeIsThatOfHurwitz) {
 
 /// A root may lie on the circle at all gains.
 TEST(ProvedModalChart, IsUndecidedWhereAMotionIsNotDamped) {
-  ConductorWithAbsorber conductor = span(4, 0.0);
+  ConductorWithAbsorber conductor = string_with_absorber(4, 0.0);
   conductor.modes[2].shape = 0.0;  // so that the absorber does not damp it
   conductor.poles = plant_poles(conductor.modes, conductor.absorber);
   const ProvedChart chart = proved_chart(response_of({conductor, {0.01, 0.0}}), grid);
@@ -153,7 +144,7 @@ TEST(ProvedModalChart, IsUndecidedWhereAMotionIsNotDamped) {
 }
 
 TEST(ProvedModalChart, EndsWhereItIsTold) {
-  const EnclosedResponse response = response_of({span(4, 0.02), {0.01, 0.0}});
+  const EnclosedResponse response = response_of({string_with_absorber(4, 0.02), {0.01, 0.0}});
   const ProvedChart chart = proved_chart(
       response, grid, 0.0, [] {}, 2000);
   EXPECT_LE(chart.boxes.size(), 2000U);

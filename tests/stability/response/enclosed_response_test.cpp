@@ -3,9 +3,9 @@
 
 #include "holdfast/stability/response/enclosed_response.hpp"
 
-#include "holdfast/cable/taut_string.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "support/random.hpp"
+#include "support/string_case.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::test {
@@ -13,27 +13,18 @@ namespace {
 
 using Complex = std::complex<double>;
 
-ConductorWithAbsorber span(int modes, double damping, const LoopHardware& hardware = {}) {
-  auto string = taut_string(kollar2022_conductor());
-  string.damping_ratio = damping;
-  ConductorWithAbsorber conductor{
-      string_modes(string, 0.64, modes), {0.16, 74.4, 4.0, 0.01}, {}, hardware};
-  conductor.poles = plant_poles(conductor.modes, conductor.absorber);
-  return conductor;
-}
-
 struct Setting {
   ConductorWithAbsorber conductor;
   Sampling<double> sampling;
 };
 
 std::vector<Setting> settings() {
-  return {{span(40, 0.02), {0.001, 0.0}},
-          {span(40, 0.02), {0.003, 0.003}},
-          {span(10, 1e-4), {0.011, 0.0047}},
-          {span(10, 0.02), {0.002, 0.0111}},
-          {span(5, 0.02, {80.0, 60.0}), {0.002, 0.0013}},
-          {span(5, 0.02, {80.0, 60.0, 0.4}), {0.002, 0.02}}};
+  return {{string_with_absorber(40, 0.02), {0.001, 0.0}},
+          {string_with_absorber(40, 0.02), {0.003, 0.003}},
+          {string_with_absorber(10, 1e-4), {0.011, 0.0047}},
+          {string_with_absorber(10, 0.02), {0.002, 0.0111}},
+          {string_with_absorber(5, 0.02, {80.0, 60.0}), {0.002, 0.0013}},
+          {string_with_absorber(5, 0.02, {80.0, 60.0, 0.4}), {0.002, 0.02}}};
 }
 
 EnclosedResponse response_of(const Setting& setting) {
@@ -127,7 +118,7 @@ TEST(EnclosedResponse, ExpansionsOfOnePoleAreSharp) {
 }
 
 TEST(EnclosedResponse, KnowsNothingBesideAPole) {
-  const Setting setting{span(3, 0.02), {0.01, 0.0}};
+  const Setting setting{string_with_absorber(3, 0.02), {0.01, 0.0}};
   const EnclosedResponse response = response_of(setting);
   const auto doubles = modal_response<double>(setting.conductor, setting.sampling);
   for (const Complex& increment : doubles.pole_increments()) {
@@ -157,7 +148,7 @@ TEST(EnclosedResponse, KnowsNothingBesideARealPole) {
 }
 
 TEST(EnclosedResponse, CountsThePolesOutside) {
-  const Setting setting{span(5, 0.02), {0.01, 0.0}};
+  const Setting setting{string_with_absorber(5, 0.02), {0.01, 0.0}};
   const EnclosedResponse response = response_of(setting);
   const auto doubles = modal_response<double>(setting.conductor, setting.sampling);
   EXPECT_EQ(response.poles_outside(1.0), 0);
@@ -168,16 +159,16 @@ TEST(EnclosedResponse, CountsThePolesOutside) {
     EXPECT_EQ(response.poles_outside(radius), count) << radius;
   }
   // What nothing damps may lie on the circle.
-  ConductorWithAbsorber undamped = span(5, 0.0);
+  ConductorWithAbsorber undamped = string_with_absorber(5, 0.0);
   undamped.absorber.damping = 0.0;
   undamped.poles = plant_poles(undamped.modes, undamped.absorber);
   EXPECT_EQ(response_of({undamped, {0.01, 0.0}}).poles_outside(1.0), std::nullopt);
-  EXPECT_EQ(response_of({span(5, 0.0), {0.01, 0.0}}).poles_outside(1.0), 0);
+  EXPECT_EQ(response_of({string_with_absorber(5, 0.0), {0.01, 0.0}}).poles_outside(1.0), 0);
 }
 
 /// A delay that is a whole number of samples but for round-off keeps as many commands.
 TEST(EnclosedResponse, TakesWholeSamplesAsTheyAre) {
-  const auto poles = enclosed_poles(span(4, 0.02));
+  const auto poles = enclosed_poles(string_with_absorber(4, 0.02));
   const ComplexEnclosure lambda({0.6, 0.8}, 0.0);
   const auto at = [&](double delay) {
     const EnclosedResponse response(poles, {0.001, delay});
@@ -190,7 +181,7 @@ TEST(EnclosedResponse, TakesWholeSamplesAsTheyAre) {
 }
 
 TEST(EnclosedResponse, RefusesWhatIsNotAdmissible) {
-  const auto poles = enclosed_poles(span(4, 0.02));
+  const auto poles = enclosed_poles(string_with_absorber(4, 0.02));
   EXPECT_THROW(EnclosedResponse(poles, {0.0, 0.0}), InvalidParameter);
   EXPECT_THROW(EnclosedResponse(poles, {0.001, -1e-9}), InvalidParameter);
   EXPECT_THROW(EnclosedResponse(poles, {0.001, 1.1}), InvalidParameter);
