@@ -70,7 +70,9 @@ Series guard_series(const GuardOf<States>& guard, const ModeStretch<States>& str
 /// The sign that a series takes first; 0 where it stays zero. A force that begins at zero does so
 /// to rounding only: what is that small beside the rest is made zero and decides nothing.
 inline double first_sign(Series& series) {
-  const double rounding = 1e-12 * series.cwiseAbs().sum();
+  double size = 0.0;
+  for (const double term : series) size += std::abs(term);
+  const double rounding = 1e-12 * size;
   Eigen::Index leading = 0;
   while (leading < series.size() && std::abs(series[leading]) <= rounding) ++leading;
   series.head(leading).setZero();

@@ -125,14 +125,14 @@ LaneEvent<Scalar> next_event(LaneModes<Scalar>& modes, const TwoMassSeries<Scala
     detail::GuardOnStretch<Scalar>{modes.guard(number), stretch, command}.expand(forced, fresh,
                                                                                  guarded, g);
   };
-  std::array<LaneSeries<Scalar>, 1> first;
+  std::array<LaneSeries<Scalar>, 1> first{};
   if (modes.with_two_guards().none()) {
     expand(0, first[0]);
     if (modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, first[0]);
     const auto [root] = first_roots<Scalar, 1>(first, terms, {guarded});
     return {root.found, root.at, Scalar(0) > Scalar(0)};
   }
-  std::array<LaneSeries<Scalar>, 2> both;
+  std::array<LaneSeries<Scalar>, 2> both{};
   expand(0, both[0]);
   expand(1, both[1]);
   if (modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, both[0]);
