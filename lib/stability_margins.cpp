@@ -4,8 +4,11 @@
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "holdfast/stability/margins/sampling_family.hpp"
+#include "holdfast/stability/margins/sampling_proof.hpp"
 
 namespace holdfast {
+
+template class SamplingProof<double>;
 
 template StabilityMargins stability_margins(const TwoMass<double>&, const Sampling<double>&,
                                             const PdGains<double>&, const MarginSearch&);
@@ -17,6 +20,8 @@ template StabilityMargins modal_stability_margins<double>(const std::vector<Plan
                                                           const Sampling<double>&,
                                                           const PdGains<double>&,
                                                           const MarginSearch&);
+template MarginEnd modal_margin_end<double>(const std::vector<PlantPole>&, const Sampling<double>&,
+                                            const PdGains<double>&, double, double, bool);
 template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                 const Sampling<double>&, const PdGains<double>&,
                                                 const MarginSearch&);

@@ -1,8 +1,12 @@
-#include "holdfast/stability/margins/margins.hpp"
+#include <optional>
+
 #include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/stability/margins/proved_margins.hpp"
 #include "job.hpp"
 #include "jobs/charts/names.hpp"
+#include "jobs/charts/proved_poles.hpp"
 #include "jobs/design/gain_margins.hpp"
 
 namespace holdfast::program {
@@ -14,42 +18,75 @@ constexpr Named<MarginEndOutcome> margin_end_names[] = {
     {MarginEndOutcome::none, "none"},
     {MarginEndOutcome::beyond_search, "beyond_search"}};
 
-/// Writes the two ends of one quantity's stable stretch.
-void write(Table& table, const char* quantity, const char* unit, double value,
-           const TwoSidedMargin& margin) {
-  const auto row = [&](const char* side, const MarginEnd& end) {
-    const bool crosses = end.outcome == MarginEndOutcome::boundary;
-    table.row(quantity, unit, value, side, name_in(margin_end_names, end.outcome), end.position,
-              end.distance, crosses ? name_in(curve_names, end.curve) : "", end.frequency);
-  };
-  row("below", margin.below);
-  row("above", margin.above);
-}
+struct MarginsQuestion {
+  bool prove = false;
 
-void tell_margins(const JobContext& context) {
+  void add_to(const Job& job) { job.add("--prove", prove); }
+  void run(const JobContext& context) const;
+};
+
+/// The table, with what is proved if that was asked.
+class MarginsTable {
+ public:
+  MarginsTable(const JobContext& context, const std::optional<ProvedMargins>& proved)
+      : table_(context, columns_of(proved ? "proved margins" : "margins")), proved_(proved) {}
+
+  /// The two ends of one quantity's stable stretch.
+  void write(const char* quantity, const char* unit, double value, const TwoSidedMargin& margin,
+             ProvedMargin ProvedMargins::*proved) {
+    const ProvedMargin ends = proved_ ? (*proved_).*proved : ProvedMargin{};
+    row(quantity, unit, value, "below", margin.below, ends.below);
+    row(quantity, unit, value, "above", margin.above, ends.above);
+  }
+  void commit() { table_.commit(); }
+
+ private:
+  void row(const char* quantity, const char* unit, double value, const char* side,
+           const MarginEnd& end, const ProvedMarginEnd& proved) {
+    const bool crosses = end.outcome == MarginEndOutcome::boundary;
+    const auto with = [&](const auto&... more) {
+      table_.row(quantity, unit, value, side, name_in(margin_end_names, end.outcome), end.position,
+                 end.distance, crosses ? name_in(curve_names, end.curve) : "", end.frequency,
+                 more...);
+    };
+    proved_ ? with(proved.stable_to, proved.unstable_at) : with();
+  }
+
+  Table table_;
+  const std::optional<ProvedMargins>& proved_;
+};
+
+void MarginsQuestion::run(const JobContext& context) const {
   const Case& the_case = context.case_data;
+  if (prove) refuse_to_prove(the_case);
   const Sampling<double> sampling = sampling_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
-  const StabilityMargins margins = stability_margins_of(the_case, gains);
+  StabilityMargins margins = stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(spectral_radius_of(the_case)));
-  if (is_modal(the_case))
+  std::optional<ProvedMargins> proved;
+  if (prove) proved = proved_margins_of(the_case, gains, margins);
+  if (is_modal(the_case) && !prove)
     report_warning(
         "with the plant of the case's period sampling_period was walked in steps of 5 % and "
         "processing_delay in eighths of a sample: a gap of instability narrower than that is not "
-        "seen",
+        "seen; --prove looks at every position",
         context.quiet);
-  Table table(context, columns_of("margins"));
-  write(table, "differential_gain", "N.s/m", gains.differential, margins.differential_gain);
-  write(table, "proportional_gain", "N/m", gains.proportional, margins.proportional_gain);
-  write(table, "sampling_period", "s", sampling.period, margins.sampling_period);
-  write(table, "processing_delay", "s", sampling.processing_delay, margins.processing_delay);
+  MarginsTable table(context, proved);
+  table.write("differential_gain", "N.s/m", gains.differential, margins.differential_gain,
+              &ProvedMargins::differential_gain);
+  table.write("proportional_gain", "N/m", gains.proportional, margins.proportional_gain,
+              &ProvedMargins::proportional_gain);
+  table.write("sampling_period", "s", sampling.period, margins.sampling_period,
+              &ProvedMargins::sampling_period);
+  table.write("processing_delay", "s", sampling.processing_delay, margins.processing_delay,
+              &ProvedMargins::processing_delay);
   table.commit();
 }
 
 }  // namespace
 
-void add_margins(CLI::App& program) { add_job(program, "margins", tell_margins); }
+void add_margins(CLI::App& program) { add_job<MarginsQuestion>(program, "margins"); }
 
 }  // namespace holdfast::program

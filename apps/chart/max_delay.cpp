@@ -4,9 +4,12 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
 #include "holdfast/stability/design/modal_max_delay.hpp"
+#include "holdfast/stability/design/proved_max_delay.hpp"
 #include "job.hpp"
+#include "jobs/charts/proved_poles.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/design/best_gains.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -14,21 +17,30 @@ namespace {
 struct MaxDelayQuestion {
   std::string frequency = "3:60:58";
   std::string criterion = "attenuates";
+  bool prove = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
     job.add("--criterion", criterion);
+    job.add("--prove", prove);
   }
 
   void run(const JobContext& context) {
     const Case& the_case = context.case_data;
+    if (prove) {
+      if (criterion != "stable")
+        throw WrongInput("--prove is of stability alone: give --criterion stable");
+      refuse_to_prove(the_case);
+      poles_ = proved_poles_of(the_case);
+    }
     if (is_modal(the_case)) {
       const ConductorWithAbsorber conductor = conductor_with_absorber_of(the_case);
       answer(context, conductor);
-      report_warning(
-          "the period is walked by 3 %, with the plant of the case's own: a "
-          "stretch of instability narrower than a step is missed",
-          context.quiet);
+      if (!prove)
+        report_warning(
+            "the period is walked by 3 %, with the plant of the case's own: a "
+            "stretch of instability narrower than a step is missed",
+            context.quiet);
     } else {
       answer(context, plant_of(the_case));
     }
@@ -53,11 +65,43 @@ struct MaxDelayQuestion {
     return loop_excess_or_turn(modal_response(plant, sampling), gains);
   }
 
+  /// The D that stabilise, as doubles find them.
+  static std::vector<Interval<double>> stable_gains_of(const TwoMass<double>& plant,
+                                                       const MaxDelayOptions& question,
+                                                       double period) {
+    return feasible_differential_gains(plant, question, period);
+  }
+  static std::vector<Interval<double>> stable_gains_of(const ConductorWithAbsorber& plant,
+                                                       const MaxDelayOptions& question,
+                                                       double period) {
+    const ResolvedCircle<double> circle(modal_response(plant, question.sampling(period)));
+    return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
+  }
+
+  /// From the shortest period of the search to a little beyond what was found, or to a period of
+  /// the excitation where that has no end.
+  template <class Plant>
+  ProvedPeriodWalk proved_periods(const JobContext& context, const Plant& plant,
+                                  const MaxDelayOptions& question, double found) const {
+    ProvedPeriodWalk walk{shortest_of(question), 0.0};
+    walk.to = std::max(walk.from, std::isfinite(found) ? 1.01 * found : 1.0 / question.frequency);
+    const double proved = proved_max_sampling_period(
+        poles_, question.proportional_gain,
+        EnclosedSamplings::of_period(sampling_of(context.case_data)), walk,
+        [&](double period) { return stable_gains_of(plant, question, period); },
+        [] { throw_if_interrupted(); });
+    walk.to = proved;
+    return walk;
+  }
+  static double shortest_of(const MaxDelayOptions& question) {
+    return std::min(question.shortest_period, 1e-3 / question.frequency);
+  }
+
   template <class Plant>
   void answer(const JobContext& context, const Plant& plant) {
     const Axis axis = parse_axis("--frequency", frequency);
-    Table table(context, columns_of("max-delay"));
-    for (const auto& [question, answer] : answers_of(context, plant, axis)) {
+    Table table(context, columns_of(prove ? "proved max-delay" : "max-delay"));
+    for (const auto& [question, answer, proved] : answers_of(context, plant, axis)) {
       if (answer.outcome == MaxDelayOutcome::beyond_search)
         report_warning("at " + format_rounded(question.frequency) +
                            " Hz the search ended without a limit at a period of " +
@@ -65,8 +109,12 @@ struct MaxDelayQuestion {
                            " s; longer ones are not judged",
                        context.quiet);
       note(plant, question, answer, context);
-      table.row(question.frequency, question.proportional_gain, answer.sampling_period,
-                answer.differential_gain);
+      if (prove)
+        table.row(question.frequency, question.proportional_gain, answer.sampling_period,
+                  answer.differential_gain, proved.from, proved.to);
+      else
+        table.row(question.frequency, question.proportional_gain, answer.sampling_period,
+                  answer.differential_gain);
     }
     table.commit();
     if (on_boundary_ > 0)
@@ -81,6 +129,7 @@ struct MaxDelayQuestion {
   struct Answered {
     MaxDelayOptions question;
     MaxDelay answer;
+    ProvedPeriodWalk proved;  // where that was asked
   };
 
   /// At all frequencies, side by side on the threads.
@@ -93,6 +142,8 @@ struct MaxDelayQuestion {
       here.question = tuned_delay_question(context.case_data, axis.at(i));
       if (criterion == "stable") here.question.criterion = DelayCriterion::stable;
       here.answer = largest_period(plant, here.question);
+      if (prove)
+        here.proved = proved_periods(context, plant, here.question, here.answer.sampling_period);
     });
     return all;
   }
@@ -110,6 +161,7 @@ struct MaxDelayQuestion {
                              "what attenuates is judged by the force as it is held");
   }
 
+  std::vector<EnclosedPole> poles_;  // of what is proved
   std::int64_t on_boundary_ = 0;
   std::string held_force_;
 };

@@ -482,12 +482,15 @@ class Case:
         words += _options.arguments({"both_gains": both_gains, "largest_radius": largest_radius, "margin": margin})
         return self._run("design", words, how)
 
-    def margins(self, **how: Any) -> Table:
+    def margins(self, *, prove: bool = False, **how: Any) -> Table:
         """How far the case's D, P, sampling period and delay are from instability, each moved alone, but the
         sampling period with the delay in proportion. Columns ``quantity, unit, value, side, outcome, position,
         distance, curve, frequency_Hz``.
+
+        :param prove: also ``proved_stable_to``, up to which every value from the case's is proved stable, and
+            ``proved_unstable_at`` just beyond
         """
-        return self._run("margins", _options.arguments({}), how)
+        return self._run("margins", _options.arguments({"prove": prove}), how)
 
     def modal_damping(self, *, count: Optional[int] = None, no_control: bool = False, **how: Any) -> Table:
         """How absorber, controller and devices damp each mode of the conductor. Columns ``mode, frequency_Hz,
@@ -515,14 +518,19 @@ class Case:
         """
         return self._run("sensitivity", _options.arguments({"tuned": tuned}), how)
 
-    def max_delay(self, frequency: Range = None, *, criterion: Optional[str] = None, **how: Any) -> Table:
+    def max_delay(
+        self, frequency: Range = None, *, criterion: Optional[str] = None, prove: bool = False, **how: Any
+    ) -> Table:
         """Largest sampling period (s) at which some D stabilises the loop (``criterion="stable"``) or beats no
         control (``"attenuates"``), P tuned to each frequency. Columns ``frequency_Hz, proportional_gain,
         max_sampling_period_s, differential_gain``.
 
         :param frequency: Hz; (min, max, count)
+        :param prove: with ``criterion="stable"`` also ``proved_from_s, proved_sampling_period_s``, between which every
+            period is proved to have a D that stabilises
         """
-        return self._run("max-delay", _axis("frequency", frequency) + _options.arguments({"criterion": criterion}), how)
+        words = _axis("frequency", frequency) + _options.arguments({"criterion": criterion, "prove": prove})
+        return self._run("max-delay", words, how)
 
     # -- motions ------------------------------------------------------------------------------------
 

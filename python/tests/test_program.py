@@ -85,6 +85,11 @@ SAME = [
     (["orbit", "--prove"], lambda case: case.orbit(prove=True)),
     (["boundary", "--features", "--p=-600:0", "--d=-30:10"], lambda case: case.boundary_features((-600, 0), (-30, 10))),
     (["margins"], lambda case: case.margins()),
+    (["margins", "--prove"], lambda case: case.margins(prove=True)),
+    (
+        ["max-delay", "--frequency", "10:15:2", "--criterion", "stable", "--prove"],
+        lambda case: case.max_delay((10, 15, 2), criterion="stable", prove=True),
+    ),
     (["design"], lambda case: case.design()),
     (["design", "--frequency", "5:15:3"], lambda case: case.design((5, 15, 3))),
     (["design", "--both-gains"], lambda case: case.design(both_gains=True)),

@@ -41,6 +41,12 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
   EXPECT_EQ(header_of("stability --axis control.sampling_period=0.001:0.01:2 --axis "
                       "plant.absorber_mass=0.1:0.2:3"),
             "control.sampling_period,plant.absorber_mass,stable");
+  EXPECT_EQ(header_of("margins --prove"),
+            "quantity,unit,value,side,outcome,position,distance,curve,frequency_Hz,"
+            "proved_stable_to,proved_unstable_at");
+  EXPECT_EQ(header_of("max-delay --frequency 10:10:1 --criterion stable --prove"),
+            "frequency_Hz,proportional_gain,max_sampling_period_s,differential_gain,"
+            "proved_from_s,proved_sampling_period_s");
   EXPECT_EQ(header_of("simulate --duration 0.1"),
             "time_s,z1_m,v1_m_per_s,z2_m,v2_m_per_s,control_force_N,in_backlash");
   EXPECT_EQ(header_of("spectrum --duration 2"), "frequency_Hz,amplitude_m");
@@ -152,6 +158,35 @@ TEST(Stability, ItsProofOfManyModesAgreesWithTheVerdict) {
     EXPECT_LE(undecided, 1e-3);
     EXPECT_GT(asked, 80);
   }
+}
+
+/// Of a string that hardly damps, of which the walk along the period passes over a window.
+TEST(Margins, AreNotFartherThanIsProved) {
+  const std::string margins =
+      "margins --quiet --set plant.model=string --set plant.modes=6 "
+      "--set conductor.damping_ratio=0.001 --set absorber.clamp_mass=0.01 "
+      "--set control.sampling_period=0.00205 --set control.proportional_gain=-117 "
+      "--set control.differential_gain=0.264";
+  const CsvTable walked = table_of(margins), proved = table_of(margins + " --prove");
+  bool was_passed_over = false;
+  for (std::size_t row = 0; row < proved.rows(); ++row) {
+    if (proved.text(row, "outcome") != "boundary") continue;
+    const double value = proved.number(row, "value"), distance = proved.number(row, "distance");
+    const double stable = std::abs(proved.number(row, "proved_stable_to") - value);
+    const double unstable = std::abs(proved.number(row, "proved_unstable_at") - value);
+    EXPECT_GE(distance, stable * (1.0 - 1e-9)) << row;
+    EXPECT_LE(distance, unstable * (1.0 + 1e-9)) << row;
+    was_passed_over = was_passed_over || walked.number(row, "distance") > 1.01 * distance;
+  }
+  EXPECT_TRUE(was_passed_over);
+}
+
+TEST(Margins, RefusesProofsOfWhatItCannotProve) {
+  expect_refused("margins --prove --set control.velocity=difference",
+                 {"--prove", "ideal computer"});
+  expect_refused("margins --prove --set plant.model=infinite_string", {"without ends"});
+  expect_refused("max-delay --prove", {"--criterion stable"});
+  expect_refused("max-delay --prove --criterion attenuates", {"--criterion stable"});
 }
 
 TEST(Stability, RefusesProofsOfWhatItCannotProve) {

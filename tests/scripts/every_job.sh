@@ -34,6 +34,8 @@ a boundary --features
 a boundary --stable-interval
 a response --p -600:0:3 --d -20:0:3
 t max-delay --frequency 5:8:3 --threads 3
+a max-delay --frequency 10:12:2 --criterion stable --prove
+a margins --prove
 a design
 t design --frequency 5:10:3 --threads 3
 a design --band 9:11

@@ -7,8 +7,32 @@
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
+#include "jobs/charts/proved_poles.hpp"
+#include "process/errors.hpp"
+#include "process/interrupt.hpp"
 
 namespace holdfast::program {
+
+namespace {
+
+/// Ends of τ and δ of a modal case are walked; one that was passed over is where the proof ends.
+void put_right(StabilityMargins& found, const ProvedMargins& proved, const Case& the_case,
+               const PdGains<double>& gains) {
+  const auto poles = loop_poles_of(the_case);
+  const Sampling<double> sampling = sampling_of(the_case);
+  const auto end = [&](MarginEnd& walked, const ProvedMarginEnd& known, bool of_period) {
+    const double value = of_period ? sampling.period : sampling.processing_delay;
+    if (std::abs(known.unstable_at - value) < std::abs(walked.position - value))
+      walked =
+          modal_margin_end(poles, sampling, gains, known.stable_to, known.unstable_at, of_period);
+  };
+  end(found.sampling_period.below, proved.sampling_period.below, true);
+  end(found.sampling_period.above, proved.sampling_period.above, true);
+  end(found.processing_delay.below, proved.processing_delay.below, false);
+  end(found.processing_delay.above, proved.processing_delay.above, false);
+}
+
+}  // namespace
 
 GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -29,6 +53,16 @@ StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double
   MarginSearch search;
   search.longest_period_ratio = 100.0;
   return modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
+}
+
+ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,
+                                StabilityMargins& found) {
+  const ProvedMargins proved = proved_margins(proved_poles_of(the_case), sampling_of(the_case),
+                                              gains, found, 1e-6, [] { throw_if_interrupted(); });
+  if (proved.stability != ProvedStability::stable)
+    throw NoAnswer("the loop is too near the boundary of stability to be proved stable");
+  if (is_modal(the_case)) put_right(found, proved, the_case, gains);
+  return proved;
 }
 
 }  // namespace holdfast::program

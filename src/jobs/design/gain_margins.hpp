@@ -3,6 +3,7 @@
 #include "case/case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/stability/margins/proved_margins.hpp"
 
 namespace holdfast::program {
 
@@ -26,5 +27,11 @@ GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains);
 /// How far P, D, τ and δ may go from a case's. Of a modal case the periods are walked, up to a
 /// hundred of its own.
 StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
+
+/// The same as theorems, of a case that refuse_to_prove() takes. Throws what proved_poles_of does,
+/// Interrupted, and NoAnswer where the loop is not proved to be stable.
+/// @param found  how far to look; its ends of τ and δ that the walk has passed over are put right
+ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,
+                                StabilityMargins& found);
 
 }  // namespace holdfast::program

@@ -112,9 +112,21 @@ class ModalMargins {
     return beyond_search(inside, value);
   }
 
+  /// The end between a place where the loop is stable and one beyond where it is not.
+  /// @param of_period  of τ, δ/τ kept; else of δ
+  MarginEnd between(Scalar inside, Scalar outside, bool of_period) const {
+    const Scalar value = of_period ? sampling_.period : sampling_.processing_delay;
+    return walk(
+        value, outside,
+        [&](Scalar x) {
+          return of_period ? with_period(x) : Sampling<Scalar>{sampling_.period, x};
+        },
+        [&](Scalar x) { return x == inside || value == inside ? outside : inside; });
+  }
+
   TwoSidedMargin of_period(Scalar ratio) const {
-    const Scalar period = sampling_.period, share = sampling_.processing_delay / period;
-    const auto sampling_at = [&](Scalar tau) { return Sampling<Scalar>{tau, share * tau}; };
+    const Scalar period = sampling_.period;
+    const auto sampling_at = [&](Scalar tau) { return with_period(tau); };
     return {
         walk(period, period / ratio, sampling_at, [](Scalar tau) { return tau / Scalar(1.05); }),
         walk(period, period * ratio, sampling_at, [](Scalar tau) { return tau * Scalar(1.05); })};
@@ -135,6 +147,10 @@ class ModalMargins {
   }
 
  private:
+  Sampling<Scalar> with_period(Scalar period) const {
+    return {period, sampling_.processing_delay / sampling_.period * period};
+  }
+
   /// ρ − 1; where not all roots are found, no more than its sign, by the turn of p.
   Scalar excess_of(const Response& response) const {
     const Scalar excess = loop_excess(response, gains_);
@@ -213,6 +229,24 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
           margins.of_delay(search.longest_delay_ratio)};
 }
 
+/// The end of the margin of τ, δ/τ kept, or of δ, between a place up to which the loop is stable
+/// and one beyond where it is not, as `proved_margins` finds them.
+/// @tparam Scalar    double, as above
+/// @param poles      as above
+/// @param sampling   as above
+/// @param gains      as above
+/// @param inside     the former (s)
+/// @param outside    the latter (s)
+/// @param of_period  of τ; else of δ
+template <class Scalar = double>
+MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
+                           const Sampling<detail::Undeduced<Scalar>>& sampling,
+                           const PdGains<detail::Undeduced<Scalar>>& gains,
+                           detail::Undeduced<Scalar> inside, detail::Undeduced<Scalar> outside,
+                           bool of_period) {
+  return detail::ModalMargins<Scalar>(poles, sampling, gains).between(inside, outside, of_period);
+}
+
 /// The margins of such a loop as a whole, δ walked as above.
 /// @tparam Scalar   double, as above
 /// @param poles     as above
@@ -242,6 +276,9 @@ extern template StabilityMargins modal_stability_margins<double>(const std::vect
                                                                  const Sampling<double>&,
                                                                  const PdGains<double>&,
                                                                  const MarginSearch&);
+extern template MarginEnd modal_margin_end<double>(const std::vector<PlantPole>&,
+                                                   const Sampling<double>&, const PdGains<double>&,
+                                                   double, double, bool);
 extern template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                        const Sampling<double>&,
                                                        const PdGains<double>&, const MarginSearch&);

@@ -29,6 +29,41 @@ struct EnclosedCommandResponse {
   EnclosedExpansion velocity;      ///< F_v (m/(N s))
 };
 
+/// How long the commands of a sample act: those of one sampling, or of all in a range.
+struct EnclosedSampling {
+  Enclosure period;   ///< τ (s)
+  Enclosure past;     ///< δ − (k − 1) τ (s), of the last command but one
+  Enclosure present;  ///< k τ − δ (s), of the last one
+  int commands = 1;   ///< k, on their way
+
+  /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest, δ ≤ 1000 τ; a δ that
+  ///                  exceeds a whole number of samples by less than 10⁻¹² of itself is that many
+  /// @throws InvalidParameter where the sampling is another
+  static EnclosedSampling of(const Sampling<double>& sampling) {
+    require_positive("sampling period tau", sampling.period, "s");
+    require_within("processing delay", sampling.processing_delay, "s", 0.0,
+                   1000.0 * sampling.period);
+    return of_delay(Enclosure::of_decimal(sampling.period),
+                    Enclosure::of_decimal(sampling.processing_delay), held_commands(sampling));
+  }
+  /// Of all δ of a range that lie within (k − 1) τ … k τ.
+  static EnclosedSampling of_delay(const Enclosure& period, const Enclosure& delay, int commands) {
+    const auto within_sample = [&](const Enclosure& time) {
+      return Enclosure(std::clamp(time.lower(), 0.0, period.upper()),
+                       std::clamp(time.upper(), 0.0, period.upper()));
+    };
+    const Enclosure past =
+        within_sample(delay - Enclosure(static_cast<double>(commands - 1)) * period);
+    return {period, past, within_sample(period - past), commands};
+  }
+  /// Of all τ of a range, with δ = φ τ.
+  /// @param last_share  φ − (k − 1), within 0 … 1
+  static EnclosedSampling of_period(const Enclosure& period, const Enclosure& last_share,
+                                    int commands) {
+    return {period, last_share * period, (Enclosure(1.0) - last_share) * period, commands};
+  }
+};
+
 /// The zero-order-hold transfer functions of `ModalResponse` in enclosures, times λᵏ so that a
 /// delay of many samples takes no inverse power: the characteristic function of the loop is
 ///
@@ -43,20 +78,15 @@ struct EnclosedCommandResponse {
 class EnclosedResponse {
  public:
   /// @param poles     of `enclosed_poles`, at least one, none of which may be 0
-  /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest, δ ≤ 1000 τ; a δ that
-  ///                  exceeds a whole number of samples by less than 10⁻¹² of itself is that many
-  /// @throws InvalidParameter where the sampling is another
-  EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling) {
-    require_positive("sampling period tau", sampling.period, "s");
-    require_within("processing delay", sampling.processing_delay, "s", 0.0,
-                   1000.0 * sampling.period);
-    commands_ = holdfast::held_commands(sampling);
-    const Enclosure period = Enclosure::of_decimal(sampling.period);
-    Enclosure late = Enclosure::of_decimal(sampling.processing_delay) -
-                     Enclosure(static_cast<double>(commands_ - 1)) * period;
-    if ((late - period).is_positive()) late = period;
-    for (const EnclosedPole& pole : poles) add(pole, period, late);
+  /// @param sampling  within one stretch (k − 1) τ ≤ δ ≤ k τ
+  EnclosedResponse(const std::vector<EnclosedPole>& poles, const EnclosedSampling& sampling)
+      : commands_(sampling.commands) {
+    for (const EnclosedPole& pole : poles) add(pole, sampling);
   }
+  /// @param sampling  as `EnclosedSampling::of`
+  /// @throws InvalidParameter where it is another
+  EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling)
+      : EnclosedResponse(poles, EnclosedSampling::of(sampling)) {}
 
   /// F_z and F_v about a point.
   /// @param lambda  λ
@@ -155,12 +185,12 @@ class EnclosedResponse {
     }
   };
 
-  void add(const EnclosedPole& pole, const Enclosure& period, const Enclosure& late) {
-    const ComplexEnclosure present = exponential(pole.s * (period - late));
-    const ComplexEnclosure past = exponential(pole.s * late);
+  void add(const EnclosedPole& pole, const EnclosedSampling& sampling) {
+    const ComplexEnclosure present = exponential(pole.s * sampling.present);
+    const ComplexEnclosure past = exponential(pole.s * sampling.past);
     const ComplexEnclosure a = pole.residue * (present - 1.0);
     const ComplexEnclosure b = pole.residue * present * (past - 1.0);
-    const ComplexEnclosure reached = present * past;
+    const ComplexEnclosure reached = exponential(pole.s * sampling.period);
     const auto numerator = [&](const ComplexEnclosure& now, const ComplexEnclosure& before) {
       if (!pole.is_pair) return Numerator{before.real(), now.real(), 0.0};
       return Numerator{-2.0 * (before * conj(reached)).real(),

@@ -1,0 +1,275 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "holdfast/control/gains.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/plant/enclosed_poles.hpp"
+#include "holdfast/stability/chart/circle_arcs.hpp"
+#include "holdfast/stability/chart/proved_chart.hpp"
+#include "holdfast/stability/margins/margins.hpp"
+#include "holdfast/stability/margins/sampling_proof.hpp"
+#include "holdfast/stability/response/enclosed_response.hpp"
+
+namespace holdfast {
+
+/// What is proved of one direction from a value.
+struct ProvedMarginEnd {
+  /// The loop is stable at every position from the value to this one, both included; NaN where it
+  /// is not proved to be stable at the value.
+  double stable_to = std::numeric_limits<double>::quiet_NaN();
+  /// The loop is not stable at this position beyond it; NaN where none was met. What lies between
+  /// is undecided.
+  double unstable_at = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Down and up from a value.
+struct ProvedMargin {
+  ProvedMarginEnd below;  ///< towards smaller values
+  ProvedMarginEnd above;  ///< towards larger values
+};
+
+/// The margins of `StabilityMargins` as theorems on the decimals of the loop.
+struct ProvedMargins {
+  ProvedStability stability = ProvedStability::undecided;  ///< of the loop as it is
+  ProvedMargin differential_gain;                          ///< D (N s/m)
+  ProvedMargin proportional_gain;                          ///< P (N/m)
+  ProvedMargin sampling_period;                            ///< τ (s), δ/τ kept
+  ProvedMargin processing_delay;                           ///< δ (s), τ kept
+};
+
+namespace detail {
+
+/// All gains of which one of two doubles is the nearest, and what is between.
+inline Interval<double> around(double from, double to) {
+  return {Enclosure::of_decimal(from).lower(), Enclosure::of_decimal(to).upper()};
+}
+
+inline GainBox box_of(const Interval<double>& proportional, const Interval<double>& differential) {
+  return {proportional.lower, proportional.upper, differential.lower, differential.upper};
+}
+
+/// Whether no loop of a box has a root on the unit circle.
+inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
+  return arcs.meeting(box, arcs.all()).empty();
+}
+
+/// What is proved of the loops of a box together.
+inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
+  if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
+  const auto outside =
+      arcs.roots_outside({Enclosure(box.proportional_from, box.proportional_to).middle(),
+                          Enclosure(box.differential_from, box.differential_to).middle()});
+  if (!outside) return ProvedStability::undecided;
+  return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
+}
+
+/// One of the gains varies.
+class GainPath {
+ public:
+  GainPath(CircleArcs& arcs, FreeGain free, const PdGains<double>& gains)
+      : arcs_(arcs), free_(free), gains_(gains) {}
+
+  bool keeps_stability(double from, double to) const { return is_off_circle(arcs_, box(from, to)); }
+  ProvedStability at(double position) const { return stability_of(arcs_, box(position, position)); }
+
+ private:
+  GainBox box(double from, double to) const {
+    const Interval<double> moved = around(from, to);
+    if (free_ == FreeGain::differential)
+      return box_of(around(gains_.proportional, gains_.proportional), moved);
+    return box_of(moved, around(gains_.differential, gains_.differential));
+  }
+
+  CircleArcs& arcs_;
+  FreeGain free_;
+  PdGains<double> gains_;
+};
+
+/// The sampling varies.
+class SamplingPath {
+ public:
+  SamplingPath(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
+               const EnclosedSamplings& line)
+      : poles_(poles),
+        box_(box_of(around(gains.proportional, gains.proportional),
+                    around(gains.differential, gains.differential))),
+        line_(line),
+        proof_(poles, gains, line) {}
+
+  bool keeps_stability(double from, double to) const { return proof_.is_stable(from, to); }
+  ProvedStability at(double position) const {
+    CircleArcs arcs({poles_, line_.over(Enclosure::of_decimal(position))});
+    return stability_of(arcs, box_);
+  }
+
+ private:
+  const std::vector<EnclosedPole>& poles_;
+  GainBox box_;
+  EnclosedSamplings line_;
+  SamplingProof<double> proof_;
+};
+
+/// How far and how finely a path is walked.
+struct ProvedWalk {
+  double first;       // length of the first step, > 0
+  double least_step;  // shorter ones are not tried: what may be left undecided
+  int most_steps = 20000;
+};
+
+/// Walks along a path from a value of which the loop is proved to be stable, as long as no root
+/// meets the circle: roots move continuously, so none gets outside. Where it ends, looks for an
+/// unstable loop beyond.
+/// @param watch  called for each step; what it throws ends the work
+template <class Path, class Watch>
+ProvedMarginEnd walked_end(const Path& path, double value, double limit, const ProvedWalk& walk,
+                           const Watch& watch) {
+  const double direction = limit < value ? -1.0 : 1.0;
+  const auto ahead = [&](double from, double step) {
+    const double to = from + direction * step;
+    return direction < 0.0 ? std::max(to, limit) : std::min(to, limit);
+  };
+  ProvedMarginEnd end{value};
+  double step = walk.first;
+  for (int steps = 0; end.stable_to != limit && step >= walk.least_step; ++steps) {
+    if (steps == walk.most_steps) return end;
+    watch();
+    const double next = ahead(end.stable_to, step);
+    const auto [from, to] = std::minmax(end.stable_to, next);
+    const bool free = path.keeps_stability(from, to);
+    if (free) end.stable_to = next;
+    step *= free ? 1.5 : 0.5;
+  }
+  for (double gap = walk.least_step; end.stable_to != limit; gap *= 4.0) {
+    watch();
+    const double position = ahead(end.stable_to, gap);
+    if (path.at(position) == ProvedStability::unstable) end.unstable_at = position;
+    if (std::isfinite(end.unstable_at) || position == limit || gap > 1e6 * walk.least_step) break;
+  }
+  return end;
+}
+
+/// Where a walk is to end: a little beyond the boundary that doubles have found, or where they
+/// found none at the end of their search.
+inline double limit_beyond(const MarginEnd& end, double value, double otherwise) {
+  switch (end.outcome) {
+    case MarginEndOutcome::boundary:
+      return value + 1.1 * (end.position - value);
+    case MarginEndOutcome::undefined:
+      return value;
+    default:
+      return std::isfinite(end.position) ? end.position : otherwise;
+  }
+}
+
+/// Proves all margins of one loop.
+template <class Watch>
+class MarginProver {
+ public:
+  MarginProver(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling,
+               const PdGains<double>& gains, const StabilityMargins& found, double resolution,
+               const Watch& watch)
+      : poles_(poles),
+        sampling_(sampling),
+        gains_(gains),
+        found_(found),
+        resolution_(resolution),
+        watch_(watch),
+        arcs_({poles, sampling}) {}
+
+  ProvedMargins prove() {
+    ProvedMargins proved;
+    const GainPath along_d(arcs_, FreeGain::differential, gains_);
+    proved.stability = along_d.at(gains_.differential);
+    if (proved.stability != ProvedStability::stable) return proved;
+    proved.differential_gain = both(along_d, gains_.differential, found_.differential_gain, 1e12);
+    proved.proportional_gain = both(GainPath(arcs_, FreeGain::proportional, gains_),
+                                    gains_.proportional, found_.proportional_gain, 1e12);
+    proved.sampling_period = of_period();
+    proved.processing_delay = {of_delay(found_.processing_delay.below, -1),
+                               of_delay(found_.processing_delay.above, +1)};
+    return proved;
+  }
+
+ private:
+  /// @param farthest  where doubles have found no end
+  template <class Path>
+  ProvedMarginEnd one(const Path& path, double value, const MarginEnd& found, double farthest) {
+    return towards(path, value, limit_beyond(found, value, farthest));
+  }
+  template <class Path>
+  ProvedMargin both(const Path& path, double value, const TwoSidedMargin& found, double farthest) {
+    return {one(path, value, found.below, -farthest), one(path, value, found.above, farthest)};
+  }
+  template <class Path>
+  ProvedMarginEnd towards(const Path& path, double value, double limit) {
+    if (limit == value) return {value};
+    const double way = std::abs(limit - value);
+    return walked_end(path, value, limit, {0.01 * way, resolution_ * way}, watch_);
+  }
+
+  ProvedMargin of_period() {
+    const double period = sampling_.period;
+    const SamplingPath path(poles_, gains_, EnclosedSamplings::of_period(sampling_));
+    const auto to = [&](const MarginEnd& end, double farthest) {
+      double limit = limit_beyond(end, period, farthest);
+      if (limit == 0.0) limit = farthest;
+      return towards(path, period, limit);
+    };
+    return {to(found_.sampling_period.below, 1e-3 * period),
+            to(found_.sampling_period.above, 100.0 * period)};
+  }
+
+  /// One stretch (k − 1) τ … k τ after the other; at the seams a root comes or goes at λ = 0.
+  ProvedMarginEnd of_delay(const MarginEnd& found, int direction) {
+    const double delay = sampling_.processing_delay;
+    const double limit = std::max(limit_beyond(found, delay, delay + 10.0 * sampling_.period), 0.0);
+    ProvedMarginEnd end{delay};
+    for (int k = held_commands(sampling_); k >= 1 && end.stable_to != limit; k += direction) {
+      const double seam = (direction < 0 ? k - 1 : k) * sampling_.period;
+      const double goal = direction < 0 ? std::max(seam, limit) : std::min(seam, limit);
+      const SamplingPath path(poles_, gains_, EnclosedSamplings::of_delay(sampling_.period, k));
+      end = towards(path, end.stable_to, goal);
+      if (end.stable_to != goal) break;
+    }
+    return end;
+  }
+
+  const std::vector<EnclosedPole>& poles_;
+  Sampling<double> sampling_;
+  PdGains<double> gains_;
+  const StabilityMargins& found_;
+  double resolution_;
+  const Watch& watch_;
+  CircleArcs arcs_;
+};
+
+}  // namespace detail
+
+/// Proves how far D, P, τ and δ may move, one at a time, before the loop of the decimals loses its
+/// stability: every position of the stretch is proved, so that no window of instability is passed
+/// over. The loop is stable at the value (`CircleArcs::roots_outside`), and on each step of the
+/// walk, an interval of positions in enclosures, no root meets the unit circle.
+/// @param poles       of `enclosed_poles`
+/// @param sampling    as EnclosedResponse takes it
+/// @param gains       P (N/m) and D (N s/m), finite
+/// @param found       what doubles have found: only how far to walk is taken from it
+/// @param resolution  the shortest step, as a share of the way to the boundary, above 0
+/// @param watch       called for each step; what it throws ends the work
+/// @throws InvalidParameter where sampling or gains are not admissible
+template <class Watch>
+ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
+                             const Sampling<double>& sampling, const PdGains<double>& gains,
+                             const StabilityMargins& found, double resolution, const Watch& watch) {
+  validate(gains);
+  return detail::MarginProver<Watch>(poles, sampling, gains, found, resolution, watch).prove();
+}
+
+}  // namespace holdfast

@@ -1,0 +1,204 @@
+// Proved margins against the spectral radius of the loop's map, of two masses, strings, filtered
+// and late loops, and against the margins that doubles walk.
+
+#include "holdfast/stability/margins/proved_margins.hpp"
+
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/stability/design/max_delay.hpp"
+#include "holdfast/stability/design/proved_max_delay.hpp"
+#include "holdfast/stability/margins/modal_margins.hpp"
+#include "support/random.hpp"
+#include "support/random_loop.hpp"
+#include "support/string_case.hpp"
+#include "support/testing.hpp"
+
+namespace holdfast::test {
+namespace {
+
+constexpr auto unwatched = [] {};
+
+/// A loop, by its poles for the proof and by its matrices for what tries it.
+struct ProvedLoop {
+  std::vector<EnclosedPole> poles;
+  std::vector<PlantPole> approximate;
+  LinearPlant<double> plant;
+  Sampling<double> sampling;
+  PdGains<double> gains;
+
+  ProvedLoop(const ConductorWithAbsorber& conductor, Sampling<double> s, PdGains<double> g)
+      : poles(enclosed_poles(conductor)),
+        approximate(with_hardware(conductor.poles, conductor.hardware)),
+        plant(linear_plant(conductor)),
+        sampling(s),
+        gains(g) {}
+
+  double radius(const Sampling<double>& s, const PdGains<double>& g) const {
+    return spectral_radius(loop_map(plant, s).closed_map(g));
+  }
+  double radius_at_period(double period) const {
+    return radius({period, sampling.processing_delay / sampling.period * period}, gains);
+  }
+  double radius_at_delay(double delay) const { return radius({sampling.period, delay}, gains); }
+  StabilityMargins walked() const {
+    return modal_stability_margins<double>(approximate, sampling, gains);
+  }
+  ProvedMargins proved(double resolution = 1e-5) const {
+    return proved_margins(poles, sampling, gains, walked(), resolution, unwatched);
+  }
+};
+
+std::vector<ProvedLoop> proved_loops() {
+  return {{string_with_absorber(1, 0.02), {0.001, 0.0}, {-200.0, -4.0}},
+          {string_with_absorber(6, 0.02), {0.002, 0.0013}, {-200.0, -2.0}},
+          {string_with_absorber(4, 0.01), {0.002, 0.0047}, {-50.0, -1.0}},
+          {string_with_absorber(3, 0.02, {80.0, 60.0, 0.7}), {0.003, 0.003}, {-100.0, -1.0}}};
+}
+
+/// That all of a stretch is stable and what is just beyond is not, by spectral radii.
+template <class RadiusAt>
+void expect_end(const ProvedMarginEnd& end, double value, const RadiusAt& radius_at) {
+  for (int k = 0; k <= 40; ++k) {
+    const double position = value + k / 40.0 * (end.stable_to - value);
+    EXPECT_LT(radius_at(position), 1.0 + 1e-11) << position;
+  }
+  if (std::isfinite(end.unstable_at)) {
+    EXPECT_GT(radius_at(end.unstable_at), 1.0 - 1e-11);
+  }
+}
+
+TEST(ProvedMargins, HoldByTheSpectralRadius) {
+  for (const ProvedLoop& loop : proved_loops()) {
+    const ProvedMargins proved = loop.proved();
+    ASSERT_EQ(proved.stability, ProvedStability::stable);
+    const double p = loop.gains.proportional, d = loop.gains.differential;
+    const auto of_d = [&](double value) { return loop.radius(loop.sampling, {p, value}); };
+    const auto of_p = [&](double value) { return loop.radius(loop.sampling, {value, d}); };
+    const auto of_period = [&](double tau) { return loop.radius_at_period(tau); };
+    const auto of_delay = [&](double delta) { return loop.radius_at_delay(delta); };
+    expect_end(proved.differential_gain.below, d, of_d);
+    expect_end(proved.differential_gain.above, d, of_d);
+    expect_end(proved.proportional_gain.below, p, of_p);
+    expect_end(proved.proportional_gain.above, p, of_p);
+    expect_end(proved.sampling_period.below, loop.sampling.period, of_period);
+    expect_end(proved.sampling_period.above, loop.sampling.period, of_period);
+    expect_end(proved.processing_delay.below, loop.sampling.processing_delay, of_delay);
+    expect_end(proved.processing_delay.above, loop.sampling.processing_delay, of_delay);
+  }
+}
+
+/// The boundary that doubles find lies in the gap, which is as narrow as was asked.
+TEST(ProvedMargins, LeaveALittleAboutTheBoundaryUndecided) {
+  constexpr double resolution = 1e-6;
+  for (const ProvedLoop& loop : proved_loops()) {
+    const ProvedMargins proved = loop.proved(resolution);
+    const StabilityMargins walked = loop.walked();
+    const auto expect_around = [&](const ProvedMarginEnd& end, const MarginEnd& found) {
+      if (found.outcome != MarginEndOutcome::boundary) return;
+      const auto [least, most] = std::minmax(end.stable_to, end.unstable_at);
+      const double rounding = 1e-8 * std::abs(found.position);
+      EXPECT_GE(found.position, least - rounding);
+      EXPECT_LE(found.position, most + rounding);
+      EXPECT_LT(most - least, 50.0 * resolution * found.distance);
+    };
+    expect_around(proved.differential_gain.below, walked.differential_gain.below);
+    expect_around(proved.differential_gain.above, walked.differential_gain.above);
+    expect_around(proved.proportional_gain.below, walked.proportional_gain.below);
+    expect_around(proved.proportional_gain.above, walked.proportional_gain.above);
+    expect_around(proved.sampling_period.above, walked.sampling_period.above);
+    expect_around(proved.processing_delay.above, walked.processing_delay.above);
+  }
+}
+
+/// A window of instability of τ that steps of 5 % pass over ends the proof, and is put right.
+TEST(ProvedMargins, PassOverNoWindow) {
+  const ProvedLoop loop(string_with_absorber(8, 1e-3), {0.00063, 0.0}, {-99.0, -3.5});
+  const MarginEnd walked = loop.walked().sampling_period.above;
+  const ProvedMarginEnd proved = loop.proved().sampling_period.above;
+  ASSERT_TRUE(std::isfinite(proved.unstable_at));
+  EXPECT_LT(proved.unstable_at, 0.99 * walked.position);
+  EXPECT_GT(loop.radius_at_period(proved.unstable_at), 1.0);
+  const MarginEnd right = modal_margin_end<double>(loop.approximate, loop.sampling, loop.gains,
+                                                   proved.stable_to, proved.unstable_at, true);
+  EXPECT_EQ(right.outcome, MarginEndOutcome::boundary);
+  EXPECT_GE(right.position, proved.stable_to);
+  EXPECT_LE(right.position, proved.unstable_at);
+  EXPECT_NEAR(loop.radius_at_period(right.position), 1.0, 1e-7);
+}
+
+TEST(ProvedMargins, AreNotOfALoopThatIsUnstableOrOnTheBoundary) {
+  const ProvedLoop stable(string_with_absorber(4, 0.02), {0.001, 0.0}, {-200.0, -2.0});
+  const StabilityMargins walked = stable.walked();
+  const auto at = [&](double d) {
+    return proved_margins(stable.poles, stable.sampling, {-200.0, d}, walked, 1e-4, unwatched);
+  };
+  const double edge = walked.differential_gain.above.position;
+  EXPECT_EQ(at(edge + 1e-3).stability, ProvedStability::unstable);
+  EXPECT_TRUE(std::isnan(at(edge + 1e-3).sampling_period.above.stable_to));
+  EXPECT_EQ(at(edge - 1e-3).stability, ProvedStability::stable);
+  EXPECT_EQ(at(edge).stability, ProvedStability::undecided);
+}
+
+/// Two masses over decades, in extended precision.
+TEST(ProvedMargins, OfRandomMassesHoldInExtendedPrecision) {
+  Random random(5);
+  int proved_loops = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const TwoMass<double> plant = random_plant(random);
+    const Sampling<double> sampling = random_sampling(plant, random);
+    const PdGains<double> gains = random_gains(plant, sampling.period, random);
+    if (sampling.processing_delay >= sampling.period || gains.differential > 0.0) continue;
+    const StabilityMargins walked = stability_margins(plant, sampling, gains);
+    const auto poles = enclosed_poles(plant);
+    if (walked.outcome != MarginOutcome::stable || poles.empty()) continue;
+    const ProvedMargins proved = proved_margins(poles, sampling, gains, walked, 1e-4, unwatched);
+    if (proved.stability != ProvedStability::stable) continue;
+    ++proved_loops;
+    const double share = sampling.processing_delay / sampling.period;
+    expect_end(proved.sampling_period.above, sampling.period, [&](double tau) {
+      return 1.0 + growth(plant, {tau, share * tau}, gains).excess;
+    });
+    expect_end(proved.differential_gain.below, gains.differential, [&](double d) {
+      return 1.0 + growth(plant, sampling, {gains.proportional, d}).excess;
+    });
+  }
+  EXPECT_GT(proved_loops, 20);
+}
+
+TEST(SamplingProof, IsOfNoStretchWithAnUnstableLoop) {
+  for (const ProvedLoop& loop : proved_loops()) {
+    const MarginEnd edge = loop.walked().sampling_period.above;
+    if (edge.outcome != MarginEndOutcome::boundary) continue;
+    const SamplingProof<double> proof(loop.poles, loop.gains,
+                                      EnclosedSamplings::of_period(loop.sampling));
+    const double beyond = 1.0 + 1e-7;
+    for (const double share : {0.5, 0.9, 0.99, 0.999, 0.9999, 0.999999})
+      EXPECT_FALSE(proof.is_stable(share * edge.position, beyond * edge.position)) << share;
+    EXPECT_TRUE(proof.is_stable(0.999 * edge.position, 0.9992 * edge.position));
+  }
+}
+
+/// All periods up to the one that is proved have a stable D, and it is nearly the largest.
+TEST(ProvedMaxSamplingPeriod, IsNextToTheLargest) {
+  const TwoMass<double> plant = kollar2022_plant();
+  for (const double frequency : {8.0, 14.0, 40.0}) {
+    MaxDelayOptions question{};
+    question.frequency = frequency;
+    question.proportional_gain =
+        tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
+    question.criterion = DelayCriterion::stable;
+    const double largest = max_sampling_period(plant, question).sampling_period;
+    const auto gains_at = [&](double period) {
+      return feasible_differential_gains(plant, question, period);
+    };
+    const double proved = proved_max_sampling_period(
+        enclosed_poles(plant), question.proportional_gain,
+        EnclosedSamplings::of_period({0.001, 0.0}), {1e-5, 1.1 * largest}, gains_at, unwatched);
+    EXPECT_LE(proved, largest * (1.0 + 1e-12));
+    EXPECT_GT(proved, 0.999 * largest);
+  }
+}
+
+}  // namespace
+}  // namespace holdfast::test
