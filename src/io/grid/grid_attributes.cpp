@@ -35,6 +35,12 @@ void append_long_name(Attributes& attributes, const Column& column) {
   if (!column.description.empty()) attributes.emplace_back("long_name", column.description);
 }
 
+// Multiply-adds are contracted in the wider instruction sets, and irregular motions make of the
+// last digit everything.
+constexpr const char* irregular_motions =
+    "Cells of regular motions are the same to rounding with every instruction set; of a chaotic or "
+    "undecided one (metric verdict) another set may follow another of its histories";
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
@@ -51,6 +57,8 @@ Attributes origin_attributes(const JobContext& context) {
                            {"options", options_text(context)}};
   if (context.on_packs)
     attributes.emplace_back("instructions", std::string(name_of(context.instructions)));
+  if (context.job == "sweep" || context.job == "basins")
+    attributes.emplace_back("comment", irregular_motions);
   attributes.emplace_back("case", case_to_toml(context.case_data));
   return attributes;
 }

@@ -130,6 +130,7 @@ class EventPack {
   void sleep(std::size_t lane) {
     awake_[lane] = 0.0;
     for (auto& number : state_) number[lane] = 0.0;
+    modes_.ignore_guards(lane);
   }
 
  private:
