@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "../tests/support/kollar_case.hpp"
 #include "../tests/support/plain_event_motion.hpp"
 #include "../tests/support/region_places.hpp"
 #include "holdfast/orbit/event/event_motion_region.hpp"

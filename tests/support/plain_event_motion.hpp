@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "support/plain_motion.hpp"
+#include "plain_motion.hpp"
 
 // A second way to the motions whose drive enters and leaves its backlash between the samples, which
 // shares nothing with the library: own exponentials over short parts of a sampling period, and in
