@@ -1,20 +1,22 @@
 // The periodic motions of a map of backlash and sampling period (r₀, τ), each found and certified
-// from rest, against the brute force of tests/support/plain_motion.hpp: prints in how many cells
-// the two agree, and where they do not how near the certified motion is to a switching surface.
+// from rest, against the brute force of tests/support/plain_motion.hpp, switched exactly that of
+// plain_event_motion.hpp: prints in how many cells the two have the same period and the same
+// amplitude, and where they do not how near the certified motion is to a switching surface.
 //
-//     motion_map_bench [rows] [columns] [threads]      rows of r₀, columns of τ
+//     motion_map_bench [rows] [columns] [threads] [exact]      rows of r₀, columns of τ
 
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "../tests/support/plain_event_motion.hpp"
 #include "../tests/support/plain_motion.hpp"
 #include "holdfast/phase_space/motion_map.hpp"
+#include "timed_cells.hpp"
 
 namespace {
 
@@ -41,22 +43,40 @@ struct Grid {
   }
 };
 
-/// Calls job(cell) for all cells on some threads.
-template <class Job>
-double timed(std::size_t count, unsigned threads, const Job& job) {
-  const auto begin = std::chrono::steady_clock::now();
-  std::atomic<std::size_t> next{0};
-  std::vector<std::thread> pool;
-  for (unsigned k = 0; k < threads; ++k)
-    pool.emplace_back([&] {
-      for (std::size_t cell; (cell = next++) < count;) job(cell);
-    });
-  for (std::thread& thread : pool) thread.join();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+/// A loop that switches exactly.
+ImplementedLoop switched_exactly(const IdealLoop<double>& loop) {
+  ImplementedLoop exact = implemented_loop(loop);
+  exact.switching = Switching::exact;
+  return exact;
 }
 
-std::int64_t plain_period_of(const IdealLoop<double>& loop, std::int64_t coincidence) {
-  return test::plain_period(test::plain_loop(loop, coincidence), 32 * largest_period);
+/// What was found of a motion by either way.
+struct Seen {
+  std::int64_t period = 0;  // coincidences; 0: none
+  double amplitude = 0.0;   // m
+};
+
+template <class Motion>
+Seen plainly_seen(const IdealLoop<double>& loop) {
+  const std::int64_t coincidence = forcing_ratio(loop)->denominator;
+  Motion motion(test::plain_loop(loop, coincidence));
+  Seen seen{test::settled_period(motion, coincidence, 32 * largest_period), 0.0};
+  motion.begin_record();
+  for (std::int64_t k = 0; k < seen.period; ++k) motion.step();
+  seen.amplitude = motion.largest_sample();
+  return seen;
+}
+
+/// The map of one cell, from rest.
+template <class Loop>
+MapCell mapped_cell(const Loop& loop) {
+  const auto one = [](std::size_t all, std::size_t, const auto& job) { job(std::size_t{0}, all); };
+  MotionMapOptions options;
+  options.limits.largest_period = largest_period;
+  options.most_rounds = 0;
+  return motion_map([&](std::size_t) { return std::optional(loop); }, {1, 1},
+                    Vector<double, 4>(Vector<double, 4>::Zero()), one, options)
+      .front();
 }
 
 }  // namespace
@@ -69,40 +89,39 @@ int main(int count, char** arguments) {
   const auto threads =
       static_cast<unsigned>(number(3, std::max(1U, std::thread::hardware_concurrency())));
   const std::size_t cells = grid.rows * grid.columns;
+  const bool exact = count > 4 && std::string(arguments[4]) == "exact";
   std::vector<MapCell> found(cells);
-  const auto loop_at = [&](std::size_t cell) { return std::optional(grid.loop(cell)); };
-  const double map_seconds = timed(cells, threads, [&](std::size_t cell) {
-    const auto one = [](std::size_t all, std::size_t, const auto& job) {
-      job(std::size_t{0}, all);
-    };
-    MotionMapOptions options;
-    options.limits.largest_period = largest_period;
-    options.most_rounds = 0;
-    found[cell] = motion_map([&](std::size_t) { return loop_at(cell); }, {1, 1},
-                             Vector<double, 4>(Vector<double, 4>::Zero()), one, options)
-                      .front();
-  });
-  std::vector<std::int64_t> plain(cells);
-  const double plain_seconds = timed(cells, threads, [&](std::size_t cell) {
+  const double map_seconds = timed_cells(cells, threads, [&](std::size_t cell) {
     const IdealLoop<double> loop = grid.loop(cell);
-    plain[cell] = plain_period_of(loop, forcing_ratio(loop)->denominator);
+    found[cell] = exact ? mapped_cell(switched_exactly(loop)) : mapped_cell(loop);
+  });
+  std::vector<Seen> plain(cells);
+  const double plain_seconds = timed_cells(cells, threads, [&](std::size_t cell) {
+    const IdealLoop<double> loop = grid.loop(cell);
+    plain[cell] =
+        exact ? plainly_seen<test::PlainEventMotion>(loop) : plainly_seen<test::PlainMotion>(loop);
   });
   std::size_t agree = 0, certified = 0, repeats = 0, near = 0, unsettled = 0, other = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const MappedMotion* const motion = found[cell].from_start();
     const std::int64_t coincidence = forcing_ratio(grid.loop(cell))->denominator;
     const std::int64_t certain = motion != nullptr ? motion->period_samples / coincidence : 0;
+    const Seen& seen = plain[cell];
     certified += certain > 0 ? 1 : 0;
-    repeats += plain[cell] > 0 ? 1 : 0;
-    if (certain == plain[cell]) {
+    repeats += seen.period > 0 ? 1 : 0;
+    const double apart =
+        motion != nullptr ? std::abs(motion->amplitude - seen.amplitude) / motion->amplitude : 0.0;
+    if (certain == seen.period && apart < 1e-6) {
       ++agree;
       continue;
     }
     const double share = motion != nullptr ? motion->border_share : 0.0;
-    (share < 1e-6 ? near : certain == 0 || plain[cell] == 0 ? unsettled : other) += 1;
-    std::printf("differ: tau %.4f r0 %.9g certified %lld plain %lld border share %.3g\n",
-                grid.period(cell), grid.width(cell), static_cast<long long>(certain),
-                static_cast<long long>(plain[cell]), share);
+    (share < 1e-6 ? near : certain == 0 || seen.period == 0 ? unsettled : other) += 1;
+    std::printf(
+        "differ: tau %.4f r0 %.9g certified %lld plain %lld amplitudes %.3g apart, border share "
+        "%.3g\n",
+        grid.period(cell), grid.width(cell), static_cast<long long>(certain),
+        static_cast<long long>(seen.period), apart, share);
   }
   std::printf(
       "%zu cells: %zu agree (%.4f %%); of the others %zu within 1e-6 of a surface, %zu found by "

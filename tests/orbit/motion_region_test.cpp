@@ -5,6 +5,7 @@
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "support/kollar_case.hpp"
 #include "support/random.hpp"
+#include "support/region_places.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -36,16 +37,6 @@ bool lasts(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
       orbit_of_itinerary(loop, orbit.ratio, ItineraryMaps<double>(loop, orbit.ratio),
                          orbit.itinerary, Backlash<double>(loop.backlash_width, orbit.memory));
   return found.outcome == OrbitOutcome::certified && found.orbit->is_attracting();
-}
-
-/// By how often a ray to the right crosses the border.
-bool encloses(const MotionRegion& region, double x, double y) {
-  bool inside = false;
-  for (std::size_t k = 0; k + 1 < region.border.size(); ++k) {
-    const auto &a = region.border[k], &b = region.border[k + 1];
-    if ((a.y > y) != (b.y > y) && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  }
-  return inside;
 }
 
 TEST(MotionRegion, TheMotionLastsJustInsideAndNowhereJustOutside) {
@@ -85,7 +76,7 @@ TEST(MotionRegion, RandomPointsOfTheWindowAreInsideWhereTheMotionLasts) {
   int inside = 0, differ = 0;
   for (int k = 0; k < 2000; ++k) {
     const PlanePoint at = window.at({share(random), share(random)});
-    const bool is_inside = encloses(region, at.x, at.y);
+    const bool is_inside = test::encloses(region, at.x, at.y);
     inside += is_inside ? 1 : 0;
     differ += is_inside != lasts(family(at.x, at.y), orbit) ? 1 : 0;
   }

@@ -201,6 +201,17 @@ class DriveContact {
   double lower() const { return lower_; }
   /// Upper end likewise.
   double upper() const { return upper_; }
+  /// g, the place of play's last reversal, Δz (m), where its gap begins; while engaged the one
+  /// before.
+  double reversal() const { return sign_ > 0.0 ? upper_ : lower_; }
+  /// Play crosses the gap that began where it reversed.
+  /// @param at    g (m)
+  /// @param sign  ±1, σ: the gap lies below g for +1
+  void cross_gap(double at, double sign) {
+    sign_ = sign;
+    open_gap(at);
+    change_to(gap, 0);
+  }
   /// Moves both ends by a displacement (m); without effect on another law.
   void shift_gap(double by) {
     if (kind_ != Kind::play) return;
@@ -257,9 +268,8 @@ class DriveContact {
                                 : ContactMode::engaged;
   }
 
-  /// The gap ends where the drive is, on the side of σ.
-  void open_gap(const Instant& now) {
-    const double here = readings_.relative_displacement(now.state);
+  /// The gap ends where the drive is, at Δz = `here`, on the side of σ.
+  void open_gap(double here) {
     lower_ = sign_ > 0.0 ? here - backlash_.width : here;
     upper_ = sign_ > 0.0 ? here : here + backlash_.width;
   }
@@ -269,7 +279,7 @@ class DriveContact {
   void leave_gap(double side, const Instant& now) {
     sign_ = side;
     if (side * readings_.relative_velocity(now.state) < 0.0) {
-      open_gap(now);
+      open_gap(readings_.relative_displacement(now.state));
       return change_to(gap, 1);
     }
     change_to(0, 0);
@@ -277,7 +287,7 @@ class DriveContact {
 
   void reverse(Instant& now) {
     readings_.stop_relative_motion(now.state);
-    open_gap(now);
+    open_gap(readings_.relative_displacement(now.state));
     // Where one of them is zero its derivative decides: a guard of stick that begins at zero ends
     // it at once or not at all.
     const bool pushed_on = !(sign_ * free_(now) < 0.0);

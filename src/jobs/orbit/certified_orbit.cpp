@@ -81,6 +81,7 @@ EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& re
   seen.modes = orbit.modes;
   seen.forces = orbit.forces;
   seen.switches = orbit.switches;
+  seen.reversals = orbit.reversals;
   seen.margins = orbit.margins;
   seen.time_share = orbit.time_share;
   seen.largest_displacement = orbit.largest_displacement;

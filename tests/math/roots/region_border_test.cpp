@@ -99,6 +99,31 @@ TEST(RegionBorder, GoesAlongAJump) {
   }
 }
 
+TEST(RegionBorder, EndsWhereItWouldGoRoundATouchingPartForEver) {
+  // Two triangles that touch at the origin, the right one so flat that the way may pass from it to
+  // the left one, but not back.
+  int closed = 0, lost = 0;
+  for (int k = 0; k < 40; ++k) {
+    const double slope = 0.02 + 0.005 * k;
+    int looks = 0;
+    const auto triangles = [&](const PlanePoint& at) {
+      ++looks;
+      const double far = std::abs(at.x);
+      return smallest_of({(at.x > 0.0 ? slope : 0.5) * far - std::abs(at.y), 1.0 - far});
+    };
+    BorderSteps steps;
+    steps.longest = 0.037;
+    const IntBorder border = region_border<int>(triangles, {0.7, 0.0}, steps);
+    EXPECT_LT(looks, 20'000) << slope;
+    (border.closed ? closed : lost) += 1;
+    if (border.closed) {
+      EXPECT_NEAR(border_area(border), slope, 1e-3 * slope);
+    }
+  }
+  EXPECT_GT(closed, 0);
+  EXPECT_GT(lost, 0);
+}
+
 TEST(RegionBorder, IsEmptyFromOutside) {
   const auto nowhere = [](const PlanePoint&) { return RegionLook<int>{-1.0, 0}; };
   const IntBorder border = region_border<int>(nowhere, {0.0, 0.0});

@@ -1,6 +1,8 @@
 #include "holdfast/orbit/event/event_motion_region.hpp"
 
 #include "support/kollar_case.hpp"
+#include "support/plain_event_motion.hpp"
+#include "support/region_places.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast {
@@ -47,6 +49,96 @@ TEST(ContinuedOrbit, IsNotReproducedWhereItSwitchesOtherwise) {
   EXPECT_EQ(continued_orbit(exact_loop(0.001, 0.00225), orbit).outcome, OrbitOutcome::certified);
   EXPECT_EQ(continued_orbit(exact_loop(0.001, 0.00226), orbit).outcome,
             OrbitOutcome::not_reproduced);
+}
+
+/// (r₀, τ) ↦ loop, f τ = 1/10.
+ImplementedLoop tenth_loop(double width, double period) {
+  ImplementedLoop loop = exact_loop(period, width);
+  loop.digital.force.harmonics.front().frequency = 0.1 / period;
+  return loop;
+}
+
+std::string word_of(const EventOrbit& orbit) {
+  std::string word;
+  for (const ContactSwitch& change : orbit.switches) word += test::letter_of(change.mode);
+  return word;
+}
+
+/// Whether the motion from rest, once it has settled, repeats at every coincidence by this word.
+bool comes_to(const std::string& word, const test::PlainLoop& loop) {
+  test::PlainEventMotion motion(loop);
+  for (int k = 0; k < 400; ++k) motion.step();  // 34 s or more
+  const auto before = motion.state();
+  motion.begin_record();
+  motion.step();
+  for (std::size_t k = 0; k < 4; ++k)
+    if (std::abs(motion.state()[k] - before[k]) >
+        1e-6 * (std::abs(before[k]) + std::abs(before[(k + 2) % 4])))
+      return false;
+  return test::same_turn(word, motion.word());
+}
+
+TEST(ContinuedOrbit, GoesOnFromAGapWhereTheDriveIsEngagedAtNoSample) {
+  const EventOrbit orbit = exact_orbit(exact_loop(0.01, 0.00205));
+  ASSERT_EQ(orbit.engaged_fraction(), 0.0);
+  ASSERT_GT(orbit.entries(ContactMode::engaged), 0);
+  for (const double width : {0.00206, 0.00215}) {
+    const ImplementedLoop other = exact_loop(0.01, width);
+    const auto found = continued_orbit(other, orbit);
+    ASSERT_EQ(found.outcome, OrbitOutcome::certified) << width;
+    const EventOrbit alone = exact_orbit(other);
+    for (std::size_t j = 0; j < alone.states.size(); ++j)
+      EXPECT_LT((found.orbit->states[j] - alone.states[j]).norm(), 1e-12);
+  }
+}
+
+TEST(ContinuedOrbit, PassesTheSampleAtWhichTheDriveCeasesToBeEngaged) {
+  // The reversal passes sample 2, which alone was engaged, by a part in a thousand of a period.
+  const EventOrbit orbit = exact_orbit(tenth_loop(0.0021429, 0.0115377));
+  ASSERT_GT(orbit.engaged_fraction(), 0.0);
+  const auto found = continued_orbit(tenth_loop(0.0021414, 0.011541), orbit);
+  ASSERT_EQ(found.outcome, OrbitOutcome::certified);
+  EXPECT_EQ(found.orbit->engaged_fraction(), 0.0);
+  EXPECT_EQ(word_of(*found.orbit).size(), word_of(orbit).size());
+}
+
+TEST(EventMotionRegion, IsWhereAPlainSimulationComesToTheSameMotion) {
+  const EventOrbit orbit = exact_orbit(tenth_loop(0.002, 0.01));
+  const std::string word = word_of(orbit);
+  const ParameterWindow window{0.0015, 0.0028, 0.0085, 0.0115};
+  const MotionRegion region =
+      motion_region(tenth_loop, orbit, window, {0.002, 0.01}, {0.04, 1e-5, 1e-8});
+  ASSERT_TRUE(region.closed);
+  int inside = 0, outside = 0;
+  constexpr int rows = 40, columns = 50;
+  for (int cell = 0; cell < rows * columns; ++cell) {
+    const PlanePoint at =
+        window.at({(cell / columns + 0.5) / rows, (cell % columns + 0.5) / columns});
+    // The border is a polygon, which lies within 0.06 steps of it.
+    if (test::distance_to_border(region, window, at) < 0.0024) continue;
+    const bool is_it = comes_to(word, {at.y, at.x, -557.0, -13.0, 0.5, 0.1 / at.y, 10});
+    EXPECT_EQ(is_it, test::encloses(region, at.x, at.y)) << at.x << ' ' << at.y;
+    (is_it ? inside : outside) += 1;
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 500);
+}
+
+TEST(EventMotionRegion, OfAMotionThatMirrorsItselfEndsWhereTheSymmetryBreaks) {
+  const PlanePoint start{0.00022333333, 0.01175};
+  const EventOrbit orbit = exact_orbit(tenth_loop(start.x, start.y));
+  ASSERT_TRUE(detail::mirrors_itself(orbit));
+  const MotionRegion region =
+      motion_region(tenth_loop, orbit, {0.0002, 0.003, 0.007, 0.013}, start, {0.02, 1e-4, 1e-9});
+  ASSERT_TRUE(region.closed);
+  int folds = 0;
+  for (const auto& point : region.border) {
+    if (point.border.kind != BorderKind::fold) continue;
+    ++folds;
+    // On the inner side, or beyond a jump of the multiplier on the outer one.
+    EXPECT_GT(point.border.multiplier.log_modulus, -1e-3);
+  }
+  EXPECT_GT(folds, 2);
 }
 
 TEST(EventMotionRegion, OfBacklashAndForceIsBoundedByRays) {

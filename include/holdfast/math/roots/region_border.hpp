@@ -36,8 +36,9 @@ struct BorderPoint {
 template <class Label>
 struct RegionBorder {
   std::vector<BorderPoint<Label>> points;  ///< where it closes the first one is the last one again
-  bool closed = false;                     ///< it came back to where it began
-  int looks = 0;                           ///< points that were looked at
+  bool closed = false;  ///< it came back to where it began; else it was lost, or went round another
+                        ///< part that touches this one
+  int looks = 0;        ///< points that were looked at
 };
 
 /// How a border is followed.
@@ -77,6 +78,12 @@ class BorderWalk {
   static constexpr double pi = 3.14159265358979323846;
   static constexpr double ahead = 0.35;  // rad to either side, where the border is expected
   static constexpr double sweep = 0.2;   // rad
+
+  struct Corner {
+    PlanePoint at;
+    Label before, after;
+    std::ptrdiff_t number;  // of the point behind it
+  };
 
   RegionLook<Label> seen(const PlanePoint& at) {
     ++border_.looks;
@@ -180,6 +187,10 @@ class BorderWalk {
     const double direction = std::atan2(found->at.y - here.at.y, found->at.x - here.at.x);
     const bool corner = !(found->label == here.label);
     if (corner && !least) return shorter(0.5);
+    if (corner && meets_again(here, *found)) {
+      border_.looks = steps_.most_looks;
+      return step;
+    }
     const bool bent = !fresh_ && std::abs(turned(direction - backward_ + pi)) > 0.3;
     if (bent && !least) return shorter(0.5);
     border_.points.push_back(*found);
@@ -189,6 +200,23 @@ class BorderWalk {
     fresh_ = least;
     close(step, direction);
     return least ? longest_ : std::min(2.0 * step, longest_);
+  }
+
+  /// Whether a corner was met before and left since: where parts of a region touch, the way may
+  /// have gone on around another part, which it would never leave.
+  bool meets_again(const BorderPoint<Label>& before, const BorderPoint<Label>& after) {
+    const auto is_left = [&](const BorderPoint<Label>& point) {
+      return distance(point.at, after.at) > 100.0 * steps_.shortest;
+    };
+    const auto& points = border_.points;
+    const bool again = std::any_of(corners_.begin(), corners_.end(), [&](const Corner& known) {
+      return known.before == before.label && known.after == after.label &&
+             distance(known.at, after.at) <= 10.0 * steps_.shortest &&
+             std::any_of(points.begin() + known.number, points.end(), is_left);
+    });
+    corners_.push_back(
+        {after.at, before.label, after.label, static_cast<std::ptrdiff_t>(points.size())});
+    return again;
   }
 
   void close(double step, double direction) {
@@ -203,6 +231,7 @@ class BorderWalk {
   const Look& look_;
   BorderSteps steps_;
   RegionBorder<Label> border_;
+  std::vector<Corner> corners_;
   double longest_ = 0.0;
   double backward_ = 0.0;         // angle of where the border comes from
   double first_direction_ = 0.0;  // of the first step

@@ -38,22 +38,28 @@ inline bool change_alike(const std::vector<ContactSwitch>& one,
 /// The periodic motion of a loop that lies near one of another loop: same period, same modes in the
 /// same order; when they change may differ.
 /// @param loop   with the same f τ
-/// @param orbit  of a loop nearby, whose drive is engaged at some sample
+/// @param orbit  of a loop nearby, whose drive is engaged at some sample, or now and then between
+///               them and in the gap at some sample
 /// @return not `certified` where there is none, or it switches otherwise
 template <class Plant>
 OrbitResultOf<EventOrbitOf<states_of<Plant>>> continued_orbit(
     const ImplementedLoopOf<Plant>& loop, const EventOrbitOf<states_of<Plant>>& orbit) {
   using Contact = DriveContact<Plant>;
-  const std::int64_t start = detail::sample_far_from_switches(orbit, ContactMode::engaged);
+  const std::int64_t start = detail::section_of(orbit);
   if (start < 0) return {};
-  // An engaged drive remembers nothing of its gaps.
   const std::size_t samples = orbit.states.size(), at = static_cast<std::size_t>(start);
   const auto fresh = event_motion(loop, orbit.states[at]);
+  Contact contact = fresh.contact();
+  if (orbit.modes[at] == ContactMode::gap) {
+    if (orbit.switches.empty()) return {};  // the gap of one that never leaves it lies anywhere
+    const double reversal = orbit.reversals[at];
+    const double here = fresh.readings().relative_displacement(orbit.states[at]);
+    contact.cross_gap(reversal, here < reversal ? 1.0 : -1.0);
+  }
   RepeatingMotion<Contact> motion(fresh, orbit.ratio.denominator);
   const double command = orbit.forces[(at + samples - 1) % samples];
   const double reading = fresh.readings().displacement(orbit.states[(at + samples - 1) % samples]);
-  motion.go_to(
-      {start % orbit.ratio.denominator, orbit.states[at], command, reading, fresh.contact()});
+  motion.go_to({start % orbit.ratio.denominator, orbit.states[at], command, reading, contact});
   // On to the orbit's first sample.
   for (std::size_t j = at; j < samples; ++j) {
     motion.sense();
@@ -74,6 +80,21 @@ extern template OrbitResultOf<EventOrbit> continued_orbit(const ImplementedLoop&
 #endif
 
 namespace detail {
+
+/// Whether a motion is its own mirror image half a period later.
+template <int States>
+bool mirrors_itself(const EventOrbitOf<States>& orbit) {
+  constexpr double rounding = 1e-6;  // of each state
+  const std::size_t samples = orbit.states.size(), half = samples / 2;
+  if (samples % 2 != 0) return false;
+  Vector<double, States> largest = orbit.states.front().cwiseAbs(), open = 0.0 * largest;
+  for (std::size_t j = 0; j < half; ++j) {
+    if (orbit.modes[j] != orbit.modes[j + half]) return false;
+    largest = largest.cwiseMax(orbit.states[j].cwiseAbs());
+    open = open.cwiseMax((orbit.states[j] + orbit.states[j + half]).cwiseAbs());
+  }
+  return (open.array() <= rounding * largest.array()).all();
+}
 
 /// What is least of a motion between the samples: its margins as shares of its size.
 template <int States>
@@ -105,7 +126,7 @@ template <class Family, class Orbit>
 class EventContinuation {
  public:
   EventContinuation(const Family& family, const PlanePoint& at, const Orbit& orbit)
-      : family_(family), known_{{at, orbit}} {}
+      : family_(family), mirrored_(mirrors_itself(orbit)), known_{{at, orbit}} {}
 
   RegionLook<MotionBorder> operator()(double x, double y) {
     ++solutions_;
@@ -118,6 +139,9 @@ class EventContinuation {
     auto found = continued_orbit(family_(x, y), nearest->orbit);
     if (found.outcome != OrbitOutcome::certified) return {-1.0, beyond(nearest->orbit)};
     RegionLook<MotionBorder> look = look_of(*found.orbit);
+    // Where a symmetry breaks, an unsymmetric pair takes over.
+    if (mirrored_ && look.margin > 0.0 && !mirrors_itself(*found.orbit))
+      return {-1.0, beyond(nearest->orbit)};
     if (look.margin > 0.0) remember({{x, y}, std::move(*found.orbit)});
     return look;
   }
@@ -160,6 +184,7 @@ class EventContinuation {
   }
 
   const Family& family_;
+  bool mirrored_;
   PlanePoint unit_{1.0, 1.0};
   std::vector<Known> known_;
   std::size_t oldest_ = 0;
@@ -173,9 +198,10 @@ class EventContinuation {
 /// multipliers, saltation included, inside the unit circle.
 ///
 /// What ends it is read off the margins of EventOrbit, of which the least names the piece. A
-/// switch may pass a sample: the motion goes on, its multipliers jump.
+/// switch may pass a sample: the motion goes on, its multipliers jump. A motion that is its own
+/// mirror image half a period later is followed as far as it is that.
 /// @param family  (x, y) ↦ ImplementedLoop, with the same f τ everywhere
-/// @param orbit   certified, its drive engaged at some sample
+/// @param orbit   certified, its drive engaged now and then
 /// @param window  around `at`
 /// @param at      (x, y) of the orbit
 /// @param steps   in shares of the window; its tolerance decides how near a jump is found

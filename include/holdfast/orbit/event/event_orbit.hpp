@@ -64,11 +64,13 @@ struct EventOrbitOf : LoopOrbit<States> {
   /// and in stick what holds the sides together at t_j.
   std::vector<double> forces;
   std::vector<ContactSwitch> switches;  ///< of one period, s after its first sample
-  SwitchingMargins margins;             ///< the nearest of all switches and all that do not happen
-  std::array<double, 3> time_share;     ///< of each ContactMode; their sum is 1
-  double largest_displacement;          ///< max |z(t)| (m), between the samples too
-  double largest_sample;                ///< max |z_j| (m), at the samples
-  StateScale extent;                    ///< of both sides of the gap, at the samples
+  /// At each sample in a gap, where that began, Δz (m): exact play; else of no meaning.
+  std::vector<double> reversals;
+  SwitchingMargins margins;          ///< the nearest of all switches and all that do not happen
+  std::array<double, 3> time_share;  ///< of each ContactMode; their sum is 1
+  double largest_displacement;       ///< max |z(t)| (m), between the samples too
+  double largest_sample;             ///< max |z_j| (m), at the samples
+  StateScale extent;                 ///< of both sides of the gap, at the samples
 
   /// Largest |z| (m) of the conductor at the samples.
   double amplitude() const { return largest_sample; }

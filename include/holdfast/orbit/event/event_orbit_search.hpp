@@ -56,6 +56,7 @@ class PeriodRecorder {
     orbit_.states.push_back(sample.state);
     orbit_.modes.push_back(sample.mode);
     orbit_.forces.push_back(sample.control_force);
+    orbit_.reversals.push_back(motion_.contact().reversal());
     reached_ = 0.0;
     if (sample.mode != before) note_switch(sample.mode);
     measures_.begin();
@@ -74,12 +75,17 @@ class PeriodRecorder {
   double reached_ = 0.0;  // s after the sample
 };
 
+/// A sample of an orbit, and how far it lies from any switch.
+struct FarSample {
+  std::int64_t sample = -1;  ///< −1: there is none that lies at no switch
+  double distance = 0.0;     ///< s
+};
+
 /// Of the samples at which the contact is in a mode, that which is farthest from any switch in
-/// time; −1 where there is none that lies at no switch.
+/// time.
 template <int States>
-std::int64_t sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMode mode) {
-  std::int64_t best = -1;
-  double farthest = 0.0;
+FarSample sample_far_from_switches(const EventOrbitOf<States>& orbit, ContactMode mode) {
+  FarSample best;
   auto next = orbit.switches.begin();
   for (std::int64_t j = 0; j < orbit.period_samples(); ++j) {
     const double time = static_cast<double>(j) * orbit.sampling_period;
@@ -94,11 +100,19 @@ std::int64_t sample_far_from_switches(const EventOrbitOf<States>& orbit, Contact
                                 : orbit.switches.back().time - orbit.period();
       distance = std::min(after - time, time - before);
     }
-    if (distance <= farthest) continue;
-    farthest = distance;
-    best = j;
+    if (distance > best.distance) best = {j, distance};
   }
   return best;
+}
+
+/// The sample at which an orbit is cut open: with the drive engaged, since it has forgotten its gap
+/// then, unless that lies so near to a switch that a neighbour may have none; −1: there is none.
+template <int States>
+std::int64_t section_of(const EventOrbitOf<States>& orbit) {
+  constexpr double near = 0.1;
+  const FarSample engaged = sample_far_from_switches(orbit, ContactMode::engaged);
+  const FarSample gap = sample_far_from_switches(orbit, ContactMode::gap);
+  return engaged.distance > near * gap.distance ? engaged.sample : gap.sample;
 }
 
 /// Whether two turns have the same modes and the same switches at the same times (s).
@@ -131,7 +145,7 @@ class EventOrbitSolver {
     motion_.go_to(near);
     EventOrbitMeasures<Contact> unused(motion_.motion());
     const Orbit way = next_period(samples, unused);
-    const std::int64_t section = section_of(way);
+    const std::int64_t section = detail::section_of(way);
     if (section < 0) return {};
     const Extent extent(readings_, way.states);
     const bool gap_opens = !way.switches.empty();
@@ -147,13 +161,6 @@ class EventOrbitSolver {
   }
 
  private:
-  /// Where a fixed point is sought: with the drive engaged if it ever is, since it has forgotten
-  /// its gap then.
-  static std::int64_t section_of(const Orbit& way) {
-    const std::int64_t engaged = sample_far_from_switches(way, ContactMode::engaged);
-    return engaged >= 0 ? engaged : sample_far_from_switches(way, ContactMode::gap);
-  }
-
   Point moved(const Point& from, std::int64_t samples) {
     motion_.go_to(from);
     for (std::int64_t j = 0; j < samples; ++j) {
