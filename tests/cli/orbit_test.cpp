@@ -229,7 +229,7 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
 }
 
 TEST(OrbitJob, RefusesWhatItCannotProve) {
-  expect_reason("orbit --prove --switching exact", 2, "--prove");
+  expect_reason("orbit --prove --switching exact --set backlash.law=dead_zone", 2, "--prove");
   expect_reason("orbit --prove --set plant.model=string", 2, "--prove");
   expect_reason("orbit --prove --certificate", 2, "--certificate");
   expect_reason("orbit --prove --map backlash.width=0:1 --map plant.absorber_mass=0.1:0.2", 2,
@@ -238,6 +238,11 @@ TEST(OrbitJob, RefusesWhatItCannotProve) {
   expect_reason("orbit --prove --follow backlash.width=0:0.002 --set backlash.width=0", 2,
                 "no backlash");
   expect_reason("orbit --prove --max-period 50", 1, "coincide only every 100 samples");
+  // Stick barely begins at a reversal.
+  expect_reason(
+      "orbit --quiet --prove --switching exact --set control.sampling_period=0.01 "
+      "--set backlash.width=0.001 --set control.differential_gain=-4.66272076386",
+      1, "free_acceleration");
 }
 
 TEST(BasinsJob, TellsTheTwoMotionsApartThatStartTenMicrometresApart) {
