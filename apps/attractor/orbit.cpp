@@ -40,6 +40,7 @@ struct OrbitQuestion {
     job.add("--switching", switching);
   }
   void run(const JobContext& context) const;
+  void prove_switching_exactly(const JobContext& context) const;
 };
 
 /// Margins of switching between the samples say nothing of a law that decides at the samples alone:
@@ -243,6 +244,32 @@ void write_proof(const JobContext& context, std::int64_t largest_period) {
   table.commit();
 }
 
+/// The same of a drive that switches between the samples.
+void write_event_proof(const JobContext& context, const IdealLoop<double>& loop,
+                       std::int64_t largest_period) {
+  Table table(context, columns_of("certificate"));
+  const auto found = certified_event_orbit(
+      context, implemented_loop_of(context.case_data, Switching::exact), largest_period);
+  const EventOrbitProof proof = proved_orbit_of(loop, found);
+  const ContactTest& nearest = proof.nearest;
+  const bool there = nearest.sample >= 0;
+  table.row("period_samples", static_cast<double>(found.orbit->period_samples()), "");
+  table.row("period", found.orbit->period(), "s");
+  table.row("multiplier_bound", proof.multiplier_bound, "");
+  table.row("displacement_error", proof.displacement_error, "m");
+  table.row("velocity_error", proof.velocity_error, "m/s");
+  table.row("instant_error", proof.instant_error, "s");
+  table.row("attraction_radius", proof.radius, "m");
+  table.row("nearest_decision", nearest.distance, unit_of(nearest));
+  table.row(
+      "nearest_decision_at",
+      there ? static_cast<double>(nearest.sample) * found.orbit->sampling_period + nearest.instant
+            : std::nan(""),
+      "s");
+  table.row("nearest_decided_by", there ? nearest.decided_by() : HUGE_VAL, "errors");
+  table.commit();
+}
+
 /// Where along one key the orbit is proved, a range a row.
 /// @param axis  KEY=MIN:MAX
 void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
@@ -260,14 +287,24 @@ void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
   table.commit();
 }
 
+void OrbitQuestion::prove_switching_exactly(const JobContext& context) const {
+  const auto loop = exactly_switched_loop_of(context.case_data);
+  if (!loop)
+    throw WrongInput(
+        "--prove --switching exact goes with a moving gap or none (kollar, immediate, play), one "
+        "harmonic, an ideal computer and a force that comes within the sample only");
+  write_event_proof(context, *loop, largest_period);
+}
+
 void OrbitQuestion::run(const JobContext& context) const {
   refuse_on_modes(context.case_data, !map.empty(), "--map");
   if (!map.empty()) return write_motion_borders(context, map, largest_period, switching);
   const std::string option = prove ? "--prove" : "--follow";
   refuse_on_modes(context.case_data, prove || follow, option);
+  if (prove && !follow && switching == Switching::exact) return prove_switching_exactly(context);
   if ((prove || follow) && !is_of_the_paper(context.case_data, switching))
     throw WrongInput(
-        option +
+        (prove && follow ? "--prove --follow" : option) +
         " goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
         "computer only");
   if (prove) {

@@ -66,6 +66,30 @@ TEST(OrbitJob, ProvesWhatItCertifies) {
   EXPECT_GT(quantity(proof, "nearest_decided_by"), 1.0);
 }
 
+TEST(OrbitJob, ProvesAnOrbitThatSwitchesExactly) {
+  const std::string exact = " --switching exact";
+  const CsvTable proof = table_of("orbit --prove" + exact);
+  const CsvTable certificate = table_of("orbit --certificate" + exact);
+  EXPECT_EQ(quantity(proof, "period_samples"), quantity(certificate, "period_samples"));
+  EXPECT_GE(quantity(proof, "multiplier_bound"), quantity(certificate, "multiplier_1_modulus"));
+  EXPECT_LT(quantity(proof, "multiplier_bound"), 1.0);
+  EXPECT_LT(quantity(proof, "displacement_error"), 1e-11);
+  EXPECT_GT(quantity(proof, "attraction_radius"), quantity(proof, "displacement_error"));
+  EXPECT_LT(quantity(proof, "attraction_radius"), 1e-4);
+  EXPECT_GT(quantity(proof, "nearest_decided_by"), 1.0);
+  // A belt that plays is the same law between the samples.
+  const CsvTable play = table_of("orbit --prove --set backlash.law=play" + exact);
+  EXPECT_EQ(quantity(play, "attraction_radius"), quantity(proof, "attraction_radius"));
+}
+
+TEST(OrbitJob, ProvesExactSwitchingOfAMovingGapAlone) {
+  for (const std::string other :
+       {"--set backlash.law=dead_zone", "--set control.jitter=1e-5",
+        "--set control.displacement_quantum=1e-6", "--follow backlash.width=0.0001:0.001"}) {
+    expect_refused("orbit --prove --switching exact " + other, {"--prove"});
+  }
+}
+
 /// The range of the proof ends where following the orbit finds its end, along the width as along a
 /// gain.
 TEST(OrbitJob, ProvesTheRangeOfAnOrbit) {
@@ -205,7 +229,7 @@ TEST(OrbitJob, RefusesWhatItCannotFollow) {
 }
 
 TEST(OrbitJob, RefusesWhatItCannotProve) {
-  expect_reason("orbit --prove --switching exact", 2, "--prove");
+  expect_reason("orbit --prove --switching exact --set backlash.law=dead_zone", 2, "--prove");
   expect_reason("orbit --prove --set plant.model=string", 2, "--prove");
   expect_reason("orbit --prove --certificate", 2, "--certificate");
   expect_reason("orbit --prove --map backlash.width=0:1 --map plant.absorber_mass=0.1:0.2", 2,
@@ -214,6 +238,11 @@ TEST(OrbitJob, RefusesWhatItCannotProve) {
   expect_reason("orbit --prove --follow backlash.width=0:0.002 --set backlash.width=0", 2,
                 "no backlash");
   expect_reason("orbit --prove --max-period 50", 1, "coincide only every 100 samples");
+  // Stick barely begins at a reversal.
+  expect_reason(
+      "orbit --quiet --prove --switching exact --set control.sampling_period=0.01 "
+      "--set backlash.width=0.001 --set control.differential_gain=-4.66272076386",
+      1, "free_acceleration");
 }
 
 TEST(BasinsJob, TellsTheTwoMotionsApartThatStartTenMicrometresApart) {

@@ -86,6 +86,17 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
       switching};
 }
 
+std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case) {
+  if (is_modal(the_case) || the_case.own != nullptr || has_hardware(the_case)) return std::nullopt;
+  if (the_case.control.processing_delay > the_case.control.sampling_period) return std::nullopt;
+  ImplementedLoop loop = implemented_loop_of(the_case, Switching::sampled);
+  const ContactLaw law = loop.backlash.law;
+  // Between the samples they are one law.
+  if (law == ContactLaw::immediate || law == ContactLaw::play)
+    loop.backlash.law = ContactLaw::kollar;
+  return ideal_loop(loop);
+}
+
 double spectral_radius_of(const Case& the_case) {
   const PdGains<double> gains = gains_of(the_case);
   if (!is_modal(the_case)) return spectral_radius(loop_of(the_case).engaged_map(gains));

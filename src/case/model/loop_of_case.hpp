@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "case/case.hpp"
@@ -34,6 +35,10 @@ bool has_ideal_computer(const Case& the_case);
 /// samples, the paper's backlash or none, one harmonic, an ideal computer and drive whose force
 /// comes within the sample.
 bool is_of_the_paper(const Case& the_case, Switching switching);
+
+/// The loop of a drive that switches when it happens, where that is all there is to the case beside
+/// the paper's model: exact play or none, one harmonic, an ideal computer. Nothing of any other.
+std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case);
 
 /// The motion of the paper's model from the case's initial state.
 SampledMotion<double> motion_of(const Case& the_case);

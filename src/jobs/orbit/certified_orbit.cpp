@@ -54,11 +54,15 @@ std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t lar
 }
 
 template <class Result>
-auto certified(Result found, const Ratio& ratio, const OrbitLimits& limits, bool quiet) {
+Result certified_result(Result found, const Ratio& ratio, const OrbitLimits& limits, bool quiet) {
   if (found.outcome != OrbitOutcome::certified)
     throw NoAnswer(reason_for(found, ratio, limits.largest_period));
   report_warning(near_border_warning(found.orbit->border_share()), quiet);
-  return std::move(*found.orbit);
+  return found;
+}
+template <class Result>
+auto certified(Result found, const Ratio& ratio, const OrbitLimits& limits, bool quiet) {
+  return std::move(*certified_result(std::move(found), ratio, limits, quiet).orbit);
 }
 
 /// The ten largest of the multipliers of a plant of any order.
@@ -92,12 +96,13 @@ EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& re
 
 /// What an event-driven motion comes to.
 template <class Motion>
-auto certified_of(const JobContext& context, const Motion& motion, std::int64_t largest_period) {
+auto certified_result_of(const JobContext& context, const Motion& motion,
+                         std::int64_t largest_period) {
   const DigitalLoop& digital = motion.loop();
   const Ratio ratio{forcing_ratio(digital),
                     digital.force.harmonics.front().frequency * digital.sampling.period};
   const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  return certified(find_event_orbit(motion, limits), ratio, limits, context.quiet);
+  return certified_result(find_event_orbit(motion, limits), ratio, limits, context.quiet);
 }
 
 }  // namespace
@@ -112,8 +117,14 @@ PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>
 
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period) {
-  return certified_of(context, event_motion(loop, initial_state_of(context.case_data)),
-                      largest_period);
+  return std::move(*certified_event_orbit(context, loop, largest_period).orbit);
+}
+
+EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
+                                                       const ImplementedLoop& loop,
+                                                       std::int64_t largest_period) {
+  return certified_result_of(context, event_motion(loop, initial_state_of(context.case_data)),
+                             largest_period);
 }
 
 PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
@@ -131,7 +142,7 @@ EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switchi
                                     std::int64_t largest_period) {
   const auto motion = event_motion(smooth_conductor_loop_of(context.case_data, switching),
                                    modal_state_of(context.case_data));
-  return as_seen(certified_of(context, motion, largest_period), motion.readings());
+  return as_seen(*certified_result_of(context, motion, largest_period).orbit, motion.readings());
 }
 
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit) {

@@ -5,6 +5,7 @@
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "process/job_context.hpp"
 
@@ -18,6 +19,11 @@ PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>
                               std::int64_t largest_period);
 EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
                            std::int64_t largest_period);
+
+/// The same with where it begins, in the model that switches between the samples.
+EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
+                                                       const ImplementedLoop& loop,
+                                                       std::int64_t largest_period);
 
 /// That of a conductor by its modes in the paper's model, with the ten largest of its multipliers.
 PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,

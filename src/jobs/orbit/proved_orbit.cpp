@@ -25,6 +25,35 @@ OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit) {
                           {"states", format_number(proof.displacement_error)}}));
 }
 
+std::string unit_of(const ContactTest& test) {
+  if (test.surface == ContactSurface::sampling_instant) return "s";
+  const bool of_acceleration = test.surface == ContactSurface::free_acceleration ||
+                               test.surface == ContactSurface::driven_acceleration;
+  const int seconds = test.order + (of_acceleration                            ? 2
+                                    : test.surface == ContactSurface::reversal ? 1
+                                                                               : 0);
+  if (seconds == 0) return "m";
+  return seconds == 1 ? "m/s" : "m/s" + std::to_string(seconds);
+}
+
+EventOrbitProof proved_orbit_of(const IdealLoop<double>& loop,
+                                const EventOrbitResult<DriveContact<>>& found) {
+  const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
+  if (proof.outcome == OrbitProofOutcome::proved) return proof;
+  const ContactTest& nearest = proof.nearest;
+  const bool is_near = proof.outcome == OrbitProofOutcome::near_surface;
+  const std::string reason = is_near ? "near_event" : name_in(orbit_proof_names, proof.outcome);
+  throw NoAnswer(text_of(job_texts()["not proved"][reason],
+                         {{"surface", name_in(contact_surface_names, nearest.surface)},
+                          {"sample", std::to_string(nearest.sample)},
+                          {"instant", format_number(nearest.instant)},
+                          {"distance", format_number(nearest.distance)},
+                          {"error", format_number(nearest.error)},
+                          {"unit", unit_of(nearest)},
+                          {"multiplier", format_number(found.orbit->largest_multiplier())},
+                          {"states", format_number(proof.displacement_error)}}));
+}
+
 std::vector<ProvedOrbitRange> proved_orbit_along(const Case& the_case, const PeriodicOrbit& orbit,
                                                  const std::string& key, const Range& range) {
   if (key.rfind("plant.", 0) == 0 || key == "control.processing_delay")

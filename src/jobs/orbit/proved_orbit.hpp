@@ -5,7 +5,9 @@
 
 #include "case/axes/axis.hpp"
 #include "case/case.hpp"
+#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
+#include "holdfast/orbit/proof/event_orbit_proof.hpp"
 #include "holdfast/orbit/proof/orbit_proof.hpp"
 #include "holdfast/orbit/proof/orbit_range.hpp"
 #include "io/text/names.hpp"
@@ -23,6 +25,13 @@ inline constexpr Named<OrbitProofOutcome> orbit_proof_names[] = {
 
 /// The proof of a case's orbit. Throws NoAnswer, saying what could not be decided and by how much.
 OrbitProof proved_orbit_of(const Case& the_case, const PeriodicOrbit& orbit);
+
+/// The same of a drive that switches between the samples.
+EventOrbitProof proved_orbit_of(const IdealLoop<double>& loop,
+                                const EventOrbitResult<DriveContact<>>& found);
+
+/// The unit of what a test is about: of Δz, Δż or an acceleration, or of a derivative by time.
+std::string unit_of(const ContactTest& test);
 
 /// The ranges of a key of the case in which the orbit is proved, and what is between. Throws
 /// Interrupted, and WrongInput for a key in which the loop is not linear.

@@ -13,6 +13,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
 #include "holdfast/math/enclosure/positive_definite.hpp"
+#include "holdfast/orbit/proof/contracting_forms.hpp"
 
 namespace holdfast {
 
@@ -63,11 +64,6 @@ class ContractingNorms {
       sum += corners[k].at(which).template cast<double>();
     return sum / static_cast<double>(corners.size());
   }
-  static Form symmetric(const Form& form) { return 0.5 * (form + form.transpose()); }
-
-  /// P_j of all samples from that after the last one, back to the first.
-  void go_back(const std::array<Form, 2>& maps, const std::vector<std::uint8_t>& sequence,
-               Form last, double rate);
   bool prove(const std::vector<Maps>& corners, const std::vector<std::uint8_t>& sequence,
              double rate);
 
@@ -75,18 +71,6 @@ class ContractingNorms {
   std::vector<double> factors_;
   double contraction_ = 1.0;
 };
-
-template <int Size>
-void ContractingNorms<Size>::go_back(const std::array<Form, 2>& maps,
-                                     const std::vector<std::uint8_t>& sequence, Form last,
-                                     double rate) {
-  const Form identity = Form::Identity(last.rows(), last.cols());
-  for (std::size_t j = sequence.size(); j-- > 0;) {
-    const Form& map = maps.at(sequence[j]);
-    last = symmetric(map.transpose() * last * map) / (rate * rate) + identity;
-    forms_[j] = last;
-  }
-}
 
 template <int Size>
 double ContractingNorms<Size>::reading(std::size_t sample,
@@ -138,25 +122,16 @@ std::optional<ContractingNorms<Size>> ContractingNorms<Size>::of(
     const std::vector<Maps>& corners, const std::vector<std::uint8_t>& sequence,
     double log_modulus) {
   if (!(log_modulus < 0.0)) return std::nullopt;
-  // Half of what is lost, so that the forms stay small.
-  const double log_rate =
-      std::max(0.5 * log_modulus / static_cast<double>(sequence.size()), std::log(0.5));
-  const double rate = std::exp(log_rate);
+  const double rate = detail::contracting_rate(log_modulus, sequence.size());
   const std::array<Form, 2> middles{middle(corners, 0), middle(corners, 1)};
-  Form period = Form::Identity(middles[0].rows(), middles[0].cols());
-  for (const std::uint8_t which : sequence) period = middles.at(which) * period / rate;
+  const Form identity = Form::Identity(middles[0].rows(), middles[0].cols());
+  auto forms = detail::contracting_forms<Size>(
+      sequence.size(), [&](std::size_t j) -> const Form& { return middles.at(sequence[j]); },
+      [&](std::size_t) -> const Form& { return identity; }, rate);
+  if (!forms) return std::nullopt;
   ContractingNorms norms;
-  norms.forms_.resize(sequence.size());
+  norms.forms_ = std::move(*forms);
   norms.factors_.resize(sequence.size());
-  norms.go_back(middles, sequence, Form::Zero(period.rows(), period.cols()), rate);
-  // Σ_k (Fᵀ)ᵏ Q Fᵏ by doubling: the forms of all periods to come.
-  Form sum = norms.forms_.front();
-  for (int turn = 0; turn < 60 && period.norm() > 1e-12; ++turn) {
-    sum = symmetric(sum + period.transpose() * sum * period);
-    period = (period * period).eval();
-  }
-  if (!sum.allFinite()) return std::nullopt;
-  norms.go_back(middles, sequence, sum, rate);
   if (!norms.prove(corners, sequence, rate)) return std::nullopt;
   return norms;
 }

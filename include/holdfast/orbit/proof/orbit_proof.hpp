@@ -61,20 +61,25 @@ struct OrbitProof {
 
 namespace detail {
 
+/// Refuses a loop of which f τ is not quite the fraction p/q.
+inline void validate_ratio(const IdealLoop<double>& loop, const Rational& ratio) {
+  if (!(loop.excitation.amplitude > 0.0)) return;
+  const Enclosure cycles = Enclosure::of_decimal(loop.excitation.frequency) *
+                           Enclosure::of_decimal(loop.sampling.period);
+  if (!(cycles * Enclosure(static_cast<double>(ratio.denominator)))
+           .contains(static_cast<double>(ratio.numerator)))
+    throw InvalidParameter("f tau", cycles.middle(), "",
+                           "exactly p/q in the decimals of f and tau, for a proof");
+}
+
 /// Refuses an orbit that cannot be of a loop, and a loop of which f τ is not quite the fraction.
 inline void validate_proposal(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
-  const auto [p, q] = orbit.ratio;
-  const auto samples = orbit.period_samples();
+  const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
   const bool is_whole = samples > 0 && q > 0 && samples % q == 0;
   if (!is_whole || orbit.itinerary.size() != orbit.states.size() || orbit.multipliers.empty())
     throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
                            "a multiple of q, with a contact each, and multipliers");
-  if (!(loop.excitation.amplitude > 0.0)) return;
-  const Enclosure cycles = Enclosure::of_decimal(loop.excitation.frequency) *
-                           Enclosure::of_decimal(loop.sampling.period);
-  if (!(cycles * Enclosure(static_cast<double>(q))).contains(static_cast<double>(p)))
-    throw InvalidParameter("f tau", cycles.middle(), "",
-                           "exactly p/q in the decimals of f and tau, for a proof");
+  validate_ratio(loop, orbit.ratio);
 }
 
 /// The proof of one orbit, step by step. States are counted in plant_scaling() units.

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "holdfast/core/types.hpp"
+
+namespace holdfast::detail {
+
+/// The rate, a factor for each map, at which forms along a sequence are made to shrink: half of
+/// what is lost, on a logarithmic scale, so that the forms stay small; at least 1/2.
+/// @param log_modulus  ln of the largest multiplier, < 0
+/// @param count        maps in a period
+inline double contracting_rate(double log_modulus, std::size_t count) {
+  return std::exp(std::max(0.5 * log_modulus / static_cast<double>(count), std::log(0.5)));
+}
+
+/// Quadratic forms along a periodic sequence of linear maps, in doubles,
+///
+///     P_j = M_jᵀ P_{j+1} M_j / ρ² + Q_j,   j = 0 … N − 1,   P_N = P_0
+///
+/// Σ_k (Fᵀ)ᵏ Q Fᵏ over all later periods is summed by doubling.
+/// Work: three products of Size × Size a map, twice.
+/// @param count    N ≥ 1
+/// @param map_of   j ↦ M_j, Size × Size of doubles
+/// @param rest_of  j ↦ Q_j, positive definite
+/// @param rate     ρ
+/// @return nothing where the sum is not finite: a multiplier is not below ρ^N
+template <int Size, class MapOf, class RestOf>
+std::optional<std::vector<Matrix<double, Size>>> contracting_forms(std::size_t count,
+                                                                   const MapOf& map_of,
+                                                                   const RestOf& rest_of,
+                                                                   double rate) {
+  using Form = Matrix<double, Size>;
+  const auto symmetric = [](const Form& form) -> Form { return 0.5 * (form + form.transpose()); };
+  Form period = map_of(0) / rate;
+  for (std::size_t j = 1; j < count; ++j) period = map_of(j) * period / rate;
+  std::vector<Form> forms(count);
+  const auto go_back = [&](Form last) {
+    for (std::size_t j = count; j-- > 0;) {
+      const Form& map = map_of(j);
+      last = symmetric(map.transpose() * last * map) / (rate * rate) + rest_of(j);
+      forms[j] = last;
+    }
+  };
+  go_back(Form::Zero(period.rows(), period.cols()));
+  Form sum = forms.front();
+  for (int turn = 0; turn < 60 && period.norm() > 1e-12; ++turn) {
+    sum = symmetric(sum + period.transpose() * sum * period);
+    period = (period * period).eval();
+  }
+  if (!sum.allFinite()) return std::nullopt;
+  go_back(sum);
+  return forms;
+}
+
+}  // namespace holdfast::detail

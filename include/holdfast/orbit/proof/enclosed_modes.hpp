@@ -1,0 +1,329 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/rational.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/excitation/forcing.hpp"
+#include "holdfast/math/enclosure/enclosed_angle.hpp"
+#include "holdfast/math/enclosure/enclosed_exponential.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+
+namespace holdfast {
+
+/// What a change of contact between the samples, or its not happening, is decided by.
+enum class ContactSurface {
+  reversal,             ///< Δż = 0 of an engaged drive (m/s)
+  gap_lower,            ///< Δz at the lower end of the gap (m)
+  gap_upper,            ///< Δz at the upper end of the gap (m)
+  free_acceleration,    ///< a(0) = 0, without a force: stick ends in the gap (m/s²)
+  driven_acceleration,  ///< a(u) = 0, under the command: stick ends engaged (m/s²)
+  sampling_instant,     ///< the command changes (s)
+};
+
+namespace detail {
+
+/// Where what stands in w, the state of a motion with all that moves it,
+///
+///     w = [z₁, ż₁, z₂, ż₂, u in force, u to come, g, F, F_s, 1, t],   ẇ = A w in each mode
+///
+/// g is the Δz at which the drive last reversed, t the time since the sample; F + i F_s turns with
+/// the excitation, or stands while it is held.
+struct FlowPlace {
+  static constexpr Eigen::Index command = 4, pending = 5, gap = 6, force = 7, quadrature = 8,
+                                one = 9, time = 10;
+  static constexpr int size = 11;
+};
+
+/// A functional of w and what belongs to its Taylor series.
+/// @tparam Number  Enclosure
+template <class Number>
+using FlowRow = RowVector<Number, FlowPlace::size>;
+
+/// A guard of a mode: positive while the contact stays as it is.
+template <class Number>
+struct EnclosedGuard {
+  ContactSurface surface;              ///< at which it is zero
+  std::vector<FlowRow<Number>> terms;  ///< h Aᵏ/k!, k = 0 … EnclosedModes::terms; in SI units
+};
+
+/// The three modes of a drive with exact play (contact/contact.hpp) as linear systems ẇ = A w in
+/// enclosures, with their guards. z, u are counted in plant_scaling() units.
+/// @tparam Number  Enclosure; a template so that only who asks compiles it
+template <class Number>
+class EnclosedModes {
+ public:
+  using Rate = Matrix<Number, FlowPlace::size>;       ///< A
+  using State = Vector<Number, FlowPlace::size>;      ///< w
+  using Row = FlowRow<Number>;                        ///< a functional of w
+  using Guards = std::vector<EnclosedGuard<Number>>;  ///< of a mode
+
+  /// Most terms of the Taylor series of e^{As}, ‖A‖ s ≤ 3: what is left is below
+  /// e³ 3³⁴/34! = 10⁻²¹.
+  static constexpr int terms = 34;
+  /// At least e³.
+  static constexpr double most_growth = 20.1;
+
+  /// @param ratio  f τ = p/q
+  EnclosedModes(const IdealLoop<Number>& loop, const Rational& ratio);
+
+  /// A of a mode.
+  const Rate& rate(ContactMode mode) const { return rates_[at(mode)].matrix; }
+  /// A w of each column.
+  template <int Columns>
+  Matrix<Number, FlowPlace::size, Columns> moved(
+      ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states) const {
+    return product<Columns>(rates_[at(mode)], states);
+  }
+  /// e^{As} w of each column, for all s inside.
+  /// @param length  |s| ≤ longest()
+  template <int Columns>
+  Matrix<Number, FlowPlace::size, Columns> flowed(
+      ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
+      const Number& length) const;
+
+  /// How many terms a series over a length (s) needs, so that the rest is below rounding.
+  int terms_for(double length) const {
+    int count = 1;
+    for (double rest = most_growth; rest > 1e-22 && count < terms; ++count)
+      rest *= norm_ * length / count;
+    return count;
+  }
+  /// 3/‖A‖, the longest length (s) of one Taylor series.
+  double longest() const { return longest_; }
+  /// δ and τ − δ (s), the two parts of the period.
+  const Number& part(std::size_t number) const { return parts_[number]; }
+  /// How many equal pieces a part is passed in, where nothing happens; 0: the part has no length.
+  int pieces(std::size_t part) const { return pieces_[part]; }
+  /// e^{As} w of each column, over one of these pieces.
+  template <int Columns>
+  Matrix<Number, FlowPlace::size, Columns> over_piece(
+      ContactMode mode, std::size_t part,
+      const Matrix<Number, FlowPlace::size, Columns>& states) const {
+    return product<Columns>(steps_[part][at(mode)], states);
+  }
+  /// Its length (s).
+  Number piece(std::size_t part) const { return parts_[part] / Number(double(pieces_[part])); }
+
+  /// Guards of a mode after a sign σ of Δż: of the gap its upper end, then its lower end; of stick
+  /// σ a(0), then −σ a(u).
+  const Guards& guards(ContactMode mode, double sign) const {
+    return guards_[at(mode)][sign > 0.0 ? 1 : 0];
+  }
+  /// Δz (m).
+  Row displacement() const { return units_[2] * unit(2) - units_[0] * unit(0); }
+  /// Δż (m/s).
+  Row velocity() const { return units_[3] * unit(3) - units_[1] * unit(1); }
+  /// a(0) (m/s²).
+  Row free_acceleration() const { return velocity() * rate(ContactMode::gap); }
+  /// (m₁ ż₁ + m₂ ż₂)/(m₁ + m₂), in the unit of ż.
+  const Row& common_velocity() const { return common_velocity_; }
+  /// P z₁ + D ż₁, in the unit of u.
+  const Row& command() const { return command_; }
+  /// F and F_s (N) at a sample; with the hold they stand.
+  const std::pair<Number, Number>& force(std::size_t sample) const {
+    return forces_[sample % forces_.size()];
+  }
+  /// Of [z₁, ż₁, z₂, ż₂, u].
+  const Vector<double, 5>& units() const { return in_doubles_; }
+
+  /// The coordinate itself.
+  static Row unit(Eigen::Index coordinate) {
+    Row row = Row::Zero();
+    row[coordinate] = Number(1.0);
+    return row;
+  }
+
+ private:
+  /// A matrix with the places of its entries that are not zero.
+  struct Sparse {
+    Rate matrix = Rate::Zero();
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> entries = {};
+
+    explicit Sparse(const Rate& dense = Rate::Zero()) : matrix(dense) {
+      for (Eigen::Index i = 0; i < dense.rows(); ++i)
+        for (Eigen::Index j = 0; j < dense.cols(); ++j)
+          if (dense(i, j).magnitude() > 0.0) entries.emplace_back(i, j);
+    }
+  };
+  template <int Columns>
+  static Matrix<Number, FlowPlace::size, Columns> product(
+      const Sparse& sparse, const Matrix<Number, FlowPlace::size, Columns>& states) {
+    Matrix<Number, FlowPlace::size, Columns> result =
+        Matrix<Number, FlowPlace::size, Columns>::Zero();
+    for (const auto& [i, j] : sparse.entries) result.row(i) += sparse.matrix(i, j) * states.row(j);
+    return result;
+  }
+
+  static std::size_t at(ContactMode mode) { return static_cast<std::size_t>(mode); }
+
+  template <int Columns>
+  Matrix<Number, FlowPlace::size, Columns> by_series(
+      ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
+      const Number& length) const;
+  Rate rate_of(const IdealLoop<Number>& loop, ContactMode mode) const;
+  EnclosedGuard<Number> guard(ContactMode mode, ContactSurface surface, const Row& row) const;
+  void make_guards(const Number& width);
+  void make_steps();
+
+  Vector<double, 5> in_doubles_;
+  Vector<Number, 5> units_;
+  std::array<Sparse, 3> rates_;
+  Row command_ = Row::Zero(), common_velocity_ = Row::Zero();
+  std::vector<std::pair<Number, Number>> forces_;
+  double norm_ = 0.0, longest_ = 0.0;  // of all modes
+  std::array<Number, 2> parts_;
+  std::array<int, 2> pieces_{};
+  std::array<std::array<Sparse, 3>, 2> steps_;
+  std::array<std::array<Guards, 2>, 3> guards_;
+};
+
+template <class Number>
+EnclosedModes<Number>::EnclosedModes(const IdealLoop<Number>& loop, const Rational& ratio)
+    : in_doubles_(
+          plant_scaling(Matrix<double, 4>(loop.plant.state_matrix().template cast<double>()),
+                        Vector<double, 4>(loop.plant.excitation_input().template cast<double>()))),
+      units_(in_doubles_.template cast<Number>()),
+      parts_{loop.sampling.processing_delay,
+             loop.sampling.period - loop.sampling.processing_delay} {
+  for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
+    rates_[at(mode)] = Sparse(rate_of(loop, mode));
+    norm_ = std::max(norm_, norm_bound(rate(mode)));
+  }
+  longest_ = (Number(3.0) / Number(norm_)).lower();
+  const Number mass = loop.plant.conductor_mass + loop.plant.absorber_mass;
+  common_velocity_[1] = loop.plant.conductor_mass / mass;
+  common_velocity_[3] = loop.plant.absorber_mass / mass;
+  command_[0] = loop.gains.proportional * units_[0] / units_[4];
+  command_[1] = loop.gains.differential * units_[1] / units_[4];
+  for (std::int64_t j = 0; j < ratio.denominator; ++j) {
+    const auto turn = static_cast<double>(j * ratio.numerator % ratio.denominator);
+    const Number angle =
+        Number(2.0) * pi<Number> * Number(turn) / Number(static_cast<double>(ratio.denominator));
+    forces_.push_back(
+        {loop.excitation.amplitude * cos(angle), loop.excitation.amplitude * sin(angle)});
+  }
+  make_guards(loop.backlash_width);
+  make_steps();
+}
+
+template <class Number>
+typename EnclosedModes<Number>::Rate EnclosedModes<Number>::rate_of(const IdealLoop<Number>& loop,
+                                                                    ContactMode mode) const {
+  Rate a = Rate::Zero();
+  const TwoMass<Number>& plant = loop.plant;
+  if (mode == ContactMode::stick) {
+    const Number mass = plant.conductor_mass + plant.absorber_mass;
+    a(0, 1) = a(2, 3) = Number(1.0);
+    for (const Eigen::Index row : {1, 3}) {
+      // Δż = 0: both move as the conductor does.
+      a(row, 0) = -plant.conductor_stiffness / mass;
+      a(row, 1) = -plant.conductor_damping / mass;
+      a(row, FlowPlace::force) = Number(1.0) / mass;
+    }
+  } else {
+    a.template topLeftCorner<4, 4>() = plant.state_matrix();
+    a.col(FlowPlace::force).template head<4>() = plant.excitation_input();
+    if (mode == ContactMode::engaged)
+      a.col(FlowPlace::command).template head<4>() = plant.control_input();
+  }
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    a.row(i) /= units_[i];
+    a.template topRows<4>().col(i) *= units_[i];
+  }
+  a.col(FlowPlace::command).template head<4>() *= units_[4];
+  a(FlowPlace::time, FlowPlace::one) = Number(1.0);
+  if (loop.hold == ForceHold::exact) {
+    const Number turns = loop.excitation.angular_frequency();
+    a(FlowPlace::force, FlowPlace::quadrature) = -turns;
+    a(FlowPlace::quadrature, FlowPlace::force) = turns;
+  }
+  return a;
+}
+
+template <class Number>
+EnclosedGuard<Number> EnclosedModes<Number>::guard(ContactMode mode, ContactSurface surface,
+                                                   const Row& row) const {
+  EnclosedGuard<Number> result{surface, {row}};
+  for (int k = 1; k <= terms; ++k)
+    result.terms.push_back((result.terms.back() * rate(mode)).eval() / Number(double(k)));
+  return result;
+}
+
+template <class Number>
+void EnclosedModes<Number>::make_guards(const Number& width) {
+  if (!(width.upper() > 0.0)) return;  // a drive without backlash stays engaged
+  const Row travelled = displacement() - unit(FlowPlace::gap), wide = width * unit(FlowPlace::one);
+  const Row driven = velocity() * rate(ContactMode::engaged);
+  for (const bool positive : {false, true}) {
+    const Number sign(positive ? 1.0 : -1.0);
+    const auto add = [&, k = positive ? 1U : 0U](ContactMode mode, ContactSurface surface,
+                                                 const Row& row) {
+      guards_[at(mode)][k].push_back(guard(mode, surface, row));
+    };
+    add(ContactMode::engaged, ContactSurface::reversal, sign * velocity());
+    // The end at which the drive reversed is g itself.
+    const Row upper = -travelled, lower = travelled;
+    add(ContactMode::gap, ContactSurface::gap_upper, positive ? upper : Row(upper + wide));
+    add(ContactMode::gap, ContactSurface::gap_lower, positive ? Row(lower + wide) : lower);
+    add(ContactMode::stick, ContactSurface::free_acceleration, sign * free_acceleration());
+    add(ContactMode::stick, ContactSurface::driven_acceleration, -sign * driven);
+  }
+}
+
+template <class Number>
+void EnclosedModes<Number>::make_steps() {
+  for (std::size_t part = 0; part < 2; ++part) {
+    if (!(parts_[part].lower() > 0.0)) continue;  // δ = 0, or δ = τ
+    pieces_[part] = static_cast<int>(std::ceil(parts_[part].upper() / longest_));
+    for (std::size_t mode = 0; mode < 3; ++mode)
+      steps_[part][mode] = Sparse(exponential(Rate(rates_[mode].matrix * piece(part))));
+  }
+}
+
+template <class Number>
+template <int Columns>
+Matrix<Number, FlowPlace::size, Columns> EnclosedModes<Number>::flowed(
+    ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
+    const Number& length) const {
+  const double middle = length.middle();
+  return by_series<Columns>(mode, by_series<Columns>(mode, states, Number(middle)),
+                            length - Number(middle));
+}
+
+/// The series itself, which makes more of the width of a length.
+template <class Number>
+template <int Columns>
+Matrix<Number, FlowPlace::size, Columns> EnclosedModes<Number>::by_series(
+    ContactMode mode, const Matrix<Number, FlowPlace::size, Columns>& states,
+    const Number& length) const {
+  Matrix<Number, FlowPlace::size, Columns> term = states, sum = states;
+  const int count = terms_for(length.magnitude());
+  for (int k = 1; k < count; ++k) {
+    term = moved<Columns>(mode, term) * (length / Number(double(k)));
+    sum += term;
+  }
+  // ‖e^X − Σ_{k<m} Xᵏ/k!‖ ≤ ‖X‖ᵐ/m! e^{‖X‖}.
+  Number rest(most_growth);
+  for (int k = 1; k <= count; ++k) rest *= Number(norm_) * length / Number(double(k));
+  for (Eigen::Index column = 0; column < states.cols(); ++column) {
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < states.rows(); ++i)
+      size = std::max(size, states(i, column).magnitude());
+    const double bound = (Number(rest.magnitude()) * Number(size)).upper();
+    sum.col(column).array() += Number(-bound, bound);
+  }
+  return sum;
+}
+
+}  // namespace detail
+}  // namespace holdfast

@@ -1,0 +1,385 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "holdfast/contact/contact.hpp"
+#include "holdfast/core/errors.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/enclosure/enclosed_norm.hpp"
+#include "holdfast/math/enclosure/enclosure.hpp"
+#include "holdfast/motion/implemented_loop.hpp"
+#include "holdfast/orbit/event/event_orbit.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
+#include "holdfast/orbit/proof/contracting_forms.hpp"
+#include "holdfast/orbit/proof/enclosed_modes.hpp"
+#include "holdfast/orbit/proof/event_passage.hpp"
+#include "holdfast/orbit/proof/orbit_proof.hpp"
+#include "holdfast/orbit/proof/recorded_contacts.hpp"
+#include "holdfast/orbit/proof/segment_of_loops.hpp"
+#include "holdfast/orbit/region_of_attraction.hpp"
+#include "holdfast/orbit/state_scale.hpp"
+
+namespace holdfast {
+
+/// A theorem on a periodic motion of the sampled loop whose drive switches between the samples,
+/// where the outcome is `proved`: there is exactly one periodic motion of the given period that
+/// begins in the ball; it lies within the errors of the given states; all its multipliers are
+/// within the bound; and every motion that begins in the ball meets the same changes of contact in
+/// the same sampling periods for ever and tends to it.
+struct EventOrbitProof {
+  OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< how far it came
+  double multiplier_bound = std::numeric_limits<double>::infinity();  ///< ≥ |λ| of all, < 1
+  double displacement_error =
+      std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
+  double velocity_error = std::numeric_limits<double>::infinity();  ///< (m/s), at most
+  double instant_error = 0.0;  ///< of the instants at which the contact changes (s), at most
+  /// The inequality that is decided by the least, as a multiple of its error; of `near_surface` the
+  /// one that was not decided.
+  ContactTest nearest;
+  /// Radius of the ball about the first of the given states (m), measured as AttractionBall says
+  /// with the same weights; of states that the contact allows there: without a gap while engaged,
+  /// of one Δz and no Δż in stick, without u_{j−1} where δ = 0, and of an orbit that stays inside
+  /// its gap in the gap that it is in. ∞ without backlash.
+  double radius = 0.0;
+};
+
+namespace detail {
+
+/// The proof of one orbit that switches between the samples, step by step. States are counted in
+/// plant_scaling() units.
+///
+/// At every sample lies an ellipsoid {x̂_j + X_j y, |y| ≤ r_j} about the proposal. All motions in it
+/// are followed to the next sample (EventPassage); D_j, the derivative on the whole ellipsoid, and
+/// what the centre misses the next proposal by, μ_j, make
+///
+///     r_{j+1} = ‖X_{j+1}⁻¹ D_j X_j‖ r_j + |X_{j+1}⁻¹ μ_j|,
+///
+/// and where r_N ≤ r_0 and the product of the norms is below 1 the period maps the first ellipsoid
+/// into itself and contracts there.
+/// @tparam Number  Enclosure; a template so that only who asks compiles it
+template <class Number>
+class EventOrbitProver {
+ public:
+  EventOrbitProver(const EnclosedModes<Number>& modes, const RecordedContacts& path, double delay)
+      : modes_(modes), path_(path), delay_(delay), nodes_(path.samples.size()) {}
+
+  /// @param log_modulus   ln of the largest multiplier, as it is thought to be
+  /// @param largest_miss  of a sample by the image of the one before, as a share of the states'
+  /// extent
+  EventOrbitProof prove(double log_modulus, double largest_miss);
+
+  /// The same with the ball, as large as is proved.
+  /// @param weights  deviation_weights(), of which the last one is 1
+  EventOrbitProof prove_with_ball(double log_modulus, const Vector<double, 6>& weights,
+                                  double largest_miss);
+
+ private:
+  using Passage = EventPassage<Number>;
+  using Set = SetOfStates<Number>;
+  using Six = Vector<Number, 6>;
+  using Map = Matrix<Number, 6>;
+
+  /// The ellipsoid of a sample.
+  struct Node {
+    Matrix<double, 6> axes = Matrix<double, 6>::Identity();     // X
+    Matrix<double, 6> inverse = Matrix<double, 6>::Identity();  // next to X⁻¹
+    Number inverse_error;  // |X⁻¹ w| ≤ |inverse w| times this
+  };
+  /// How the first ellipsoid came back.
+  struct Turn {
+    bool is_decided;     // every contact is
+    double radius;       // r_N
+    double contraction;  // the product of the norms
+  };
+
+  std::size_t after(std::size_t sample) const {
+    return sample + 1 == nodes_.size() ? 0 : sample + 1;
+  }
+
+  bool fails(const Passage& passage);
+  bool linearise(double largest_miss, std::vector<Matrix<double, 6>>& maps);
+  bool make_axes(const std::vector<Matrix<double, 6>>& maps, double log_modulus);
+  Six missed(std::size_t sample, const Set& set) const;
+  double share_of_extent(const Six& miss) const;
+  template <class Look>
+  Turn turn(double radius, Passage& passage, const Look& look) const;
+  void note_errors(std::size_t sample, const Set& set, const Passage& passage);
+  bool attract(const Vector<double, 6>& weights);
+  double weighted(double radius, const Vector<double, 6>& weights) const;
+  double farthest_in_first(const Vector<double, 6>& weights) const;
+  /// That of a coordinate in its unit.
+  Number weight(Eigen::Index coordinate, const Vector<double, 6>& weights) const {
+    const double unit = coordinate < 5 ? modes_.units()[coordinate] : 1.0;
+    return Number(weights[coordinate]) * Number(unit);
+  }
+
+  const EnclosedModes<Number>& modes_;
+  const RecordedContacts& path_;
+  double delay_;
+  std::vector<Node> nodes_;
+  double first_radius_ = 0.0;  // r_0 of the small ellipsoid that holds the motion
+  EventOrbitProof proof_;
+};
+
+template <class Number>
+EventOrbitProof EventOrbitProver<Number>::prove(double log_modulus, double largest_miss) {
+  proof_.outcome = OrbitProofOutcome::other_contacts;
+  if (!path_.repeats || !path_.is_plain) return proof_;
+  std::vector<Matrix<double, 6>> maps;
+  if (!linearise(largest_miss, maps)) return proof_;
+  proof_.outcome = OrbitProofOutcome::not_contracting;
+  if (!make_axes(maps, log_modulus)) return proof_;
+  // What a point misses, carried around once, tells how small an ellipsoid may be.
+  const auto look_away = [](std::size_t, const Set&, const Passage&) {};
+  Passage points(modes_, path_, delay_);
+  const Turn once = turn(0.0, points, look_away);
+  if (!(once.contraction < 1.0)) return proof_;
+  first_radius_ =
+      (Number(1.1) * Number(once.radius) / (Number(1.0) - Number(once.contraction))).upper();
+  Passage passage(modes_, path_, delay_);
+  proof_.displacement_error = proof_.velocity_error = 0.0;
+  const Turn small = turn(
+      first_radius_, passage,
+      [&](std::size_t sample, const Set& set, const Passage& at) { note_errors(sample, set, at); });
+  if (!small.is_decided) {
+    fails(passage);
+    return proof_;
+  }
+  if (!(small.radius <= first_radius_ && small.contraction < 1.0)) return proof_;
+  proof_.nearest = passage.nearest();
+  proof_.instant_error = passage.instant_error();
+  proof_.multiplier_bound = small.contraction;
+  proof_.outcome = OrbitProofOutcome::proved;
+  return proof_;
+}
+
+template <class Number>
+EventOrbitProof EventOrbitProver<Number>::prove_with_ball(double log_modulus,
+                                                          const Vector<double, 6>& weights,
+                                                          double largest_miss) {
+  if (prove(log_modulus, largest_miss).outcome == OrbitProofOutcome::proved && !attract(weights))
+    proof_.outcome = OrbitProofOutcome::no_ball;
+  return proof_;
+}
+
+/// Notes why a passage was stopped. @return false
+template <class Number>
+bool EventOrbitProver<Number>::fails(const Passage& passage) {
+  proof_.outcome =
+      passage.is_undecided() ? OrbitProofOutcome::near_surface : OrbitProofOutcome::other_contacts;
+  proof_.nearest = passage.nearest();
+  return false;
+}
+
+/// The derivatives from sample to sample at the proposal, in doubles.
+template <class Number>
+bool EventOrbitProver<Number>::linearise(double largest_miss,
+                                         std::vector<Matrix<double, 6>>& maps) {
+  Passage passage(modes_, path_, delay_);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    Set set = passage.ball(k, nodes_[k].axes, 0.0);
+    if (!passage.pass(k, set)) return fails(passage);
+    maps.push_back(Passage::deviations(set).template cast<double>());
+    if (share_of_extent(missed(k, set)) <= largest_miss) continue;
+    proof_.outcome = OrbitProofOutcome::not_closed;
+    return false;
+  }
+  return true;
+}
+
+/// X Xᵀ = P⁻¹ of forms P in which the maps contract. Those of Q = I are as long as what decays
+/// slowly, and short along what is forgotten at once; from Q = P⁻¹ of these come rounder ones, of
+/// which a ball fills more.
+template <class Number>
+bool EventOrbitProver<Number>::make_axes(const std::vector<Matrix<double, 6>>& maps,
+                                         double log_modulus) {
+  if (!(log_modulus < 0.0)) return false;
+  using Form = Matrix<double, 6>;
+  const double rate = contracting_rate(log_modulus, maps.size());
+  const auto forms_of = [&](const std::vector<Form>& rests) {
+    return contracting_forms<6>(
+        maps.size(), [&](std::size_t k) -> const Form& { return maps[k]; },
+        [&](std::size_t k) -> const Form& { return rests[k]; }, rate);
+  };
+  std::vector<Form> rests(maps.size(), Form::Identity());
+  auto forms = forms_of(rests);
+  if (!forms) return false;
+  for (std::size_t k = 0; k < rests.size(); ++k)
+    rests[k] = (*forms)[k].llt().solve(Form::Identity());
+  forms = forms_of(rests);
+  if (!forms) return false;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    Node& node = nodes_[k];
+    const Eigen::LLT<Form> factor((*forms)[k]);
+    node.inverse = factor.matrixU();
+    node.axes = factor.matrixU().solve(Form::Identity());
+    const Map product = node.inverse.template cast<Number>() * node.axes.template cast<Number>();
+    const Map identity = Map::Identity();
+    const double wrong = spectral_norm_bound<6>(Map(identity - product));
+    if (!(wrong < 0.5)) return false;
+    node.inverse_error = Number((Number(1.0) / (Number(1.0) - Number(wrong))).upper());
+  }
+  return true;
+}
+
+/// What the centre misses the next sample's proposal by.
+template <class Number>
+typename EventOrbitProver<Number>::Six EventOrbitProver<Number>::missed(std::size_t sample,
+                                                                        const Set& set) const {
+  const Passage passage(modes_, path_, delay_);
+  const Vector<double, 6> proposed = passage.proposed(after(sample));
+  Six miss;
+  for (Eigen::Index i = 0; i < 6; ++i)
+    miss[i] = set.centre[Passage::place(i)] - Number(proposed[i]);
+  return miss;
+}
+
+/// Of displacements and velocities, as a share of those of the states.
+template <class Number>
+double EventOrbitProver<Number>::share_of_extent(const Six& miss) const {
+  StateScale extent;
+  for (const RecordedSample& sample : path_.samples) extent.include(sample.state);
+  Vector<double, 4> most;
+  for (Eigen::Index i = 0; i < 4; ++i) most[i] = miss[i].magnitude() * modes_.units()[i];
+  return extent.share_of(most);
+}
+
+/// Once around from the first ellipsoid.
+template <class Number>
+template <class Look>
+typename EventOrbitProver<Number>::Turn EventOrbitProver<Number>::turn(double radius,
+                                                                       Passage& passage,
+                                                                       const Look& look) const {
+  Number contraction(1.0);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    if (contraction.upper() > 2.0) return {false, radius, contraction.upper()};
+    Set set = passage.ball(k, nodes_[k].axes, radius);
+    look(k, set, passage);
+    if (!passage.pass(k, set)) return {false, radius, contraction.upper()};
+    const Node& next = nodes_[after(k)];
+    const Map inverse = next.inverse.template cast<Number>();
+    const Number factor = Number(spectral_norm_bound<6>(Map(inverse * Passage::deviations(set)))) *
+                          next.inverse_error;
+    const Six miss = inverse * missed(k, set);
+    Number squared;
+    for (const Number& entry : miss) squared += square(entry);
+    radius = (factor * Number(radius) + sqrt(squared) * next.inverse_error).upper();
+    contraction *= Number(factor.upper());
+  }
+  return {true, radius, contraction.upper()};
+}
+
+/// How far the motions of the set are from the state that is given for a sample.
+template <class Number>
+void EventOrbitProver<Number>::note_errors(std::size_t sample, const Set& set,
+                                           const Passage& passage) {
+  const Vector<double, 6> given = passage.proposed(sample);
+  for (const Eigen::Index i : {0, 1, 2, 3}) {
+    const Number here = set.range(EnclosedModes<Number>::unit(i)) - Number(given[i]);
+    double& most = i % 2 == 0 ? proof_.displacement_error : proof_.velocity_error;
+    most = std::max(most, here.magnitude() * modes_.units()[i]);
+  }
+}
+
+/// The largest first ellipsoid that is found to come back into itself, by the ball inside it.
+template <class Number>
+bool EventOrbitProver<Number>::attract(const Vector<double, 6>& weights) {
+  if (modes_.guards(ContactMode::engaged, 1.0).empty()) {
+    proof_.radius = std::numeric_limits<double>::infinity();
+    return true;
+  }
+  const auto holds = [&](double radius) {
+    Passage passage(modes_, path_, delay_);
+    const Turn once = turn(radius, passage, [](std::size_t, const Set&, const Passage&) {});
+    return once.is_decided && once.radius <= radius && once.contraction < 1.0;
+  };
+  double proved = first_radius_, refused = proved;
+  do {
+    proved = refused;
+    refused *= 64.0;
+  } while (holds(refused));
+  for (int halving = 0; halving < 6; ++halving) {
+    const double between = std::sqrt(proved * refused);
+    (holds(between) ? proved : refused) = between;
+  }
+  proof_.radius = weighted(proved, weights);
+  return farthest_in_first(weights) < proof_.radius;
+}
+
+/// At least how far the motion's first state may be from the given one, in the weighted norm.
+template <class Number>
+double EventOrbitProver<Number>::farthest_in_first(const Vector<double, 6>& weights) const {
+  Map lengths = nodes_.front().axes.template cast<Number>();
+  for (Eigen::Index i = 0; i < 6; ++i) lengths.row(i) *= weight(i, weights);
+  return (Number(spectral_norm_bound<6>(lengths)) * Number(first_radius_)).upper();
+}
+
+/// The largest ball of the weighted norm in the first ellipsoid, of states that the contact allows.
+template <class Number>
+double EventOrbitProver<Number>::weighted(double radius, const Vector<double, 6>& weights) const {
+  const Node& first = nodes_.front();
+  const Passage passage(modes_, path_, delay_);
+  Matrix<double, 6> identity = Matrix<double, 6>::Identity();
+  Map allowed = Passage::deviations(passage.ball(0, identity, radius));
+  for (Eigen::Index i = 0; i < 6; ++i) allowed.col(i) /= weight(i, weights);
+  const Map length = first.inverse.template cast<Number>() * allowed;
+  const Number longest = Number(spectral_norm_bound<6>(length)) * first.inverse_error;
+  return (Number(radius) / longest).lower();
+}
+
+}  // namespace detail
+
+/// Proves a certified orbit of a loop whose drive switches between the samples by interval
+/// arithmetic, for the decimals to which the loop's numbers are nearest, f τ being exactly p/q.
+///
+///     const auto found = find_event_orbit(event_motion(implemented, state));
+///     const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
+///     if (proof.outcome == OrbitProofOutcome::proved) use(proof.radius);
+///
+/// The drive's law is exact play (contact/contact.hpp). Every instant of change is enclosed and
+/// shown to be the only one of its guard; every other guard is shown to be positive in between, by
+/// Taylor series with enclosed coefficients.
+/// @param loop          of doubles
+/// @param orbit         its period and multipliers are taken for a proposal
+/// @param first         where it begins, in phase with the forcing
+/// @param largest_miss  of each state by the image of the one before, as a share of their extent:
+///                      above, the proposal is refused
+/// @throws InvalidParameter where the loop is not admissible, or the orbit not one of its samples
+/// Work: some 0.1 ms a sample and 1 ms a change of contact, some twenty times.
+/// @tparam Scalar  `double`; a template so that only who calls it compiles it
+template <class Scalar>
+EventOrbitProof prove_event_orbit(const IdealLoop<Scalar>& loop, const EventOrbit& orbit,
+                                  const StroboscopicState<DriveContact<>>& first,
+                                  double largest_miss = 1e-10) {
+  validate(loop);
+  const std::int64_t samples = orbit.period_samples(), q = orbit.ratio.denominator;
+  if (samples <= 0 || samples % q != 0 || first.phase != 0 || orbit.multipliers.empty())
+    throw InvalidParameter("samples of the orbit", static_cast<double>(samples), "",
+                           "a multiple of q from a coincidence on, with multipliers");
+  detail::validate_ratio(loop, orbit.ratio);
+  ImplementedLoop switching = implemented_loop(loop);
+  switching.switching = Switching::exact;
+  const RepeatingMotion<DriveContact<>> motion(event_motion(switching, first.state), q);
+  detail::RecordedContacts path =
+      detail::recorded_contacts(motion, first, static_cast<std::size_t>(samples));
+  for (std::size_t j = 0; j < path.samples.size(); ++j)
+    path.samples[j].state.head<4>() = orbit.states[j];
+  const detail::EnclosedModes<Enclosure> modes(enclosed(loop), orbit.ratio);
+  return detail::EventOrbitProver<Enclosure>(modes, path, loop.sampling.processing_delay)
+      .prove_with_ball(orbit.multipliers.front().log_modulus, deviation_weights(loop),
+                       largest_miss);
+}
+
+#ifdef HOLDFAST_EXTERN_TEMPLATES
+extern template EventOrbitProof prove_event_orbit(const IdealLoop<double>&, const EventOrbit&,
+                                                  const StroboscopicState<DriveContact<>>&, double);
+#endif
+
+}  // namespace holdfast

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/motion/event_motion.hpp"
+#include "holdfast/orbit/event/return_map.hpp"
+
+namespace holdfast::detail {
+
+/// What the drive is in, and the sign σ of Δż that it last had.
+struct RecordedContact {
+  ContactMode mode;
+  double sign;
+
+  friend bool operator==(const RecordedContact& a, const RecordedContact& b) {
+    return a.mode == b.mode && a.sign == b.sign;
+  }
+};
+
+/// A change of contact between two samples.
+struct RecordedSwitch {
+  double after;           ///< s after the sample
+  int guard;              ///< of the mode that ends, which came to zero; −1: the command's jump
+  RecordedContact begun;  ///< from then on
+};
+
+/// One sample of a motion in doubles, with what happens until the next one.
+struct RecordedSample {
+  Vector<double, 6> state;  ///< [z₁, ż₁, z₂, ż₂, u_{j−1}, g], SI; g 0 while engaged
+  RecordedContact before;   ///< up to the sample
+  RecordedContact from;     ///< from the sample on
+  std::vector<RecordedSwitch> switches;  ///< up to the next sample
+};
+
+/// A period of a motion that switches between the samples, as a proof takes it for a proposal.
+struct RecordedContacts {
+  std::vector<RecordedSample> samples;  ///< N of them
+  bool repeats = false;                 ///< the contact ends the period as it began it
+  bool is_plain = false;                ///< it neither touched a guard nor switched without end
+
+  /// Whether the drive changes its contact at all.
+  bool switches() const {
+    for (const RecordedSample& sample : samples)
+      if (!sample.switches.empty() || !(sample.before == sample.from)) return true;
+    return false;
+  }
+};
+
+/// The observer of EventMotion::advance that notes the changes of contact in a sample.
+template <class Contact>
+class ContactRecorder {
+ public:
+  ContactRecorder(const EventMotion<Contact>& motion, RecordedSample& sample)
+      : motion_(motion), sample_(sample) {}
+
+  void flowed(int, double begin, double length) { reached_ = begin + length; }
+  void commanded() const {}
+  void switched(int, int, int guard, const typename EventMotion<Contact>::Instant&) {
+    sample_.switches.push_back({reached_, guard, contact_of(motion_)});
+  }
+
+  static RecordedContact contact_of(const EventMotion<Contact>& motion) {
+    return {motion.contact().word(), motion.contact().sign()};
+  }
+
+ private:
+  const EventMotion<Contact>& motion_;
+  RecordedSample& sample_;
+  double reached_ = 0.0;
+};
+
+/// Follows a motion of the two masses over one period.
+/// @param point    where it begins
+/// @param samples  N
+template <class Contact>
+RecordedContacts recorded_contacts(RepeatingMotion<Contact> motion,
+                                   const StroboscopicState<Contact>& point, std::size_t samples) {
+  using Recorder = ContactRecorder<Contact>;
+  motion.go_to(point);
+  const EventMotion<Contact>& here = motion.motion();
+  RecordedContacts period;
+  for (std::size_t j = 0; j < samples; ++j) {
+    RecordedSample sample{};
+    sample.before = Recorder::contact_of(here);
+    const double gap = sample.before.mode == ContactMode::engaged ? 0.0
+                       : sample.before.sign > 0.0                 ? here.contact().upper()
+                                                                  : here.contact().lower();
+    sample.state << here.state(), here.previous_command(), gap;
+    motion.sense();
+    sample.from = Recorder::contact_of(here);
+    motion.advance(Recorder(here, sample));
+    period.samples.push_back(sample);
+  }
+  period.repeats = Recorder::contact_of(here) == period.samples.front().before;
+  period.is_plain = !here.counts().accumulates && here.counts().grazing == 0;
+  return period;
+}
+
+}  // namespace holdfast::detail
