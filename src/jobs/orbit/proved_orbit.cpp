@@ -41,8 +41,9 @@ EventOrbitProof proved_orbit_of(const IdealLoop<double>& loop,
   const EventOrbitProof proof = prove_event_orbit(loop, *found.orbit, *found.point);
   if (proof.outcome == OrbitProofOutcome::proved) return proof;
   const ContactTest& nearest = proof.nearest;
-  const bool is_near = proof.outcome == OrbitProofOutcome::near_surface;
-  const std::string reason = is_near ? "near_event" : name_in(orbit_proof_names, proof.outcome);
+  std::string reason = name_in(orbit_proof_names, proof.outcome);
+  if (proof.outcome == OrbitProofOutcome::near_surface) reason = "near_event";
+  if (proof.outcome == OrbitProofOutcome::not_closed) reason = "open_event";
   throw NoAnswer(text_of(job_texts()["not proved"][reason],
                          {{"surface", name_in(contact_surface_names, nearest.surface)},
                           {"sample", std::to_string(nearest.sample)},
@@ -51,7 +52,7 @@ EventOrbitProof proved_orbit_of(const IdealLoop<double>& loop,
                           {"error", format_number(nearest.error)},
                           {"unit", unit_of(nearest)},
                           {"multiplier", format_number(found.orbit->largest_multiplier())},
-                          {"states", format_number(proof.displacement_error)}}));
+                          {"miss", format_number(proof.miss)}}));
 }
 
 std::vector<ProvedOrbitRange> proved_orbit_along(const Case& the_case, const PeriodicOrbit& orbit,

@@ -123,6 +123,7 @@ TEST(EventOrbitProof, IsNotOfStatesThatWereMoved) {
     ProposedEvents moved = proposed;
     moved.orbit.states[sample][0] += 1e-9;
     EXPECT_EQ(moved.proof().outcome, OrbitProofOutcome::not_closed);
+    EXPECT_GT(moved.proof().miss, 1e-7);
     // Taken all the same, what is said of the states holds.
     const EventOrbitProof proof = moved.proof(1.0);
     EXPECT_TRUE(proof.outcome != OrbitProofOutcome::proved || proof.displacement_error > 0.9e-9);

@@ -39,6 +39,7 @@ struct EventOrbitProof {
   double displacement_error =
       std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
   double velocity_error = std::numeric_limits<double>::infinity();  ///< (m/s), at most
+  double miss = 0.0;  ///< of each state by the image of the one before, as a share, at most
   double instant_error = 0.0;  ///< of the instants at which the contact changes (s), at most
   /// The inequality that is decided by the least, as a multiple of its error; of `near_surface` the
   /// one that was not decided.
@@ -187,7 +188,8 @@ bool EventOrbitProver<Number>::linearise(double largest_miss,
     Set set = passage.ball(k, nodes_[k].axes, 0.0);
     if (!passage.pass(k, set)) return fails(passage);
     maps.push_back(Passage::deviations(set).template cast<double>());
-    if (share_of_extent(missed(k, set)) <= largest_miss) continue;
+    proof_.miss = std::max(proof_.miss, share_of_extent(missed(k, set)));
+    if (proof_.miss <= largest_miss) continue;
     proof_.outcome = OrbitProofOutcome::not_closed;
     return false;
   }
