@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "holdfast/contact/contact_mode.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/rational.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
@@ -194,7 +195,13 @@ EnclosedModes<Number>::EnclosedModes(const IdealLoop<Number>& loop, const Ration
                         Vector<double, 4>(loop.plant.excitation_input().template cast<double>()))),
       units_(in_doubles_.template cast<Number>()),
       parts_{loop.sampling.processing_delay,
-             loop.sampling.period - loop.sampling.processing_delay} {
+             loop.sampling.processing_delay == loop.sampling.period
+                 ? Number()
+                 : loop.sampling.period - loop.sampling.processing_delay} {
+  for (const Number& part : parts_)
+    if (!(part.lower() > 0.0) && part.upper() > 0.0)
+      throw InvalidParameter("processing delay", part.middle(), "s",
+                             "0, the sampling period, or farther from both than their rounding");
   for (const ContactMode mode : {ContactMode::engaged, ContactMode::gap, ContactMode::stick}) {
     rates_[at(mode)] = Sparse(rate_of(loop, mode));
     norm_ = std::max(norm_, norm_bound(rate(mode)));
@@ -283,7 +290,7 @@ void EnclosedModes<Number>::make_guards(const Number& width) {
 template <class Number>
 void EnclosedModes<Number>::make_steps() {
   for (std::size_t part = 0; part < 2; ++part) {
-    if (!(parts_[part].lower() > 0.0)) continue;  // δ = 0, or δ = τ
+    if (!parts_[part].is_positive()) continue;  // δ = 0, or δ = τ
     pieces_[part] = static_cast<int>(std::ceil(parts_[part].upper() / longest_));
     for (std::size_t mode = 0; mode < 3; ++mode)
       steps_[part][mode] = Sparse(exponential(Rate(rates_[mode].matrix * piece(part))));

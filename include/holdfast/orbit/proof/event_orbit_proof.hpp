@@ -30,9 +30,10 @@ namespace holdfast {
 
 /// A theorem on a periodic motion of the sampled loop whose drive switches between the samples,
 /// where the outcome is `proved`: there is exactly one periodic motion of the given period that
-/// begins in the ball; it lies within the errors of the given states; all its multipliers are
-/// within the bound; and every motion that begins in the ball meets the same changes of contact in
-/// the same sampling periods for ever and tends to it.
+/// begins in the ball with the drive in the contact of the first state; it lies within the errors
+/// of the given states; all its multipliers are within the bound; and every motion that begins so
+/// meets the same changes of contact in the same sampling periods for ever and tends to it. Of an
+/// orbit that stays inside its gap all this is said of the gap that it is in.
 struct EventOrbitProof {
   OrbitProofOutcome outcome = OrbitProofOutcome::not_contracting;     ///< how far it came
   double multiplier_bound = std::numeric_limits<double>::infinity();  ///< ≥ |λ| of all, < 1
@@ -40,7 +41,7 @@ struct EventOrbitProof {
       std::numeric_limits<double>::infinity();                      ///< of the states (m), at most
   double velocity_error = std::numeric_limits<double>::infinity();  ///< (m/s), at most
   double miss = 0.0;  ///< of each state by the image of the one before, as a share, at most
-  double instant_error = 0.0;  ///< of the instants at which the contact changes (s), at most
+  double instant_error = 0.0;  ///< of the recorded instants of change (s), at most
   /// The inequality that is decided by the least, as a multiple of its error; of `near_surface` the
   /// one that was not decided.
   ContactTest nearest;

@@ -94,7 +94,7 @@ class EventPassage {
   /// Whether `nearest()` is one that was not decided; else a set is stopped by contacts that the
   /// law does not have.
   bool is_undecided() const { return is_undecided_; }
-  /// At least the width of all instants of change (s).
+  /// At least how far any instant of change is from the recorded one (s).
   double instant_error() const { return instant_error_; }
 
  private:
@@ -166,6 +166,7 @@ class EventPassage {
   double delay_;
   bool moves_gap_;
   std::size_t sample_ = 0;
+  bool has_begun_ = false;
   ContactMode mode_ = ContactMode::engaged;
   double sign_ = 1.0;
   int zeros_ = 0;
@@ -201,7 +202,10 @@ bool EventPassage<Number>::pass(std::size_t sample, Set& set) {
   const RecordedSample& here = path_.samples[sample];
   take_command(set);
   if (witness_) take_command(*witness_);
-  if (!(mode_ == here.before.mode && sign_ == here.before.sign)) begin(here.before, 0);
+  const bool continues = mode_ == here.before.mode && sign_ == here.before.sign;
+  if (has_begun_ && !continues) return false;  // a change of contact without an event
+  if (!continues) begin(here.before, 0);
+  has_begun_ = true;
   zeros_ = 0;
   if (guards().empty() && mode_ != ContactMode::engaged) return false;  // there is no backlash
   if (!jump(here.from, set)) return false;
@@ -330,8 +334,12 @@ bool EventPassage<Number>::pass_to_switch(const RecordedSwitch& recorded, const 
   Set single = set;
   single.radius = 0.0;
   const double near = recorded.after - now(set);
-  const std::optional<Number> length = all.falls_through_zero(near),
-                              exact = Series(guard, single, terms).falls_through_zero(near);
+  const std::optional<Number> length = all.falls_through_zero(near);
+  std::optional<Number> exact = Series(guard, single, terms).falls_through_zero(near);
+  // Of the centre's motion the zero that all motions meet first, not a later one.
+  const bool is_that =
+      length && exact && length->lower() <= exact->lower() && exact->upper() <= length->upper();
+  if (exact && !is_that) exact = length;
   const ContactTest crossing = about(guard.surface, 1, recorded.after);
   const int zeros = zeros_of(which);
   if (!length || !exact || length->upper() > modes_.longest()) {
@@ -345,7 +353,7 @@ bool EventPassage<Number>::pass_to_switch(const RecordedSwitch& recorded, const 
   if (!test(crossing, -all.slope(*length))) return false;
   meet(guard.terms.front(), *exact, *length, recorded.begun.mode, set);
   const Number instant = set.range(Modes::unit(FlowPlace::time));
-  instant_error_ = std::max(instant_error_, instant.radius());
+  instant_error_ = std::max(instant_error_, (instant - Number(recorded.after)).magnitude());
   change(recorded.begun, which, set);
   return test(about(ContactSurface::sampling_instant, 0, recorded.after), end - instant);
 }
@@ -431,6 +439,7 @@ typename SetOfStates<Number>::Spread EventPassage<Number>::carried_across(
   using Spread = typename Set::Spread;
   const auto before = [&](const Spread& spread) { return modes_.moved(mode_, spread); };
   const auto beyond = [&](const Spread& spread) { return modes_.moved(after, spread); };
+  if (apart > modes_.longest()) return Spread::Constant(Number::unknown());
   const Number later(-apart, apart);
   const Spread around = modes_.flowed(mode_, together, later);
   const Spread at_centre = saltation * together;

@@ -219,9 +219,8 @@ class MarginProver {
     const double period = sampling_.period;
     const SamplingPath path(poles_, gains_, EnclosedSamplings::of_period(sampling_));
     const auto to = [&](const MarginEnd& end, double farthest) {
-      double limit = limit_beyond(end, period, farthest);
-      if (limit == 0.0) limit = farthest;
-      return towards(path, period, limit);
+      const double limit = limit_beyond(end, period, farthest);
+      return towards(path, period, farthest < period ? std::max(limit, farthest) : limit);
     };
     return {to(found_.sampling_period.below, 1e-3 * period),
             to(found_.sampling_period.above, 100.0 * period)};
@@ -232,12 +231,17 @@ class MarginProver {
     const double delay = sampling_.processing_delay;
     const double limit = std::max(limit_beyond(found, delay, delay + 10.0 * sampling_.period), 0.0);
     ProvedMarginEnd end{delay};
-    for (int k = held_commands(sampling_); k >= 1 && end.stable_to != limit; k += direction) {
-      const double seam = (direction < 0 ? k - 1 : k) * sampling_.period;
-      const double goal = direction < 0 ? std::max(seam, limit) : std::min(seam, limit);
+    double from = delay;
+    for (int k = held_commands(sampling_); k >= 1; k += direction) {
+      // Neighbouring stretches overlap by the rounding of the seam.
+      const Enclosure seam = Enclosure(static_cast<double>(direction < 0 ? k - 1 : k)) *
+                             Enclosure::of_decimal(sampling_.period);
+      const double goal =
+          direction < 0 ? std::max(seam.lower(), limit) : std::min(seam.upper(), limit);
       const SamplingPath path(poles_, gains_, EnclosedSamplings::of_delay(sampling_.period, k));
-      end = towards(path, end.stable_to, goal);
-      if (end.stable_to != goal) break;
+      end = towards(path, from, goal);
+      if (end.stable_to != goal || goal == limit) break;
+      from = direction < 0 ? seam.upper() : seam.lower();
     }
     return end;
   }

@@ -49,7 +49,7 @@ struct EnclosedSampling {
   /// Of all δ of a range that lie within (k − 1) τ … k τ.
   static EnclosedSampling of_delay(const Enclosure& period, const Enclosure& delay, int commands) {
     const auto within_sample = [&](const Enclosure& time) {
-      return Enclosure(std::clamp(time.lower(), 0.0, period.upper()),
+      return Enclosure(std::clamp(time.lower(), 0.0, period.lower()),
                        std::clamp(time.upper(), 0.0, period.upper()));
     };
     const Enclosure past =
