@@ -34,7 +34,11 @@ struct EnclosedSampling {
   Enclosure period;   ///< τ (s)
   Enclosure past;     ///< δ − (k − 1) τ (s), of the last command but one
   Enclosure present;  ///< k τ − δ (s), of the last one
-  int commands = 1;   ///< k, on their way
+  int commands;       ///< k, on their way
+
+  /// All of them, in this order.
+  EnclosedSampling(Enclosure of_period, Enclosure of_past, Enclosure of_present, int on_their_way)
+      : period(of_period), past(of_past), present(of_present), commands(on_their_way) {}
 
   /// @param sampling  the decimals to which τ > 0 and δ ≥ 0 are nearest, δ ≤ 1000 τ; a δ that
   ///                  exceeds a whole number of samples by less than 10⁻¹² of itself is that many
