@@ -179,6 +179,40 @@ TEST(SamplingProof, IsOfNoStretchWithAnUnstableLoop) {
   }
 }
 
+/// Of random masses, across both ends of the period and of the delay: whichever way the roots bend
+/// as they leave, a tangent would not tell.
+TEST(SamplingProof, IsOfNoStretchAcrossAnEndOfRandomMasses) {
+  Random random(8);
+  int asked = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const TwoMass<double> plant = random_plant(random);
+    const Sampling<double> sampling = random_sampling(plant, random);
+    const PdGains<double> gains = random_gains(plant, sampling.period, random);
+    const auto poles = enclosed_poles(plant);
+    if (sampling.processing_delay >= sampling.period || poles.empty()) continue;
+    const StabilityMargins walked = stability_margins(plant, sampling, gains);
+    if (walked.outcome != MarginOutcome::stable) continue;
+    const auto expect_none = [&](const EnclosedSamplings& line, const MarginEnd& end,
+                                 double value) {
+      if (end.outcome != MarginEndOutcome::boundary) return;
+      const SamplingProof<double> proof(poles, gains, line);
+      const double beyond = end.position + 1e-6 * (end.position - value);
+      for (double share = 1.0; share > 1e-3; share *= 0.7) {
+        const auto [from, to] = std::minmax(beyond, end.position + share * (value - end.position));
+        EXPECT_FALSE(proof.is_stable(from, to)) << from << " " << to;
+        ++asked;
+      }
+    };
+    const auto period = EnclosedSamplings::of_period(sampling);
+    expect_none(period, walked.sampling_period.below, sampling.period);
+    expect_none(period, walked.sampling_period.above, sampling.period);
+    const auto delay = EnclosedSamplings::of_delay(sampling.period, 1);
+    expect_none(delay, walked.processing_delay.below, sampling.processing_delay);
+    expect_none(delay, walked.processing_delay.above, sampling.processing_delay);
+  }
+  EXPECT_GT(asked, 500);
+}
+
 /// All periods up to the one that is proved have a stable D, and it is nearly the largest.
 TEST(ProvedMaxSamplingPeriod, IsNextToTheLargest) {
   const TwoMass<double> plant = kollar2022_plant();
