@@ -63,6 +63,7 @@ a lyapunov --duration 0.5
 a lyapunov --duration 0.2 --switching exact
 a orbit --certificate
 a orbit --prove
+a orbit --prove --switching exact
 a orbit --switching exact
 a orbit --map backlash.width=0.0004:0.0006 --map control.differential_gain=-14:-12
 a basins --map backlash.width=0.001:0.002:3 --map control.sampling_period=0.01:0.011:2
