@@ -63,15 +63,17 @@ def text_of(element: ElementTree.Element | None) -> str:
 KINDS = {"function": "function", "typedef": "typedef", "enum": "enum", "variable": "variable"}
 
 
-def is_beyond_breathe(function: ElementTree.Element) -> bool:
-    """It does not read calls among the types."""
-    return any("(" in text_of(one) for one in (function.find("type"), *function.iterfind("templateparamlist/param")))
+def is_beyond_breathe(member: ElementTree.Element) -> bool:
+    """It reads neither calls among the types of a function nor the value of a variable for one type."""
+    if member.get("kind") != "function":
+        return "<" in text_of(member.find("qualifiedname"))
+    return any("(" in text_of(one) for one in (member.find("type"), *member.iterfind("templateparamlist/param")))
 
 
-def plain(function: ElementTree.Element) -> list[str]:
+def plain(member: ElementTree.Element) -> list[str]:
     """The declaration and its first sentence as they are."""
-    declaration = text_of(function.find("definition")) + text_of(function.find("argsstring"))
-    return [".. code-block:: cpp", "", f"   {declaration}", "", text_of(function.find("briefdescription")), ""]
+    declaration = text_of(member.find("definition")) + text_of(member.find("argsstring"))
+    return [".. code-block:: cpp", "", f"   {declaration}", "", text_of(member.find("briefdescription")), ""]
 
 
 def directives_of(classes: list[ElementTree.Element], members: list[ElementTree.Element], known: set[str]) -> str:
@@ -90,7 +92,7 @@ def directives_of(classes: list[ElementTree.Element], members: list[ElementTree.
         if member.get("kind") == "function":
             types = ", ".join(text_of(one.find("type")) for one in member.iterfind("param"))
             name += f"({types})"
-        if member.get("kind") == "function" and is_beyond_breathe(member):
+        if is_beyond_breathe(member):
             lines += plain(member)
         elif name not in known:
             known.add(name)
