@@ -78,23 +78,19 @@ struct MaxDelayQuestion {
     return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
   }
 
-  /// From the shortest period of the search to a little beyond what was found, or to a period of
-  /// the excitation where that has no end.
+  /// The periods that are proved: from the shortest of the search to a little beyond what was found
+  /// at most, or to a period of the excitation where that has no end.
   template <class Plant>
-  ProvedPeriodWalk proved_periods(const JobContext& context, const Plant& plant,
+  Interval<double> proved_periods(const JobContext& context, const Plant& plant,
                                   const MaxDelayOptions& question, double found) const {
-    ProvedPeriodWalk walk{shortest_of(question), 0.0};
-    walk.to = std::max(walk.from, std::isfinite(found) ? 1.01 * found : 1.0 / question.frequency);
-    const double proved = proved_max_sampling_period(
-        poles_, question.proportional_gain,
-        EnclosedSamplings::of_period(sampling_of(context.case_data)), walk,
-        [&](double period) { return stable_gains_of(plant, question, period); },
-        [] { throw_if_interrupted(); });
-    walk.to = proved;
-    return walk;
-  }
-  static double shortest_of(const MaxDelayOptions& question) {
-    return std::min(question.shortest_period, 1e-3 / question.frequency);
+    const double shortest = std::min(question.shortest_period, 1e-3 / question.frequency);
+    const double beyond = std::isfinite(found) ? 1.01 * found : 1.0 / question.frequency;
+    return {shortest, proved_max_sampling_period(
+                          poles_, question.proportional_gain,
+                          EnclosedSamplings::of_period(sampling_of(context.case_data)),
+                          {shortest, std::max(shortest, beyond)},
+                          [&](double period) { return stable_gains_of(plant, question, period); },
+                          [] { throw_if_interrupted(); })};
   }
 
   template <class Plant>
@@ -111,7 +107,7 @@ struct MaxDelayQuestion {
       note(plant, question, answer, context);
       if (prove)
         table.row(question.frequency, question.proportional_gain, answer.sampling_period,
-                  answer.differential_gain, proved.from, proved.to);
+                  answer.differential_gain, proved.lower, proved.upper);
       else
         table.row(question.frequency, question.proportional_gain, answer.sampling_period,
                   answer.differential_gain);
@@ -129,7 +125,7 @@ struct MaxDelayQuestion {
   struct Answered {
     MaxDelayOptions question;
     MaxDelay answer;
-    ProvedPeriodWalk proved;  // where that was asked
+    Interval<double> proved;  // periods, where that was asked
   };
 
   /// At all frequencies, side by side on the threads.

@@ -140,27 +140,47 @@ TEST(ProvedMargins, AreNotOfALoopThatIsUnstableOrOnTheBoundary) {
   EXPECT_EQ(at(edge).stability, ProvedStability::undecided);
 }
 
-/// Two masses over decades, in extended precision.
-TEST(ProvedMargins, OfRandomMassesHoldInExtendedPrecision) {
-  Random random(5);
-  int proved_loops = 0;
-  for (int trial = 0; trial < 200; ++trial) {
+/// Two masses over decades that are stable, δ < τ, with their margins in doubles.
+struct RandomMasses {
+  TwoMass<double> plant;
+  Sampling<double> sampling;
+  PdGains<double> gains;
+  StabilityMargins walked;
+  std::vector<EnclosedPole> poles;
+};
+
+std::vector<RandomMasses> random_masses(std::uint64_t seed, int trials) {
+  Random random(seed);
+  std::vector<RandomMasses> stable;
+  for (int trial = 0; trial < trials; ++trial) {
     const TwoMass<double> plant = random_plant(random);
     const Sampling<double> sampling = random_sampling(plant, random);
     const PdGains<double> gains = random_gains(plant, sampling.period, random);
-    if (sampling.processing_delay >= sampling.period || gains.differential > 0.0) continue;
-    const StabilityMargins walked = stability_margins(plant, sampling, gains);
     const auto poles = enclosed_poles(plant);
-    if (walked.outcome != MarginOutcome::stable || poles.empty()) continue;
+    if (sampling.processing_delay >= sampling.period || poles.empty()) continue;
+    const StabilityMargins walked = stability_margins(plant, sampling, gains);
+    if (walked.outcome != MarginOutcome::stable) continue;
+    stable.push_back({plant, sampling, gains, walked, poles});
+  }
+  return stable;
+}
+
+/// Two masses over decades, in extended precision.
+TEST(ProvedMargins, OfRandomMassesHoldInExtendedPrecision) {
+  int proved_loops = 0;
+  for (const auto& loop : random_masses(5, 200)) {
+    const auto& [plant, sampling, gains, walked, poles] = loop;
+    if (gains.differential > 0.0) continue;
     const ProvedMargins proved = proved_margins(poles, sampling, gains, walked, 1e-4, unwatched);
     if (proved.stability != ProvedStability::stable) continue;
     ++proved_loops;
     const double share = sampling.processing_delay / sampling.period;
-    expect_end(proved.sampling_period.above, sampling.period, [&](double tau) {
-      return 1.0 + growth(plant, {tau, share * tau}, gains).excess;
+    expect_end(proved.sampling_period.above, sampling.period, [&, &masses = loop](double tau) {
+      return 1.0 + growth(masses.plant, {tau, share * tau}, masses.gains).excess;
     });
-    expect_end(proved.differential_gain.below, gains.differential, [&](double d) {
-      return 1.0 + growth(plant, sampling, {gains.proportional, d}).excess;
+    expect_end(proved.differential_gain.below, gains.differential, [&masses = loop](double d) {
+      const PdGains<double> moved{masses.gains.proportional, d};
+      return 1.0 + growth(masses.plant, masses.sampling, moved).excess;
     });
   }
   EXPECT_GT(proved_loops, 20);
@@ -182,20 +202,12 @@ TEST(SamplingProof, IsOfNoStretchWithAnUnstableLoop) {
 /// Of random masses, across both ends of the period and of the delay: whichever way the roots bend
 /// as they leave, a tangent would not tell.
 TEST(SamplingProof, IsOfNoStretchAcrossAnEndOfRandomMasses) {
-  Random random(8);
   int asked = 0;
-  for (int trial = 0; trial < 600; ++trial) {
-    const TwoMass<double> plant = random_plant(random);
-    const Sampling<double> sampling = random_sampling(plant, random);
-    const PdGains<double> gains = random_gains(plant, sampling.period, random);
-    const auto poles = enclosed_poles(plant);
-    if (sampling.processing_delay >= sampling.period || poles.empty()) continue;
-    const StabilityMargins walked = stability_margins(plant, sampling, gains);
-    if (walked.outcome != MarginOutcome::stable) continue;
+  for (const RandomMasses& loop : random_masses(8, 600)) {
     const auto expect_none = [&](const EnclosedSamplings& line, const MarginEnd& end,
                                  double value) {
       if (end.outcome != MarginEndOutcome::boundary) return;
-      const SamplingProof<double> proof(poles, gains, line);
+      const SamplingProof<double> proof(loop.poles, loop.gains, line);
       const double beyond = end.position + 1e-6 * (end.position - value);
       for (double share = 1.0; share > 1e-3; share *= 0.7) {
         const auto [from, to] = std::minmax(beyond, end.position + share * (value - end.position));
@@ -203,12 +215,12 @@ TEST(SamplingProof, IsOfNoStretchAcrossAnEndOfRandomMasses) {
         ++asked;
       }
     };
-    const auto period = EnclosedSamplings::of_period(sampling);
-    expect_none(period, walked.sampling_period.below, sampling.period);
-    expect_none(period, walked.sampling_period.above, sampling.period);
-    const auto delay = EnclosedSamplings::of_delay(sampling.period, 1);
-    expect_none(delay, walked.processing_delay.below, sampling.processing_delay);
-    expect_none(delay, walked.processing_delay.above, sampling.processing_delay);
+    const auto period = EnclosedSamplings::of_period(loop.sampling);
+    expect_none(period, loop.walked.sampling_period.below, loop.sampling.period);
+    expect_none(period, loop.walked.sampling_period.above, loop.sampling.period);
+    const auto delay = EnclosedSamplings::of_delay(loop.sampling.period, 1);
+    expect_none(delay, loop.walked.processing_delay.below, loop.sampling.processing_delay);
+    expect_none(delay, loop.walked.processing_delay.above, loop.sampling.processing_delay);
   }
   EXPECT_GT(asked, 500);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "holdfast/control/enclosed_loop.hpp"
+#include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/math/enclosure/enclosure.hpp"
@@ -156,6 +157,12 @@ class GainBoxProof {
 };
 
 namespace detail {
+
+/// The gains in the middle of a box.
+inline PdGains<double> middle_of(const GainBox& box) {
+  return {Enclosure(box.proportional_from, box.proportional_to).middle(),
+          Enclosure(box.differential_from, box.differential_to).middle()};
+}
 
 /// The cells between the points of a grid.
 inline std::vector<GainBox> cells_of(const GainGrid& grid) {

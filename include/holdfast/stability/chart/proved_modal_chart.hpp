@@ -17,12 +17,6 @@ namespace holdfast {
 
 namespace detail {
 
-/// The gains in the middle of a box.
-inline PdGains<double> middle_of(const GainBox& box) {
-  return {Enclosure(box.proportional_from, box.proportional_to).middle(),
-          Enclosure(box.differential_from, box.differential_to).middle()};
-}
-
 /// A box and, of each circle, the arcs on which a loop of it may have a root. Of a wider circle
 /// that tells no more of the box the arcs are gone.
 struct CrossedBox {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,13 +46,8 @@ struct ProvedMargins {
 
 namespace detail {
 
-/// All gains of which one of two doubles is the nearest, and what is between.
-inline Interval<double> around(double from, double to) {
-  return {Enclosure::of_decimal(from).lower(), Enclosure::of_decimal(to).upper()};
-}
-
-inline GainBox box_of(const Interval<double>& proportional, const Interval<double>& differential) {
-  return {proportional.lower, proportional.upper, differential.lower, differential.upper};
+inline GainBox box_of(const Enclosure& proportional, const Enclosure& differential) {
+  return {proportional.lower(), proportional.upper(), differential.lower(), differential.upper()};
 }
 
 /// Whether no loop of a box has a root on the unit circle.
@@ -64,9 +58,7 @@ inline bool is_off_circle(CircleArcs& arcs, const GainBox& box) {
 /// What is proved of the loops of a box together.
 inline ProvedStability stability_of(CircleArcs& arcs, const GainBox& box) {
   if (!is_off_circle(arcs, box)) return ProvedStability::undecided;
-  const auto outside =
-      arcs.roots_outside({Enclosure(box.proportional_from, box.proportional_to).middle(),
-                          Enclosure(box.differential_from, box.differential_to).middle()});
+  const auto outside = arcs.roots_outside(middle_of(box));
   if (!outside) return ProvedStability::undecided;
   return *outside == 0 ? ProvedStability::stable : ProvedStability::unstable;
 }
@@ -82,10 +74,10 @@ class GainPath {
 
  private:
   GainBox box(double from, double to) const {
-    const Interval<double> moved = around(from, to);
+    const Enclosure moved = decimals_between(from, to);
     if (free_ == FreeGain::differential)
-      return box_of(around(gains_.proportional, gains_.proportional), moved);
-    return box_of(moved, around(gains_.differential, gains_.differential));
+      return box_of(Enclosure::of_decimal(gains_.proportional), moved);
+    return box_of(moved, Enclosure::of_decimal(gains_.differential));
   }
 
   CircleArcs& arcs_;
@@ -99,8 +91,8 @@ class SamplingPath {
   SamplingPath(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
                const EnclosedSamplings& line)
       : poles_(poles),
-        box_(box_of(around(gains.proportional, gains.proportional),
-                    around(gains.differential, gains.differential))),
+        box_(box_of(Enclosure::of_decimal(gains.proportional),
+                    Enclosure::of_decimal(gains.differential))),
         line_(line),
         proof_(poles, gains, line) {}
 
@@ -201,12 +193,9 @@ class MarginProver {
  private:
   /// @param farthest  where doubles have found no end
   template <class Path>
-  ProvedMarginEnd one(const Path& path, double value, const MarginEnd& found, double farthest) {
-    return towards(path, value, limit_beyond(found, value, farthest));
-  }
-  template <class Path>
   ProvedMargin both(const Path& path, double value, const TwoSidedMargin& found, double farthest) {
-    return {one(path, value, found.below, -farthest), one(path, value, found.above, farthest)};
+    return {towards(path, value, limit_beyond(found.below, value, -farthest)),
+            towards(path, value, limit_beyond(found.above, value, farthest))};
   }
   template <class Path>
   ProvedMarginEnd towards(const Path& path, double value, double limit) {
@@ -218,12 +207,10 @@ class MarginProver {
   ProvedMargin of_period() {
     const double period = sampling_.period;
     const SamplingPath path(poles_, gains_, EnclosedSamplings::of_period(sampling_));
-    const auto to = [&](const MarginEnd& end, double farthest) {
-      const double limit = limit_beyond(end, period, farthest);
-      return towards(path, period, farthest < period ? std::max(limit, farthest) : limit);
-    };
-    return {to(found_.sampling_period.below, 1e-3 * period),
-            to(found_.sampling_period.above, 100.0 * period)};
+    const auto& [below, above] = found_.sampling_period;
+    const double shortest = 1e-3 * period, longest = 100.0 * period;
+    return {towards(path, period, std::max(limit_beyond(below, period, shortest), shortest)),
+            towards(path, period, limit_beyond(above, period, longest))};
   }
 
   /// One stretch (k − 1) τ … k τ after the other; at the seams a root comes or goes at λ = 0.

@@ -8,6 +8,7 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/gains.hpp"
@@ -18,6 +19,15 @@
 #include "holdfast/stability/response/enclosed_response.hpp"
 
 namespace holdfast {
+
+namespace detail {
+
+/// All decimals to which one of two doubles is the nearest, and what is between.
+inline Enclosure decimals_between(double from, double to) {
+  return {Enclosure::of_decimal(from).lower(), Enclosure::of_decimal(to).upper()};
+}
+
+}  // namespace detail
 
 /// A line through the samplings of one loop, along which a position (s) moves: τ, δ/τ being kept,
 /// or δ, τ being kept, as long as the number of commands on their way stays.
@@ -113,20 +123,18 @@ class SamplingProof {
   Eigen::Index motions() const { return static_cast<Eigen::Index>(motions_.size()); }
   Eigen::Index size() const { return motions() + line_.commands; }
 
-  /// M, or ϱ M′, at a position.
-  Order entries(int derivative, const Enclosure& position, const Enclosure& reach) const {
+  /// M and ϱ M′ at a position.
+  std::pair<Order, Order> entries_at(const Enclosure& position, const Enclosure& reach) const {
     const EnclosedSampling sampling = line_.over(position);
     const Enclosure t = line_.period_rate(), h = line_.present_rate();
-    Order result;
+    std::pair<Order, Order> result;
     for (const Motion& motion : motions_) {
       const ComplexEnclosure& s = motion.s;
       const ComplexEnclosure whole = exponential(s * sampling.period);
       const ComplexEnclosure late = exponential(s * sampling.present);
-      if (derivative == 0)
-        result.push_back({whole, (whole - late) / s, (late - 1.0) / s});
-      else
-        result.push_back(
-            {s * whole * (t * reach), (whole * t - late * h) * reach, late * (h * reach)});
+      result.first.push_back({whole, (whole - late) / s, (late - 1.0) / s});
+      result.second.push_back(
+          {s * whole * (t * reach), (whole * t - late * h) * reach, late * (h * reach)});
     }
     return result;
   }
@@ -229,15 +237,15 @@ class SamplingProof {
 
 template <class Scalar>
 bool SamplingProof<Scalar>::is_stable(double from, double to) const {
-  const Enclosure stretch(Enclosure::of_decimal(from).lower(), Enclosure::of_decimal(to).upper());
+  const Enclosure stretch = detail::decimals_between(from, to);
   const Enclosure centre(stretch.middle()), reach(stretch.radius());
   const Dense identity = Dense::Identity(size(), size());
-  const Order at_centre = entries(0, centre, reach);
+  const auto [at_centre, moving] = entries_at(centre, reach);
   const Dense basis = eigenvectors_of(times(at_centre, true, identity).centre);
   const Dense back = basis.partialPivLu().inverse();
   if (!back.allFinite()) return false;
   const DiscMatrix constant = product(back, times(at_centre, true, basis));
-  const DiscMatrix linear = product(back, times(entries(1, centre, reach), false, basis));
+  const DiscMatrix linear = product(back, times(moving, false, basis));
   const DiscMatrix rest = product(back, times(largest_second(stretch, reach), false, basis));
   const DiscMatrix unit = product(back, DiscMatrix(basis));
   Bound bound(size(), size());
