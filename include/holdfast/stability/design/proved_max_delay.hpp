@@ -25,6 +25,7 @@ struct ProvedPeriodWalk {
 /// @param poles              as EnclosedResponse takes them
 /// @param proportional_gain  P (N/m)
 /// @param line               along which the period moves
+/// @param walk               from where to where, and how finely
 /// @param gains_at           period → open intervals of D that doubles find to stabilise
 /// @param watch              called for each step; what it throws ends the work
 /// @return 0 where none is proved to serve at the shortest

@@ -87,6 +87,7 @@ class SamplingProof {
  public:
   /// @param poles  as EnclosedResponse takes them
   /// @param gains  P and D of the decimals
+  /// @param line   of the samplings it is asked for
   SamplingProof(const std::vector<EnclosedPole>& poles, const PdGains<double>& gains,
                 EnclosedSamplings line)
       : line_(line) {

@@ -61,7 +61,9 @@ struct EnclosedSampling {
     return {period, past, within_sample(period - past), commands};
   }
   /// Of all τ of a range, with δ = φ τ.
+  /// @param period      τ (s), > 0
   /// @param last_share  φ − (k − 1), within 0 … 1
+  /// @param commands    k ≥ 1, the commands under way
   static EnclosedSampling of_period(const Enclosure& period, const Enclosure& last_share,
                                     int commands) {
     return {period, last_share * period, (Enclosure(1.0) - last_share) * period, commands};
@@ -87,6 +89,7 @@ class EnclosedResponse {
       : commands_(sampling.commands) {
     for (const EnclosedPole& pole : poles) add(pole, sampling);
   }
+  /// @param poles     of `enclosed_poles`, at least one, none of which may be 0
   /// @param sampling  as `EnclosedSampling::of`
   /// @throws InvalidParameter where it is another
   EnclosedResponse(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling)
