@@ -1,4 +1,5 @@
 #include <optional>
+#include <string>
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -61,18 +62,19 @@ void MarginsQuestion::run(const JobContext& context) const {
   if (prove) refuse_to_prove(the_case);
   const Sampling<double> sampling = sampling_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
-  StabilityMargins margins = stability_margins_of(the_case, gains);
+  auto [margins, looked_everywhere] = stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(spectral_radius_of(the_case)));
   std::optional<ProvedMargins> proved;
   if (prove) proved = proved_margins_of(the_case, gains, margins);
-  if (is_modal(the_case) && !prove)
-    report_warning(
-        "with the plant of the case's period sampling_period was walked in steps of 5 % and "
-        "processing_delay in eighths of a sample: a gap of instability narrower than that is not "
-        "seen; --prove looks at every position",
-        context.quiet);
+  if (!prove && !looked_everywhere) {
+    std::string doubt =
+        "sampling_period was walked in steps of 5 % and processing_delay in eighths of a sample: a "
+        "gap of instability narrower than that is not seen";
+    if (!poles_if_proved(the_case).empty()) doubt += "; --prove looks at every position";
+    report_warning(doubt, context.quiet);
+  }
   MarginsTable table(context, proved);
   table.write("differential_gain", "N.s/m", gains.differential, margins.differential_gain,
               &ProvedMargins::differential_gain);

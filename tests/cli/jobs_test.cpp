@@ -160,25 +160,32 @@ TEST(Stability, ItsProofOfManyModesAgreesWithTheVerdict) {
   }
 }
 
-/// Of a string that hardly damps, of which the walk along the period passes over a window.
-TEST(Margins, AreNotFartherThanIsProved) {
+/// Of a string that hardly damps, of which steps along the period pass over a window: every
+/// position is looked at without being asked.
+TEST(Margins, PassOverNoWindow) {
   const std::string margins =
-      "margins --quiet --set plant.model=string --set plant.modes=6 "
+      "margins --set plant.model=string --set plant.modes=6 "
       "--set conductor.damping_ratio=0.001 --set absorber.clamp_mass=0.01 "
       "--set control.sampling_period=0.00205 --set control.proportional_gain=-117 "
       "--set control.differential_gain=0.264";
-  const CsvTable walked = table_of(margins), proved = table_of(margins + " --prove");
-  bool was_passed_over = false;
+  const CsvTable found = table_of(margins + " --quiet"),
+                 proved = table_of(margins + " --quiet --prove");
   for (std::size_t row = 0; row < proved.rows(); ++row) {
+    EXPECT_EQ(found.text(row, "outcome"), proved.text(row, "outcome"));
     if (proved.text(row, "outcome") != "boundary") continue;
     const double value = proved.number(row, "value"), distance = proved.number(row, "distance");
     const double stable = std::abs(proved.number(row, "proved_stable_to") - value);
     const double unstable = std::abs(proved.number(row, "proved_unstable_at") - value);
     EXPECT_GE(distance, stable * (1.0 - 1e-9)) << row;
     EXPECT_LE(distance, unstable * (1.0 + 1e-9)) << row;
-    was_passed_over = was_passed_over || walked.number(row, "distance") > 1.01 * distance;
+    EXPECT_NEAR(found.number(row, "distance"), distance, 1e-8 * std::abs(value)) << row;
   }
-  EXPECT_TRUE(was_passed_over);
+  EXPECT_EQ(run_holdfast(margins).errors.find("walked in steps"), std::string::npos);
+  const Outcome unsure = run_holdfast(
+      "margins --set plant.model=string --set plant.modes=4 "
+      "--set control.velocity=difference");
+  EXPECT_NE(unsure.errors.find("walked in steps of 5 %"), std::string::npos);
+  EXPECT_EQ(unsure.errors.find("--prove"), std::string::npos);
 }
 
 TEST(Margins, RefusesProofsOfWhatItCannotProve) {

@@ -1,5 +1,9 @@
 #include "jobs/charts/proved_poles.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <string>
+
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/own/own_parts.hpp"
@@ -14,20 +18,28 @@ std::vector<EnclosedPole> possible_poles_of(const Case& the_case) {
   return enclosed_poles(conductor_with_absorber_of(the_case));
 }
 
+bool all_decay(const std::vector<EnclosedPole>& poles) {
+  return std::all_of(poles.begin(), poles.end(),
+                     [](const EnclosedPole& pole) { return pole.s.real().is_negative(); });
+}
+
+std::optional<std::string> why_not_proved(const Case& the_case) {
+  if (the_case.own != nullptr)
+    return "--prove is of the gains P and D, without a controller of one's own";
+  if (!has_ideal_computer(the_case))
+    return "--prove is of an ideal computer: leave control.velocity at \"measured\", and quanta, "
+           "largest force and jitter at 0";
+  if (is_infinite(the_case)) return "--prove: a string without ends drifts, which no gain damps";
+  if (!the_case.devices.empty())
+    return "--prove is of a conductor with the absorber alone, without [[devices]]";
+  return std::nullopt;
+}
+
 }  // namespace
 
 void refuse_to_prove(const Case& the_case) {
   refuse_for_own_plant(the_case, true, "--prove");
-  if (the_case.own != nullptr)
-    throw WrongInput("--prove is of the gains P and D, without a controller of one's own");
-  if (!has_ideal_computer(the_case))
-    throw WrongInput(
-        "--prove is of an ideal computer: leave control.velocity at \"measured\", and quanta, "
-        "largest force and jitter at 0");
-  if (is_infinite(the_case))
-    throw WrongInput("--prove: a string without ends drifts, which no gain damps");
-  if (!the_case.devices.empty())
-    throw WrongInput("--prove is of a conductor with the absorber alone, without [[devices]]");
+  if (const auto reason = why_not_proved(the_case)) throw WrongInput(*reason);
 }
 
 std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
@@ -36,12 +48,17 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
     throw NoAnswer(
         "two natural motions of conductor, absorber and hardware are too close to be proved apart: "
         "change plant.absorber_damping or absorber.position by a thousandth");
-  for (const EnclosedPole& pole : poles)
-    if (!pole.s.real().is_negative())
-      throw NoAnswer(
-          "of a natural motion of conductor and absorber it cannot be proved that it decays: give "
-          "conductor.damping_ratio a value above 0");
+  if (!all_decay(poles))
+    throw NoAnswer(
+        "of a natural motion of conductor and absorber it cannot be proved that it decays: give "
+        "conductor.damping_ratio a value above 0");
   return poles;
+}
+
+std::vector<EnclosedPole> poles_if_proved(const Case& the_case) {
+  if (why_not_proved(the_case)) return {};
+  std::vector<EnclosedPole> poles = possible_poles_of(the_case);
+  return all_decay(poles) ? poles : std::vector<EnclosedPole>{};
 }
 
 }  // namespace holdfast::program

@@ -32,6 +32,33 @@ void put_right(StabilityMargins& found, const ProvedMargins& proved, const Case&
   end(found.processing_delay.above, proved.processing_delay.above, false);
 }
 
+/// Whether the proof has come as far as the walk, or to an unstable loop.
+bool reaches(const ProvedMargin& proved, const TwoSidedMargin& walked, double value) {
+  const auto one = [&](const ProvedMarginEnd& known, const MarginEnd& end) {
+    return std::isfinite(known.unstable_at) ||
+           std::abs(known.stable_to - value) >= (1.0 - 1e-9) * std::abs(end.position - value);
+  };
+  return one(proved.below, walked.below) && one(proved.above, walked.above);
+}
+
+/// Looks at every τ and δ between those of the case and the ends that the walk has found, and puts
+/// these right, as far as a second or so allows.
+bool look_everywhere(StabilityMargins& found, const Case& the_case, const PdGains<double>& gains) {
+  constexpr double most_work = 1e6;  // steps times roots squared
+  const auto poles = poles_if_proved(the_case);
+  if (poles.empty() || found.outcome != MarginOutcome::stable) return false;
+  const Sampling<double> sampling = sampling_of(the_case);
+  const auto roots = 2.0 * static_cast<double>(poles.size()) + held_commands(sampling);
+  const ProvedMargins proved = proved_sampling_margins(
+      poles, sampling, gains, found, {1e-5, static_cast<int>(most_work / (roots * roots))},
+      [] { throw_if_interrupted(); });
+  const bool everywhere =
+      reaches(proved.sampling_period, found.sampling_period, sampling.period) &&
+      reaches(proved.processing_delay, found.processing_delay, sampling.processing_delay);
+  put_right(found, proved, the_case, gains);
+  return everywhere;
+}
+
 }  // namespace
 
 GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
@@ -47,18 +74,21 @@ GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
           margins.delay.outcome == MarginEndOutcome::beyond_search};
 }
 
-StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
+CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
   const Sampling<double> sampling = sampling_of(the_case);
-  if (!is_modal(the_case)) return stability_margins(plant_of(the_case), sampling, gains);
+  if (!is_modal(the_case)) return {stability_margins(plant_of(the_case), sampling, gains), true};
   MarginSearch search;
   search.longest_period_ratio = 100.0;
-  return modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
+  StabilityMargins margins =
+      modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
+  const bool everywhere = look_everywhere(margins, the_case, gains);
+  return {margins, everywhere};
 }
 
 ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,
                                 StabilityMargins& found) {
   const ProvedMargins proved = proved_margins(proved_poles_of(the_case), sampling_of(the_case),
-                                              gains, found, 1e-6, [] { throw_if_interrupted(); });
+                                              gains, found, {}, [] { throw_if_interrupted(); });
   if (proved.stability != ProvedStability::stable)
     throw NoAnswer("the loop is too near the boundary of stability to be proved stable");
   if (is_modal(the_case)) put_right(found, proved, the_case, gains);

@@ -24,9 +24,17 @@ struct GainMargins {
 /// @param gains  not finite: all is NaN
 GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains);
 
-/// How far P, D, τ and δ may go from a case's. Of a modal case the periods are walked, up to a
-/// hundred of its own.
-StabilityMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
+/// How far P, D, τ and δ of a case may go.
+struct CaseMargins {
+  StabilityMargins margins;
+  /// Whether no instability between the value and the ends of τ and δ can have been passed over: of
+  /// a modal case these are walked in steps, which is then proved where that takes no longer than a
+  /// second or so.
+  bool looked_everywhere;
+};
+
+/// Of a modal case the periods are looked for up to a hundred of its own.
+CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
 /// The same as theorems, of a case that refuse_to_prove() takes. Throws what proved_poles_of does,
 /// Interrupted, and NoAnswer where the loop is not proved to be stable.

@@ -145,7 +145,7 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
 }
 
 std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
-  const StabilityMargins margins = stability_margins_of(the_case, gains);
+  const StabilityMargins margins = stability_margins_of(the_case, gains).margins;
   if (margins.outcome == MarginOutcome::not_stable) return page_text("not stable with it");
   return page_text("stable with it",
                    {{"D", stretch_text(margins.differential_gain, 1.0, "N s/m")},
@@ -227,7 +227,7 @@ Answer which_gain(const Question& question) {
 
 /// "; with the gains of the case up to 12 ms; the case has 1 ms."
 std::string own_period_text(const Case& the_case) {
-  const StabilityMargins margins = stability_margins_of(the_case, gains_of(the_case));
+  const StabilityMargins margins = stability_margins_of(the_case, gains_of(the_case)).margins;
   const MarginEnd& longest = margins.sampling_period.above;
   const char* limit = "no limit";
   if (margins.outcome == MarginOutcome::not_stable)

@@ -37,6 +37,17 @@ TEST(EnclosedAngle, HoldsThoseOfEveryAngleInside) {
   }
 }
 
+/// With so few factors that what is left of the series shows.
+TEST(EnclosedAngle, SeriesThatAreCutShortHoldTheirSums) {
+  for (const int factors : {1, 2, 3})
+    for (const double y : {0.1, 0.5, 0.9, 1.0}) {
+      const auto squared = square(Enclosure(y));
+      EXPECT_TRUE(holds(detail::nested_series(squared, 1.0, factors), std::cos(1.0L * y)));
+      EXPECT_TRUE(
+          holds(Enclosure(y) * detail::nested_series(squared, 2.0, factors), std::sin(1.0L * y)));
+    }
+}
+
 TEST(EnclosedAngle, KnowsNothingOfWhatIsTooLarge) {
   for (const Enclosure& angle : {Enclosure(1e7), Enclosure::unknown()}) {
     EXPECT_EQ(cos(angle), Enclosure(-1.0, 1.0));

@@ -84,6 +84,33 @@ TEST(OrbitRange, BoundsHowTheStatesBend) {
   EXPECT_LE(most, proof.displacement_error);
 }
 
+/// A line that is tangent to the states at the middle leaves them at the ends, by no more than is
+/// proved.
+TEST(OrbitRange, BoundsHowTheStatesLeaveATangent) {
+  const IdealLoop<double> loop = test::proved_loop(0.001, 0.0005);
+  const PeriodicOrbit orbit = test::orbit_to_prove(loop);
+  const auto family = along_differential_gain(loop);
+  const double from = -13.003, to = -12.997;
+  const auto states_at = [&](double gain) {
+    const ItineraryMaps<double> maps(family(gain), orbit.ratio);
+    return periodic_solution(maps, orbit.itinerary, maps_of_blocks(maps, orbit.itinerary))->states;
+  };
+  const auto middle = states_at(0.5 * (from + to)), first = states_at(from), last = states_at(to);
+  auto before = middle, after = middle;
+  for (std::size_t j = 0; j < middle.size(); ++j) {
+    before[j] -= 0.5 * (last[j] - first[j]);
+    after[j] += 0.5 * (last[j] - first[j]);
+  }
+  const detail::SegmentOfLoops loops(enclosed(family(from)), enclosed(family(to)), orbit.ratio);
+  const OrbitProof proof = detail::OrbitProver(loops, orbit, before, after).prove(HUGE_VAL);
+  EXPECT_EQ(proof.outcome, OrbitProofOutcome::proved);
+  double most = 0.0;
+  for (std::size_t j = 0; j < middle.size(); ++j)
+    for (const Eigen::Index i : {0, 2}) most = std::max(most, std::abs(last[j][i] - after[j][i]));
+  EXPECT_GT(most, 1e-12);
+  EXPECT_LE(most, proof.displacement_error);
+}
+
 /// What is said of a range holds in all of its parts: the largest bound of the multipliers.
 TEST(OrbitRange, BoundsTheMultipliersOfAllItsLoops) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0);

@@ -37,6 +37,7 @@ TEST(SegmentOfLoops, HoldsEveryLoopBetween) {
     const ItineraryMaps<long double> maps(converted<long double>(loop), ratio);
     const Enclosure s = Enclosure(share - 0.5) + Enclosure(-1e-15, 1e-15);
     EXPECT_TRUE(holds(segment.width().centre + s * segment.width().slope, loop.backlash_width));
+    EXPECT_TRUE(segment.position().contains(share - 0.5));
     for (const std::uint8_t engaged : {std::uint8_t{0}, std::uint8_t{1}}) {
       const Matrix<long double, 5> exact = maps.map_in_units(engaged != 0);
       const auto& map = segment.map(engaged);

@@ -45,7 +45,7 @@ struct ProvedLoop {
     return modal_stability_margins<double>(approximate, sampling, gains);
   }
   ProvedMargins proved(double resolution = 1e-5) const {
-    return proved_margins(poles, sampling, gains, walked(), resolution, unwatched);
+    return proved_margins(poles, sampling, gains, walked(), {resolution}, unwatched);
   }
 };
 
@@ -131,7 +131,7 @@ TEST(ProvedMargins, AreNotOfALoopThatIsUnstableOrOnTheBoundary) {
   const ProvedLoop stable(string_with_absorber(4, 0.02), {0.001, 0.0}, {-200.0, -2.0});
   const StabilityMargins walked = stable.walked();
   const auto at = [&](double d) {
-    return proved_margins(stable.poles, stable.sampling, {-200.0, d}, walked, 1e-4, unwatched);
+    return proved_margins(stable.poles, stable.sampling, {-200.0, d}, walked, {1e-4}, unwatched);
   };
   const double edge = walked.differential_gain.above.position;
   EXPECT_EQ(at(edge + 1e-3).stability, ProvedStability::unstable);
@@ -171,7 +171,7 @@ TEST(ProvedMargins, OfRandomMassesHoldInExtendedPrecision) {
   for (const auto& loop : random_masses(5, 200)) {
     const auto& [plant, sampling, gains, walked, poles] = loop;
     if (gains.differential > 0.0) continue;
-    const ProvedMargins proved = proved_margins(poles, sampling, gains, walked, 1e-4, unwatched);
+    const ProvedMargins proved = proved_margins(poles, sampling, gains, walked, {1e-4}, unwatched);
     if (proved.stability != ProvedStability::stable) continue;
     ++proved_loops;
     const double share = sampling.processing_delay / sampling.period;
@@ -184,6 +184,52 @@ TEST(ProvedMargins, OfRandomMassesHoldInExtendedPrecision) {
     });
   }
   EXPECT_GT(proved_loops, 20);
+}
+
+/// Strings with and without a filter, on time and late: wherever a stretch is proved, all loops in
+/// it are stable, and short stretches of stable loops are proved.
+TEST(SamplingProof, OfRandomStringsHoldsByTheSpectralRadius) {
+  Random random(9);
+  int short_ones = 0, proved_short_ones = 0, long_ones = 0, proved_long_ones = 0;
+  while (short_ones < 150) {
+    const LoopHardware hardware =
+        random.index(3) > 0
+            ? LoopHardware{}
+            : LoopHardware{random.uniform(30.0, 300.0), random.uniform(50.0, 3e4), 0.7};
+    const auto modes = static_cast<int>(1 + random.index(7));
+    const double period = random.log_uniform(2e-4, 2e-2);
+    const double delay = period * std::vector<double>{0.0, 0.4, 1.0, 1.7, 2.0}[random.index(5)];
+    const ProvedLoop loop(string_with_absorber(modes, random.log_uniform(1e-4, 2e-2), hardware),
+                          {period, delay},
+                          {-random.log_uniform(10.0, 500.0), -random.log_uniform(0.1, 10.0)});
+    if (loop.poles.empty() || !(loop.radius(loop.sampling, loop.gains) < 1.0 - 1e-6)) continue;
+    const bool of_period = random.index(2) == 0;
+    const SamplingProof<double> proof(
+        loop.poles, loop.gains,
+        of_period ? EnclosedSamplings::of_period(loop.sampling)
+                  : EnclosedSamplings::of_delay(period, held_commands(loop.sampling)));
+    const double value = of_period ? period : delay;
+    const auto radius_at = [&](double position) {
+      return of_period ? loop.radius_at_period(position) : loop.radius_at_delay(position);
+    };
+    const auto is_held = [&](double length) {
+      // Within the stretch in which as many commands are on their way.
+      const double from = value - (of_period || delay > 0.0 ? length * period : 0.0);
+      const double to = from + length * period;
+      const bool proved = proof.is_stable(from, to);
+      for (int k = 0; proved && k <= 12; ++k)
+        EXPECT_LT(radius_at(from + k / 12.0 * (to - from)), 1.0 + 1e-11);
+      return proved;
+    };
+    ++short_ones;
+    proved_short_ones += is_held(1e-5) ? 1 : 0;
+    for (double length = 1e-3; length < 0.5; length *= 3.0) {
+      ++long_ones;
+      proved_long_ones += is_held(length) ? 1 : 0;
+    }
+  }
+  EXPECT_GE(proved_short_ones, 147);
+  EXPECT_GE(proved_long_ones, long_ones / 3);
 }
 
 TEST(SamplingProof, IsOfNoStretchWithAnUnstableLoop) {

@@ -16,8 +16,7 @@ struct EnclosedPhasor {
 
 /// 1 − y²/(a (a + 1)) (1 − y²/((a + 2)(a + 3)) (1 − …)), y² ≤ 1: of its nested factors the
 /// innermost ones that are not computed lie in [0, 1].
-inline Enclosure nested_series(const Enclosure& squared, double a) {
-  constexpr int factors = 10;
+inline Enclosure nested_series(const Enclosure& squared, double a, int factors = 10) {
   Enclosure sum(0.0, 1.0);
   for (int k = factors - 1; k >= 0; --k) {
     const double at = a + 2.0 * k;

@@ -35,6 +35,12 @@ struct ProvedMargin {
   ProvedMarginEnd above;  ///< towards larger values
 };
 
+/// How finely margins are proved, and how long.
+struct ProvedMarginsOptions {
+  double resolution = 1e-6;  ///< the shortest step, as a share of the way to the boundary, > 0
+  int most_steps = 20000;    ///< of the walk along each direction, after which it ends
+};
+
 /// The margins of `StabilityMargins` as theorems on the decimals of the loop.
 struct ProvedMargins {
   ProvedStability stability = ProvedStability::undecided;  ///< of the loop as it is
@@ -113,7 +119,7 @@ class SamplingPath {
 struct ProvedWalk {
   double first;       // length of the first step, > 0
   double least_step;  // shorter ones are not tried: what may be left undecided
-  int most_steps = 20000;
+  int most_steps;
 };
 
 /// Walks along a path from a value of which the loop is proved to be stable, as long as no root
@@ -166,13 +172,13 @@ template <class Watch>
 class MarginProver {
  public:
   MarginProver(const std::vector<EnclosedPole>& poles, const Sampling<double>& sampling,
-               const PdGains<double>& gains, const StabilityMargins& found, double resolution,
-               const Watch& watch)
+               const PdGains<double>& gains, const StabilityMargins& found,
+               const ProvedMarginsOptions& options, const Watch& watch)
       : poles_(poles),
         sampling_(sampling),
         gains_(gains),
         found_(found),
-        resolution_(resolution),
+        options_(options),
         watch_(watch),
         arcs_({poles, sampling}) {}
 
@@ -184,10 +190,14 @@ class MarginProver {
     proved.differential_gain = both(along_d, gains_.differential, found_.differential_gain, 1e12);
     proved.proportional_gain = both(GainPath(arcs_, FreeGain::proportional, gains_),
                                     gains_.proportional, found_.proportional_gain, 1e12);
+    of_sampling(proved);
+    return proved;
+  }
+  /// Of τ and δ.
+  void of_sampling(ProvedMargins& proved) {
     proved.sampling_period = of_period();
     proved.processing_delay = {of_delay(found_.processing_delay.below, -1),
                                of_delay(found_.processing_delay.above, +1)};
-    return proved;
   }
 
  private:
@@ -201,7 +211,8 @@ class MarginProver {
   ProvedMarginEnd towards(const Path& path, double value, double limit) {
     if (limit == value) return {value};
     const double way = std::abs(limit - value);
-    return walked_end(path, value, limit, {0.01 * way, resolution_ * way}, watch_);
+    const ProvedWalk walk{0.01 * way, options_.resolution * way, options_.most_steps};
+    return walked_end(path, value, limit, walk, watch_);
   }
 
   ProvedMargin of_period() {
@@ -237,7 +248,7 @@ class MarginProver {
   Sampling<double> sampling_;
   PdGains<double> gains_;
   const StabilityMargins& found_;
-  double resolution_;
+  ProvedMarginsOptions options_;
   const Watch& watch_;
   CircleArcs arcs_;
 };
@@ -252,15 +263,36 @@ class MarginProver {
 /// @param sampling    as EnclosedResponse takes it
 /// @param gains       P (N/m) and D (N s/m), finite
 /// @param found       what doubles have found: only how far to walk is taken from it
-/// @param resolution  the shortest step, as a share of the way to the boundary, above 0
+/// @param options     how finely
 /// @param watch       called for each step; what it throws ends the work
 /// @throws InvalidParameter where sampling or gains are not admissible
 template <class Watch>
 ProvedMargins proved_margins(const std::vector<EnclosedPole>& poles,
                              const Sampling<double>& sampling, const PdGains<double>& gains,
-                             const StabilityMargins& found, double resolution, const Watch& watch) {
+                             const StabilityMargins& found, const ProvedMarginsOptions& options,
+                             const Watch& watch) {
   validate(gains);
-  return detail::MarginProver<Watch>(poles, sampling, gains, found, resolution, watch).prove();
+  return detail::MarginProver<Watch>(poles, sampling, gains, found, options, watch).prove();
+}
+
+/// The margins of τ and δ alone, of a loop that is stable; of D, P and the loop as it is nothing is
+/// said.
+/// @param poles     as above
+/// @param sampling  as above
+/// @param gains     as above
+/// @param found     as above
+/// @param options   as above
+/// @param watch     as above
+/// @throws InvalidParameter as above
+template <class Watch>
+ProvedMargins proved_sampling_margins(const std::vector<EnclosedPole>& poles,
+                                      const Sampling<double>& sampling,
+                                      const PdGains<double>& gains, const StabilityMargins& found,
+                                      const ProvedMarginsOptions& options, const Watch& watch) {
+  validate(gains);
+  ProvedMargins proved;
+  detail::MarginProver<Watch>(poles, sampling, gains, found, options, watch).of_sampling(proved);
+  return proved;
 }
 
 }  // namespace holdfast
