@@ -41,11 +41,10 @@ class EventPack {
  public:
   static constexpr std::size_t lanes = Lane::count;  ///< motions at a time
 
-  /// What `sense` takes, of all lanes.
+  /// What `sense` takes of all lanes, beside their state().
   struct Sample {
-    std::array<Scalar, 4> state;  ///< z_j
-    Scalar control_force;         ///< what the drive transmits (N)
-    LaneMask engaged;             ///< it transmits the command
+    Scalar control_force;  ///< what the drive transmits (N)
+    LaneMask engaged;      ///< it transmits the command
   };
 
   /// @param starts  one for each lane; lanes beyond the last motion repeat one and are to `sleep`
@@ -70,11 +69,11 @@ class EventPack {
   Sample sense() {
     excitation_.begin_sample(index_);
     switches_.fill(0);
-    const std::array<Scalar, 4> z = state();
-    command_ = proportional_.all() * z[0] + differential_.all() * z[1];
+    command_ =
+        proportional_.all() * state_[0].all() + differential_.all() * state_[1].all();
     const Scalar first = select(delay_.all() > Scalar(0), previous_command_.all(), command_);
     jump(Scalar(0), first, awake(), IgnoreFlowOfLanes());
-    Sample sample{z, select(modes_.engaged(), command_, Scalar(0)), modes_.engaged()};
+    Sample sample{select(modes_.engaged(), command_, Scalar(0)), modes_.engaged()};
     if (modes_.sticking().any()) sample.control_force = with_sticking(sample.control_force);
     return sample;
   }
@@ -212,7 +211,9 @@ class EventPack {
 
   template <class Observer>
   void flow(const Part& part, const LaneMask& which, Observer& observer) {
-    LaneMask pending = which & !flow_without_event(part, which);
+    const LaneMask through = flow_without_event(part, which);
+    if (all(through)) return;
+    LaneMask pending = which & !through;
     if (!any(pending)) return;
     Numbers reached;
     reached.set(part.begin);
@@ -233,9 +234,8 @@ class EventPack {
       after[2] = select(sticks, Scalar(after[0] + (before[2] - before[0])), after[2]);
       after[3] = select(sticks, after[1], after[3]);
     }
-    const LaneMask none_falls = no_guard_falls(part, step, before, after);
-    const LaneMask guarded = modes_.guarded();
-    const LaneMask through = which & (none_falls | !guarded);
+    const LaneMask through =
+        which & (no_guard_falls(part, step, before, after) | modes_.unguarded());
     // What comes next need not wait for the bound where all lanes are through.
     const bool whole = all(through);
     for (std::size_t i = 0; i < 4; ++i)
@@ -261,7 +261,7 @@ class EventPack {
     }
     const Scalar drop = step.drop_by_norm.all() * modes_.norm(before) +
                         step.drop_by_command.all() * abs(part.command) + step.drop_constant.all();
-    return (least > drop) & !modes_.fresh();
+    return (least > drop) & modes_.settled();
   }
 
   /// Goes on to the next change of contact, or to the end of the part, in some lanes.
