@@ -10,6 +10,7 @@ namespace {
 TEST(LaneEvents, AreThoseOfNextEvent) {
   test::Random random(61);
   int events = 0;
+  LaneEventSearch<double> next_lane_event;
   for (int trial = 0; trial < 2000; ++trial) {
     test::ExactMotion motion = test::kollar_exact(0.005, 0.001);
     EventTable table(motion.loop);
@@ -34,7 +35,7 @@ TEST(LaneEvents, AreThoseOfNextEvent) {
     const std::vector<LanePhasor<double>> none{{0.0, {0.0, 0.0}}};
     const TwoMassSeries<double> series(
         modes.accelerations(0.0), {begin[0], begin[1], begin[2], begin[3]}, none, length, terms);
-    const LaneEvent<double> event = next_event(modes, series, 0.0, true);
+    const LaneEvent<double> event = next_lane_event(modes, series, 0.0, true);
     const NextEvent<4> alone =
         next_event(table.motion(1).dynamics(), contact.guards(),
                    ModeStretch<4>{begin, 0.0, Series::Zero(terms.most), length});
@@ -42,7 +43,7 @@ TEST(LaneEvents, AreThoseOfNextEvent) {
     EXPECT_NEAR(event.at, alone.root.at, 1e-13);
     if (!event.found) continue;
     EXPECT_EQ(event.second, alone.guard == 1);
-    EXPECT_FALSE(next_event(modes, series, 0.0, false).found);
+    EXPECT_FALSE(next_lane_event(modes, series, 0.0, false).found);
     ++events;
   }
   EXPECT_GT(events, 300);

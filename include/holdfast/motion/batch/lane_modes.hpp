@@ -242,7 +242,8 @@ class LaneModes {
       const EventTable& table = *starts_[lane].table;
       const bool alike = table.move_alike(stepped_modes_[lane], mode);
       stepped_modes_[lane] = mode;
-      for (std::size_t part = 0; part < 2; ++part) {
+      const auto& sampling = starts_[lane].loop->digital.sampling;
+      for (std::size_t part = sampling.processing_delay > 0.0 ? 0 : 1; part < 2; ++part) {
         const SubintervalStep<4>& step = table.motion(mode).step(part);
         for (std::size_t i = 0; i < 4; ++i)
           steps_[part].command[i][lane] = step.command[static_cast<Eigen::Index>(i)];
