@@ -6,6 +6,31 @@
 namespace holdfast {
 namespace {
 
+/// The parabola of the largest curvature through both values is the lowest of all such functions.
+TEST(LaneEvents, StaysAboveZeroWhereTheLowestParabolaDoes) {
+  test::Random random(17);
+  int stay = 0, fall = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double begin = random.log_uniform(1e-4, 1e2), end = random.log_uniform(1e-4, 1e2);
+    const double drop = random.log_uniform(1e-4, 1e2);
+    double least = std::min(begin, end);
+    for (int k = 1; k < 1000; ++k) {
+      const double x = 1e-3 * k;
+      least = std::min(least, begin + (end - begin) * x - 4.0 * drop * x * (1.0 - x));
+    }
+    if (std::abs(least) < 1e-5 * drop) continue;  // between two of those x
+    EXPECT_EQ(stays_above_zero(begin, end, drop), least > 0.0)
+        << begin << ' ' << end << ' ' << drop;
+    ++(least > 0.0 ? stay : fall);
+    EXPECT_FALSE(stays_above_zero(-begin, end, drop));
+    EXPECT_FALSE(stays_above_zero(begin, -end, drop));
+  }
+  EXPECT_GT(stay, 2000);
+  EXPECT_GT(fall, 2000);
+  EXPECT_FALSE(stays_above_zero(1.0, 1.0, std::numeric_limits<double>::infinity()));
+  EXPECT_FALSE(stays_above_zero(1.0, std::numeric_limits<double>::quiet_NaN(), 1.0));
+}
+
 /// In the gap of a play, all lanes of one motion.
 TEST(LaneEvents, AreThoseOfNextEvent) {
   test::Random random(61);

@@ -251,16 +251,23 @@ class EventPack {
       force_before = excitation_.force_at(part.number);
       force_after = excitation_.force_at(part.number + 1);
     }
+    const Scalar drop = step.drop_by_norm.all() * modes_.norm(before) +
+                        step.drop_by_command.all() * abs(part.command) + step.drop_constant.all();
     Scalar least(std::numeric_limits<double>::infinity());
+    std::array<Scalar, 2> begin, end;
     for (std::size_t g = 0; g < 2; ++g) {
       const LaneGuard<Scalar>& guard = modes_.guard(g);
       const Scalar by_force = guard.force.all();
-      least = min(least, min(Scalar(guard.at(before, part.command) + by_force * force_before),
-                             Scalar(guard.at(after, part.command) + by_force * force_after)));
+      begin[g] = guard.at(before, part.command) + by_force * force_before;
+      end[g] = guard.at(after, part.command) + by_force * force_after;
+      least = min(least, min(begin[g], end[g]));
     }
-    const Scalar drop = step.drop_by_norm.all() * modes_.norm(before) +
-                        step.drop_by_command.all() * abs(part.command) + step.drop_constant.all();
-    return (least > drop) & modes_.settled();
+    const LaneMask settled = modes_.settled();
+    const LaneMask far = (least > drop) & settled;
+    if (all(far)) return far;
+    const LaneMask none_turns =
+        stays_above_zero(begin[0], end[0], drop) & stays_above_zero(begin[1], end[1], drop);
+    return far | (none_turns & settled);
   }
 
   /// Goes on to the next change of contact, or to the end of the part, in some lanes; `phasors_`

@@ -18,6 +18,26 @@
 
 namespace holdfast {
 
+/// Whether a function g stays above zero between two of its values, in every lane. Where |g̈| ≤ M
+/// over the length h between them, it lies above
+///
+///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
+///
+/// of which the least is min(g_0, g_1) where |g_1 − g_0| ≥ 4 d, and else
+/// min(g_0, g_1) − (4 d − |g_1 − g_0|)² / 16 d: never below min(g_0, g_1) − d, and near an event
+/// far above that.
+/// @param begin  g_0, in any unit
+/// @param end    g_1, in the same unit
+/// @param drop   d > 0, as NoEventBound bounds it; of d = 0 the answer is no
+template <class Scalar>
+Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scalar& drop) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  const Scalar rest = max(Scalar(Scalar(4) * drop - abs(Scalar(end - begin))), Scalar(0));
+  return Scalar(16) * drop * min(begin, end) > rest * rest;
+}
+
 /// The first change of contact over a stretch, in every lane.
 template <class Scalar>
 struct LaneEvent {
