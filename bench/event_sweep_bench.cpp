@@ -1,6 +1,7 @@
 // Metrics of many motions whose backlash switches between the samples, on packs. Peers:
 // EventMotion, one motion after the other, and the templates of the packs on one lane. The cells
-// differ in the gain D and the width of the play, as those of a sweep. All sides alternate in one
+// differ in the gain D and the width of the play, as those of a sweep, and then also in the phase
+// of the force, so that they change their contacts at different samples. All sides alternate in one
 // run; the medians and their ratios are printed.
 #include <cstddef>
 #include <cstdio>
@@ -26,7 +27,8 @@ volatile double sink = 0.0;
 
 const Vector<double, 4> rest = Vector<double, 4>::Zero();
 
-std::vector<ImplementedLoop> loops_of(double period, ForceHold hold) {
+/// @param turn  by which the force of each cell is ahead of that of the one before (rad)
+std::vector<ImplementedLoop> loops_of(double period, ForceHold hold, double turn) {
   std::vector<ImplementedLoop> loops;
   for (std::size_t k = 0; k < cells; ++k) {
     const double share = static_cast<double>(k) / cells;
@@ -36,6 +38,7 @@ std::vector<ImplementedLoop> loops_of(double period, ForceHold hold) {
     loops.push_back(implemented_loop(loop));
     loops.back().backlash.law = ContactLaw::play;
     loops.back().switching = Switching::exact;
+    loops.back().digital.force.harmonics[0].phase = turn * static_cast<double>(k);
   }
   return loops;
 }
@@ -51,8 +54,8 @@ void batch(const std::vector<EventSweepMotion>& motions, double duration) {
   sink = metrics.back().steady_peak;
 }
 
-void measure(double period, ForceHold hold) {
-  const auto loops = loops_of(period, hold);
+void measure(double period, ForceHold hold, double turn) {
+  const auto loops = loops_of(period, hold, turn);
   std::vector<EventSweepMotion> motions;
   for (const ImplementedLoop& loop : loops) motions.push_back({&loop, rest});
   const double duration = period * samples;
@@ -72,6 +75,10 @@ int main() {
       "medians of %d alternating repetitions, one core, %zu lanes, ns per motion and sample\n",
       bench::usual_repetitions, Lanes<simd::Pack<double>>::count);
   std::printf("  tau  force       alone one lane    packs   ratio\n   ms\n");
-  for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled})
-    for (const double period : {0.001, 0.002, 0.005, 0.011}) measure(period, hold);
+  constexpr double golden_angle = 2.399963;
+  for (const double turn : {0.0, golden_angle}) {
+    if (turn > 0.0) std::printf("phases of the force all over the turn\n");
+    for (const ForceHold hold : {ForceHold::exact, ForceHold::sampled})
+      for (const double period : {0.001, 0.002, 0.005, 0.011}) measure(period, hold, turn);
+  }
 }

@@ -8,6 +8,9 @@ namespace {
 TEST(Select, PicksOneOfTwoValuesByTheMask) {
   EXPECT_EQ(select(true, 1.5, 2.5), 1.5);
   EXPECT_EQ(select(false, 1.5, 2.5), 2.5);
+  EXPECT_TRUE(without<double>(true, false));
+  EXPECT_FALSE(without<double>(true, true));
+  EXPECT_FALSE(without<double>(false, false));
 }
 
 TEST(Select, TheMaskOfAPlainNumberIsBool) {

@@ -10,11 +10,20 @@ namespace holdfast {
 template <class Scalar>
 struct MaskOf {
   using type = bool;  ///< what a comparison of two `Scalar`s gives
+
+  /// The lanes that a mask does not have.
+  static constexpr bool complement(bool mask) { return !mask; }
 };
 
 /// The type of a comparison of two `Scalar`s.
 template <class Scalar>
 using Mask = typename MaskOf<Scalar>::type;
+
+/// The lanes of a mask that another one does not have.
+template <class Scalar>
+constexpr Mask<Scalar> without(const Mask<Scalar>& mask, const Mask<Scalar>& other) {
+  return mask & MaskOf<Scalar>::complement(other);
+}
 
 /// `mask ? when_true : when_false`, lane by lane.
 template <class Value>

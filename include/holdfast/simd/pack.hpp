@@ -22,6 +22,9 @@ template <class Number, class Architecture>
 struct MaskOf<xsimd::batch<Number, Architecture>> {
   /// One truth value a lane.
   using type = xsimd::batch_bool<Number, Architecture>;
+
+  /// The lanes that a mask does not have; `!` of a mask takes it apart on some instruction sets.
+  static type complement(const type& mask) { return ~mask; }
 };
 
 namespace simd {

@@ -102,24 +102,29 @@ class EventMetricTrack {
         [&](std::size_t lane) { return static_cast<double>(spans_[lane].first_steady); });
     begins_steady_ = begin == Scalar(static_cast<double>(pack_.index()));
     begins_ = any(begins_steady_);
-    steady_ = false;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      steady_ = steady_ || (open_[lane] && pack_.index() >= spans_[lane].first_steady);
+    const auto found = lane_flags<Scalar>(observer_.extremum_found());
+    steady_ = seeks_extremum_ = false;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (!open_[lane]) continue;
+      steady_ = steady_ || pack_.index() >= spans_[lane].first_steady;
+      seeks_extremum_ = seeks_extremum_ || found[lane] == 0;
+    }
   }
 
   /// Takes one sample.
   void take(MotionMetrics* results) {
     close_diverged(results);
     const auto sample = pack_.sense();
-    const Scalar velocity = sample.state[3] - sample.state[1];
+    const std::array<Scalar, 4> z = pack_.state();
+    const Scalar velocity = z[3] - z[1];
     const Mask<Scalar> reverses = is_reversal(velocity_before_, velocity);
     velocity_before_ = velocity;
-    observer_.observe_extremum(sample.state[0]);
-    observer_.observe_load(sample.control_force, Scalar(sample.state[2] - sample.state[0]));
+    if (seeks_extremum_) observer_.observe_extremum(z[0]);
+    observer_.observe_load(sample.control_force, Scalar(z[2] - z[0]));
     if (begins_) observer_.begin_steady(begins_steady_, reverses);
     begins_ = false;
     if (steady_)
-      observer_.observe_steady(sample.state[0], sample.control_force, sample.engaged, reverses);
+      observer_.observe_steady(z[0], sample.control_force, sample.engaged, reverses);
     pack_.advance();
     if (pack_.some_accumulate()) close_accumulating(results);
   }
@@ -166,7 +171,7 @@ class EventMetricTrack {
   Mask<Scalar> begins_steady_ = Scalar(0) > Scalar(0);
   std::array<SampleSpan, lanes> spans_{};
   std::array<bool, lanes> open_{};
-  bool steady_ = false, begins_ = false;
+  bool steady_ = false, begins_ = false, seeks_extremum_ = true;
 };
 
 /// The metrics of motions that are prepared, group by group: the packs of a group hide each other's

@@ -22,12 +22,22 @@ TEST(LaneExcitation, IsTheForceOverSamples) {
     EXPECT_EQ(lanes.lines(), 2U);
     EXPECT_EQ(lanes.is_held(0), hold == ForceHold::sampled);
     std::vector<LanePhasor<double>> phasors(lanes.lines());
+    const std::vector<double> instants{0.0, 0.0007, 0.003};
+    lanes.fix_instants(instants);
+    std::vector<LanePhasor<double>> fixed(lanes.lines());
     for (std::int64_t j = 0; j < 40; ++j) {
       lanes.begin_sample(j);
       alone.begin_sample(j, static_cast<double>(j) * loop.sampling.period);
-      for (const double after : {0.0, 0.0007, 0.003}) {
-        lanes.turned(after, phasors);
-        EXPECT_NEAR(LaneExcitation<double>::force(phasors), alone.at(after), 1e-14);
+      for (std::size_t k = 0; k < instants.size(); ++k) {
+        lanes.turned(instants[k], phasors);
+        EXPECT_NEAR(LaneExcitation<double>::force(phasors), alone.at(instants[k]), 1e-14);
+        EXPECT_EQ(lanes.force_at(k), LaneExcitation<double>::force(phasors));
+        lanes.turned_to(k, fixed);
+        for (std::size_t l = 0; l < fixed.size(); ++l) {
+          EXPECT_EQ(fixed[l].angular_frequency, phasors[l].angular_frequency);
+          EXPECT_EQ(fixed[l].phase.cosine, phasors[l].phase.cosine);
+          EXPECT_EQ(fixed[l].phase.sine, phasors[l].phase.sine);
+        }
       }
     }
   }

@@ -39,12 +39,15 @@ TEST(TwoMassSeries, IsThatOfTaylorStep) {
       EXPECT_NEAR(series.force[static_cast<std::size_t>(k)], force[k], 1e-15);
     }
     const TaylorStep<4> step(dynamics, z, command, force, length);
-    for (const double x : {0.0, 0.3, 1.0})
+    for (const double x : {0.0, 0.3, 1.0}) {
+      const std::array<double, 4> there = series.state_at(x);
       for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(there[i], series.value(series.state[i], x));
         const double size = step.coefficients().row(static_cast<Eigen::Index>(i)).cwiseAbs().sum();
         EXPECT_NEAR(series.value(series.state[i], x), step.state(x)[static_cast<Eigen::Index>(i)],
                     1e-14 * size);
       }
+    }
   }
 }
 
@@ -52,7 +55,8 @@ TEST(TwoMassSeries, HasAsManyTermsAsItsLengthAsksFor) {
   const LaneTerms<double> terms;
   EXPECT_EQ(terms(0.0).most, 1);
   EXPECT_EQ(terms(1.0).most, most_terms);
-  for (double turns = 1e-6; turns < 1.0; turns *= 1.3)
+  EXPECT_EQ(terms(std::numeric_limits<double>::quiet_NaN()).most, 1);
+  for (double turns = 1e-6; turns < 1.0; turns *= 1.003)
     EXPECT_EQ(terms(turns).most, terms_for(turns)) << turns;
 }
 

@@ -25,6 +25,14 @@ struct FirstRoots {
 
 namespace detail {
 
+/// k (k − 1), k < most_terms: the second derivatives of x^k at 1.
+constexpr std::array<double, most_terms> curvatures_of_powers() {
+  std::array<double, most_terms> result{};
+  for (std::size_t k = 1; k < result.size(); ++k)
+    result[k] = static_cast<double>(k) * static_cast<double>(k - 1);
+  return result;
+}
+
 /// The search of first_root() in every lane of a pack.
 template <class Scalar>
 struct RootSearch {
@@ -55,7 +63,7 @@ struct RootSearch {
       const Scalar beyond = select(touches, zero, Scalar(max(value, zero) / -slope));
       at = select(down, Scalar(min(Scalar(x + beyond), one)), at);
       found = found | down;
-      active = active & !down;
+      active = without<Scalar>(active, down);
       if (!any(active)) return;
     }
     const Scalar way = safe_way(max(value, rounding), slope);
@@ -66,7 +74,7 @@ struct RootSearch {
                                (slope * slope > Scalar(64) * bend * rounding) & (slope < zero);
     at = select(there, x, at);
     found = found | there;
-    active = active & !there;
+    active = without<Scalar>(active, there);
   }
 
  private:
@@ -81,7 +89,7 @@ struct RootSearch {
     const Scalar way = select(rises, Scalar(slope + root), Scalar(two * height)) /
                        select(rises, Scalar(-sag), Scalar(root - slope));
     const Mask<Scalar> is_number = (way <= zero) | (way > zero);
-    const Mask<Scalar> meets = (square >= zero) & !(rises & (sag >= zero)) & is_number;
+    const Mask<Scalar> meets = without<Scalar>((square >= zero) & is_number, rises & (sag >= zero));
     return select(meets, way, never);
   }
 
@@ -99,16 +107,17 @@ struct RootSearch {
   void scale(int terms) {
     using std::abs;
     using std::max;
+    constexpr auto curvatures = curvatures_of_powers();
     const auto count = static_cast<std::size_t>(terms);
     Scalar sum(0);
     for (std::size_t k = 0; k < count; ++k) {
       const Scalar size = abs(p[k]);
       sum = sum + size;
-      bend = bend + Scalar(static_cast<double>(k) * (static_cast<double>(k) - 1.0)) * size;
+      bend = bend + Scalar(curvatures[k]) * size;
     }
     const Mask<Scalar> squares_fit = (sum > Scalar(1e-100)) & (sum < Scalar(1e100));
     active = active & (sum < Scalar(std::numeric_limits<double>::infinity()));
-    if (any(active & !squares_fit)) {
+    if (any(without<Scalar>(active, squares_fit))) {
       const Scalar factor =
           select(squares_fit, Scalar(1), Scalar(Scalar(1) / max(sum, Scalar(1e-300))));
       for (std::size_t k = 0; k < count; ++k) p[k] = p[k] * factor;

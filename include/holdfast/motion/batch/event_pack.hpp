@@ -41,11 +41,10 @@ class EventPack {
  public:
   static constexpr std::size_t lanes = Lane::count;  ///< motions at a time
 
-  /// What `sense` takes, of all lanes.
+  /// What `sense` takes of all lanes, beside their state().
   struct Sample {
-    std::array<Scalar, 4> state;  ///< z_j
-    Scalar control_force;         ///< what the drive transmits (N)
-    LaneMask engaged;             ///< it transmits the command
+    Scalar control_force;  ///< what the drive transmits (N)
+    LaneMask engaged;      ///< it transmits the command
   };
 
   /// @param starts  one for each lane; lanes beyond the last motion repeat one and are to `sleep`
@@ -62,6 +61,7 @@ class EventPack {
       differential_[lane] = digital.gains.differential;
       begin(lane, starts[lane].state);
     }
+    excitation_.fix_instants({Scalar(0), delay_.all(), period_.all()});
     any_delay_ = any(delay_.all() > Scalar(0));
     any_late_ = any(delay_.all() < period_.all());
   }
@@ -70,11 +70,10 @@ class EventPack {
   Sample sense() {
     excitation_.begin_sample(index_);
     switches_.fill(0);
-    const std::array<Scalar, 4> z = state();
-    command_ = proportional_.all() * z[0] + differential_.all() * z[1];
+    command_ = proportional_.all() * state_[0].all() + differential_.all() * state_[1].all();
     const Scalar first = select(delay_.all() > Scalar(0), previous_command_.all(), command_);
-    jump(Scalar(0), first, awake(), IgnoreFlowOfLanes());
-    Sample sample{z, select(modes_.engaged(), command_, Scalar(0)), modes_.engaged()};
+    jump(0, first, awake(), IgnoreFlowOfLanes());
+    Sample sample{select(modes_.engaged(), command_, Scalar(0)), modes_.engaged()};
     if (modes_.sticking().any()) sample.control_force = with_sticking(sample.control_force);
     return sample;
   }
@@ -96,7 +95,7 @@ class EventPack {
       flow({0, previous_command_.all(), zero, delay}, awake() & (delay > zero), observer);
     if (any_late_) {
       const LaneMask late = awake() & (delay < period);
-      if (any_delay_) jump(delay, command_, late & (delay > zero), observer);
+      if (any_delay_) jump(1, command_, late & (delay > zero), observer);
       flow({1, command_, delay, period}, late, observer);
     }
     previous_command_.set(command_);
@@ -151,23 +150,18 @@ class EventPack {
     awake_[lane] = 1.0;
   }
 
-  /// F (N) some time after the sample.
-  Scalar force_at(const Scalar& after) {
-    excitation_.turned(after, phasors_);
-    return LaneExcitation<Scalar>::force(phasors_);
-  }
-
   ContactInstant instant(std::size_t lane, const Scalar& command, const Scalar& force) const {
     return {state(lane), detail::lane_of(command, lane), detail::lane_of(force, lane)};
   }
 
   /// Lanes whose contact looks at a jump: in stick, where its condition fails under the new
   /// command, and just after a change.
+  /// @param instant_number  0: at the sample, 1: at the end of the delay
   template <class Observer>
-  void jump(const Scalar& after, const Scalar& command, const LaneMask& which,
+  void jump(std::size_t instant_number, const Scalar& command, const LaneMask& which,
             Observer&& observer) {
     if (modes_.sticking().none() && modes_.freshly_changed().none()) return;
-    const Scalar zero(0), force = force_at(after);
+    const Scalar zero(0), force = excitation_.force_at(instant_number);
     const std::array<Scalar, 4> z = state();
     LaneMask stays = zero < Scalar(1);
     for (std::size_t g = 0; g < 2; ++g) {
@@ -175,7 +169,7 @@ class EventPack {
       stays = stays & (guard.at(z, command) + guard.force.all() * force > zero);
     }
     const LaneMask fresh = modes_.fresh(), sticks = modes_.sticks();
-    const LaneMask asked = which & (fresh | (sticks & !stays));
+    const LaneMask asked = which & (fresh | without<Scalar>(sticks, stays));
     if (!any(asked)) return;
     const auto lane_asked = detail::lane_flags<Scalar>(asked);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -188,12 +182,12 @@ class EventPack {
         continue;
       }
       enter(lane);
-      observer.switched(lane, before, contact.mode(), -1, detail::lane_of(after, lane));
+      observer.switched(lane, before, contact.mode(), -1, instant_number == 0 ? 0.0 : delay_[lane]);
     }
   }
 
   Scalar with_sticking(const Scalar& transmitted) {
-    const Scalar force = force_at(Scalar(0));
+    const Scalar force = excitation_.force_at(0);
     Numbers numbers;
     numbers.set(transmitted);
     for (std::size_t lane = 0; lane < lanes; ++lane)
@@ -212,13 +206,18 @@ class EventPack {
 
   template <class Observer>
   void flow(const Part& part, const LaneMask& which, Observer& observer) {
-    LaneMask pending = which & !flow_without_event(part, which);
+    const LaneMask through = flow_without_event(part, which);
+    if (all(through)) return;
+    LaneMask pending = without<Scalar>(which, through);
     if (!any(pending)) return;
     Numbers reached;
     reached.set(part.begin);
-    while (any(pending)) {
+    excitation_.turned_to(part.number, phasors_);
+    for (;;) {
       flow_to_event(part, pending, reached, observer);
       pending = pending & (reached.all() < part.end);
+      if (!any(pending)) return;
+      excitation_.turned(reached.all(), phasors_);
     }
   }
 
@@ -234,8 +233,8 @@ class EventPack {
       after[3] = select(sticks, after[1], after[3]);
     }
     const LaneMask none_falls = no_guard_falls(part, step, before, after);
-    const LaneMask guarded = modes_.guarded();
-    const LaneMask through = which & (none_falls | !guarded);
+    const LaneMask unguarded = modes_.unguarded();
+    const LaneMask through = which & (none_falls | unguarded);
     // What comes next need not wait for the bound where all lanes are through.
     const bool whole = all(through);
     for (std::size_t i = 0; i < 4; ++i)
@@ -249,22 +248,30 @@ class EventPack {
     using std::min;
     Scalar force_before(0), force_after(0);
     if (modes_.sticking().any()) {
-      force_before = force_at(part.begin);
-      force_after = force_at(part.end);
-    }
-    Scalar least(std::numeric_limits<double>::infinity());
-    for (std::size_t g = 0; g < 2; ++g) {
-      const LaneGuard<Scalar>& guard = modes_.guard(g);
-      const Scalar by_force = guard.force.all();
-      least = min(least, min(Scalar(guard.at(before, part.command) + by_force * force_before),
-                             Scalar(guard.at(after, part.command) + by_force * force_after)));
+      force_before = excitation_.force_at(part.number);
+      force_after = excitation_.force_at(part.number + 1);
     }
     const Scalar drop = step.drop_by_norm.all() * modes_.norm(before) +
                         step.drop_by_command.all() * abs(part.command) + step.drop_constant.all();
-    return (least > drop) & !modes_.fresh();
+    Scalar least(std::numeric_limits<double>::infinity());
+    std::array<Scalar, 2> begin, end;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const LaneGuard<Scalar>& guard = modes_.guard(g);
+      const Scalar by_force = guard.force.all();
+      begin[g] = guard.at(before, part.command) + by_force * force_before;
+      end[g] = guard.at(after, part.command) + by_force * force_after;
+      least = min(least, min(begin[g], end[g]));
+    }
+    const LaneMask settled = modes_.settled();
+    const LaneMask far = (least > drop) & settled;
+    if (all(far)) return far;
+    const LaneMask none_turns =
+        stays_above_zero(begin[0], end[0], drop) & stays_above_zero(begin[1], end[1], drop);
+    return far | (none_turns & settled);
   }
 
-  /// Goes on to the next change of contact, or to the end of the part, in some lanes.
+  /// Goes on to the next change of contact, or to the end of the part, in some lanes; `phasors_`
+  /// are those where they are.
   template <class Observer>
   void flow_to_event(const Part& part, const LaneMask& pending, Numbers& reached,
                      Observer& observer) {
@@ -272,13 +279,12 @@ class EventPack {
     const Scalar zero(0), one(1), begin = reached.all();
     const Scalar wanted = part.end - begin;
     const Scalar length = select(pending, Scalar(min(wanted, Scalar(one / modes_.rate()))), zero);
-    excitation_.turned(begin, phasors_);
     const std::array<Scalar, 4> z = state();
     const TwoMassSeries<Scalar> series(modes_.accelerations(part.command), z, phasors_, length,
                                        terms_(Scalar(modes_.rate() * length)));
-    const LaneEvent<Scalar> event = next_event(modes_, series, part.command, pending);
-    for (std::size_t i = 0; i < 4; ++i)
-      state_[i].set(select(pending, series.value(series.state[i], event.at), z[i]));
+    const LaneEvent<Scalar> event = next_event_(modes_, series, part.command, pending);
+    const std::array<Scalar, 4> after = series.state_at(event.at);
+    for (std::size_t i = 0; i < 4; ++i) state_[i].set(select(pending, after[i], z[i]));
     const Scalar came = select(event.found, Scalar(begin + event.at * length),
                                select(length == wanted, part.end, Scalar(begin + length)));
     reached.set(select(pending, came, begin));
@@ -314,6 +320,7 @@ class EventPack {
   LaneExcitation<Scalar> excitation_;
   LaneModes<Scalar> modes_;
   LaneTerms<Scalar> terms_;
+  LaneEventSearch<Scalar> next_event_;
   std::vector<LanePhasor<Scalar>> phasors_;
   Numbers period_, delay_, proportional_, differential_, awake_, previous_command_;
   bool any_delay_ = false, any_late_ = true;

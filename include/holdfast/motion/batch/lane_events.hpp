@@ -18,6 +18,26 @@
 
 namespace holdfast {
 
+/// Whether a function g stays above zero between two of its values, in every lane. Where |g̈| ≤ M
+/// over the length h between them, it lies above
+///
+///     g(x h) ≥ g_0 + (g_1 − g_0) x − 4 d x (1 − x),   d = M h²/8,   0 ≤ x ≤ 1,
+///
+/// of which the least is min(g_0, g_1) where |g_1 − g_0| ≥ 4 d, and else
+/// min(g_0, g_1) − (4 d − |g_1 − g_0|)² / 16 d: never below min(g_0, g_1) − d, and near an event
+/// far above that.
+/// @param begin  g_0, in any unit
+/// @param end    g_1, in the same unit
+/// @param drop   d > 0, as NoEventBound bounds it; of d = 0 the answer is no
+template <class Scalar>
+Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scalar& drop) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  const Scalar rest = max(Scalar(Scalar(4) * drop - abs(Scalar(end - begin))), Scalar(0));
+  return Scalar(16) * drop * min(begin, end) > rest * rest;
+}
+
 /// The first change of contact over a stretch, in every lane.
 template <class Scalar>
 struct LaneEvent {
@@ -73,7 +93,7 @@ struct GuardOnStretch {
     for (std::size_t k = 0; k < terms; ++k) {
       Scalar size = known + abs(Scalar(guard.force.all() * stretch.force[k]));
       for (std::size_t i = 0; i < 4; ++i) size = size + abs(Scalar(row[i] * stretch.state[i][k]));
-      still = still & !(abs(g[k]) > rounding * size);
+      still = still & (abs(g[k]) <= rounding * size);
       if (!any(still)) return;
       g[k] = select(still, Scalar(0), g[k]);
       known = Scalar(0);
@@ -110,36 +130,40 @@ void learn_signs(LaneModes<Scalar>& modes, const Mask<Scalar>& which, int terms,
 
 /// next_event() in every lane: the first root of any guard over a stretch, none passed over.
 ///
-/// Work: 5 multiply-adds for each guard and term, and first_roots().
-/// @param modes    of the lanes; a contact learns the sign of its velocity here
-/// @param stretch  at most 1 / modes.rate() long
-/// @param command  u in force (N)
-/// @param which    lanes that are looked at; the others have no event
+/// Work: 5 multiply-adds for each guard and term, and first_roots(). The search keeps the memory in
+/// which it works.
 template <class Scalar>
-LaneEvent<Scalar> next_event(LaneModes<Scalar>& modes, const TwoMassSeries<Scalar>& stretch,
-                             const Scalar& command, const Mask<Scalar>& which) {
-  const Mask<Scalar> guarded = which & modes.guarded();
-  const bool forced = modes.sticking().any(), fresh = modes.freshly_changed().any();
-  const int terms = stretch.terms.most;
-  const auto expand = [&](std::size_t number, LaneSeries<Scalar>& g) {
-    detail::GuardOnStretch<Scalar>{modes.guard(number), stretch, command}.expand(forced, fresh,
-                                                                                 guarded, g);
-  };
-  std::array<LaneSeries<Scalar>, 1> first{};
-  if (modes.with_two_guards().none()) {
-    expand(0, first[0]);
-    if (modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, first[0]);
-    const auto [root] = first_roots<Scalar, 1>(first, terms, {guarded});
-    return {root.found, root.at, Scalar(0) > Scalar(0)};
+class LaneEventSearch {
+ public:
+  /// @param modes    of the lanes; a contact learns the sign of its velocity here
+  /// @param stretch  at most 1 / modes.rate() long
+  /// @param command  u in force (N)
+  /// @param which    lanes that are looked at; the others have no event
+  LaneEvent<Scalar> operator()(LaneModes<Scalar>& modes, const TwoMassSeries<Scalar>& stretch,
+                               const Scalar& command, const Mask<Scalar>& which) {
+    const Mask<Scalar> guarded = which & modes.guarded();
+    const int terms = stretch.terms.most;
+    const auto expand = [&](std::size_t number, LaneSeries<Scalar>& g) {
+      detail::GuardOnStretch<Scalar>{modes.guard(number), stretch, command}.expand(
+          modes.sticking().any(), modes.freshly_changed().any(), guarded, g);
+      if (number == 0 && modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, g);
+    };
+    if (modes.with_two_guards().none()) {
+      expand(0, one_[0]);
+      const auto [root] = first_roots<Scalar, 1>(one_, terms, {guarded});
+      return {root.found, root.at, Scalar(0) > Scalar(0)};
+    }
+    expand(0, two_[0]);
+    expand(1, two_[1]);
+    const auto [first, second] = first_roots<Scalar, 2>(two_, terms, {guarded, guarded});
+    const Mask<Scalar> later = without<Scalar>(second.found, first.found & (first.at <= second.at));
+    const Mask<Scalar> found = first.found | second.found;
+    return {found, select(later, second.at, first.at), later};
   }
-  std::array<LaneSeries<Scalar>, 2> both{};
-  expand(0, both[0]);
-  expand(1, both[1]);
-  if (modes.without_sign().any()) detail::learn_signs(modes, guarded, terms, both[0]);
-  const auto [one, two] = first_roots<Scalar, 2>(both, terms, {guarded, guarded});
-  const Mask<Scalar> later = two.found & !(one.found & (one.at <= two.at));
-  const Mask<Scalar> found = one.found | two.found;
-  return {found, select(later, two.at, one.at), later};
-}
+
+ private:
+  std::array<LaneSeries<Scalar>, 1> one_{};
+  std::array<LaneSeries<Scalar>, 2> two_{};
+};
 
 }  // namespace holdfast

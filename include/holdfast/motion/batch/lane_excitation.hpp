@@ -63,15 +63,27 @@ class LaneExcitation {
 
   /// The harmonics with their own phases some time (s) after the sample.
   void turned(const Scalar& after, std::vector<LanePhasor<Scalar>>& phasors) const {
-    using std::floor;
-    for (std::size_t l = 0; l < lines_.size(); ++l) {
-      const Line& line = lines_[l];
-      const Scalar cycles = line.frequency * after + line.phase_cycles;
-      const ExcitationSample<Scalar> turn = unit_phasor(Scalar(cycles - floor(cycles)));
-      phasors[l] = {line.angular_frequency,
-                    {turn.cosine * phases_[l].cosine - turn.sine * phases_[l].sine,
-                     turn.cosine * phases_[l].sine + turn.sine * phases_[l].cosine}};
-    }
+    for (std::size_t l = 0; l < lines_.size(); ++l)
+      phasors[l] = {lines_[l].angular_frequency, turned_by(turn_of(lines_[l], after), l)};
+  }
+
+  /// Fixes some times (s) after the sample, for turned_to() and force_at().
+  void fix_instants(const std::vector<Scalar>& after) {
+    fixed_.clear();
+    for (const Scalar& one : after)
+      for (const Line& line : lines_) fixed_.push_back(turn_of(line, one));
+  }
+  /// `turned` at a fixed time.
+  void turned_to(std::size_t instant, std::vector<LanePhasor<Scalar>>& phasors) const {
+    for (std::size_t l = 0; l < lines_.size(); ++l)
+      phasors[l] = {lines_[l].angular_frequency, turned_by(fixed_turn(instant, l), l)};
+  }
+  /// F (N) at a fixed time.
+  Scalar force_at(std::size_t instant) const {
+    Scalar sum(0);
+    for (std::size_t l = 0; l < lines_.size(); ++l)
+      sum = sum + turned_by(fixed_turn(instant, l), l).cosine;
+    return sum;
   }
 
   /// F (N) of harmonics.
@@ -89,6 +101,23 @@ class LaneExcitation {
     ExcitationSample<Scalar> at_sample;                 // cos φ and sin φ
     Scalar frequency, phase_cycles, angular_frequency;  // 0 where the force is held
   };
+
+  /// By what a harmonic turns in some time, with its own phase.
+  static ExcitationSample<Scalar> turn_of(const Line& line, const Scalar& after) {
+    using std::floor;
+    const Scalar cycles = line.frequency * after + line.phase_cycles;
+    return unit_phasor(Scalar(cycles - floor(cycles)));
+  }
+
+  const ExcitationSample<Scalar>& fixed_turn(std::size_t instant, std::size_t l) const {
+    return fixed_[instant * lines_.size() + l];
+  }
+
+  ExcitationSample<Scalar> turned_by(const ExcitationSample<Scalar>& turn, std::size_t l) const {
+    const ExcitationSample<Scalar>& now = phases_[l];
+    return {turn.cosine * now.cosine - turn.sine * now.sine,
+            turn.cosine * now.sine + turn.sine * now.cosine};
+  }
 
   template <class OfLane>
   static Line line_of_lanes(const OfLane& of_lane, std::size_t l) {
@@ -118,6 +147,7 @@ class LaneExcitation {
 
   std::vector<Line> lines_;
   std::vector<ExcitationSample<Scalar>> phases_;
+  std::vector<ExcitationSample<Scalar>> fixed_;  // turns to the fixed times, line by line
   LaneNumbers<Scalar> held_;
   bool any_held_;
 };

@@ -59,14 +59,14 @@ struct LaneStep {
   /// The state at the end of the part from z under the command u.
   std::array<Scalar, 4> state(const std::array<Scalar, 4>& z, const Scalar& u,
                               const LaneExcitation<Scalar>& excitation) const {
-    std::array<Scalar, 4> after;
+    std::array<Scalar, 4> after{drift[0].all(), drift[1].all(), drift[2].all(), drift[3].all()};
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      const ExcitationSample<Scalar>& phase = excitation.phase(l);
+      const auto& [cosine, sine] = lines[l];
+      for (std::size_t i = 0; i < 4; ++i)
+        after[i] = sine[i].all() * phase.sine + (cosine[i].all() * phase.cosine + after[i]);
+    }
     for (std::size_t i = 0; i < 4; ++i) {
-      after[i] = drift[i].all();
-      for (std::size_t l = 0; l < lines.size(); ++l) {
-        const ExcitationSample<Scalar>& phase = excitation.phase(l);
-        after[i] =
-            lines[l][1][i].all() * phase.sine + (lines[l][0][i].all() * phase.cosine + after[i]);
-      }
       // The command is known last.
       for (std::size_t k = 0; k < 4; ++k) after[i] = transition[i][k].all() * z[k] + after[i];
       after[i] = command[i].all() * u + after[i];
@@ -201,6 +201,10 @@ class LaneModes {
   Mask<Scalar> sticks() const { return sticks_.all() > Scalar(0.5); }
   /// Lanes in which a contact has just changed, or a sign is not known yet.
   Mask<Scalar> fresh() const { return fresh_.all() > Scalar(0.5); }
+  /// Lanes in which neither is so.
+  Mask<Scalar> settled() const { return fresh_.all() < Scalar(0.5); }
+  /// Lanes that have no guard.
+  Mask<Scalar> unguarded() const { return has_guard_.all() < Scalar(0.5); }
   /// Lanes that have a guard.
   Mask<Scalar> guarded() const { return has_guard_.all() > Scalar(0.5); }
   /// The same, lane by lane.
@@ -238,7 +242,8 @@ class LaneModes {
       const EventTable& table = *starts_[lane].table;
       const bool alike = table.move_alike(stepped_modes_[lane], mode);
       stepped_modes_[lane] = mode;
-      for (std::size_t part = 0; part < 2; ++part) {
+      const auto& sampling = starts_[lane].loop->digital.sampling;
+      for (std::size_t part = sampling.processing_delay > 0.0 ? 0 : 1; part < 2; ++part) {
         const SubintervalStep<4>& step = table.motion(mode).step(part);
         for (std::size_t i = 0; i < 4; ++i)
           steps_[part].command[i][lane] = step.command[static_cast<Eigen::Index>(i)];

@@ -23,7 +23,7 @@ class LaneNumbers {
   double operator[](std::size_t lane) const { return numbers_[lane]; }
 
  private:
-  alignas(64) std::array<double, lanes> numbers_{};
+  alignas(lanes * sizeof(double)) std::array<double, lanes> numbers_{};
 };
 
 }  // namespace holdfast

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "holdfast/core/lanes.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/math/roots/first_roots.hpp"
@@ -44,20 +45,27 @@ class LaneTerms {
  public:
   /// @param turns  rate times length of each lane, 0 … 1
   TermsOfLanes<Scalar> operator()(const Scalar& turns) const {
-    Scalar terms(1);
-    for (std::size_t k = 0; k + 1 < longest_.size(); ++k)
-      terms = terms + select(turns > Scalar(longest_[k]), Scalar(1), Scalar(0));
+    constexpr std::size_t lanes = Lanes<Scalar>::count;
     LaneNumbers<Scalar> of_lane;
-    of_lane.set(terms);
-    double most = of_lane[0], least = of_lane[0];
-    for (std::size_t lane = 1; lane < of_lane.lanes; ++lane) {
-      most = std::max(most, of_lane[lane]);
-      least = std::min(least, of_lane[lane]);
-    }
-    return {static_cast<int>(most), static_cast<int>(least), terms};
+    of_lane.set(turns);
+    std::array<int, lanes> terms{};
+    for (std::size_t lane = 0; lane < lanes; ++lane) terms[lane] = of(of_lane[lane]);
+    const auto [least, most] = std::minmax_element(terms.begin(), terms.end());
+    return {*most, *least, detail::from_lanes<Scalar>([&](std::size_t lane) {
+              return static_cast<double>(terms[lane]);
+            })};
   }
 
  private:
+  static constexpr double parts = 64.0;  // of 0 … 1, in each of which few numbers of terms occur
+
+  int of(double turns) const {
+    if (!(turns > longest_[0])) return 1;
+    int terms = fewest_[static_cast<std::size_t>(parts * std::min(turns, 1.0))];
+    while (terms < most_terms && turns > longest_[static_cast<std::size_t>(terms - 1)]) ++terms;
+    return terms;
+  }
+
   /// How long a series of 1, 2, … terms may be, in turns.
   static std::array<double, most_terms> lengths() {
     std::array<double, most_terms> longest{};
@@ -72,7 +80,19 @@ class LaneTerms {
     return longest;
   }
 
+  /// Terms at the begin of each part, the fewest of its lengths.
+  std::array<int, static_cast<std::size_t>(parts) + 1> fewest() const {
+    std::array<int, static_cast<std::size_t>(parts) + 1> result{};
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      const auto shorter = [&](double longest) { return longest < static_cast<double>(k) / parts; };
+      const auto terms = std::count_if(longest_.begin(), longest_.end(), shorter) + 1;
+      result[k] = std::min(static_cast<int>(terms), most_terms);
+    }
+    return result;
+  }
+
   std::array<double, most_terms> longest_ = lengths();
+  std::array<int, static_cast<std::size_t>(parts) + 1> fewest_ = fewest();
 };
 
 /// How a mass of the two is accelerated in one mode of the contact, in every lane:
@@ -106,7 +126,7 @@ struct TwoMassSeries {
 
   /// @param masses   accelerations of conductor and absorber
   /// @param begin    z₁, ż₁, z₂, ż₂ at x = 0
-  /// @param phasors  of the excitation there
+  /// @param phasors  of the excitation there, one or more
   /// @param length   h (s), ≥ 0
   /// @param count    of the terms
   TwoMassSeries(const std::array<LaneAcceleration<Scalar>, 2>& masses,
@@ -138,6 +158,15 @@ struct TwoMassSeries {
     for (auto k = static_cast<std::size_t>(count.least); k < most; ++k) end_lanes(k);
   }
 
+  /// The state at x.
+  std::array<Scalar, 4> state_at(const Scalar& x) const {
+    auto k = static_cast<std::size_t>(terms.most - 1);
+    std::array<Scalar, 4> sum{state[0][k], state[1][k], state[2][k], state[3][k]};
+    while (k-- > 0)
+      for (std::size_t i = 0; i < 4; ++i) sum[i] = sum[i] * x + state[i][k];
+    return sum;
+  }
+
   /// The value of one of the series at x.
   Scalar value(const LaneSeries<Scalar>& series, const Scalar& x) const {
     auto k = static_cast<std::size_t>(terms.most - 1);
@@ -157,16 +186,17 @@ struct TwoMassSeries {
   /// The derivatives of the force, not yet divided.
   void expand_force(const std::vector<LanePhasor<Scalar>>& phasors, const Scalar& length,
                     std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) force[k] = Scalar(0);
+    bool first = true;
     for (const LanePhasor<Scalar>& phasor : phasors) {
       const Scalar turn = phasor.angular_frequency * length;
       Scalar cosine = phasor.phase.cosine, sine = phasor.phase.sine;
       for (std::size_t k = 0; k < count; ++k) {
-        force[k] = force[k] + cosine;
+        force[k] = first ? cosine : force[k] + cosine;
         const Scalar next = -turn * sine;
         sine = turn * cosine;
         cosine = next;
       }
+      first = false;
     }
   }
 
