@@ -90,16 +90,19 @@ TEST(OrbitRange, BoundsHowTheStatesLeaveATangent) {
   const IdealLoop<double> loop = test::proved_loop(0.001, 0.0005);
   const PeriodicOrbit orbit = test::orbit_to_prove(loop);
   const auto family = along_differential_gain(loop);
-  const double from = -13.003, to = -12.997;
+  const double from = -13.003, to = -12.997, narrow = 0.1;  // of which the chord is a tangent
   const auto states_at = [&](double gain) {
     const ItineraryMaps<double> maps(family(gain), orbit.ratio);
     return periodic_solution(maps, orbit.itinerary, maps_of_blocks(maps, orbit.itinerary))->states;
   };
-  const auto middle = states_at(0.5 * (from + to)), first = states_at(from), last = states_at(to);
+  const double centre = 0.5 * (from + to), reach = 0.5 * narrow * (to - from);
+  const auto middle = states_at(centre), last = states_at(to);
+  const auto lower = states_at(centre - reach), upper = states_at(centre + reach);
   auto before = middle, after = middle;
   for (std::size_t j = 0; j < middle.size(); ++j) {
-    before[j] -= 0.5 * (last[j] - first[j]);
-    after[j] += 0.5 * (last[j] - first[j]);
+    const Vector<double, 5> way = 0.5 / narrow * (upper[j] - lower[j]);
+    before[j] -= way;
+    after[j] += way;
   }
   const detail::SegmentOfLoops loops(enclosed(family(from)), enclosed(family(to)), orbit.ratio);
   const OrbitProof proof = detail::OrbitProver(loops, orbit, before, after).prove(HUGE_VAL);
