@@ -25,7 +25,12 @@ enum class AttractorType {
   undecided,              ///< the indicators are missing or contradict each other
 };
 
-/// The largest Lyapunov exponent and its 95 % interval, value ± half_width.
+/// The share of repeats in which the interval of an exponent holds the exponent. It is 99 %, so
+/// that a motion whose exponent is 0 is called chaotic, or contracting, in one case of two hundred
+/// each.
+inline constexpr double exponent_confidence = 0.99;
+
+/// The largest Lyapunov exponent and its 99 % interval, value ± half_width.
 struct ExponentEstimate {
   double value;       ///< −∞ where every direction is a null direction
   double half_width;  ///< ≥ 0
@@ -37,8 +42,9 @@ struct ExponentEstimate {
 };
 
 /// An estimate from an exponent and its standard error by batch means. The half width is Student's
-/// 95 % quantile for the fewest batches that a series of more than 64 steps has (32) times the
-/// standard error, or the end effect where that is more; plus 10⁻¹² for the rounding of logarithms.
+/// quantile at `exponent_confidence` for the fewest batches that a series of more than 64 steps has
+/// (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for the rounding
+/// of logarithms.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see LeadingExponent
@@ -48,7 +54,8 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error,
   require_non_negative("standard error of the exponent", standard_error, "");
   require_non_negative("end effect of the exponent", end_effect, "");
   constexpr double rounding = 1e-12;
-  return {value, std::fmax(student_quantile(0.95, 31) * standard_error, end_effect) + rounding};
+  const double quantile = student_quantile(exponent_confidence, 31);
+  return {value, std::fmax(quantile * standard_error, end_effect) + rounding};
 }
 
 /// A search for a repetition of the states, of three periods and more.
@@ -242,7 +249,7 @@ class Classifier {
     if (!indicators_.largest_exponent) return "no exponent is known";
     const ExponentEstimate& found = *indicators_.largest_exponent;
     return "largest exponent " + number_text(found.value) + " +- " + number_text(found.half_width) +
-           " per sample (95 %)";
+           " per sample (99 %)";
   }
   std::string zero_one_text() const {
     if (!indicators_.zero_one) return "no 0-1 test was made";
@@ -297,7 +304,7 @@ class Classifier {
 ///  3. repeats to a tolerance, three times and more → periodic, resting on recurrence; undecided
 ///     where the largest exponent is above zero: then an unstable orbit or round-off repeats;
 ///  4. no exponent, or an extent that still changes by `steady_growth` → undecided;
-///  5. exponent above zero by its 95 % interval: chaotic if K ≥ `zero_one_high` and the spectrum,
+///  5. exponent above zero by its 99 % interval: chaotic if K ≥ `zero_one_high` and the spectrum,
 ///     if known, is not one of lines alone; else undecided;
 ///  6. exponent not told from zero: quasi-periodic if K ≤ `zero_one_low`, a repetition was looked
 ///     for in vain, and the spectrum has lines alone with no common base; else undecided;
