@@ -307,6 +307,36 @@ TEST(Classify, AZeroExponentNeedsALowKNoRepetitionAndLinesWithoutACommonBase) {
   EXPECT_EQ(attractor_type_text(classify(indicators)), "periodic(12)");
 }
 
+TEST(Classify, ANeighbourDecidesWhereTheZeroOneTestDoesNot) {
+  ChaosIndicators indicators = chaotic_indicators();
+  indicators.zero_one = 0.0;
+  indicators.lines = SpectralIndicators{0, 0.999, 6, 1e-6};
+  for (const auto& [came_to, kind] : {std::pair{1e-3, AttractorType::chaotic},
+                                      {9e-4, AttractorType::undecided},
+                                      {1e-9, AttractorType::undecided}}) {
+    indicators.neighbour = came_to;
+    EXPECT_EQ(kind_of(indicators), kind) << came_to;
+  }
+  indicators.largest_exponent = exponent_estimate(0.0, 0.0);
+  indicators.zero_one = 0.5;
+  for (const auto& [came_to, kind] : {std::pair{1e-7, AttractorType::quasi_periodic},
+                                      {2e-7, AttractorType::undecided},
+                                      {0.5, AttractorType::undecided}}) {
+    indicators.neighbour = came_to;
+    EXPECT_EQ(kind_of(indicators), kind) << came_to;
+  }
+  indicators.neighbour = 1e-9;
+  EXPECT_TRUE(names(classify(indicators), "a neighbour 1e-09 of the extent away came to 1e-09"));
+  indicators.zero_one = 0.9;
+  EXPECT_EQ(kind_of(indicators), AttractorType::undecided) << "the two contradict each other";
+  indicators.zero_one = 0.5;
+  indicators.lines->continuous = 0.1;
+  EXPECT_EQ(kind_of(indicators), AttractorType::undecided);
+  indicators.repeat->lag = 12;
+  indicators.neighbour = 0.5;
+  EXPECT_EQ(kind_of(indicators), AttractorType::periodic);
+}
+
 TEST(Classify, ANegativeExponentWithoutRepetitionIsIrregularUnlessTheForcingIsIncommensurate) {
   ChaosIndicators indicators = chaotic_indicators();
   indicators.largest_exponent = exponent_estimate(-0.01, 0.001);
