@@ -114,7 +114,12 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
   double largest = 0.0;  // spectral radius of all
   for (const auto& [frequency, p, quietest, fastest, margins] :
        best_rows(context, options, axis, frequencies.has_value(), both)) {
-    if (!frequencies) warn_of_no_gain(quietest.outcome, p, options.largest_radius, context.quiet);
+    if (!frequencies) {
+      warn_of_no_gain(quietest.outcome, p, options.largest_radius, context.quiet);
+      report_warning(play_warning(the_case, {p, quietest.differential_gain},
+                                  quietest.ratio_to_uncontrolled, context.instructions),
+                     context.quiet);
+    }
     largest = std::max(largest, margins.spectral_radius);
     table.row(frequency, p, quietest.differential_gain, quietest.ratio_to_uncontrolled,
               quietest.attenuation, fastest.differential_gain, fastest.radius,

@@ -6,6 +6,7 @@
 #include "holdfast/phase_space/coverage.hpp"
 #include "job.hpp"
 #include "jobs/motion/case_motion.hpp"
+#include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
 
 namespace holdfast::program {
@@ -54,13 +55,20 @@ void CoverageQuestion::run(const JobContext& context) const {
   const std::vector<double> ascending = durations_of(*this);
   Coverage coverage(window_of(context, *this, ascending.front()), static_cast<std::size_t>(cells));
   Table table(context, columns_of("coverage"));
+  auto digits = digits_beside(context.case_data, {switching}, {}, 0.0);
   CaseMotion motion(context.case_data, {switching});
   for (const double duration : ascending) {
     const std::int64_t samples = samples_of(context.case_data, duration);
-    run_to_completion(motion, samples - motion.index(), {}, coverage);
+    run_to_completion(motion, samples - motion.index(), {}, coverage,
+                      [&digits](const EventSample& sample) {
+                        if (digits) (*digits)(sample);
+                      });
     table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
   }
   tell_of_end(context, end_of(motion));
+  if (digits)
+    tell_trust(context, table,
+               with_rate(digits->result(), context.case_data, switching, motion.index()));
   table.commit();
 }
 

@@ -38,20 +38,24 @@ struct DeviationQuestion {
     });
     require_completed(outcome, first.time());
     tell_of_end(context, end_of(first));
-    table.trust(trusted_digits_of_deviation(context.case_data, switching, offset, samples));
+    const TrustedDigits trusted =
+        with_rate(trusted_digits_of_deviation(context.case_data, switching, offset, samples),
+                  context.case_data, switching, samples);
+    table.trust(trusted);
     table.commit();
-    if (last >= std::abs(offset)) tell_why_apart(context, last);
+    if (last >= std::abs(offset)) tell_why_apart(context, last, trusted);
   }
 
   /// Neighbours that have not come together in the duration: why, by the orbits they come to.
-  void tell_why_apart(const JobContext& context, double last) const {
+  void tell_why_apart(const JobContext& context, double last, const TrustedDigits& trusted) const {
     if (is_modal(context.case_data) || !is_of_the_paper(context.case_data, switching)) return;
     const Vector<double, 4> first = initial_state_of(context.case_data);
     Vector<double, 4> second = first;
     second[0] += offset;
     report_warning("after " + format_rounded(duration) + " s the motions are still " +
                        format_rounded(last) +
-                       " apart: " + apart_text(ideal_loop_of(context.case_data), first, second),
+                       " apart: " + apart_text(ideal_loop_of(context.case_data), first, second) +
+                       rate_text(trusted),
                    context.quiet);
   }
 };

@@ -48,7 +48,8 @@ struct SectionQuestion {
                           initial_state_of(context.case_data)));
     }
     tell_trust(context, table,
-               trusted_digits_of_motion(context.case_data, switching, samples, from));
+               with_rate(trusted_digits_of_motion(context.case_data, switching, samples, from),
+                         context.case_data, switching, samples));
     table.commit();
   }
 };

@@ -60,7 +60,10 @@ struct SimulateQuestion {
                        {sample.time, sample.state, sample.control_force, sample.mode});
     });
     tell_of_end(context, end_of(motion), choice.controlled, kicked ? kicked->displacement : 0.0);
-    if (digits) tell_trust(context, table, digits->result());
+    if (digits)
+      tell_trust(context, table,
+                 no_control ? digits->result()
+                            : with_rate(digits->result(), context.case_data, switching, samples));
     table.commit();
   }
 

@@ -64,7 +64,8 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
     if (sample.index >= samples - kept) record.push_back(sample.state[0]);
   });
   tell_of_end(context, end_of(motion));
-  return {record, digits ? digits->result() : TrustedDigits{}};
+  if (!digits) return {record, {}};
+  return {record, with_rate(digits->result(), context.case_data, options.switching, samples)};
 }
 
 void SpectrumQuestion::run(const JobContext& context) const {

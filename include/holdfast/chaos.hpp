@@ -12,6 +12,7 @@
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/modal_lyapunov.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
+#include "holdfast/chaos/neighbour_distance.hpp"
 #include "holdfast/chaos/recurrence.hpp"
 #include "holdfast/chaos/switching_complexity.hpp"
 #include "holdfast/chaos/zero_one_test.hpp"

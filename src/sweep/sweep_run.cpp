@@ -74,38 +74,44 @@ std::string recorded_instructions(const fs::path& folder) {
   return there->plan.at("--instructions");
 }
 
-/// The cells whose motion is none or diverges. Any thread may add some.
+/// The cells whose motion is none, diverges or is chaotic. Any thread may add some.
 class SweepFaults {
  public:
-  void add(std::int64_t first_cell, const std::vector<double>& outcomes) {
+  /// @param verdicts  of the same cells; none where they were not asked for
+  void add(std::int64_t first_cell, const std::vector<double>& outcomes,
+           const std::vector<double>& verdicts) {
     std::int64_t diverging = 0, without_motion = 0, first = no_cell;
+    const auto chaotic =
+        std::count(verdicts.begin(), verdicts.end(), static_cast<double>(AttractorType::chaotic));
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const auto outcome = static_cast<CellOutcome>(outcomes[i]);
       diverging += outcome == CellOutcome::diverges ? 1 : 0;
       if (has_motion(outcome)) continue;
       if (without_motion++ == 0) first = first_cell + static_cast<std::int64_t>(i);
     }
-    add(diverging, without_motion, first);
+    add(diverging, without_motion, chaotic, first);
   }
 
-  void add(std::int64_t diverging, std::int64_t without_motion, std::int64_t first) {
+  void add(std::int64_t diverging, std::int64_t without_motion, std::int64_t chaotic,
+           std::int64_t first) {
     const std::lock_guard<std::mutex> guard(mutex_);
     diverging_ += diverging;
     without_motion_ += without_motion;
+    chaotic_ += chaotic;
     first_ = std::min(first_, first);
   }
 
   /// Brings those of all processes together.
   void share(ProcessGroup& group) {
     std::ostringstream own;
-    own << diverging_ << ' ' << without_motion_ << ' ' << first_;
+    own << diverging_ << ' ' << without_motion_ << ' ' << chaotic_ << ' ' << first_;
     const std::vector<std::string> texts = group.exchange(own.str());
-    diverging_ = without_motion_ = 0;
+    diverging_ = without_motion_ = chaotic_ = 0;
     for (const std::string& text : texts) {
       std::istringstream numbers(text);
-      std::int64_t diverging = 0, without_motion = 0, first = no_cell;
-      numbers >> diverging >> without_motion >> first;
-      add(diverging, without_motion, first);
+      std::int64_t diverging = 0, without_motion = 0, chaotic = 0, first = no_cell;
+      numbers >> diverging >> without_motion >> chaotic >> first;
+      add(diverging, without_motion, chaotic, first);
     }
   }
 
@@ -119,15 +125,23 @@ class SweepFaults {
     return text.empty() ? text : "of " + std::to_string(plan.cells()) + " cells " + text;
   }
 
+  /// Of the chaotic ones, likewise.
+  std::string chaos_text(const SweepPlan& plan) const {
+    if (chaotic_ == 0) return "";
+    return "of " + std::to_string(plan.cells()) + " cells " + std::to_string(chaotic_) +
+           " are chaotic: rounding decides their motions after a while, and their metrics are "
+           "those of one possible motion each";
+  }
+
  private:
   static constexpr std::int64_t no_cell = std::numeric_limits<std::int64_t>::max();
-  std::int64_t diverging_ = 0, without_motion_ = 0, first_ = no_cell;
+  std::int64_t diverging_ = 0, without_motion_ = 0, chaotic_ = 0, first_ = no_cell;
   std::mutex mutex_;
 };
 
-/// The place of the outcome among the columns of a sweep's store.
-std::size_t outcome_column(const StoreDescription& store) {
-  const std::string& name = metric_column(SweepMetric::outcome).column.name;
+/// The place of a metric among the columns of a sweep's store, which has it.
+std::size_t column_of(const StoreDescription& store, SweepMetric metric) {
+  const std::string& name = metric_column(metric).column.name;
   std::size_t place = 0;
   while (store.columns[place].column.name != name) ++place;
   return place;
@@ -160,6 +174,19 @@ std::string held_force_warning_of(const SweepPlan& plan) {
     }
   }
   return warning;
+}
+
+/// That the best gain knows nothing of a play; "" where no cell has one.
+std::string best_gain_warning(const SweepPlan& plan) {
+  const auto& backlash = plan.context().case_data.backlash;
+  const std::vector<GridAxis>& axes = plan.layout().axes;
+  const bool varies = std::any_of(axes.begin(), axes.end(), [](const GridAxis& axis) {
+    return axis.column.name.rfind("backlash.", 0) == 0;
+  });
+  if (!plan.options().best_gain || !(varies || (backlash.width > 0.0 && backlash.law != "none")))
+    return "";
+  return "--best-gain takes the D of least amplitude of the loop without its play; the metrics are "
+         "those of the motion with it, and another D may leave less";
 }
 
 /// The part that K/N stands for.
@@ -256,16 +283,21 @@ class SweepRun {
 
   void fill(int threads) {
     const ChunkGrid& grid = plan_.grid();
-    const std::size_t outcome = outcome_column(store().description());
-    const auto compute = [&, outcome](std::int64_t chunk) {
+    const std::size_t outcome = column_of(store().description(), SweepMetric::outcome);
+    const bool judges = plan_.wants(SweepMetric::verdict);
+    const std::size_t verdict =
+        judges ? column_of(store().description(), SweepMetric::verdict) : outcome;
+    const auto compute = [&, outcome, verdict, judges](std::int64_t chunk) {
       ChunkResult result = compute_cells(plan_, grid.first_cell(chunk), grid.cells_of(chunk));
-      faults_.add(grid.first_cell(chunk), result.values[outcome]);
+      faults_.add(grid.first_cell(chunk), result.values[outcome],
+                  judges ? result.values[verdict] : std::vector<double>());
       return result;
     };
-    const auto found = [&, outcome](std::int64_t chunk) {
+    const auto found = [&, outcome, verdict, judges](std::int64_t chunk) {
       const auto outcomes = store().read_column(outcome, chunk);
-      if (!outcomes) refuse_chunk(store(), chunk);
-      faults_.add(grid.first_cell(chunk), *outcomes);
+      const auto verdicts = judges ? store().read_column(verdict, chunk) : std::vector<double>();
+      if (!outcomes || !verdicts) refuse_chunk(store(), chunk);
+      faults_.add(grid.first_cell(chunk), *outcomes, *verdicts);
     };
     fill_store(context(), store(), *group_, threads,
                {"sweep, cells", compute, found, plan_.options().resume, part_});
@@ -280,6 +312,8 @@ class SweepRun {
       work_->remove();
     }
     report_warning(faults_.text(plan_), context().quiet);
+    report_warning(faults_.chaos_text(plan_), context().quiet);
+    report_warning(best_gain_warning(plan_), context().quiet);
     report_warning(held_force_warning_of(plan_), context().quiet);
   }
 

@@ -156,9 +156,9 @@ TEST(LyapunovRun, KnowsTheSignThatItsStandardErrorLeavesNoDoubtOf) {
   LyapunovResult result = run_of(flickering(0.011), {1200});
   result.standard_errors[0] = 1e-3;
   for (const double sign : {-1.0, 1.0}) {
-    result.exponents[0] = sign * 1.9e-3;
+    result.exponents[0] = sign * 2.7e-3;
     EXPECT_FALSE(result.sign_is_known());
-    result.exponents[0] = sign * 2.2e-3;
+    result.exponents[0] = sign * 2.8e-3;
     EXPECT_TRUE(result.sign_is_known());
   }
   result.exponents[0] = -std::numeric_limits<double>::infinity();

@@ -27,13 +27,35 @@ std::size_t row_where(const CsvTable& table, const std::string& column, const st
 }
 
 TEST(DesignJob, KeepsTheRadiusThatIsAskedFor) {
-  const std::string settings = "--set control.sampling_period=0.01";
+  const std::string settings = "--set control.sampling_period=0.01 --set backlash.width=0";
   const CsvTable table = table_of("design --largest-radius 0.995 " + settings);
   ASSERT_EQ(table.rows(), 1U);
   EXPECT_EQ(table.text(0, "least_amplitude_at"), "edge");
   const double d = table.number(0, "least_amplitude_gain");
   EXPECT_NEAR(radius_of_cell(-557.0, d, settings), 0.995, 1e-5);
   EXPECT_GT(table.number(0, "attenuation_dB"), 0.0);
+}
+
+TEST(DesignJob, SaysWhatThePlayMakesOfTheGain) {
+  for (const std::string settings :
+       {" --set backlash.width=0.002 --set control.sampling_period=0.01",
+        " --set backlash.width=0.001 --set backlash.law=play"}) {
+    const Outcome design = run_holdfast("design" + settings);
+    const CsvTable table = parse_csv(design.output, "design");
+    // The same motion as a sweep has it.
+    const CsvTable motion =
+        table_of("sweep --axis control.differential_gain=" + table.text(0, "least_amplitude_gain") +
+                 " --metric ratio_to_uncontrolled --duration 20" + settings);
+    const double with_play = motion.number(0, "ratio_to_uncontrolled");
+    EXPECT_GT(with_play, 1.1 * table.number(0, "ratio_to_uncontrolled"));
+    const std::size_t at = design.errors.find(" m ", design.errors.find("the case's play of "));
+    ASSERT_NE(at, std::string::npos) << design.errors;
+    EXPECT_NEAR(std::stod(design.errors.substr(at + 3)), with_play, 1e-4 * with_play);
+  }
+  for (const char* without : {"backlash.width=0", "backlash.law=none", "excitation.amplitude=0"})
+    EXPECT_EQ(run_holdfast(std::string("design --set ") + without).errors.find("play"),
+              std::string::npos)
+        << without;
 }
 
 /// A gain that is recommended has the margins that are named, by eigenvalues at the gains moved.
@@ -60,9 +82,10 @@ void expect_margins(const CsvTable& table, const std::string& gain, const std::s
 }
 
 TEST(DesignJob, RecommendsGainsWithTheMarginsThatItNames) {
-  const std::string slow = " --set control.sampling_period=0.01";
+  const std::string without_play = " --set backlash.width=0";
+  const std::string slow = without_play + " --set control.sampling_period=0.01";
   const std::string delayed = slow + " --set control.proportional_gain=-1300";
-  for (const std::string& settings : {slow, delayed, std::string()}) {
+  for (const std::string& settings : {slow, delayed, without_play}) {
     expect_margins(table_of("design" + settings), "least_amplitude_gain", settings);
     expect_margins(table_of("design --quiet --band 9:11" + settings), "differential_gain",
                    settings);
@@ -124,7 +147,7 @@ TEST(DesignJob, OneGainServesABand) {
 }
 
 TEST(DesignJob, BothGainsAreBetterThanDAlone) {
-  const std::string settings = " --set control.sampling_period=0.01";
+  const std::string settings = " --set control.sampling_period=0.01 --set backlash.width=0";
   const CsvTable pair = table_of("design --both-gains" + settings);
   const CsvTable alone = table_of("design" + settings);
   const double radius = pair.number(0, "spectral_radius");
@@ -227,7 +250,7 @@ TEST(SensitivityJob, IsTheSlopeOfTheDesign) {
       row_where(slopes, "answer", "least_radius", "parameter", "plant.absorber_mass");
   EXPECT_EQ(slopes.text(row, "parameter_unit"), "kg");
   const auto radius = [](const std::string& mass) {
-    return table_of("design --set plant.absorber_mass=" + mass).number(0, "least_radius");
+    return table_of("design --quiet --set plant.absorber_mass=" + mass).number(0, "least_radius");
   };
   const double slope = (radius("0.1601") - radius("0.1599")) / 0.0002;
   EXPECT_NEAR(slopes.number(row, "derivative"), slope, 1e-3 * std::abs(slope));

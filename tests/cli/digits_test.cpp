@@ -24,8 +24,10 @@ std::string metadata_of(const std::string& job, std::string& errors) {
 
 TEST(DigitsInMetadata, OfARegularMotionAreNotMentioned) {
   std::string errors;
-  for (const char* job : {"simulate", "section", "spectrum", "simulate --kick 1:0.001",
-                          "simulate --no-control", "simulate --from 5"}) {
+  for (const char* job :
+       {"simulate", "section", "spectrum", "simulate --kick 1:0.001", "simulate --no-control",
+        "simulate --from 5", "coverage --durations 10", "simulate --switching exact",
+        "section --switching exact", "spectrum --set control.velocity_quantum=0.001"}) {
     EXPECT_EQ(metadata_of(job, errors).find("trusted"), std::string::npos) << job;
     EXPECT_EQ(errors, "") << job;
   }
@@ -34,14 +36,49 @@ TEST(DigitsInMetadata, OfARegularMotionAreNotMentioned) {
 TEST(DigitsInMetadata, OfAnIrregularMotionAreNoneAfterAWhile) {
   if (!long_double_is_wider) GTEST_SKIP() << "long double is no wider than double here";
   std::string errors;
-  for (const std::string job : {"simulate", "section", "spectrum"}) {
-    const std::string metadata = metadata_of(job + irregular + " --duration 60", errors);
+  for (const std::string job : {"simulate --duration 60", "section --duration 60",
+                                "spectrum --duration 60", "coverage --durations 10,60"}) {
+    const std::string metadata = metadata_of(job + irregular, errors);
+    EXPECT_NE(metadata.find("\"largest_exponent_per_s\""), std::string::npos) << job;
+    EXPECT_NE(errors.find("neighbours part, the largest exponent is "), std::string::npos) << job;
     EXPECT_NE(metadata.find("\"trusted_digits\": 0"), std::string::npos) << job;
     EXPECT_NE(metadata.find("\"trusted_until_s\""), std::string::npos) << job;
     EXPECT_NE(errors.find("warning: after t = "), std::string::npos) << job << errors;
   }
   metadata_of(std::string("simulate --quiet --duration 60") + irregular, errors);
   EXPECT_EQ(errors, "");
+}
+
+TEST(DigitsInMetadata, OfADeviationThatStaysTellWhyNeighboursPart) {
+  if (!long_double_is_wider) GTEST_SKIP() << "long double is no wider than double here";
+  std::string errors;
+  const std::string job = std::string("deviation --offset 1e-9 --duration 60") + irregular;
+  EXPECT_NE(metadata_of(job, errors).find("\"largest_exponent_per_s\""), std::string::npos);
+  EXPECT_NE(errors.find("apart: no certified orbit was found"), std::string::npos) << errors;
+  EXPECT_NE(errors.find("neighbours part, the largest exponent is "), std::string::npos) << errors;
+}
+
+TEST(DigitsInMetadata, OfAnotherLoopAreThoseThatAnotherRoundingConfirms) {
+  std::string errors;
+  const std::string metadata = metadata_of(
+      "simulate --duration 60 --set excitation.amplitude=0 --set initial.z1=0.002 --set "
+      "backlash.width=0 --set control.displacement_quantum=0.0001",
+      errors);
+  EXPECT_NE(metadata.find("\"trusted_until_s\""), std::string::npos);
+  EXPECT_NE(errors.find("that another rounding confirms"), std::string::npos) << errors;
+}
+
+TEST(DigitsInMetadata, OfASweepAreThoseOfItsChaoticCells) {
+  const std::string sweep =
+      std::string("sweep --axis backlash.width=0.0003,0.0005 --metric steady_peak --duration 2") +
+      irregular;
+  EXPECT_EQ(run_holdfast(sweep).errors, "");
+  const Outcome judged = run_holdfast(sweep + " --metric verdict");
+  const auto chaotic = judged.output.find("chaotic") != std::string::npos;
+  EXPECT_TRUE(chaotic);
+  EXPECT_NE(judged.errors.find("are chaotic: rounding decides"), std::string::npos)
+      << judged.errors;
+  EXPECT_EQ(run_holdfast(sweep + " --metric verdict --quiet").errors, "");
 }
 
 TEST(DigitsInMetadata, OfAnIrregularMotionsBeginningAreEnough) {

@@ -44,11 +44,12 @@ inline void validate(const IndicatorOptions& options) {
 
 namespace detail {
 
-/// The largest exponent of a spectrum with a 95 % interval that holds also where the sums s_n =
+/// The largest exponent of a spectrum with a 99 % interval that holds also where the sums s_n =
 /// Σ ln |R_jj| are bounded. Two things bound the error of s_n/n, the larger of which counts
 /// (`exponent_estimate`):
 ///
-///  - the scatter of batch means, which a chaotic motion has;
+///  - the scatter of batch means, or of pairs of them where that is more since what a batch saw is
+///    still felt in the next, which a chaotic motion has;
 ///  - s_n − n λ of a motion that is not chaotic (a linear loop with complex multipliers, a closed
 ///    orbit) turns within bounds, and batch means of whole turns hardly scatter; the error is at
 ///    most the width of those bounds over n. The width is read off the last 1/32 of the steps,
@@ -77,7 +78,7 @@ class ExponentWatch {
     Eigen::Index which = 0;
     const double value = spectrum.exponents().maxCoeff(&which);
     const double steps = static_cast<double>(spectrum.steps());
-    return exponent_estimate(value, spectrum.standard_errors()[which],
+    return exponent_estimate(value, spectrum.cautious_standard_errors()[which],
                              bounds_width(which, value) / steps);
   }
 
@@ -101,7 +102,7 @@ class ExponentWatch {
 
 }  // namespace detail
 
-/// The largest Lyapunov exponent of a sequence of tangent maps, with a 95 % interval that holds
+/// The largest Lyapunov exponent of a sequence of tangent maps, with a 99 % interval that holds
 /// also where the sums are bounded.
 ///
 /// First `settle` turns the basis into the directions of the exponents, and nothing is summed; then
@@ -130,7 +131,7 @@ class LeadingExponent {
     if (watch_.watches(spectrum_.steps())) watch_.look_at(spectrum_);
   }
 
-  /// All exponents over the maps pushed, with standard errors by batch means alone.
+  /// All exponents over the maps pushed.
   const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
 
   /// The largest exponent; only after at least 64 maps.

@@ -25,7 +25,12 @@ enum class AttractorType {
   undecided,              ///< the indicators are missing or contradict each other
 };
 
-/// The largest Lyapunov exponent and its 95 % interval, value ± half_width.
+/// The share of repeats in which the interval of an exponent holds the exponent. It is 99 %, so
+/// that a motion whose exponent is 0 is called chaotic, or contracting, in one case of two hundred
+/// each.
+inline constexpr double exponent_confidence = 0.99;
+
+/// The largest Lyapunov exponent and its 99 % interval, value ± half_width.
 struct ExponentEstimate {
   double value;       ///< −∞ where every direction is a null direction
   double half_width;  ///< ≥ 0
@@ -37,8 +42,9 @@ struct ExponentEstimate {
 };
 
 /// An estimate from an exponent and its standard error by batch means. The half width is Student's
-/// 95 % quantile for the fewest batches that a series of more than 64 steps has (32) times the
-/// standard error, or the end effect where that is more; plus 10⁻¹² for the rounding of logarithms.
+/// quantile at `exponent_confidence` for the fewest batches that a series of more than 64 steps has
+/// (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for the rounding
+/// of logarithms.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
 /// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see LeadingExponent
@@ -48,7 +54,8 @@ inline ExponentEstimate exponent_estimate(double value, double standard_error,
   require_non_negative("standard error of the exponent", standard_error, "");
   require_non_negative("end effect of the exponent", end_effect, "");
   constexpr double rounding = 1e-12;
-  return {value, std::fmax(student_quantile(0.95, 31) * standard_error, end_effect) + rounding};
+  const double quantile = student_quantile(exponent_confidence, 31);
+  return {value, std::fmax(quantile * standard_error, end_effect) + rounding};
 }
 
 /// A search for a repetition of the states, of three periods and more.
@@ -75,6 +82,7 @@ struct ChaosIndicators {
   std::optional<double> zero_one;                    ///< median K of the 0–1 test
   std::optional<SpectralIndicators> lines;           ///< of the observable
   std::optional<double> extent_growth;  ///< extent of the last quarter over that of the first
+  std::optional<double> neighbour;      ///< how far a neighbour came, see neighbour_distance()
   std::optional<ClosestReturn> closest_return;   ///< among the last states
   std::optional<RecurrenceShares> recurrence;    ///< of the same states, at a given radius
   std::optional<SwitchingComplexity> switching;  ///< of the contacts, where they are known
@@ -114,6 +122,12 @@ inline constexpr double fewest_forcing_periods = 20.0;
 /// An extent that changes by more than this factor (or its inverse) from the first to the last
 /// quarter of the series belongs to no steady motion.
 inline constexpr double steady_growth = 2.0;
+/// A neighbour begins this share of the extent away …
+inline constexpr double neighbour_start = 1e-9;
+/// … has parted from the motion where it ends this far from it or farther …
+inline constexpr double neighbour_parted = 1e-3;
+/// … and has stayed where it ends nearer than this. Between the two it says nothing.
+inline constexpr double neighbour_stays = 1e-7;
 
 namespace detail {
 
@@ -173,6 +187,12 @@ class Classifier {
     return undecided("The forcing or the samples do not repeat, and the exponent does not decide");
   }
 
+  /// Whether how far a neighbour comes can decide what is undecided without.
+  bool lacks_neighbour() const {
+    return !indicators_.neighbour && searched_in_vain() && indicators_.largest_exponent &&
+           !comes_together() && classify().kind == AttractorType::undecided;
+  }
+
  private:
   Classification repeating() const {
     if (indicators_.largest_exponent && indicators_.largest_exponent->positive())
@@ -184,17 +204,22 @@ class Classifier {
   }
 
   Classification separating() const {
+    if (has_parted()) return chaotic();
     if (!(indicators_.zero_one && *indicators_.zero_one >= zero_one_high))
       return undecided("Neighbours separate, but the 0-1 test does not show chaos");
     if (has_lines_alone() || has_one_base())
       return undecided("Neighbours separate, but the spectrum is one of lines");
+    return chaotic();
+  }
+
+  Classification chaotic() const {
     return weighed(AttractorType::chaotic,
                    "Neighbours separate exponentially in a motion that stayed bounded as far as it "
                    "was followed");
   }
 
   Classification neutral() const {
-    if (!is_regular() || !searched_in_vain())
+    if (!(is_regular() || stays_beside_neighbour()) || !searched_in_vain())
       return undecided("The exponent is not told from zero, and the rest does not decide");
     if (!has_lines_alone() || has_one_base())
       return undecided(
@@ -225,7 +250,7 @@ class Classifier {
                          const std::string& more = "") const {
     return {kind, 0,
             why + ": " + exponent_text() + "; " + zero_one_text() + "; " + repeat_text() + "; " +
-                lines_text() + more + "."};
+                lines_text() + neighbour_text() + more + "."};
   }
   Classification undecided(const std::string& why) const {
     return weighed(AttractorType::undecided, why);
@@ -242,7 +267,7 @@ class Classifier {
     if (!indicators_.largest_exponent) return "no exponent is known";
     const ExponentEstimate& found = *indicators_.largest_exponent;
     return "largest exponent " + number_text(found.value) + " +- " + number_text(found.half_width) +
-           " per sample (95 %)";
+           " per sample (99 %)";
   }
   std::string zero_one_text() const {
     if (!indicators_.zero_one) return "no 0-1 test was made";
@@ -266,6 +291,12 @@ class Classifier {
            number_text(100.0 * found.share) + " %";
   }
 
+  std::string neighbour_text() const {
+    if (!indicators_.neighbour) return "";
+    return "; a neighbour " + number_text(neighbour_start) + " of the extent away came to " +
+           number_text(*indicators_.neighbour) + " of it";
+  }
+
   bool is_short() const {
     return indicators_.forcing_periods && *indicators_.forcing_periods < fewest_forcing_periods;
   }
@@ -277,6 +308,12 @@ class Classifier {
     return indicators_.largest_exponent && indicators_.largest_exponent->negative();
   }
   bool is_regular() const { return indicators_.zero_one && *indicators_.zero_one <= zero_one_low; }
+  bool has_parted() const { return indicators_.neighbour.value_or(0.0) >= neighbour_parted; }
+  /// Two motions show no sensitivity, and the 0–1 test does not contradict that.
+  bool stays_beside_neighbour() const {
+    return indicators_.neighbour.value_or(1.0) <= neighbour_stays &&
+           indicators_.zero_one.value_or(0.0) < zero_one_high;
+  }
   bool searched_in_vain() const { return indicators_.repeat && indicators_.repeat->lag == 0; }
   /// Nothing but separate lines; false where no spectrum is known.
   bool has_lines_alone() const {
@@ -297,10 +334,11 @@ class Classifier {
 ///  3. repeats to a tolerance, three times and more → periodic, resting on recurrence; undecided
 ///     where the largest exponent is above zero: then an unstable orbit or round-off repeats;
 ///  4. no exponent, or an extent that still changes by `steady_growth` → undecided;
-///  5. exponent above zero by its 95 % interval: chaotic if K ≥ `zero_one_high` and the spectrum,
-///     if known, is not one of lines alone; else undecided;
-///  6. exponent not told from zero: quasi-periodic if K ≤ `zero_one_low`, a repetition was looked
-///     for in vain, and the spectrum has lines alone with no common base; else undecided;
+///  5. exponent above zero by its 99 % interval: chaotic if a neighbour has parted, or if K ≥
+///     `zero_one_high` and the spectrum, if known, is not one of lines alone; else undecided;
+///  6. exponent not told from zero: quasi-periodic if K ≤ `zero_one_low`, or below `zero_one_high`
+///     and a neighbour stays, and a repetition was looked for in vain, and the spectrum has lines
+///     alone with no common base; else undecided;
 ///  7. exponent below zero: where forcing and sampling are incommensurate and K ≤ `zero_one_low`
 ///     and the spectrum, if known, has lines alone → quasi-periodic. Else, if a repetition was
 ///     looked for in vain → irregular, exponent <= 0: a piecewise affine loop can go on switching

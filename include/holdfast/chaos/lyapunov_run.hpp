@@ -54,7 +54,7 @@ struct LyapunovResult {
   Vector<double, 5> standard_errors;
   std::int64_t samples;  ///< averaged over
 
-  /// Whether the 95 % interval of λ₁ leaves out zero: whether it is known if neighbours separate.
+  /// Whether the 99 % interval of λ₁ leaves out zero: whether it is known if neighbours separate.
   bool sign_is_known() const {
     if (exponents[0] == -std::numeric_limits<double>::infinity()) return true;
     if (!std::isfinite(exponents[0]) || !std::isfinite(standard_errors[0])) return false;

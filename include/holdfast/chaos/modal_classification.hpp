@@ -74,8 +74,10 @@ SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full&
   IndicatorOptions options =
       detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
   options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
-  detail::weigh(found, detail::indicators_of_motion(loop, *motion, options), options,
-                loop.excitation.amplitude > 0.0);
+  const auto look = [&](const IndicatorOptions& plan) {
+    return std::optional(detail::indicators_of_motion(loop, *motion, plan));
+  };
+  detail::weigh(found, *motion, options, {loop.excitation.amplitude > 0.0}, look);
   return found;
 }
 

@@ -11,6 +11,7 @@
 
 #include "holdfast/chaos/chaos_indicators.hpp"
 #include "holdfast/chaos/classification.hpp"
+#include "holdfast/chaos/neighbour_distance.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
@@ -238,16 +239,38 @@ std::optional<IndicatorOptions> indicator_options(const ImplementedLoopOf<Plant>
   return options;
 }
 
-/// The classification of a motion by its samples.
-/// @param is_forced  by a harmonic, whose periods are counted
-template <class Search>
-void weigh(ClassifiedMotion<Search>& found, const ChaosIndicators& indicators,
-           const IndicatorOptions& options, bool is_forced) {
-  found.indicators = indicators;
-  if (is_forced)
+/// How a motion is weighed by its samples.
+struct Weighing {
+  bool is_forced;               ///< by a harmonic, whose periods are counted
+  bool may_look_longer = true;  ///< than the plan says, where that does not decide
+};
+
+/// The classification of a motion by its samples; where they do not decide, by a neighbour, and
+/// where that does not either, by as many samples as may be.
+/// @param start  the motion, before a sample
+/// @param look   ChaosIndicators by IndicatorOptions, nothing where it cannot be followed
+/// @return whether it could be followed
+template <class Search, class Motion, class Look>
+bool weigh(ClassifiedMotion<Search>& found, const Motion& start, IndicatorOptions options,
+           const Weighing& weighing, const Look& look) {
+  constexpr std::int64_t longest = 99960;  // whole parts: see IndicatorOptions::samples
+  const std::optional<ChaosIndicators> indicators = look(options);
+  if (!indicators) return false;
+  found.indicators = *indicators;
+  if (weighing.is_forced) {
     found.indicators.forcing_periods =
         options.base_frequency * static_cast<double>(options.samples);
+  } else if (found.indicators.lines) {
+    found.indicators.lines->division = 0;  // a frequency of the plant is no base of the motion
+  }
+  const bool is_open = Classifier(found.indicators).lacks_neighbour();
+  if (is_open)
+    found.indicators.neighbour = neighbour_distance(start, options.transient, options.samples);
   found.classification = classify(found.indicators);
+  const bool is_left_open = is_open && found.classification.kind == AttractorType::undecided;
+  if (!is_left_open || !weighing.may_look_longer || options.samples >= longest) return true;
+  options.transient = options.samples = longest;
+  return weigh(found, start, options, weighing, look);
 }
 
 template <class Plant, class Contact>
@@ -264,13 +287,17 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
   const bool irregular = digital.force.record != nullptr || digital.jitter.half_width > 0.0;
   options->forcing_incommensurate =
       found.search.outcome == OrbitOutcome::incommensurate && !irregular;
-  const std::optional<ChaosIndicators> indicators = indicators_of_motion(start, *options);
-  if (!indicators) {
+  const Weighing weighing{first_harmonic(digital.force) != nullptr,
+                          digital.force.record == nullptr};
+  const auto look = [&start](const IndicatorOptions& plan) {
+    return indicators_of_motion(start, plan);
+  };
+  if (!weigh(found, start, *options, weighing, look)) {
+    found.classification = {};
     found.classification.rests_on =
         "Changes of contact accumulate: the motion cannot be followed further.";
     return;
   }
-  weigh(found, *indicators, *options, first_harmonic(digital.force) != nullptr);
   if (irregular)
     found.classification =
         Classifier(found.indicators).classify_irregularly_forced(digital.jitter.half_width > 0.0);
@@ -287,7 +314,8 @@ void weigh_samples(const ImplementedLoopOf<Plant>& loop, const EventMotion<Conta
 /// @param loop           the loop with its excitation and backlash
 /// @param initial_state  [z₁, ż₁, z₂, ż₂] (m, m/s), finite
 /// @param limits         of the search for an orbit
-/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples.
+/// Work: that of find_periodic_orbit() and of chaos_indicators() for up to 10⁵ samples, and where
+/// these do not decide once more for 10⁵ samples, each time with three times as many of the motion.
 /// @throws InvalidParameter where one of them is not admissible
 template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
@@ -298,8 +326,11 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
   IndicatorOptions options =
       detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
   options.forcing_incommensurate = found.search.outcome == OrbitOutcome::incommensurate;
-  detail::weigh(found, detail::indicators_of_motion(loop, initial_state, options), options,
-                loop.excitation.amplitude > 0.0);
+  const auto look = [&](const IndicatorOptions& plan) {
+    return std::optional(detail::indicators_of_motion(loop, initial_state, plan));
+  };
+  detail::weigh(found, harmonically_forced_motion(loop, initial_state), options,
+                {loop.excitation.amplitude > 0.0}, look);
   return found;
 }
 

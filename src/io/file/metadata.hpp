@@ -16,7 +16,8 @@ namespace holdfast::program {
 /// table's name without folder. Units are `schema:unitText`. `notes[0].holdfast` holds version,
 /// job, options and the full case. There is no date: the same question gives the same bytes.
 /// Where fewer than six digits of the table are to be trusted, `trusted_digits` says how many, with
-/// `trusted_until_s` for a motion and `least_trusted` for a table of single quantities.
+/// `trusted_until_s` and `largest_exponent_per_s` with its standard error for a motion, and
+/// `least_trusted` for a table of single quantities.
 nlohmann::ordered_json table_metadata(const JobContext& context, const std::vector<Column>& columns,
                                       const std::string& file_name,
                                       const TrustedDigits& trusted = {},

@@ -1,17 +1,25 @@
 #include "jobs/design/best_gains.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "case/case_keys.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
+#include "io/text/text.hpp"
 #include "jobs/design/gain_margins.hpp"
+#include "jobs/motion/cell_motion.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
 namespace {
+
+constexpr double noticeable = 1.05;      // of what the play adds
+constexpr double settled_within = 20.0;  // s, twice the time that a motion is given to settle
 
 bool have_one_answer(const IdealLoop<double>& one, const IdealLoop<double>& other) {
   return numbers_of(one.plant) == numbers_of(other.plant) &&
@@ -79,6 +87,26 @@ MinimumAmplitude BestGains::of(const Case& the_case) const {
   if (is_modal(the_case)) options.largest_radius = 1.0;
   return BestForPlant(the_case, options)
       .quietest(excitation_of(the_case).frequency, gains_of(the_case).proportional);
+}
+
+std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
+                         InstructionSet set) {
+  const auto& backlash = the_case.backlash;
+  if (is_modal(the_case) || !(backlash.width > 0.0) || backlash.law == "none" ||
+      !std::isfinite(gains.differential) || !(excitation_of(the_case).amplitude > 0.0))
+    return "";
+  const double duration = std::min(settled_within, end_of_force(the_case));
+  const Case there = case_with(case_with(the_case, "control.proportional_gain", gains.proportional),
+                               "control.differential_gain", gains.differential);
+  require_bearable(2.0 * duration / the_case.control.sampling_period);
+  const CellMotion motion = cell_motion(there, Switching::sampled, duration);
+  const auto metrics = metrics_of({motion, without_control(motion, duration)}, duration, set);
+  const double left = metrics[0].steady_peak / metrics[1].steady_peak;
+  if (left <= noticeable * ideal) return "";
+  return "without play D = " + format_rounded(gains.differential) + " N s/m leaves " +
+         format_rounded(ideal) + " of the vibration, with the case's play of " +
+         format_rounded(backlash.width) + " m " + format_rounded(left) + " in a motion of " +
+         format_rounded(duration) + " s";
 }
 
 MaxDelay longest_period_of(const Case& the_case, const MaxDelayOptions& question) {

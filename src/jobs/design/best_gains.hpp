@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "case/case.hpp"
+#include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
@@ -10,6 +12,7 @@
 #include "holdfast/stability/design/minimum_amplitude_gains.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
+#include "kernels/instruction_set.hpp"
 
 namespace holdfast::program {
 
@@ -55,6 +58,14 @@ class BestGains {
   std::optional<IdealLoop<double>> known_;  // the last one asked for
   MinimumAmplitude answer_{};
 };
+
+/// What the play of a case makes of a gain that was chosen without it: the ratio to the
+/// uncontrolled vibration by the motions of both, of two masses; "" where the case has no play or
+/// no such gain.
+/// @param gains  N/m, N s/m
+/// @param ideal  the ratio without play
+std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
+                         InstructionSet set);
 
 /// The question which computer is the slowest that attenuates at a frequency (Hz), P being tuned to
 /// it by Eq. 6; its processing delay keeps the case's share of the sampling period.

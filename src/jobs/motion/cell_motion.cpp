@@ -229,12 +229,10 @@ MotionMetrics diverging(const MotionMetrics& metrics) {
   return detail::diverged_metrics(seen, metrics.samples);
 }
 
-double largest_exponent_of(const CellMotion& motion, double duration) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+std::optional<LyapunovResult> run_largest_exponent(const CellMotion& motion, std::int64_t samples) {
+  if (samples < 1) return std::nullopt;
   const SweepMotion& cell = motion.of_paper;
-  const std::int64_t steps = samples_within(duration, cell.loop.sampling.period) - 1;
-  if (steps < 1) return none;
-  const LyapunovRun run{steps, 0, 0.0, LyapunovScope::largest};
+  const LyapunovRun run{samples, 0, 0.0, LyapunovScope::largest};
   const auto exponents_of_modes = [&] {
     const ConductorMotion& conductor = *motion.conductor;
     ModalLyapunov modes(conductor.loop,
@@ -251,7 +249,14 @@ double largest_exponent_of(const CellMotion& motion, double duration) {
                                 : motion.built
                                     ? exponents_between_samples(*motion.built, cell.initial_state)
                                     : exponents_of_paper(cell, run);
-  return result.outcome == LyapunovOutcome::diverged ? none : result.exponents[0];
+  if (result.outcome == LyapunovOutcome::diverged) return std::nullopt;
+  return result;
+}
+
+double largest_exponent_of(const CellMotion& motion, double duration) {
+  const double period = motion.of_paper.loop.sampling.period;
+  const auto result = run_largest_exponent(motion, samples_within(duration, period) - 1);
+  return result ? result->exponents[0] : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::int64_t period_of(const CellMotion& motion, const OrbitLimits& limits) {

@@ -7,6 +7,7 @@
 
 #include "case/case.hpp"
 #include "holdfast/chaos/classification.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -62,6 +63,10 @@ std::vector<MotionMetrics> metrics_of(const std::vector<CellMotion>& motions, do
 
 /// The metrics of a motion that is known to diverge beyond the samples that were taken of it.
 MotionMetrics diverging(const MotionMetrics& metrics);
+
+/// The run of the largest exponent alone over so many samples; nothing where the motion diverges or
+/// the samples are none.
+std::optional<LyapunovResult> run_largest_exponent(const CellMotion& motion, std::int64_t samples);
 
 /// Per sample, over the whole duration; NaN where the motion diverges or is a single sample. This
 /// and the following are of two masses.

@@ -5,10 +5,12 @@
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "holdfast/chaos/classification.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/phase_space/deviation.hpp"
 #include "io/text/text.hpp"
+#include "jobs/motion/cell_motion.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -50,12 +52,26 @@ void take_root(Fewest& fewest, const ReducedMasses& found, const FrequencyReduct
 
 }  // namespace
 
+std::string rate_text(const TrustedDigits& trusted) {
+  if (!trusted.rate) return "";
+  const auto& [value, error] = *trusted.rate;
+  const ExponentEstimate estimate = exponent_estimate(value, error);
+  return std::string("; ") +
+         (estimate.positive()   ? "neighbours part, "
+          : estimate.negative() ? "neighbours come together but for single contacts, "
+                                : "") +
+         "the largest exponent is " + format_rounded(value) + " +- " + format_rounded(error) +
+         " per second";
+}
+
 std::string trust_warning(const TrustedDigits& trusted) {
   if (!is_worth_telling(trusted)) return "";
-  const std::string few = "fewer than six digits that the next wider number type confirms";
+  const std::string few =
+      std::string("fewer than six digits that ") +
+      (trusted.by_rounding ? "another rounding" : "the next wider number type") + " confirms";
   if (trusted.until)
     return "after t = " + format_number(*trusted.until) + " s the result has " + few +
-           ": rounding decides it (trusted_digits in the metadata)";
+           ": rounding decides it" + rate_text(trusted) + " (trusted_digits in the metadata)";
   return (trusted.least.empty() ? "the result" : trusted.least) + " has " + few +
          " (trusted_digits in the metadata)";
 }
@@ -64,18 +80,27 @@ MotionDigits::MotionDigits(const IdealLoop<double>& loop, const Vector<double, 4
                            const std::optional<Kick>& kick, double from)
     : reference_(wide_motion(loop, initial_state)), kick_(kick), from_(from) {}
 
+MotionDigits::MotionDigits(const CaseMotion& motion, const std::optional<Kick>& kick, double from)
+    : reference_(RoundedMotion(motion)), kick_(kick), from_(from) {}
+
 void MotionDigits::operator()(const MotionSample<double>& sample) {
   const bool settled = lost_ && largest_ >= 0.1L;  // no whole digit
   if (settled || compared_ == most_compared_samples) return;
-  if (kick_ && not_before(sample.time, kick_->time)) {
-    reference_.displace_conductor(kick_->displacement);
-    kick_.reset();
-  }
-  const Wide share = share_of(sample.state, reference_.sense().state);
+  const Vector<Wide, 4> other = std::visit(
+      [&](auto& reference) {
+        if (kick_ && not_before(sample.time, kick_->time)) {
+          reference.displace_conductor(kick_->displacement);
+          kick_.reset();
+        }
+        const Vector<Wide, 4> state = reference.sense().state.template cast<Wide>();
+        reference.advance();
+        return state;
+      },
+      reference_);
+  const Wide share = share_of(sample.state, other);
   if (not_before(sample.time, from_)) largest_ = std::max(largest_, share);
   lost_ = lost_ || share > largest_share;
   if (!lost_) until_ = sample.time;
-  reference_.advance();
   ++compared_;
 }
 
@@ -94,12 +119,24 @@ MotionDigits::Wide MotionDigits::share_of(const Vector<double, 4>& state,
 
 TrustedDigits MotionDigits::result() const {
   const double digits = holdfast::trusted_digits(static_cast<double>(largest_), 0.0L, 1.0L);
-  return {whole_digits(digits), lost_ ? std::optional<double>(until_) : std::nullopt, ""};
+  return {whole_digits(digits), lost_ ? std::optional<double>(until_) : std::nullopt, "",
+          std::holds_alternative<RoundedMotion>(reference_)};
+}
+
+EventSample RoundedMotion::sense() {
+  constexpr double rounding = 0x1.0p-52;
+  largest_ = std::max(largest_, std::abs(motion_.state()[0]));
+  // Up or down as the golden section has it.
+  const auto bits = static_cast<std::uint64_t>(motion_.index()) * 0x9e3779b97f4a7c15U;
+  motion_.displace_conductor((bits >> 63U) != 0 ? rounding * largest_ : -rounding * largest_);
+  return motion_.sense();
 }
 
 std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
                                           const std::optional<Kick>& kick, double from) {
-  if (is_modal(the_case) || !is_of_the_paper(the_case, choice.switching)) return std::nullopt;
+  if (is_modal(the_case)) return std::nullopt;
+  if (!is_of_the_paper(the_case, choice.switching))
+    return MotionDigits(CaseMotion(the_case, choice), kick, from);
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   return MotionDigits(choice.controlled ? loop : uncontrolled(loop), initial_state_of(the_case),
                       kick, from);
@@ -112,6 +149,18 @@ TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching
   auto motion = event_motion(implemented_loop_of(the_case, switching), initial_state_of(the_case));
   run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
   return digits->result();
+}
+
+TrustedDigits with_rate(TrustedDigits trusted, const Case& the_case, Switching switching,
+                        std::int64_t samples) {
+  if (!is_worth_telling(trusted) || is_modal(the_case)) return trusted;
+  const double period = the_case.control.sampling_period;
+  const std::int64_t steps = std::min(samples, most_compared_samples) - 1;
+  const CellMotion motion = cell_motion(the_case, switching, static_cast<double>(steps) * period);
+  const auto found = run_largest_exponent(motion, steps);
+  if (found && std::isfinite(found->exponents[0]) && std::isfinite(found->standard_errors[0]))
+    trusted.rate = {found->exponents[0] / period, found->standard_errors[0] / period};
+  return trusted;
 }
 
 TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,

@@ -256,6 +256,18 @@ TEST(SweepMetrics, WithTheBestGainAreThoseOfTheGainThatDesignGives) {
   }
 }
 
+TEST(SweepMetrics, WithTheBestGainSayThatItsGainKnowsNoPlay) {
+  const std::string sweep =
+      "sweep --best-gain --axis excitation.frequency=10 --duration 1 --metric steady_peak";
+  const auto tells = [&](const std::string& settings) {
+    return run_holdfast(sweep + settings).errors.find("without its play") != std::string::npos;
+  };
+  EXPECT_TRUE(tells(""));
+  EXPECT_FALSE(tells(" --set backlash.width=0"));
+  EXPECT_FALSE(tells(" --set backlash.law=none"));
+  EXPECT_TRUE(tells(" --set backlash.width=0 --axis backlash.width=0,0.001"));
+}
+
 TEST(SweepMetrics, WithTheBestGainSayThatNoGainSettlesInTheDuration) {
   const Outcome outcome = run_holdfast(
       "sweep --best-gain --axis excitation.frequency=10 --duration 0.01 --metric steady_peak"

@@ -74,9 +74,52 @@ TEST_F(TrustedDigitsOf, AKickedMotionAreThoseOfTheSameKick) {
   EXPECT_EQ(without.result().digits, 0) << "another motion is told from it";
 }
 
-TEST_F(TrustedDigitsOf, AMotionWithoutAKernelInLongDoubleAreNotSpokenOf) {
+TEST(TrustedDigitsByRounding, OfRegularMotionsAreNotWorthTelling) {
+  // With exact switching the play holds the irregular motion too: it is periodic.
   EXPECT_FALSE(
       is_worth_telling(trusted_digits_of_motion(irregular_case(), Switching::exact, 6001, 0.0)));
+  for (const char* setting :
+       {"backlash.law=play", "backlash.law=immediate", "control.velocity_quantum=0.001",
+        "control.jitter=0.0001", "excitation.noise_rms=0.2", "control.largest_force=0.5"}) {
+    const auto trusted =
+        trusted_digits_of_motion(case_of({setting}), Switching::sampled, 20001, 0.0);
+    EXPECT_FALSE(is_worth_telling(trusted)) << setting << ' ' << trusted.digits;
+    EXPECT_TRUE(trusted.by_rounding) << setting;
+  }
+}
+
+TEST(TrustedDigitsByRounding, AreLostWhereNeighboursPart) {
+  // A force of 10 N, never reached, makes the paper's model another one and changes no motion.
+  for (const bool limited : {false, true}) {
+    Case the_case = irregular_case();
+    if (limited) the_case.control.largest_force = 10.0;
+    if (!limited && !long_double_is_wider) continue;
+    const auto trusted =
+        with_rate(trusted_digits_of_motion(the_case, Switching::sampled, 6001, 0.0), the_case,
+                  Switching::sampled, 6001);
+    EXPECT_EQ(trusted.by_rounding, limited);
+    EXPECT_EQ(trusted.digits, 0);
+    ASSERT_TRUE(trusted.until && trusted.rate);
+    EXPECT_GT(*trusted.until, 5.0);
+    EXPECT_LT(*trusted.until, 20.0);
+    // Ten digits of rounding are lost at the rate of the exponent: e^{λ t} = 10¹⁰.
+    EXPECT_GT(trusted.rate->per_second, 3.0 * trusted.rate->standard_error);
+    EXPECT_NEAR(std::log(1e10) / trusted.rate->per_second, *trusted.until, 0.5 * *trusted.until);
+    const std::string warning = trust_warning(trusted);
+    EXPECT_NE(warning.find("neighbours part, the largest exponent is "), std::string::npos);
+    EXPECT_EQ(warning.find("another rounding") != std::string::npos, limited) << warning;
+  }
+}
+
+TEST(TrustedDigitsByRounding, HaveARateOnlyWhereTheyAreFew) {
+  EXPECT_FALSE(with_rate({}, case_of({}), Switching::sampled, 1001).rate);
+  TrustedDigits few;
+  few.digits = 3;
+  const auto found = with_rate(few, case_of({"backlash.width=0"}), Switching::sampled, 100001);
+  ASSERT_TRUE(found.rate);
+  EXPECT_LT(found.rate->per_second, 0.0);
+  EXPECT_NE(rate_text(found).find("come together but for single contacts"), std::string::npos);
+  EXPECT_FALSE(with_rate(few, case_of({}), Switching::sampled, 1).rate) << "a single sample";
 }
 
 TEST_F(TrustedDigitsOf, ADeviationAreLostWhereItIsDownToRounding) {
@@ -119,7 +162,12 @@ TEST(MetadataOfDigits, SayHowManyThereAreAndOfWhat) {
   const auto motion = table_metadata(context, {}, "out.csv", {0, 7.25, ""})["notes"][0]["holdfast"];
   EXPECT_EQ(motion["trusted_digits"], 0);
   EXPECT_EQ(motion["trusted_until_s"], 7.25);
-  EXPECT_FALSE(motion.contains("least_trusted"));
+  EXPECT_FALSE(motion.contains("least_trusted") || motion.contains("largest_exponent_per_s"));
+  TrustedDigits parting{0, 7.25, ""};
+  parting.rate = {1.75, 0.25};
+  const auto rated = table_metadata(context, {}, "out.csv", parting)["notes"][0]["holdfast"];
+  EXPECT_EQ(rated["largest_exponent_per_s"], 1.75);
+  EXPECT_EQ(rated["largest_exponent_standard_error_per_s"], 0.25);
   const auto single =
       table_metadata(context, {}, "out.csv", {3, std::nullopt, "k2"})["notes"][0]["holdfast"];
   EXPECT_EQ(single["trusted_digits"], 3);

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "holdfast/chaos/classification.hpp"
+#include "holdfast/core/errors.hpp"
+
+namespace holdfast {
+
+/// How far a neighbour of a motion is from it in the end: the mean over the last quarter of the
+/// samples of |x_i − y_i| over the extent of x_i, the largest of all coordinates i of the state.
+/// The neighbour begins after the transient, its z displaced by `neighbour_start` of the extent of
+/// z.
+///
+/// It tells sensitive motions from others by what happens to two motions, without tangents: where
+/// neighbours separate exponentially the distance ends at a share of the extent; on an invariant
+/// circle or torus it stays what it was.
+/// @param motion     SampledMotion, EventMotion or ModalMotion, before a sample; a copy of it runs
+/// @param transient  samples left out first, ≥ 2
+/// @param samples    taken side by side, ≥ 4
+/// @return nothing where z does not move or a state leaves the range of numbers
+/// @throws InvalidParameter for fewer samples
+template <class Motion>
+std::optional<double> neighbour_distance(Motion motion, std::int64_t transient,
+                                         std::int64_t samples) {
+  require_within("transient", static_cast<double>(transient), "samples", 2.0, 1e15);
+  require_within("number of samples", static_cast<double>(samples), "", 4.0, 1e15);
+  double lowest = motion.readings().displacement(motion.state()), highest = lowest;
+  for (std::int64_t j = 0; j < transient; ++j) {
+    motion.sense();
+    motion.advance();
+    const double z = motion.readings().displacement(motion.state());
+    lowest = 2 * j < transient ? z : std::min(lowest, z);
+    highest = 2 * j < transient ? z : std::max(highest, z);
+  }
+  if (!(highest > lowest) || !std::isfinite(highest - lowest)) return std::nullopt;
+  Motion neighbour = motion;
+  neighbour.displace_conductor(neighbour_start * (highest - lowest));
+  auto low = motion.state(), high = low;
+  auto apart = (0.0 * low).eval();
+  const std::int64_t last_quarter = samples - samples / 4;
+  for (std::int64_t j = 0; j < samples; ++j) {
+    for (Motion* const one : {&motion, &neighbour}) {
+      one->sense();
+      one->advance();
+    }
+    low = low.cwiseMin(motion.state());
+    high = high.cwiseMax(motion.state());
+    if (j >= last_quarter) apart += (motion.state() - neighbour.state()).cwiseAbs();
+  }
+  const auto extent = (high - low).array().eval();
+  const auto largest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).array().eval();
+  const auto mean = (apart.array() / static_cast<double>(samples / 4)).eval();
+  const double share = (extent > 1e-13 * largest).select(mean / extent, 0.0).maxCoeff();
+  return std::isfinite(share) ? std::optional<double>(share) : std::nullopt;
+}
+
+}  // namespace holdfast
