@@ -5,11 +5,14 @@
 // the border is followed there too, as another part of the region. Prints how many parts there are
 // and in how many cells both agree.
 //
-//     motion_border_bench [rows] [columns] [threads]    rows of r₀, columns of τ, per motion
+//     motion_border_bench [rows] [columns] [threads] [motion]
+//
+// with so many rows of r₀ and columns of τ per motion, of which the fourth number picks one.
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -193,9 +196,13 @@ int main(int count, char** arguments) {
   };
   const auto threads =
       static_cast<unsigned>(number(3, std::max(1U, std::thread::hardware_concurrency())));
+  const auto alone = number(4, 0);
   Tally all;
-  for (const Named& named : all_named)
+  for (std::size_t k = 0; k < std::size(all_named); ++k) {
+    if (alone != 0 && alone != k + 1) continue;
+    const Named& named = all_named[k];
     all.add(compared(named, {number(1, 40), number(2, 40), named.window()}, threads));
+  }
   std::printf("all\n  ");
   all.print();
   return all.agree_away == all.away ? 0 : 1;

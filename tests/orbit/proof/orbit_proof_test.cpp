@@ -150,6 +150,23 @@ TEST(OrbitProof, IsNotOfStatesThatWereMoved) {
   }
 }
 
+/// States that follow one another without a miss but do not close by a little: all of them are that
+/// far away, though each but the last is the image of the one before.
+TEST(OrbitProof, BoundsWhatAWholePeriodMisses) {
+  const IdealLoop<double> loop = proved_loop(0.001, 0.0005);
+  const PeriodicOrbit orbit = orbit_to_prove(loop);
+  const ItineraryMaps<double> maps(loop, orbit.ratio);
+  PeriodicOrbit moved = orbit;
+  Vector<double, 5> deviation = Vector<double, 5>::Unit(0) * 1e-9;
+  double most = 0.0;
+  for (std::size_t j = 0; j < orbit.states.size(); ++j) {
+    moved.states[j] += deviation;
+    most = std::max({most, std::abs(deviation[0]), std::abs(deviation[2])});
+    deviation = maps.map(orbit.itinerary[j] != 0) * deviation;
+  }
+  EXPECT_GE(prove_orbit(loop, moved, 1.0).displacement_error, most);
+}
+
 /// Between which widths the contacts of an orbit stay as they are, in floating point.
 OpenRange widths_in_doubles(const IdealLoop<double>& loop, const PeriodicOrbit& orbit) {
   OpenRange widths;

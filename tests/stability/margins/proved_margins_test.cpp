@@ -232,6 +232,46 @@ TEST(SamplingProof, OfRandomStringsHoldsByTheSpectralRadius) {
   EXPECT_GE(proved_long_ones, long_ones / 3);
 }
 
+/// W_i from the eigenvalues of the loop's map, Π_k (z_i − λ_k)/Π_{l≠i} (z_i − z_l), are within
+/// their bounds at every position, and not far within.
+TEST(SamplingProof, CorrectionsAreThoseOfTheEigenvalues) {
+  int sharp = 0, asked = 0;
+  for (const ProvedLoop& loop : proved_loops()) {
+    const SamplingProof<double> proof(loop.poles, loop.gains,
+                                      EnclosedSamplings::of_period(loop.sampling));
+    const double from = loop.sampling.period, to = 1.05 * from;
+    const auto nodes = proof.nodes_over(from, to);
+    ASSERT_FALSE(nodes.empty());
+    std::vector<double> most(nodes.size(), 0.0);
+    for (const double t : {-1.0, -0.5, 0.3, 1.0}) {
+      std::vector<std::complex<double>> places;
+      for (const auto& node : nodes)
+        places.push_back(node.path.start().middle() * std::exp(node.path.rate().middle() * t));
+      const double period = 0.5 * (from + to) + 0.5 * (to - from) * t;
+      const double delay = loop.sampling.processing_delay / loop.sampling.period * period;
+      const Eigen::VectorXcd roots =
+          loop_map(loop.plant, {period, delay}).closed_map(loop.gains).eigenvalues();
+      ASSERT_EQ(static_cast<std::size_t>(roots.size()), nodes.size());
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        std::complex<double> correction = 1.0;
+        for (std::size_t l = 0; l < nodes.size(); ++l) {
+          correction *= places[i] - roots[static_cast<Eigen::Index>(l)];
+          if (l != i) correction /= places[i] - places[l];
+        }
+        most[i] = std::max(most[i], std::abs(correction));
+      }
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      EXPECT_LE(most[i], nodes[i].correction * (1.0 + 1e-6) + 1e-11) << i;
+      if (most[i] < 1e-9) continue;
+      ++asked;
+      sharp += nodes[i].correction < 100.0 * most[i] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(asked, 20);
+  EXPECT_GE(sharp, asked / 2) << asked;
+}
+
 TEST(SamplingProof, IsOfNoStretchWithAnUnstableLoop) {
   for (const ProvedLoop& loop : proved_loops()) {
     const MarginEnd edge = loop.walked().sampling_period.above;

@@ -121,8 +121,21 @@ class SamplingProof {
     }
   }
 
+  /// A node over a stretch, t from −1 at its start to 1 at its end.
+  struct Node {
+    EnclosedSpiral path;  ///< z_i(t)
+    double correction;    ///< at least |W_i(t)| everywhere
+  };
+
+  /// What a proof for all positions from … to (s) would rest on; empty where the roots in the
+  /// middle are not found.
+  std::vector<Node> nodes_over(double from, double to) const;
+
   /// Whether the loop is proved to be stable at all positions from … to (s).
-  bool is_stable(double from, double to) const;
+  bool is_stable(double from, double to) const {
+    const std::vector<Node> nodes = nodes_over(from, to);
+    return !nodes.empty() && are_held_inside(nodes);
+  }
 
  private:
   using Nodes = std::vector<EnclosedSpiral>;
@@ -288,23 +301,11 @@ class SamplingProof {
     return partners;
   }
 
-  /// At least |W_i| over the stretch of each node. Poles and nodes are taken in pairs,
+  /// At least |W_i| over the stretch. Poles and nodes are taken in pairs,
   ///
   ///     (z_i − e_j)/(z_i − z_j) = 1/(1 − (z_j − e_j)/(z_i − e_j))
   ///
-  /// @param partners  of `mirror`
-  std::vector<double> corrections(const Nodes& nodes, const std::vector<std::size_t>& partners,
-                                  const std::vector<Part>& parts) const {
-    std::vector<EnclosedCurve> own;  // z_j − e_j
-    for (std::size_t j = 0; j < parts.size(); ++j)
-      own.push_back(difference(nodes[j], parts[j].pole));
-    std::vector<double> found;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const bool is_known = !partners.empty() && partners[i] < i;
-      found.push_back(is_known ? found[partners[i]] : correction(i, nodes, parts, own));
-    }
-    return found;
-  }
+  /// @param own  z_j − e_j
   double correction(std::size_t i, const Nodes& nodes, const std::vector<Part>& parts,
                     const std::vector<EnclosedCurve>& own) const {
     const EnclosedCurve node = nodes[i].curve();
@@ -325,13 +326,13 @@ class SamplingProof {
   }
 
   /// Whether Σ |W_i|/|λ − z_i| < 1 on the unit circle, as a whole or arc by arc.
-  static bool are_held_inside(const Nodes& nodes, const std::vector<double>& corrections) {
+  static bool are_held_inside(const std::vector<Node>& nodes) {
     std::vector<double> inside;
     Enclosure sum;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      inside.push_back((Enclosure(1.0) - nodes[i].most()).lower());
-      if (!(inside[i] > 0.0 && corrections[i] < inside[i])) return false;
-      sum += Enclosure(corrections[i]) / inside[i];
+    for (const auto& [path, correction] : nodes) {
+      inside.push_back((Enclosure(1.0) - path.most()).lower());
+      if (!(inside.back() > 0.0)) return false;
+      sum += Enclosure(correction) / inside.back();
     }
     if (sum.upper() < 1.0) return true;
     const auto arcs = static_cast<int>(2 * nodes.size());
@@ -340,8 +341,8 @@ class SamplingProof {
       const ComplexEnclosure arc(std::polar(1.0, (2 * m + 1) * pi<double> / arcs), half);
       sum = 0.0;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const ComplexEnclosure node(nodes[i].start().middle(), nodes[i].way());
-        sum += Enclosure(corrections[i]) / std::max(inside[i], (arc - node).least_modulus());
+        const ComplexEnclosure node(nodes[i].path.start().middle(), nodes[i].path.way());
+        sum += Enclosure(nodes[i].correction) / std::max(inside[i], (arc - node).least_modulus());
       }
       if (!(sum.upper() < 1.0)) return false;
     }
@@ -357,14 +358,22 @@ class SamplingProof {
 // Beside the class, so that who links holdfast::compiled is spared it.
 
 template <class Scalar>
-bool SamplingProof<Scalar>::is_stable(double from, double to) const {
+auto SamplingProof<Scalar>::nodes_over(double from, double to) const -> std::vector<Node> {
   const Enclosure stretch = detail::decimals_between(from, to);
   const std::vector<Part> parts = parts_at(stretch.middle(), stretch.radius());
   Nodes nodes = nodes_at(stretch.middle(), parts);
-  if (nodes.empty()) return false;
+  if (nodes.empty()) return {};
   make_room(nodes, parts);
   const std::vector<std::size_t> partners = mirror(nodes);
-  return are_held_inside(nodes, corrections(nodes, partners, parts));
+  std::vector<EnclosedCurve> own;
+  for (std::size_t j = 0; j < parts.size(); ++j) own.push_back(difference(nodes[j], parts[j].pole));
+  std::vector<Node> held;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const bool is_known = !partners.empty() && partners[i] < i;
+    held.push_back(
+        {nodes[i], is_known ? held[partners[i]].correction : correction(i, nodes, parts, own)});
+  }
+  return held;
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
