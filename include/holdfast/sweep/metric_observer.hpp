@@ -49,7 +49,7 @@ struct MetricObserver {
     // A comparison with a sample that has not been is false.
     const Mask<Scalar> turns = ((last > before_last) & (displacement < last)) |
                                ((last < before_last) & (displacement > last));
-    first_peak = select(turns & (first_peak != first_peak), Scalar(abs(last)), first_peak);
+    first_peak = select(without<Scalar>(turns, extremum_found()), Scalar(abs(last)), first_peak);
     before_last = last;
     last = displacement;
   }
