@@ -41,7 +41,7 @@ std::optional<double> neighbour_distance(Motion motion, std::int64_t transient,
   neighbour.displace_conductor(neighbour_start * (highest - lowest));
   auto low = motion.state(), high = low;
   auto apart = (0.0 * low).eval();
-  const std::int64_t last_quarter = samples - samples / 4;
+  const std::int64_t kept = samples / 4;
   for (std::int64_t j = 0; j < samples; ++j) {
     for (Motion* const one : {&motion, &neighbour}) {
       one->sense();
@@ -49,11 +49,11 @@ std::optional<double> neighbour_distance(Motion motion, std::int64_t transient,
     }
     low = low.cwiseMin(motion.state());
     high = high.cwiseMax(motion.state());
-    if (j >= last_quarter) apart += (motion.state() - neighbour.state()).cwiseAbs();
+    if (j >= samples - kept) apart += (motion.state() - neighbour.state()).cwiseAbs();
   }
   const auto extent = (high - low).array().eval();
   const auto largest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).array().eval();
-  const auto mean = (apart.array() / static_cast<double>(samples / 4)).eval();
+  const auto mean = (apart.array() / static_cast<double>(kept)).eval();
   const double share = (extent > 1e-13 * largest).select(mean / extent, 0.0).maxCoeff();
   return std::isfinite(share) ? std::optional<double>(share) : std::nullopt;
 }

@@ -265,9 +265,9 @@ class EventPack {
     const LaneMask settled = modes_.settled();
     const LaneMask far = (least > drop) & settled;
     if (all(far)) return far;
-    const LaneMask none_turns =
-        stays_above_zero(begin[0], end[0], drop) & stays_above_zero(begin[1], end[1], drop);
-    return far | (none_turns & settled);
+    const LaneMask first_stays = stays_above_zero(begin[0], end[0], drop);
+    const LaneMask second_stays = stays_above_zero(begin[1], end[1], drop);
+    return far | (first_stays & second_stays & settled);
   }
 
   /// Goes on to the next change of contact, or to the end of the part, in some lanes; `phasors_`
