@@ -123,8 +123,7 @@ class EventMetricTrack {
     observer_.observe_load(sample.control_force, Scalar(z[2] - z[0]));
     if (begins_) observer_.begin_steady(begins_steady_, reverses);
     begins_ = false;
-    if (steady_)
-      observer_.observe_steady(z[0], sample.control_force, sample.engaged, reverses);
+    if (steady_) observer_.observe_steady(z[0], sample.control_force, sample.engaged, reverses);
     pack_.advance();
     if (pack_.some_accumulate()) close_accumulating(results);
   }

@@ -201,8 +201,8 @@ class ModalMargins {
 ///
 /// D and P as `ResolvedCircle` has them. τ and δ are walked, τ by 5 % and δ by an eighth of a
 /// sample at a time, with all roots at each step: a stretch of instability narrower than a step is
-/// missed, which `proved_sampling_margins` would find, and what is not met is `beyond_search`, never
-/// `none` but for δ = 0.
+/// missed, which `proved_sampling_margins` would find, and what is not met is `beyond_search`,
+/// never `none` but for δ = 0.
 /// @tparam Scalar   double; a parameter so that nothing is compiled where this is not called
 /// @param poles     `plant_poles`, all of them; kept outside while this runs
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
