@@ -74,14 +74,17 @@ GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
           margins.delay.outcome == MarginEndOutcome::beyond_search};
 }
 
-CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
+StabilityMargins walked_margins_of(const Case& the_case, const PdGains<double>& gains) {
   const Sampling<double> sampling = sampling_of(the_case);
-  if (!is_modal(the_case)) return {stability_margins(plant_of(the_case), sampling, gains), true};
+  if (!is_modal(the_case)) return stability_margins(plant_of(the_case), sampling, gains);
   MarginSearch search;
   search.longest_period_ratio = 100.0;
-  StabilityMargins margins =
-      modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
-  const bool everywhere = look_everywhere(margins, the_case, gains);
+  return modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
+}
+
+CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
+  StabilityMargins margins = walked_margins_of(the_case, gains);
+  const bool everywhere = !is_modal(the_case) || look_everywhere(margins, the_case, gains);
   return {margins, everywhere};
 }
 

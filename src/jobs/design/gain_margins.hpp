@@ -33,7 +33,10 @@ struct CaseMargins {
   bool looked_everywhere;
 };
 
-/// Of a modal case the periods are looked for up to a hundred of its own.
+/// As far as doubles find them; of a modal case the periods are walked, up to a hundred of its own.
+StabilityMargins walked_margins_of(const Case& the_case, const PdGains<double>& gains);
+
+/// The same, looked at everywhere where that is soon done.
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
 /// The same as theorems, of a case that refuse_to_prove() takes. Throws what proved_poles_of does,
