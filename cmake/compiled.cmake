@@ -5,7 +5,7 @@ add_library(holdfast_compiled STATIC ${holdfast_compiled_sources})
 add_library(holdfast::compiled ALIAS holdfast_compiled)
 # Its files are lists of instantiations: the lint reads the headers themselves.
 set_target_properties(holdfast_compiled PROPERTIES
-  EXPORT_NAME compiled UNITY_BUILD OFF CXX_CLANG_TIDY "")
+  EXPORT_NAME compiled CXX_CLANG_TIDY "")
 # The headers' `extern template` lines count where this is set.
 target_compile_definitions(holdfast_compiled PUBLIC HOLDFAST_EXTERN_TEMPLATES)
 target_link_libraries(holdfast_compiled PUBLIC holdfast::holdfast)

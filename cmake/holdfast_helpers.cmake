@@ -58,3 +58,45 @@ macro(holdfast_add_adapter adapter part what debian_package)
     endif()
   endif()
 endmacro()
+
+# Compiles with ccache where it is installed. It sees every path relative to the project, so that a
+# clone in another folder finds what this one has compiled. A launcher that was asked for stays.
+function(holdfast_compile_with_cache)
+  find_program(HOLDFAST_CCACHE ccache)
+  find_program(HOLDFAST_ENV env)
+  mark_as_advanced(HOLDFAST_CCACHE HOLDFAST_ENV)
+  if(HOLDFAST_CCACHE AND HOLDFAST_ENV AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${HOLDFAST_ENV} CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=true ${HOLDFAST_CCACHE}
+      PARENT_SCOPE)
+  endif()
+endfunction()
+
+# The files of a room read much the same headers: `count` neighbours in the list make one unit, where
+# HOLDFAST_JOIN_SOURCES is on. CMake's own units name their files by absolute paths, which no cache of
+# another clone would know again.
+function(holdfast_join_sources target count sources_variable)
+  if(NOT HOLDFAST_JOIN_SOURCES)
+    return()
+  endif()
+  set(units "")
+  set(text "")
+  set(joined 0)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/units/${target})
+  foreach(source IN LISTS ${sources_variable} ITEMS "")
+    if(source)
+      get_filename_component(source ${source} ABSOLUTE)
+      file(RELATIVE_PATH source ${folder} ${source})
+      string(APPEND text "#include \"${source}\"\n")
+      math(EXPR joined "${joined} + 1")
+    endif()
+    if(text AND (joined EQUAL count OR NOT source))
+      list(LENGTH units number)
+      file(CONFIGURE OUTPUT ${folder}/unit_${number}.cpp CONTENT "${text}" @ONLY)
+      list(APPEND units ${folder}/unit_${number}.cpp)
+      set(text "")
+      set(joined 0)
+    endif()
+  endforeach()
+  set(${sources_variable} ${units} PARENT_SCOPE)
+endfunction()

@@ -90,11 +90,9 @@ function(holdfast_use_mpi target)
   target_link_libraries(${target} PRIVATE MPI::MPI_CXX)
 endfunction()
 
-# The files of a room read much the same headers, so where CMAKE_UNITY_BUILD is on, eight make one
-# unit. The loops on packs are compiled as the build type says; the rest, which prepares and writes,
-# is no faster beyond -O2.
+# The loops on packs are compiled as the build type says; the rest, which prepares and writes, is no
+# faster beyond -O2.
 function(holdfast_compile_quickly target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 8)
   target_compile_options(${target} PRIVATE
     $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<CONFIG:Release>>:-O2>)
 endfunction()
@@ -103,8 +101,6 @@ function(holdfast_compile_loops_on_packs)
   foreach(source IN LISTS ARGN)
     set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/${source} PROPERTY COMPILE_OPTIONS
       $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<CONFIG:Release>>:-O3>)
-    # Compiled beside the others rather than behind them: the longest.
-    set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/${source} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
   endforeach()
 endfunction()
 
@@ -112,8 +108,12 @@ function(holdfast_add_program)
   find_package(Threads REQUIRED)
   file(GLOB_RECURSE library_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)
   list(FILTER library_sources EXCLUDE REGEX "/src/(process/mpi|kernels/wide)/[^/]*$")
+  set(loops_on_packs ${PROJECT_SOURCE_DIR}/src/kernels/baseline.cpp)
+  list(REMOVE_ITEM library_sources ${loops_on_packs})
+  holdfast_join_sources(holdfast_program 8 library_sources)
   file(GLOB_RECURSE job_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/*.cpp)
   list(FILTER job_sources EXCLUDE REGEX "/apps/main.cpp$")
+  holdfast_join_sources(holdfast_jobs 8 job_sources)
   holdfast_embed_text(${PROJECT_SOURCE_DIR}/data/kollar2022.toml builtin_case_text source)
   list(APPEND library_sources ${source})
   holdfast_embed_text(${PROJECT_SOURCE_DIR}/data/conductors.toml conductors_text source)
@@ -127,7 +127,8 @@ function(holdfast_add_program)
   if(TARGET holdfast::compiled)
     set(library holdfast::compiled)
   endif()
-  add_library(holdfast_program STATIC ${library_sources})
+  # The longest first, so that it is compiled beside the others rather than behind them.
+  add_library(holdfast_program STATIC ${loops_on_packs} ${library_sources})
   target_include_directories(holdfast_program PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(holdfast_program PUBLIC HOLDFAST_VERSION="${PROJECT_VERSION}")
   target_link_libraries(holdfast_program
@@ -148,16 +149,14 @@ function(holdfast_add_program)
   holdfast_use_kernels(holdfast_program)  # last of what is linked
 
   holdfast_compile_quickly(holdfast_program)
-  holdfast_compile_loops_on_packs(kernels/baseline.cpp)
+  set_property(SOURCE ${loops_on_packs} PROPERTY COMPILE_OPTIONS
+    $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<CONFIG:Release>>:-O3>)
 
   # The jobs on their command lines: all of the program but its main().
   add_library(holdfast_jobs STATIC ${job_sources})
   target_include_directories(holdfast_jobs PUBLIC ${PROJECT_SOURCE_DIR}/apps)
   target_link_libraries(holdfast_jobs PUBLIC holdfast_program PRIVATE holdfast_warnings)
   holdfast_compile_quickly(holdfast_jobs)
-  # Every job reads CLI11, which takes longer to compile than the job itself.
-  target_precompile_headers(holdfast_jobs PRIVATE <CLI/CLI.hpp>)
-
   # The name `holdfast` belongs to the library's target, so the executable's target has another.
   add_executable(holdfast_executable ${PROJECT_SOURCE_DIR}/apps/main.cpp)
   set_target_properties(holdfast_executable PROPERTIES
