@@ -20,8 +20,8 @@ command=("$@")
 program=$(realpath "${command[-1]}")
 command[-1]=$program
 
-# Kind, then the words: t threads, p needs a package, l takes long, w needs the explorer's page, which is
-# built apart, a any other.
+# Kind, then the words: f follows one whose output it reads, t threads, p needs a package, l takes long,
+# w needs the explorer's page, which is built apart, a any other.
 questions='
 t stability --p -600:0:7 --d -20:0:5 --radius
 t stability --axis plant.absorber_mass=0.1:0.2:3 --axis control.differential_gain=-9:0:3
@@ -74,7 +74,7 @@ t sweep --axis backlash.width=0:0.001:5 --axis control.sampling_period=0.001,0.0
 p sweep --axis backlash.width=0:0.001:5 --duration 0.5 --threads 2 --output sweep.nc
 t sweep --axis backlash.width=0:0.001:5 --axis initial.z1=0:0.001:9 --duration 0.5 --threads 3 --chunk 4 --output sweep.zarr
 t stability --p -600:0:70 --d -20:0:5 --radius --threads 3 --output chart.zarr
-a convert sweep.zarr of-store.csv
+f convert sweep.zarr of-store.csv
 a statics --force -1:1:3 --elements 8
 a modes --count 2 --elements 8
 p decay --duration 0.1 --elements 8
@@ -110,19 +110,28 @@ if [ -n "$missing" ]; then
   exit 1
 fi
 
-failures=0 count=0
+# Asks one question, in the folder of all and with output files of its own: ask NUMBER WORDS ...
+ask() {
+  local number=$1
+  shift
+  if ! (cd "$work" && "${command[@]}" "$@" >"out.$number" 2>"err.$number" </dev/null); then
+    { printf 'FAILED: %s\n' "$*" && head -40 "$work/err.$number"; } >"$work/failed.$number"
+  fi
+}
+
+count=0
 while read -r kind words; do
   case $only:$kind in
-    *: | threads:[aplw] | plain:p | short:l) continue ;;
+    *: | threads:[afplw] | plain:p | short:l) continue ;;
     *:w) [ -f "$(dirname "$program")/../../wasm/explorer.html" ] || continue ;;
   esac
   read -ra arguments <<<"$words"
   count=$((count + 1))
-  if ! (cd "$work" && "${command[@]}" "${arguments[@]}" >out 2>err </dev/null); then
-    printf 'FAILED: %s\n' "$words"
-    head -40 "$work/err"
-    failures=$((failures + 1))
-  fi
+  if [ "$kind" = f ]; then wait; elif [ "$(jobs -r | wc -l)" -ge "$(nproc)" ]; then wait -n || true; fi
+  ask "$count" "${arguments[@]}" &
 done <<<"$questions"
+wait
+failures=$(find "$work" -maxdepth 1 -name 'failed.*' | wc -l)
+find "$work" -maxdepth 1 -name 'failed.*' -exec cat {} +
 printf '%d questions, %d failures\n' "$count" "$failures"
 [ "$failures" -eq 0 ]
