@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 
+#include "io/text/checksum.hpp"
 #include "process/errors.hpp"
 
 #ifdef HOLDFAST_HAS_ZSTD
@@ -32,10 +33,12 @@ std::uint32_t crc32c(std::string_view bytes) {
   return ~sum;
 }
 
-/// Little-endian, as the codec wants it.
-std::string bytes_of(std::uint32_t number) {
+/// Little-endian, as the codecs want it.
+template <class Number>
+std::string bytes_of(Number number) {
   std::string bytes;
-  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xFFU);
+  for (std::size_t k = 0; k < sizeof(Number); ++k)
+    bytes += static_cast<char>(number >> (8 * k) & 0xFFU);
   return bytes;
 }
 
@@ -82,6 +85,22 @@ std::optional<std::string> expanded(std::string_view, std::size_t) { refuse_zstd
 
 #endif
 
+constexpr std::uint32_t skippable_frame = 0x184D2A50U;
+
+std::string seal_of(std::string_view bytes, std::string_view place) {
+  const std::string sum = bytes_of(checksum(bytes, checksum(place)));
+  return bytes_of(skippable_frame) + bytes_of(static_cast<std::uint32_t>(sum.size())) + sum;
+}
+
+std::optional<std::string> unsealed(std::string_view file, std::size_t size,
+                                    std::string_view place) {
+  const std::size_t length = seal_of("", "").size();
+  if (file.size() < length) return std::nullopt;
+  std::optional<std::string> bytes = expanded(file.substr(0, file.size() - length), size);
+  if (bytes && file.substr(file.size() - length) != seal_of(*bytes, place)) return std::nullopt;
+  return bytes;
+}
+
 }  // namespace
 
 ChunkPacking usual_packing() {
@@ -92,14 +111,14 @@ ChunkPacking usual_packing() {
 #endif
 }
 
-std::string packed_chunk(std::string_view bytes, ChunkPacking packing) {
-  if (packing == ChunkPacking::zstd) return compressed(bytes);
+std::string packed_chunk(std::string_view bytes, ChunkPacking packing, std::string_view place) {
+  if (packing == ChunkPacking::zstd) return compressed(bytes) + seal_of(bytes, place);
   return std::string(bytes) + bytes_of(crc32c(bytes));
 }
 
 std::optional<std::string> unpacked_chunk(std::string_view file, std::size_t size,
-                                          ChunkPacking packing) {
-  return packing == ChunkPacking::zstd ? expanded(file, size) : without_checksum(file, size);
+                                          ChunkPacking packing, std::string_view place) {
+  return packing == ChunkPacking::zstd ? unsealed(file, size, place) : without_checksum(file, size);
 }
 
 }  // namespace holdfast::program

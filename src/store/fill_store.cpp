@@ -136,7 +136,7 @@ class StoreFilling {
   bool see_to(std::int64_t chunk, bool last, ChunkUnderWay& under_way) {
     throw_if_interrupted();
     const bool done = is_done(chunk);
-    const bool left = done && work_.verify && ChunkClaim::exists(store_.file_of(chunk));
+    const bool left = done && ChunkClaim::exists(store_.file_of(chunk));
     if (done && !left) return count_found(chunk);
     auto claim = std::make_unique<const ChunkClaim>(store_.file_of(chunk));
     if (claim->was_left()) store_.remove_leftovers(chunk);

@@ -4,11 +4,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "case/case_file.hpp"
 #include "case/device/impedance_table.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
+#include "io/file/folder_lock.hpp"
 #include "io/grid/grid_attributes.hpp"
 #include "io/text/checksum.hpp"
 #include "process/errors.hpp"
@@ -165,6 +167,19 @@ std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json& holdfast_part(Json& root, int format) {
+  return (format == 2 ? root : root.at("attributes")).at("holdfast");
+}
+
+/// The root with the checksum of all the rest of it.
+Json sealed(Json root, int format) {
+  // Read again, since bytes that are no text have been replaced by then.
+  root = Json::parse(text_of(root));
+  const std::string sum = std::to_string(checksum(text_of(root)));
+  holdfast_part(root, format)["checksum"] = sum;
+  return root;
+}
+
 using Documents = std::vector<std::pair<fs::path, std::string>>;
 
 Documents documents_of_format_3(const StoreDescription& store) {
@@ -179,7 +194,7 @@ Documents documents_of_format_3(const StoreDescription& store) {
   root["attributes"] = root_attributes(store);
   root["consolidated_metadata"] = {
       {"kind", "inline"}, {"must_understand", false}, {"metadata", consolidated}};
-  documents.emplace_back(root_of_format_3, text_of(root));
+  documents.emplace_back(root_of_format_3, text_of(sealed(root, 3)));
   return documents;
 }
 
@@ -201,7 +216,7 @@ Documents documents_of_format_2(const StoreDescription& store) {
     add(array.name + "/.zattrs", attributes);
   }
   add(".zgroup", {{"zarr_format", 2}});
-  const Json root = root_attributes(store);
+  const Json root = sealed(root_attributes(store), 2);
   consolidated[root_of_format_2] = root;
   documents.emplace_back(".zmetadata",
                          text_of({{"zarr_consolidated_format", 1}, {"metadata", consolidated}}));
@@ -211,6 +226,25 @@ Documents documents_of_format_2(const StoreDescription& store) {
 
 void require(bool holds) {
   if (!holds) throw std::invalid_argument("not described as holdfast describes a store");
+}
+
+/// The root without its checksum, which was right.
+Json unsealed(Json root, int format) {
+  Json& part = holdfast_part(root, format);
+  const auto sum = part.at("checksum").get<std::string>();
+  part.erase("checksum");
+  require(sum == std::to_string(checksum(text_of(root))));
+  return root;
+}
+
+/// Whether an array can have the name, which becomes that of its folder: as those of holdfast's
+/// keys and columns are, and no other than the names before.
+bool is_array_name(const std::string& name, std::set<std::string>& before) {
+  const auto is_of_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !name.empty() && name.size() < 200 && name != FolderLock::file_name &&
+         std::all_of(name.begin(), name.end(), is_of_name) && before.insert(name).second;
 }
 
 CellColumn cells_of(const Json& json) {
@@ -271,10 +305,23 @@ StoreDescription description_of(const Json& attributes, int format) {
   store.packing = packing == "zstd" ? ChunkPacking::zstd : ChunkPacking::checksum;
   require(is_sound(store.grid) && store.axes.size() == store.grid.shape.size());
   require(store.table_columns > 0 && store.table_columns <= store.columns.size());
+  std::set<std::string> names;
+  for (const std::string& name : array_names(store)) require(is_array_name(name, names));
   return store;
 }
 
 }  // namespace
+
+std::string plan_identity(const StorePlan& plan) {
+  return std::to_string(checksum(Json(plan).dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
+std::vector<std::string> array_names(const StoreDescription& store) {
+  std::vector<std::string> names;
+  for (const GridAxis& axis : store.axes) names.push_back(cf_name(axis.column.name));
+  for (const CellColumn& cells : store.columns) names.push_back(cf_name(cells.column.name));
+  return names;
+}
 
 std::string plan_differences(const StorePlan& before, const StorePlan& now) {
   StorePlan all = before;
@@ -311,7 +358,7 @@ std::vector<std::pair<fs::path, std::string>> store_documents(const StoreDescrip
 
 StoreDescription read_description(std::string_view root, int format) {
   try {
-    const Json json = Json::parse(root);
+    const Json json = unsealed(Json::parse(root), format);
     return description_of(format == 2 ? json : json.at("attributes"), format);
   } catch (const Json::exception& fault) {
     throw std::invalid_argument(fault.what());

@@ -19,6 +19,9 @@ namespace holdfast::program {
 /// {"--axis 1", "backlash.width=0:0.003:61"}. Processes that agree in it may fill one store.
 using StorePlan = std::map<std::string, std::string>;
 
+/// A number that tells one plan from others, for the seals of a store's files.
+std::string plan_identity(const StorePlan& plan);
+
 /// What differs, each entry with both texts: "--duration was 20, is 60; --kick was 1:0.1, is not
 /// given". Empty for the same plan.
 std::string plan_differences(const StorePlan& before, const StorePlan& now);
@@ -48,6 +51,9 @@ struct StoreDescription {
   ChunkPacking packing = usual_packing();
 };
 
+/// The names of its arrays, which are those of their folders: of the axes, then of the columns.
+std::vector<std::string> array_names(const StoreDescription& store);
+
 /// The files that describe a store and their texts, relative to its folder, the root last, without
 /// which there is no store. After them readers find all in one file, the consolidated metadata.
 /// Throws NoAnswer where format 2 is asked for and the program has no codec that it knows.
@@ -59,7 +65,8 @@ inline constexpr const char* root_of_format_3 = "zarr.json";
 inline constexpr const char* root_of_format_2 = ".zattrs";
 
 /// The description in such a root. The values of the axes are not in it. Throws
-/// std::invalid_argument, and nothing else, where it is none of holdfast's.
+/// std::invalid_argument, and nothing else, where it is none of holdfast's: damaged, or with names
+/// of arrays that are none of its own, such as paths.
 StoreDescription read_description(std::string_view root, int format);
 
 /// The file of a chunk of an array, relative to the store. All of an array lie in one folder: each

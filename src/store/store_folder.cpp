@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -12,6 +13,7 @@
 #include "io/file/folder_lock.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/grid/grid_attributes.hpp"
+#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "process/system_words.hpp"
@@ -88,6 +90,7 @@ std::optional<std::string> root_text(const fs::path& folder, int format) {
 
 bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& known) {
   std::error_code error;
+  if (fs::is_symlink(folder, error)) return false;
   fs::directory_iterator entries(folder, error);
   if (error == std::errc::no_such_file_or_directory) return true;
   if (error == std::errc::not_a_directory) return false;
@@ -103,14 +106,63 @@ bool holds_nothing_but(const fs::path& folder, const std::vector<std::string>& k
 /// Whether nothing is there, or leftovers of a store whose root was not written any more; without
 /// chunks, of which nobody could tell what they belong to.
 bool may_begin_store(const fs::path& folder, const StoreDescription& description) {
-  std::vector<std::string> known = {".zgroup", ".zmetadata", FolderLock::file_name};
-  for (const GridAxis& axis : description.axes) known.push_back(cf_name(axis.column.name));
-  for (const CellColumn& cells : description.columns) {
-    known.push_back(cf_name(cells.column.name));
-    if (!holds_nothing_but(folder / known.back(), {root_of_format_3, root_of_format_2, ".zarray"}))
+  std::vector<std::string> known = array_names(description);
+  for (std::size_t column = description.axes.size(); column < known.size(); ++column)
+    if (!holds_nothing_but(folder / known[column], {root_of_format_3, root_of_format_2, ".zarray"}))
       return false;
-  }
+  known.insert(known.end(), {".zgroup", ".zmetadata", FolderLock::file_name});
   return holds_nothing_but(folder, known);
+}
+
+/// The root, from which they were made, has a checksum of its own.
+auto documents_but_root(const StoreDescription& store) {
+  auto documents = store_documents(store);
+  documents.pop_back();
+  return documents;
+}
+
+/// The root of a store that is being removed.
+constexpr const char* removed_root = ".removed";
+
+/// The description in a root; nothing where it is none of holdfast's.
+std::optional<StoreDescription> description_in(const std::string& root, int format) {
+  try {
+    return read_description(root, format);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+/// Of the store whose removal was cut short.
+std::optional<StoreDescription> removed_store_in(const fs::path& folder) {
+  int error = 0;
+  const std::optional<std::string> text = read_whole_file(folder / removed_root, error);
+  if (!text) return std::nullopt;
+  auto description = description_in(*text, 3);
+  return description ? description : description_in(*text, 2);
+}
+
+/// A number as it stands in a name: without a sign and leading zeros.
+bool is_index_below(std::string_view text, std::size_t end) {
+  std::size_t number = 0;
+  const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return fault == std::errc() && number < end && std::to_string(number) == text &&
+         rest == text.data() + text.size();
+}
+
+/// Whether a file is that of a chunk: `c.4.0`, or without the letter in format 2.
+bool is_chunk_name(std::string_view name, int format, const std::vector<std::size_t>& chunks) {
+  std::vector<std::string_view> parts = split(name, '.');
+  if (format == 3) {
+    if (parts.front() != "c") return false;
+    parts.erase(parts.begin());
+  }
+  return std::equal(parts.begin(), parts.end(), chunks.begin(), chunks.end(), is_index_below);
+}
+
+[[noreturn]] void refuse_link(const fs::path& path) {
+  throw WrongInput("cannot write " + path.string() +
+                   ": is a symbolic link, which may lead anywhere");
 }
 
 [[noreturn]] void refuse_folder(const fs::path& folder) {
@@ -131,26 +183,26 @@ void require_same_plan(const fs::path& folder, const StoreDescription& before,
 std::optional<StoreDescription> store_in(const fs::path& folder) {
   for (const int format : {3, 2}) {
     const std::optional<std::string> text = root_text(folder, format);
-    if (!text) continue;
-    try {
-      return read_description(*text, format);
-    } catch (const std::invalid_argument&) {
-      return std::nullopt;
-    }
+    if (text) return description_in(*text, format);
   }
   return std::nullopt;
 }
 
 StoreFolder StoreFolder::enter(const fs::path& folder, const StoreDescription& description) {
   StoreFolder store(folder, description);
+  store.refuse_links();
   std::optional<StoreDescription> there = store_in(folder);
   if (!there) {
+    remove_store(folder);
     if (may_begin_store(folder, description)) store.begin();
     // Read anew: another process may have begun a store meanwhile, this one or another.
     there = store_in(folder);
   }
   if (!there) refuse_folder(folder);
   require_same_plan(folder, *there, description);
+  store.description_.packing = there->packing;
+  there->axes = description.axes;
+  store.mend(documents_but_root(*there));
   return store;
 }
 
@@ -159,7 +211,15 @@ StoreFolder StoreFolder::open(const fs::path& folder) {
   if (!there) throw WrongInput(folder.string() + " is no store of cells that holdfast has written");
   StoreFolder store(folder, std::move(*there));
   store.read_axes();
+  store.require(documents_but_root(store.description_));
   return store;
+}
+
+/// No array may lie behind a link: what is written there would be written elsewhere.
+void StoreFolder::refuse_links() const {
+  std::error_code error;
+  for (const std::string& name : array_names(description_))
+    if (fs::is_symlink(folder_ / name, error)) refuse_link(folder_ / name);
 }
 
 /// Leaves nothing where it cannot come to its end, but what another process has begun meanwhile.
@@ -172,41 +232,83 @@ void StoreFolder::begin() const {
   }
 }
 
+/// What a file of the store is known by: its name, and what the store was asked.
+std::string StoreFolder::seal_of(const fs::path& file) const {
+  return file.lexically_relative(folder_).generic_string() + " of " + identity_;
+}
+
+void StoreFolder::write_axis(std::size_t axis, std::size_t first) const {
+  const GridAxis& of = description_.axes[axis];
+  const std::size_t length = coordinates_in_chunk(of.count());
+  std::vector<double> values(std::min(length, of.count() - first));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = of.at(first + i);
+  const fs::path file = axis_file(axis, first);
+  write_file(file, packed_chunk(bytes_of(values, length, ElementType::real), description_.packing,
+                                seal_of(file)));
+}
+
+fs::path StoreFolder::axis_file(std::size_t axis, std::size_t first) const {
+  const std::size_t length = coordinates_in_chunk(grid().shape[axis]);
+  return folder_ / chunk_file(cf_name(description_.axes[axis].column.name),
+                              {static_cast<std::int64_t>(first / length)}, description_.format);
+}
+
+/// Some of an axis from one of its values on; nothing where its file is missing or damaged.
+std::optional<std::vector<double>> StoreFolder::axis_values(std::size_t axis,
+                                                            std::size_t first) const {
+  const std::size_t count = grid().shape[axis], length = coordinates_in_chunk(count);
+  const fs::path file = axis_file(axis, first);
+  int ignored = 0;
+  const std::optional<std::string> packed = read_whole_file(file, ignored);
+  const auto bytes =
+      packed ? unpacked_chunk(*packed, length * sizeof(double), description_.packing, seal_of(file))
+             : std::nullopt;
+  if (!bytes) return std::nullopt;
+  return values_of(*bytes, std::min(length, count - first), ElementType::real);
+}
+
 void StoreFolder::write_documents() const {
-  const auto documents = store_documents(description_);
-  for (const GridAxis& axis : description_.axes) {
-    const std::size_t length = coordinates_in_chunk(axis.count());
-    for (std::size_t first = 0; first < axis.count(); first += length) {
+  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis) {
+    const std::size_t count = grid().shape[axis];
+    for (std::size_t first = 0; first < count; first += coordinates_in_chunk(count)) {
       throw_if_interrupted();
-      std::vector<double> values(std::min(length, axis.count() - first));
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = axis.at(first + i);
-      const auto place = {static_cast<std::int64_t>(first / length)};
-      write_file(folder_ / chunk_file(cf_name(axis.column.name), place, description_.format),
-                 packed_chunk(bytes_of(values, length, ElementType::real), description_.packing));
+      write_axis(axis, first);
     }
   }
-  for (const auto& [path, text] : documents) write_file(folder_ / path, text);
+  for (const auto& [path, text] : store_documents(description_)) write_file(folder_ / path, text);
+}
+
+/// Whoever comes later finds what the store's plan says, whatever has become of it.
+void StoreFolder::mend(const Documents& documents) const {
+  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis) {
+    const std::size_t count = grid().shape[axis];
+    for (std::size_t first = 0; first < count; first += coordinates_in_chunk(count))
+      if (!axis_values(axis, first)) write_axis(axis, first);
+  }
+  int ignored = 0;
+  for (const auto& [path, text] : documents)
+    if (read_whole_file(folder_ / path, ignored) != text) write_file(folder_ / path, text);
+}
+
+void StoreFolder::require(const Documents& documents) const {
+  for (const auto& [path, text] : documents) {
+    int error = 0;
+    const std::optional<std::string> there = read_whole_file(folder_ / path, error);
+    if (there != text)
+      refuse_to_read(folder_ / path, there ? "it is damaged" : system_words(error));
+  }
 }
 
 void StoreFolder::read_axes() {
-  for (std::size_t k = 0; k < description_.axes.size(); ++k) {
-    const std::string name = cf_name(description_.axes[k].column.name);
-    const std::size_t count = grid().shape[k], length = coordinates_in_chunk(count);
+  for (std::size_t axis = 0; axis < description_.axes.size(); ++axis) {
+    const std::size_t count = grid().shape[axis];
     std::vector<double> values;
-    for (std::size_t first = 0; first < count; first += length) {
-      const auto place = {static_cast<std::int64_t>(first / length)};
-      const fs::path file = folder_ / chunk_file(name, place, description_.format);
-      int error = 0;
-      const std::optional<std::string> packed = read_whole_file(file, error);
-      const auto bytes =
-          packed ? unpacked_chunk(*packed, length * sizeof(double), description_.packing)
-                 : std::nullopt;
-      if (!bytes) refuse_to_read(file, packed ? "it is damaged" : system_words(error));
-      const std::vector<double> part =
-          values_of(*bytes, std::min(length, count - first), ElementType::real);
-      values.insert(values.end(), part.begin(), part.end());
+    for (std::size_t first = 0; first < count; first += coordinates_in_chunk(count)) {
+      const auto part = axis_values(axis, first);
+      if (!part) refuse_to_read(axis_file(axis, first), "it is missing or damaged");
+      values.insert(values.end(), part->begin(), part->end());
     }
-    description_.axes[k].values = std::move(values);
+    description_.axes[axis].values = std::move(values);
   }
 }
 
@@ -224,13 +326,14 @@ bool StoreFolder::has(std::int64_t chunk) const {
 std::optional<std::vector<double>> StoreFolder::read_column(std::size_t column,
                                                             std::int64_t chunk) const {
   int ignored = 0;  // a file that cannot be read is as good as none
-  const std::optional<std::string> file = read_whole_file(file_of(column, chunk), ignored);
+  const fs::path place = file_of(column, chunk);
+  const std::optional<std::string> file = read_whole_file(place, ignored);
   if (!file) return std::nullopt;
   const CellColumn& cells = description_.columns[column];
   const ElementType type = element_type_of(cells);
   const auto of_file = static_cast<std::size_t>(grid().cells_of_file());
   const std::optional<std::string> bytes =
-      unpacked_chunk(*file, of_file * size_of(type), description_.packing);
+      unpacked_chunk(*file, of_file * size_of(type), description_.packing, seal_of(place));
   if (!bytes) return std::nullopt;
   std::vector<double> values =
       values_of(*bytes, static_cast<std::size_t>(grid().cells_of(chunk)), type);
@@ -253,22 +356,28 @@ void StoreFolder::put(std::int64_t chunk, const ChunkValues& values) const {
     const fs::path file = file_of(column, chunk);
     const ElementType type = element_type_of(description_.columns[column]);
     const auto of_file = static_cast<std::size_t>(grid().cells_of_file());
-    const int error = write_whole_file(
-        file, packed_chunk(bytes_of(values[column], of_file, type), description_.packing));
+    std::error_code ignored;
+    if (fs::is_symlink(file, ignored)) refuse_link(file);
+    const int error = write_whole_file(file, packed_chunk(bytes_of(values[column], of_file, type),
+                                                          description_.packing, seal_of(file)));
     if (error != 0) throw OutputError("cannot write " + file.string() + ": " + system_words(error));
   }
 }
 
 void StoreFolder::remove_leftovers(std::int64_t chunk) const {
-  std::error_code error;
   for (std::size_t column = 0; column < description_.columns.size(); ++column) {
     const fs::path file = file_of(column, chunk);
-    std::vector<fs::path> left;
-    for (const fs::directory_entry& entry : fs::directory_iterator(file.parent_path(), error))
-      if (name_behind_temporary(entry.path().filename().string()) == file.filename().string())
-        left.push_back(entry.path());
-    for (const fs::path& temporary : left) fs::remove(temporary, error);
+    const OwnFolder array(file.parent_path());
+    if (!array.is_open()) continue;
+    for (const std::string& name : array.names())
+      if (name_behind_temporary(name) == file.filename().string()) array.remove_file(name);
   }
+}
+
+std::optional<std::int64_t> StoreFolder::chunks_done_in(const fs::path& folder) {
+  std::optional<StoreDescription> there = store_in(folder);
+  if (!there) return std::nullopt;
+  return StoreFolder(folder, std::move(*there)).chunks_done();
 }
 
 std::int64_t StoreFolder::chunks_done() const {
@@ -277,16 +386,54 @@ std::int64_t StoreFolder::chunks_done() const {
   return done;
 }
 
+/// Whether holdfast gives a file of an array the name: of a chunk, its claim, a document, or before
+/// it is whole.
+bool StoreFolder::gives(const std::string& name, const std::vector<std::size_t>& chunks) const {
+  constexpr std::string_view claim = ".claim";
+  const std::string whole = name_behind_temporary(name).value_or(name);
+  for (const char* document : {root_of_format_3, root_of_format_2, ".zarray"})
+    if (whole == document) return true;
+  std::string_view chunk = whole;
+  if (chunk.size() > claim.size() && chunk.substr(chunk.size() - claim.size()) == claim)
+    chunk = chunk.substr(1, chunk.size() - 1 - claim.size());
+  return is_chunk_name(chunk, description_.format, chunks);
+}
+
+void StoreFolder::remove_array(const OwnFolder& folder, const std::string& name,
+                               const std::vector<std::size_t>& chunks) const {
+  const OwnFolder array(folder, name);
+  if (!array.is_open()) return;
+  for (const std::string& file : array.names())
+    if (gives(file, chunks)) array.remove_file(file);
+  folder.remove_empty_folder(name);
+}
+
 void StoreFolder::remove() const {
-  std::error_code ignored;
-  // The root last: until then the rest is known to be a store's.
-  for (const GridAxis& axis : description_.axes)
-    fs::remove_all(folder_ / cf_name(axis.column.name), ignored);
-  for (const CellColumn& cells : description_.columns)
-    fs::remove_all(folder_ / cf_name(cells.column.name), ignored);
-  for (const char* name : {".zmetadata", ".zgroup", root_of_format_2, root_of_format_3})
-    fs::remove(folder_ / name, ignored);
+  const OwnFolder folder(folder_);
+  if (!folder.is_open()) return;
+  const auto pieces = [](std::size_t count, std::size_t of) { return (count + of - 1) / of; };
+  const std::vector<std::size_t>& shape = grid().shape;
+  std::vector<std::size_t> chunks(shape.size());
+  std::transform(shape.begin(), shape.end(), grid().chunk.begin(), chunks.begin(), pieces);
+  const char* root = description_.format == 2 ? root_of_format_2 : root_of_format_3;
+  folder.rename(root, removed_root);
+  const std::vector<std::string> names = array_names(description_);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    remove_array(folder, names[k],
+                 k < shape.size()
+                     ? std::vector<std::size_t>{pieces(shape[k], coordinates_in_chunk(shape[k]))}
+                     : chunks);
+  for (const char* name : {".zmetadata", ".zgroup", removed_root}) folder.remove_file(name);
+  for (const std::string& name : folder.names())
+    if (name_behind_temporary(name) == root) folder.remove_file(name);
+  folder.remove_empty_file(FolderLock::file_name);
   rmdir(folder_.c_str());
+}
+
+void remove_store(const fs::path& folder) {
+  std::optional<StoreDescription> there = store_in(folder);
+  if (!there) there = removed_store_in(folder);
+  if (there) StoreFolder(folder, std::move(*there)).remove();
 }
 
 }  // namespace holdfast::program

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/file/descriptor.hpp"
+#include "io/file/own_folder.hpp"
 #include "store/store_description.hpp"
 
 namespace holdfast::program {
@@ -15,7 +16,8 @@ namespace holdfast::program {
 using ChunkValues = std::vector<std::vector<double>>;
 
 /// Cells of a grid as a Zarr store, a folder that xarray and zarr read while it grows. The axes are
-/// coordinates, the columns arrays over them; numbers, units and meanings are as in netCDF.
+/// coordinates, the columns arrays over them; numbers, units and meanings are as in netCDF. Nothing
+/// in it is reached through a link.
 ///
 /// A chunk is a file for each column; it is done when that of the first column is there, which is
 /// written last. A file appears whole or not at all, and bears a checksum. Any number of threads
@@ -27,11 +29,12 @@ class StoreFolder {
   ///
   /// Throws WrongInput where the folder holds something else or a store of another plan (naming
   /// each entry that differs, with both texts), or cannot be written; OutputError where the disk is
-  /// full.
+  /// full. What describes a store that is there, and its axes, are mended where they are damaged.
   static StoreFolder enter(const std::filesystem::path& folder,
                            const StoreDescription& description);
 
-  /// A store to be read. Throws WrongInput where there is none in the folder.
+  /// A store to be read. Throws WrongInput where there is none in the folder, and where a file that
+  /// describes it, or one of its axes, is missing, damaged, or another store's.
   static StoreFolder open(const std::filesystem::path& folder);
 
   const StoreDescription& description() const { return description_; }
@@ -58,22 +61,43 @@ class StoreFolder {
 
   /// How many chunks are done.
   std::int64_t chunks_done() const;
+  /// The same of whatever store is in a folder; nothing where none is.
+  static std::optional<std::int64_t> chunks_done_in(const std::filesystem::path& folder);
 
-  /// Removes what the store has, and the folder where nothing else lies in it. What cannot be
-  /// removed stays.
+  /// Removes what a store of this description has, and the folder where nothing else lies in it:
+  /// files with names that holdfast gives, where the user owns the folder. All else stays, and what
+  /// cannot be removed. The root goes first, under another name: a removal that is cut short is
+  /// finished by remove_store(), or by whoever enters the folder.
   void remove() const;
 
  private:
   StoreFolder(std::filesystem::path folder, StoreDescription description)
       : folder_(std::move(folder)), description_(std::move(description)) {}
   std::filesystem::path file_of(std::size_t column, std::int64_t chunk) const;
+  std::string seal_of(const std::filesystem::path& file) const;
   void read_axes();
   void begin() const;
+  std::filesystem::path axis_file(std::size_t axis, std::size_t first) const;
+  void write_axis(std::size_t axis, std::size_t first) const;
+  std::optional<std::vector<double>> axis_values(std::size_t axis, std::size_t first) const;
   void write_documents() const;
+  using Documents = std::vector<std::pair<std::filesystem::path, std::string>>;
+  void mend(const Documents& documents) const;
+  void require(const Documents& documents) const;
+  void refuse_links() const;
+  bool gives(const std::string& name, const std::vector<std::size_t>& chunks) const;
+  void remove_array(const OwnFolder& folder, const std::string& name,
+                    const std::vector<std::size_t>& chunks) const;
+  friend void remove_store(const std::filesystem::path& folder);
 
   std::filesystem::path folder_;
   StoreDescription description_;
+  std::string identity_ = plan_identity(description_.plan);
 };
+
+/// Removes the store in a folder, or what is left of one whose removal was cut short; nothing where
+/// there is neither. See StoreFolder::remove().
+void remove_store(const std::filesystem::path& folder);
 
 /// The description of the store in a folder; nothing where there is no folder, or none in it that
 /// holdfast wrote.

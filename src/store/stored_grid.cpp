@@ -74,10 +74,16 @@ void copy_store(const StoreFolder& store, const JobContext& context) {
   StoreDescription description = store.description();
   description.format = context.zarr_format;
   description.packing = usual_packing();
+  const bool was_there = store_in(*context.output).has_value();
   const StoreFolder copy = StoreFolder::enter(*context.output, description);
-  for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
-    throw_if_interrupted();
-    copy.put(chunk, whole_chunk(store, chunk));
+  try {
+    for (std::int64_t chunk = 0; chunk < store.grid().chunks(); ++chunk) {
+      throw_if_interrupted();
+      copy.put(chunk, whole_chunk(store, chunk));
+    }
+  } catch (...) {  // half of a copy is of no use to anybody
+    if (!was_there) copy.remove();
+    throw;
   }
 }
 

@@ -267,7 +267,7 @@ class SweepRun {
       work_.emplace(folder, plan_.store(), plan_.options().resume);
     } catch (...) {
       std::error_code ignored;
-      if (!named_) fs::remove_all(folder, ignored);
+      if (!named_) fs::remove(folder, ignored);
       throw;
     }
   }

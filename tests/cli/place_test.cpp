@@ -21,7 +21,7 @@ mass_share = 0.6
 clamp_mass = 0.5
 )";
 
-constexpr const char* stay = R"([conductor]
+constexpr const char* stay_text = R"([conductor]
 mass_per_length = 60.0
 span = 300.0
 tension = 3.5e6
@@ -78,7 +78,7 @@ class PlaceJob : public ::testing::Test {
 };
 
 TEST_F(PlaceJob, HasTheColumnsThatOtherProgramsRead) {
-  const Outcome outcome = run(stay, "place --quiet --modes 1:2 --keep position");
+  const Outcome outcome = run(stay_text, "place --quiet --modes 1:2 --keep position");
   EXPECT_EQ(lines_of(outcome.output).front(), "quantity,value,unit");
   EXPECT_EQ(lines_of(outcome.output)[1], "position,6,m");
 }
@@ -98,30 +98,30 @@ TEST_F(PlaceJob, AStockbridgeOnDrakeGoesWhereTheBalanceSaysTheSame) {
 
 TEST_F(PlaceJob, ADashpotOnAStayIsThatOfTheFormulas) {
   const double wave_impedance = std::sqrt(3.5e6 * 60.0), speed = std::sqrt(3.5e6 / 60.0);
-  const auto mode = answer(stay, "--quiet --modes 1:1 --keep position");
+  const auto mode = answer(stay_text, "--quiet --modes 1:1 --keep position");
   EXPECT_EQ(mode.at("position"), 6.0);
   EXPECT_NEAR(mode.at("least_damping_ratio"), 0.0102114712, 1e-8);
   EXPECT_NEAR(mode.at("damping"), wave_impedance / (0.02 * pi<double>), 1e-3 * mode.at("damping"));
   EXPECT_LT(mode.at("least_damping_ratio_before"), 0.005);
-  const auto wave = answer(stay, "--quiet --for damping --frequency 3:3:1 --keep position");
+  const auto wave = answer(stay_text, "--quiet --for damping --frequency 3:3:1 --keep position");
   const double phase = 2.0 * pi<double> * 3.0 * 6.0 / speed;
   EXPECT_NEAR(wave.at("damping"), wave_impedance / std::sin(phase), 1e-3 * wave.at("damping"));
   EXPECT_NEAR(wave.at("least_ratio"), std::tan(phase / 2.0), 1e-6);
 }
 
 TEST_F(PlaceJob, SaysWhereABoundEndsIt) {
-  const Outcome outcome = run(stay, "place --modes 1:5");
+  const Outcome outcome = run(stay_text, "place --modes 1:5");
   EXPECT_NE(outcome.errors.find("position ends at the upper bound of what was searched, 30 m"),
             std::string::npos)
       << outcome.errors;
-  const auto best = answer(stay, "--quiet --modes 2:2 --keep position");
-  const Outcome again = run(stay, "place --modes 2:2 --keep position --set device.1.damping=" +
-                                      program::format_number(best.at("damping")));
+  const auto best = answer(stay_text, "--quiet --modes 2:2 --keep position");
+  const Outcome again = run(stay_text, "place --modes 2:2 --keep position --set device.1.damping=" +
+                                           program::format_number(best.at("damping")));
   EXPECT_NE(again.errors.find("nothing better was found"), std::string::npos) << again.errors;
 }
 
 TEST_F(PlaceJob, ANegativeStiffnessLeavesTheConductorAtRest) {
-  std::string text = stay;
+  std::string text = stay_text;
   text.replace(text.find("dashpot"), 7, "stiffness");
   const Outcome outcome = run(text + "stiffness = -2e5\n", "place --modes 1:5 --keep position");
   EXPECT_NE(outcome.errors.find("away from its rest"), std::string::npos) << outcome.errors;
@@ -163,7 +163,7 @@ TEST_F(PlaceJob, RefusesWhatIsNoQuestion) {
   expect_wrong(passive, "--modes 1:2 --for strain", "--modes goes with --for damping");
   expect_wrong(passive, "--modes 0:2", "FIRST:LAST");
   expect_wrong(passive, "--modes 1.5:2", "FIRST:LAST");
-  expect_wrong(stay, "", "diameter");
+  expect_wrong(stay_text, "", "diameter");
   expect_wrong(drake_line, "", "no device is on the span");
   expect_wrong(drake_line + drake_absorber, "--device 1", "no [[device]]");
 }

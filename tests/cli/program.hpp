@@ -54,6 +54,11 @@ inline void expect_refused(const std::string& arguments, const std::vector<std::
     EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " in " << outcome.errors;
 }
 
+inline void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+}
+
 /// The lines of a text, without their ends.
 inline std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -15,11 +15,6 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
-}
-
 void expect_every_figure_as_table_and_picture(const fs::path& report) {
   const std::string page = read_text(report / "report.html");
   std::vector<std::string> figures = {

@@ -552,14 +552,14 @@ TEST_P(HostileInputs, EndInWordsAndLeaveNothing) {
             << ", longest standard error: " << counts.longest_message << " bytes\n";
 }
 
-std::string name_of(const testing::TestParamInfo<std::size_t>& info) {
+std::string name_of_kind(const testing::TestParamInfo<std::size_t>& info) {
   std::string name = kinds[info.param].name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, HostileInputs, testing::Range(std::size_t{0}, std::size(kinds)),
-                         name_of);
+                         name_of_kind);
 
 }  // namespace
 }  // namespace holdfast::tests

@@ -17,11 +17,6 @@ std::string data_file(const std::string& name) {
 const std::string line = " --case '" + data_file("acsr-drake-300m-dampers.toml") + "'";
 const std::string stay = " --case '" + data_file("stay-cable-300m.toml") + "'";
 
-void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
-}
-
 /// The page without what is drawn.
 std::string page_of(const fs::path& report) {
   std::string page = read_text(report / "report.html");

@@ -25,7 +25,7 @@ const std::string absorber =
     " --set absorber.position=1.5 --set plant.model=string --set plant.absorber_mass=5"
     " --set plant.absorber_stiffness=78956.8 --set plant.absorber_damping=125.66"
     " --set control.proportional_gain=0";
-const std::string stay =
+const std::string bare_stay =
     " --quiet --set conductor.mass_per_length=60 --set conductor.span=300 --set "
     "conductor.tension=3.5e6"
     " --set conductor.area=0.008 --set conductor.youngs_modulus=195e9 --set conductor.diameter=0.16"
@@ -115,12 +115,12 @@ TEST(Span, AStayWithADashpotIsDampedAsKrenkSays) {
   // κ = 1 for mode 1: c = Z_c L/(π a).
   const double impedance = std::sqrt(3.5e6 * 60.0);
   const double best = impedance * 300.0 / (3.14159265358979 * 6.0);
-  const CsvTable table = table_of("modal-damping --count 4" + stay +
+  const CsvTable table = table_of("modal-damping --count 4" + bare_stay +
                                   " --set device.1.damping=" + std::to_string(best));
   EXPECT_NEAR(table.number(0, "damping_ratio") - 0.001, 0.0102114686718, 3e-5);
   EXPECT_NEAR(table.number(0, "damping_ratio_asymptotic") - 0.001, 0.01, 1e-6);
   const CsvTable chart = table_of("modal-damping --count 1 --position 6:6:1 --damping 1e4:1e6:60" +
-                                  stay + " --set device.1.damping=1");
+                                  bare_stay + " --set device.1.damping=1");
   double largest = 0.0, at = 0.0;
   for (std::size_t row = 0; row < chart.rows(); ++row)
     if (chart.number(row, "damping_ratio") > largest) {
@@ -159,13 +159,13 @@ TEST(Span, WhatIsMissingIsNamed) {
   expect_refused("absorption" + drake, {"no device"});
   expect_refused("absorption --end right" + drake + damper, {"--end right"});
   expect_refused("aeolian --frequency 0:10:3" + drake, {"--frequency", "greater than 0"});
-  expect_refused("modal-damping --position 1:2:2" + stay + " --set device.1.damping=1",
+  expect_refused("modal-damping --position 1:2:2" + bare_stay + " --set device.1.damping=1",
                  {"--damping"});
-  expect_refused("modal-damping --device 4 --position 1:2:2 --damping 1:2:2" + stay +
+  expect_refused("modal-damping --device 4 --position 1:2:2 --damping 1:2:2" + bare_stay +
                      " --set device.1.damping=1",
                  {"--device 4"});
   expect_refused(
-      "modal-damping --position 0:2:2 --damping 1:2:2" + stay + " --set device.1.damping=1",
+      "modal-damping --position 0:2:2 --damping 1:2:2" + bare_stay + " --set device.1.damping=1",
       {"inside the span"});
 }
 

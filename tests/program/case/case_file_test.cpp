@@ -20,7 +20,7 @@ using tests::refusal;
 using tests::TemporaryFolder;
 using tests::write_text;
 
-std::string override_refusal(const std::string& text) {
+std::string refusal_of_override(const std::string& text) {
   return message_of<WrongInput>([&] { load_case(std::nullopt, {text}); });
 }
 
@@ -203,7 +203,7 @@ TEST(CaseFile, EveryNumberRefusesWhatIsNotFinite) {
       const std::string message =
           refusal("[" + key.table() + "]\n" + key.short_name() + " = " + value + "\n");
       EXPECT_TRUE(holds(message, "case.toml:2")) << message;
-      EXPECT_TRUE(holds(override_refusal(key.name + "=" + value), "--set " + key.name)) << value;
+      EXPECT_TRUE(holds(refusal_of_override(key.name + "=" + value), "--set " + key.name)) << value;
     }
   }
 }
@@ -215,7 +215,7 @@ TEST(CaseFile, EveryBoundedNumberRefusesWhatIsBelow) {
         refusal("[" + key.table() + "]\n" + key.short_name() + " = -1e-3\n");
     EXPECT_TRUE(holds(message, "case.toml:2: " + key.name + " = -0.001: ")) << message;
     EXPECT_TRUE(holds(message, key.admissible())) << message;
-    const std::string override = override_refusal(key.name + "=-1");
+    const std::string override = refusal_of_override(key.name + "=-1");
     EXPECT_TRUE(holds(override, "--set " + key.name + "=-1: ")) << override;
   }
 }
@@ -226,7 +226,7 @@ TEST(CaseFile, WholeNumbersRefuseFractionsAndAdmitThemWrittenAsFloats) {
   EXPECT_EQ(refusal("[excitation]\nnoise_lines = 2.5\n"),
             "case.toml:2: excitation.noise_lines = 2.5: admissible is a whole number, at least 1 "
             "and at most 10000");
-  EXPECT_TRUE(holds(override_refusal("control.jitter_seed=0.5"),
+  EXPECT_TRUE(holds(refusal_of_override("control.jitter_seed=0.5"),
                     "--set control.jitter_seed=0.5: admissible is a whole number"));
   EXPECT_TRUE(holds(refusal("[excitation]\nnoise_lines = 10001\n"), "at most 10000"));
 }
@@ -235,14 +235,14 @@ TEST(CaseFile, AMisspeltWordGetsTheNearestOne) {
   EXPECT_EQ(refusal("[backlash]\nlaw = \"kolar\"\n"),
             "case.toml:2: backlash.law = 'kolar': must be \"kollar\" or \"immediate\" or \"play\" "
             "or \"dead_zone\" or \"none\"; did you mean \"kollar\"?");
-  EXPECT_TRUE(holds(override_refusal("backlash.law=deadzone"), "did you mean \"dead_zone\"?"));
-  EXPECT_TRUE(holds(override_refusal("control.velocity=mesured"), "did you mean \"measured\"?"));
+  EXPECT_TRUE(holds(refusal_of_override("backlash.law=deadzone"), "did you mean \"dead_zone\"?"));
+  EXPECT_TRUE(holds(refusal_of_override("control.velocity=mesured"), "did you mean \"measured\"?"));
   EXPECT_TRUE(
-      holds(override_refusal("control.proportional_gain=tunde"), "did you mean \"tuned\"?"));
-  EXPECT_TRUE(holds(override_refusal("control.largest_force=nun"),
+      holds(refusal_of_override("control.proportional_gain=tunde"), "did you mean \"tuned\"?"));
+  EXPECT_TRUE(holds(refusal_of_override("control.largest_force=nun"),
                     "admissible is greater than 0 N or \"none\"; did you mean \"none\"?"));
-  EXPECT_FALSE(holds(override_refusal("initial.z1=fast"), "did you mean"));
-  EXPECT_FALSE(holds(override_refusal("backlash.law=true"), "did you mean"));
+  EXPECT_FALSE(holds(refusal_of_override("initial.z1=fast"), "did you mean"));
+  EXPECT_FALSE(holds(refusal_of_override("backlash.law=true"), "did you mean"));
 }
 
 TEST(CaseFile, TheLargestForceIsANumberOrNone) {
@@ -252,7 +252,7 @@ TEST(CaseFile, TheLargestForceIsANumberOrNone) {
   EXPECT_EQ(case_to_json(none)["control"]["largest_force"], "none");
   for (const char* value : {"0", "-1", "inf", "true"})
     EXPECT_TRUE(
-        holds(override_refusal(std::string("control.largest_force=") + value), "or \"none\""));
+        holds(refusal_of_override(std::string("control.largest_force=") + value), "or \"none\""));
 }
 
 using HarmonicList = std::vector<std::array<double, 3>>;
@@ -275,9 +275,9 @@ TEST(CaseFile, EachFaultyHarmonicIsShown) {
     EXPECT_TRUE(holds(message, "case.toml:3: excitation.harmonics = ")) << message;
     EXPECT_TRUE(holds(message, "frequency greater than 0 Hz")) << message;
   }
-  EXPECT_TRUE(holds(override_refusal("excitation.harmonics=[[0.1,-20,0]]"),
+  EXPECT_TRUE(holds(refusal_of_override("excitation.harmonics=[[0.1,-20,0]]"),
                     "the harmonic [0.1, -20, 0] must be"));
-  EXPECT_TRUE(holds(override_refusal("excitation.harmonics=3"), "must be [[amplitude"));
+  EXPECT_TRUE(holds(refusal_of_override("excitation.harmonics=3"), "must be [[amplitude"));
 }
 
 TEST(CaseFile, ARecordLiesInTheFolderOfTheFileThatNamesIt) {
@@ -300,14 +300,14 @@ TEST(CaseFile, ARecordLiesInTheFolderOfTheFileThatNamesIt) {
 
 TEST(CaseFile, WhatIsNoNameOfAFileIsRefused) {
   EXPECT_TRUE(holds(refusal("[excitation]\nrecord = \"a\\u0000b\"\n"), "the name of a file"));
-  EXPECT_TRUE(holds(override_refusal("excitation.record=12"), "the name of a file"));
-  EXPECT_TRUE(holds(override_refusal("excitation.record="), "expected key=value"));
+  EXPECT_TRUE(holds(refusal_of_override("excitation.record=12"), "the name of a file"));
+  EXPECT_TRUE(holds(refusal_of_override("excitation.record="), "expected key=value"));
 }
 
 TEST(CaseFile, NegativeQuantaAreRefusedWithTheirPlaceAndRange) {
   EXPECT_EQ(refusal("[control]\nvelocity_quantum = -1e-3\n"),
             "case.toml:2: control.velocity_quantum = -0.001: admissible is at least 0 m/s");
-  EXPECT_EQ(override_refusal("control.displacement_quantum=-1"),
+  EXPECT_EQ(refusal_of_override("control.displacement_quantum=-1"),
             "--set control.displacement_quantum=-1: admissible is at least 0 m");
 }
 
@@ -317,7 +317,7 @@ TEST(CaseFile, FaultsOfARealLoopPointAtTheValueGivenLast) {
   EXPECT_TRUE(holds(
       refusal("[backlash]\nlaw = \"dead_zone\"\ncontact_damping = 5\n", {"backlash.law=play"}),
       "--set backlash.law=play: backlash.contact_damping = 5 N s/m"));
-  EXPECT_TRUE(holds(override_refusal("control.jitter=0.0005"), "--set control.jitter=0.0005: "));
+  EXPECT_TRUE(holds(refusal_of_override("control.jitter=0.0005"), "--set control.jitter=0.0005: "));
   EXPECT_TRUE(holds(refusal("[excitation]\nnoise_rms = 1\nnoise_highest = 1\n"), "case.toml:3: "));
 }
 
@@ -331,11 +331,12 @@ TEST(CaseFile, UnknownNamesGetTheNearestKnownOne) {
   EXPECT_TRUE(holds(refusal("control = 1\n"), "must be a table"));
   EXPECT_TRUE(holds(refusal("[[control]]\nsampling_period = 1\n"), "must be a table"));
   EXPECT_TRUE(holds(refusal("[control.deep]\nx = 1\n"), "control.deep"));
-  EXPECT_TRUE(holds(override_refusal("control.width=1"), "did you mean backlash.width"));
+  EXPECT_TRUE(holds(refusal_of_override("control.width=1"), "did you mean backlash.width"));
 }
 
 TEST(CaseFile, TheNameOfAFileMustBeOneThatACaseCanHold) {
-  EXPECT_TRUE(holds(override_refusal("excitation.record=r\xEA.csv"), "must be the name of a file"));
+  EXPECT_TRUE(
+      holds(refusal_of_override("excitation.record=r\xEA.csv"), "must be the name of a file"));
   EXPECT_EQ(load_case(std::nullopt, {"excitation.record=r\xC3\xA9.csv"}).excitation.record,
             "r\xC3\xA9.csv");
 }
@@ -348,15 +349,15 @@ TEST(CaseFile, SymbolsAndOtherWordsNameTheirKeys) {
                                                         {"m1", "plant.conductor_mass"},
                                                         {"plant.k2", "plant.absorber_stiffness"},
                                                         {"f", "excitation.frequency"}})
-    EXPECT_TRUE(holds(override_refusal(word + "=1"), "did you mean " + key + " (")) << word;
+    EXPECT_TRUE(holds(refusal_of_override(word + "=1"), "did you mean " + key + " (")) << word;
 }
 
 TEST(CaseFile, WhatIsWrongWithANumberIsGuessed) {
   EXPECT_TRUE(holds(refusal("[backlash]\nwidth = 0,002\n"), "case.toml:2: "));
   EXPECT_TRUE(holds(refusal("[backlash]\nwidth = 0,002\n"), "a decimal point, not a comma"));
-  EXPECT_TRUE(holds(override_refusal("backlash.width=0,002"), "a decimal point, not a comma"));
+  EXPECT_TRUE(holds(refusal_of_override("backlash.width=0,002"), "a decimal point, not a comma"));
   EXPECT_TRUE(holds(refusal("[backlash]\nwidth = 2 mm  # play\n"), "a number stands alone"));
-  EXPECT_TRUE(holds(override_refusal("backlash.width=2 mm"), "a number stands alone"));
+  EXPECT_TRUE(holds(refusal_of_override("backlash.width=2 mm"), "a number stands alone"));
   EXPECT_FALSE(holds(refusal("[backlash]\nwidth = \n"), "a number stands alone"));
   EXPECT_FALSE(holds(refusal("[backlash]\nlaw = [1,2\n"), "comma"));
 }
@@ -433,7 +434,7 @@ TEST(CaseFile, TheConductorsShapeIsChecked) {
   EXPECT_TRUE(holds(refusal("[conductor]\nsag = 3.2\n"), "case.toml:2: "));
   EXPECT_TRUE(holds(refusal("[conductor]\nsag = 3.2\n"), "half of conductor.span = 6.4 m"));
   EXPECT_TRUE(holds(refusal("[absorber]\nposition = 6.4\n"), "less than conductor.span"));
-  EXPECT_TRUE(holds(override_refusal("absorber.position=-1"), "greater than 0 m"));
+  EXPECT_TRUE(holds(refusal_of_override("absorber.position=-1"), "greater than 0 m"));
 }
 
 TEST(CaseFile, WindOutsideAeolianVibrationIsToldWhy) {
@@ -482,7 +483,7 @@ TEST(CaseFile, WindNeedsItsThreeQuantities) {
   EXPECT_TRUE(holds(refusal("[wind]\n"), "case.toml:1: [wind]: wind.speed is missing"));
   EXPECT_TRUE(
       holds(refusal("[wind]\nspeed = 3\neffective_length = 1\n"), "wind.diameter is missing"));
-  EXPECT_TRUE(holds(override_refusal("wind.speed=3"), "wind.diameter is missing"));
+  EXPECT_TRUE(holds(refusal_of_override("wind.speed=3"), "wind.diameter is missing"));
 }
 
 TEST(CaseFile, TheGainIsANumberOrTuned) {
@@ -513,7 +514,7 @@ TEST(Override, MalformedOnesAreRefusedWithTheirText) {
         "control.sampling_period=1 2", "control.sampling_period=0.5s",
         "control.sampling_period=1\nother = 2", "control=1", "excitation.hold=none",
         "backlash.law=other", "control.sampling_period=\"0.1\"", "initial.z1=true"}) {
-    const std::string message = override_refusal(text);
+    const std::string message = refusal_of_override(text);
     EXPECT_EQ(message.rfind("--set", 0), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }

@@ -24,6 +24,11 @@ inline std::string refusal(const std::string& text,
   return message;
 }
 
+/// Why the built-in case refuses overrides.
+inline std::string override_refusal(const std::vector<std::string>& overrides) {
+  return message_of<program::WrongInput>([&] { program::load_case(std::nullopt, overrides); });
+}
+
 inline bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }

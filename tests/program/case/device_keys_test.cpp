@@ -13,6 +13,7 @@ namespace {
 using tests::from_text;
 using tests::holds;
 using tests::message_of;
+using tests::override_refusal;
 using tests::refusal;
 using tests::TemporaryFolder;
 using tests::write_text;
@@ -41,10 +42,6 @@ std::string case_of(const std::vector<std::string>& texts) {
 
 /// Why a case of this device alone is none.
 std::string refusal_of(const std::string& device) { return refusal(case_of({device})); }
-
-std::string override_refusal(const std::vector<std::string>& overrides) {
-  return message_of<WrongInput>([&] { load_case(std::nullopt, overrides); });
-}
 
 void expect_same(const Device& a, const Device& b) {
   for (const DeviceKey& key : device_keys()) {

@@ -3,10 +3,13 @@
 #include "case/plausibility/doubts.hpp"
 #include "io/file/input.hpp"
 #include "process/errors.hpp"
+#include "program/case/case_text.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
+
+using tests::holds;
 
 using Words = std::vector<std::string>;
 
@@ -75,10 +78,6 @@ std::string said_of(const std::string& text, const Words& overrides) {
   } catch (const WrongInput& refusal) {
     return refusal.what();
   }
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(Plausibility, DoubtsNoCableThatThereIs) {

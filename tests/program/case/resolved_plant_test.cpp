@@ -4,19 +4,18 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "io/text/text.hpp"
+#include "program/case/case_text.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
 
+using tests::holds;
+
 /// What there is to say of the plant of a case file.
 std::string said_of(const std::string& text) {
   Case the_case = load_case_text(text, "case.toml", {});
   return settle_plant(the_case);
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// c2 is given, so that no fit is needed.

@@ -8,14 +8,10 @@ namespace {
 
 using tests::from_text;
 using tests::holds;
-using tests::message_of;
+using tests::override_refusal;
 using tests::refusal;
 
 using Numbers = std::vector<double>;
-
-std::string override_refusal(const std::vector<std::string>& overrides) {
-  return message_of<WrongInput>([&] { load_case(std::nullopt, overrides); });
-}
 
 TEST(Site, IsReadAsSpeedsWithTheirHoursOrByWeibullsLaw) {
   const Case listed = from_text("[site]\nspeeds = [1, 2.5]\nhours = [300, 8484]\nyears = 50\n");

@@ -19,7 +19,7 @@ using tests::write_text;
 const std::vector<Column> columns = {{"time_s", "s", "time"},
                                      {"in_backlash", "", "1 inside the gap", "boolean"}};
 
-JobContext context_for(const fs::path& output) {
+JobContext simulation_to(const fs::path& output) {
   JobContext context;
   context.job = "simulate";
   context.case_data = load_case(std::nullopt, {"backlash.width=0.002"});
@@ -30,7 +30,7 @@ JobContext context_for(const fs::path& output) {
 
 TEST(Table, AppearsTogetherWithItsMetadata) {
   const TemporaryFolder folder;
-  Table table(context_for(folder / "out.csv"), columns);
+  Table table(simulation_to(folder / "out.csv"), columns);
   table.row(0.5, true);
   table.writer().cell(1.0);
   table.writer().cell(0);
@@ -45,7 +45,7 @@ TEST(Table, AppearsTogetherWithItsMetadata) {
 TEST(Table, LeavesNeitherFileWhenTheJobFails) {
   const TemporaryFolder folder;
   const auto failing = [&] {
-    Table table(context_for(folder / "out.csv"), columns);
+    Table table(simulation_to(folder / "out.csv"), columns);
     table.row(0.5, true);
     throw NoAnswer("the motion diverges");
   };
@@ -56,33 +56,33 @@ TEST(Table, LeavesNeitherFileWhenTheJobFails) {
 TEST(Table, IsRefusedBeforeAnyRowWhenItsMetadataHasNoPlace) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "out.csv-metadata.json");
-  EXPECT_THROW(Table(context_for(folder / "out.csv"), columns), WrongInput);
+  EXPECT_THROW(Table(simulation_to(folder / "out.csv"), columns), WrongInput);
   EXPECT_EQ(folder.files(), 1);
 }
 
 TEST(Table, LeavesNoMetadataWhenTheFileCannotAppear) {
   const TemporaryFolder folder;
-  Table table(context_for(folder / "out.csv"), columns);
+  Table table(simulation_to(folder / "out.csv"), columns);
   fs::create_directory(folder / "out.csv");  // takes the place in the meantime
   EXPECT_THROW(table.commit(), OutputError);
   EXPECT_FALSE(fs::exists(folder / "out.csv-metadata.json"));
 }
 
 TEST(Table, OnADeviceHasNoMetadata) {
-  Table table(context_for("/dev/null"), columns);
+  Table table(simulation_to("/dev/null"), columns);
   table.row(1.0, false);
   table.commit();
   EXPECT_FALSE(fs::exists("/dev/null-metadata.json"));
 }
 
 TEST(Table, OnAFullDeviceIsAnOutputError) {
-  Table table(context_for("/dev/full"), columns);
+  Table table(simulation_to("/dev/full"), columns);
   table.row(1.0, false);
   EXPECT_THROW(table.commit(), OutputError);
 }
 
 TEST(Metadata, DescribesColumnsAndWhatMadeThem) {
-  const JobContext context = context_for("out.csv");
+  const JobContext context = simulation_to("out.csv");
   const auto json = table_metadata(context, columns, "my out.csv");
   EXPECT_EQ(json["@context"], "http://www.w3.org/ns/csvw");
   EXPECT_EQ(json["url"], "my%20out.csv");
@@ -102,7 +102,7 @@ TEST(Metadata, DescribesColumnsAndWhatMadeThem) {
 }
 
 TEST(Metadata, IsTheSameEachTimeAndSurvivesTextThatIsNotUtf8) {
-  JobContext context = context_for("out.csv");
+  JobContext context = simulation_to("out.csv");
   context.options.emplace_back("--data", "bad\xff.csv");
   const std::string first = json_text(table_metadata(context, columns, "out.csv"));
   EXPECT_EQ(first, json_text(table_metadata(context, columns, "out.csv")));

@@ -2,11 +2,22 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/text/checksum.hpp"
 #include "program/store/small_store.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A root with the checksum that belongs to it, which a crafted one would have too.
+std::string sealed(Json root) {
+  root["attributes"]["holdfast"].erase("checksum");
+  const std::string sum = std::to_string(checksum(root.dump(2) + "\n"));
+  root["attributes"]["holdfast"]["checksum"] = sum;
+  return root.dump();
+}
 
 std::vector<int> formats() {
   if (usual_packing() == ChunkPacking::zstd) return {3, 2};
@@ -61,10 +72,10 @@ TEST(StoreDescription, OfAnythingElseIsRefused) {
   for (const std::string& text :
        {std::string(), std::string("{}"), std::string("[1,2"), root.substr(0, root.size() / 2)})
     EXPECT_THROW(read_description(text, 3), std::invalid_argument) << text.substr(0, 40);
-  const auto with = [&](const std::string& key, const nlohmann::ordered_json& value) {
-    auto json = nlohmann::ordered_json::parse(root);
+  const auto with = [&](const std::string& key, const Json& value) {
+    Json json = Json::parse(root);
     json["attributes"]["holdfast"][key] = value;
-    return json.dump();
+    return sealed(json);
   };
   EXPECT_NO_THROW(read_description(with("chunk", {2, 5}), 3));
   EXPECT_THROW(read_description(with("chunk", {2, 4}), 3), std::invalid_argument);
@@ -74,6 +85,34 @@ TEST(StoreDescription, OfAnythingElseIsRefused) {
   EXPECT_THROW(read_description(with("table_columns", 4), 3), std::invalid_argument);
   EXPECT_THROW(read_description(with("packing", "gzip"), 3), std::invalid_argument);
   EXPECT_THROW(read_description(with("plan", 3), 3), std::invalid_argument);
+}
+
+// Names become those of folders, in which files are written and removed.
+TEST(StoreDescription, ANameThatCouldBeAPathIsNone) {
+  const Json root = Json::parse(store_documents(small_store()).back().second);
+  const auto named = [&](const char* list, const std::string& name) {
+    Json crafted = root;
+    crafted["attributes"]["holdfast"][list].back()["name"] = name;
+    return sealed(crafted);
+  };
+  for (const char* list : {"axes", "columns"}) {
+    EXPECT_NO_THROW(read_description(named(list, "another.name_2"), 3));
+    for (const char* name : {"", "/", "/home/me", "../other", "l/thesis", "a/../b", "steady_peak",
+                             "lock", "c d", "\n", "a\\b", "\u00fc"})
+      EXPECT_THROW(read_description(named(list, name), 3), std::invalid_argument) << name;
+    EXPECT_THROW(read_description(named(list, std::string(4096, 'a')), 3), std::invalid_argument);
+  }
+}
+
+TEST(StoreDescription, ARootOfWhichOneByteIsAnotherIsNone) {
+  for (const int format : formats()) {
+    const std::string root = store_documents(small_store(format)).back().second;
+    for (std::size_t place = 0; place < root.size(); place += 7) {
+      std::string damaged = root;
+      damaged[place] = damaged[place] == '1' ? '2' : '1';
+      EXPECT_THROW(read_description(damaged, format), std::invalid_argument) << place;
+    }
+  }
 }
 
 TEST(StorePlan, TellsEachEntryThatDiffers) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/file/descriptor.hpp"
+
+namespace holdfast::program {
+
+/// A folder that the effective user owns, opened as itself and not by a link. What is removed is
+/// removed from it, wherever its name may lead meanwhile; only files are, no links, no devices, and
+/// folders only where they are empty.
+class OwnFolder {
+ public:
+  /// Not open where there is no such folder, where it is a link, and where another user owns it.
+  explicit OwnFolder(const std::filesystem::path& folder);
+  /// The folder of that name in another.
+  OwnFolder(const OwnFolder& parent, const std::string& name);
+
+  bool is_open() const { return descriptor_.is_open(); }
+  std::vector<std::string> names() const;
+
+  /// Whether the file was given the other name, in the same folder.
+  bool rename(const std::string& name, const std::string& to) const;
+  void remove_file(const std::string& name) const;
+  void remove_empty_file(const std::string& name) const;
+  void remove_empty_folder(const std::string& name) const;
+
+ private:
+  explicit OwnFolder(int opened);
+  Descriptor descriptor_;
+};
+
+}  // namespace holdfast::program
