@@ -8,6 +8,7 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/resolved_plant.hpp"
+#include "case/needed.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "host/job_host.hpp"
 #include "io/file/input.hpp"
@@ -121,6 +122,19 @@ void require_no_own_plant(const Case& the_case, const std::string& job) {
                      jobs_that("own_plant"));
 }
 
+/// Settles the plant, and says what is to be known of it. A job that explains a case explains one
+/// that lacks something too.
+void settle(JobContext& context) {
+  try {
+    report_warning(modes_warning(context.case_data), context.quiet);
+    context.plant_remark = settle_plant(context.case_data);
+  } catch (const MissingKeys& missing) {
+    if (context.job != "case") throw;
+    context.plant_remark = std::string("the plant is left open: ") + missing.what();
+  }
+  report_warning(context.plant_remark, context.quiet);
+}
+
 /// Settles the plant where the job needs it, and warns of what is not plausible.
 void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   report_warning(wind_warning(context.case_data), context.quiet);
@@ -129,12 +143,10 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
   doubt(context,
         doubts_about(context.case_data, in_question(context.case_data, quantities_of_case())));
   doubt(context, {contradicted_conductor_text(context.case_data)});
-  doubt(context, {idle_name_text(context.case_data)});
+  doubt(context, {contradicted_name_text(context.case_data)});
   doubt(context, phase_doubts(context.case_data));
   if (needs_plant) doubt(context, {borrowed_damping_text(context.case_data)});
-  if (needs_plant) report_warning(modes_warning(context.case_data), context.quiet);
-  if (needs_plant) context.plant_remark = settle_plant(context.case_data);
-  report_warning(context.plant_remark, context.quiet);
+  if (needs_plant) settle(context);
   // What follows from one mistake in the plant would look like another.
   if (context.doubts.empty() && has_absorber(context.case_data) &&
       (needs_plant || !plant_is_reduced(context.case_data)))
@@ -210,8 +222,8 @@ void Job::require_output(const JobContext& context) const {
 
 void Job::require_plant(const JobContext& context) const {
   if (!is_told("own_plant", false)) require_no_own_plant(context.case_data, context.job);
-  if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
   if (!is_told("counts_devices", false)) require_no_devices(context.case_data, context.job);
+  if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
   if (is_told("needs_string_for_devices", false))
     require_place_for_devices(context.case_data, context.job);
 }
@@ -241,7 +253,10 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
   const bool controlled = no_control == nullptr || no_control->empty();
   // Devices alone need neither absorber nor two masses.
-  const bool has_loop = context.case_data.devices.empty() || has_active_absorber(context.case_data);
+  const Case& the_case = context.case_data;
+  const bool has_loop =
+      has_active_absorber(the_case) ||
+      (the_case.devices.empty() && !the_case.stands_alone && !is_told("spans_too", false));
   examine(context, needs_plant && has_loop && is_told("needs_plant", true),
           has_loop && controlled && is_told("needs_gains", false));
   context.options = given_options(*options_);

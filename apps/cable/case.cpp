@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/needed.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -26,7 +28,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// What follows from the case, by its name in texts/jobs.toml.
 using Derivations = std::vector<std::pair<const char*, double>>;
 
-void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
+void add_force(Derivations& derived, const Case& the_case) {
   const auto excitation = excitation_of(the_case);
   derived.emplace_back("force_amplitude", excitation.amplitude);
   derived.emplace_back("force_frequency", excitation.frequency);
@@ -35,12 +37,14 @@ void add_force(Derivations& derived, const Case& the_case, const TwoMass<double>
     derived.emplace_back("noise_period",
                          given.noise_lines / (given.noise_highest - given.noise_lowest));
   if (is_two_masses(the_case))
-    derived.emplace_back("static_displacement", excitation.amplitude / plant.conductor_stiffness);
+    derived.emplace_back("static_displacement",
+                         excitation.amplitude / plant_of(the_case).conductor_stiffness);
 }
 
-void add_gains(Derivations& derived, const Case& the_case, const TwoMass<double>& plant) {
+void add_gains(Derivations& derived, const Case& the_case) {
   derived.emplace_back("proportional_gain", gains_of(the_case).proportional);
   if (!has_absorber(the_case)) return;
+  const TwoMass<double> plant = plant_of(the_case);
   derived.emplace_back("tuned_proportional_gain",
                        tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass,
                                                excitation_of(the_case).frequency));
@@ -63,11 +67,11 @@ void add_modes(Derivations& derived, const TwoMass<double>& plant) {
 }
 
 void add_clock(Derivations& derived, const Case& the_case) {
-  const double period = the_case.control.sampling_period;
-  const auto ratio = forcing_ratio(implemented_loop_of(the_case, Switching::sampled).digital);
+  const double period = sampling_of(the_case).period;
   derived.emplace_back("sampling_rate", 1.0 / period);
   derived.emplace_back("samples_per_forcing_period",
                        1.0 / (excitation_of(the_case).frequency * period));
+  const auto ratio = forcing_ratio(implemented_loop_of(the_case, Switching::sampled).digital);
   derived.emplace_back("samples_to_coincidence",
                        ratio ? static_cast<double>(ratio->denominator) : unknown);
 }
@@ -90,14 +94,39 @@ void add_stability(Derivations& derived, const Case& the_case) {
 }
 
 Derivations derivations_of(const Case& the_case) {
-  const TwoMass<double> plant = plant_of(the_case);
+  const bool masses = is_two_masses(the_case);
   Derivations derived;
-  add_force(derived, the_case, plant);
-  add_gains(derived, the_case, plant);
-  if (is_two_masses(the_case)) add_modes(derived, plant);
-  add_clock(derived, the_case);
-  if (has_absorber(the_case)) add_stability(derived, the_case);
+  // What cannot be told of a case that lacks something is left out.
+  const auto told = [&](bool is_asked, const auto& add) {
+    if (!is_asked) return;
+    try {
+      add();
+    } catch (const MissingKeys&) {
+    }
+  };
+  told(true, [&] { add_force(derived, the_case); });
+  told(true, [&] { add_gains(derived, the_case); });
+  told(masses, [&] { add_modes(derived, plant_of(the_case)); });
+  told(true, [&] { add_clock(derived, the_case); });
+  told(has_absorber(the_case), [&] { add_stability(derived, the_case); });
   return derived;
+}
+
+/// Of the masses of an absorber, its own and that of the plant, the one that another stands for.
+std::string other_absorber_mass(const std::string& key, const Case& the_case) {
+  const std::string other = key == "absorber.mass"         ? "plant.absorber_mass"
+                            : key == "plant.absorber_mass" ? "absorber.mass"
+                                                           : "";
+  const bool stands = the_case.stands_alone || !is_two_masses(the_case);
+  return stands && the_case.places.count(other) > 0 ? other : "";
+}
+
+bool is_computed(const CaseKey& key, const Case& the_case) {
+  return (key.name == "wind.diameter") ||
+         (key.name == "reduction.first_frequency" && the_case.first_frequency_computed) ||
+         (key.name == "reduction.second_frequency" && the_case.second_frequency_computed) ||
+         (key.table() == "plant" && !key.beyond_two_masses && is_two_masses(the_case) &&
+          plant_is_reduced(the_case));
 }
 
 /// "built-in", the file with its line, the option, or what else the value comes from.
@@ -105,12 +134,13 @@ std::string origin_of(const CaseKey& key, const Case& the_case) {
   const auto given = the_case.places.find(key.name);
   if (given != the_case.places.end()) return given->second;
   if (is_from_library(the_case, key.name)) return "conductor library";
-  const bool computed =
-      key.name == "wind.diameter" ||
-      (key.name == "reduction.first_frequency" && the_case.first_frequency_computed) ||
-      (key.name == "reduction.second_frequency" && the_case.second_frequency_computed) ||
-      (key.table() == "plant" && !key.beyond_two_masses && plant_is_reduced(the_case));
-  return computed ? "computed from the conductor" : "built-in";
+  if (is_absent(the_case, key)) return "not given";
+  if (key.name == "conductor.sag" && std::isfinite(the_case.conductor.tension))
+    return "follows from conductor.tension";
+  const std::string other = other_absorber_mass(key.name, the_case);
+  if (!other.empty()) return "follows from " + other;
+  if (is_computed(key, the_case)) return "computed from the conductor";
+  return the_case.stands_alone ? "default" : "built-in";
 }
 
 void add_devices(Table& table, const Case& the_case) {
@@ -132,7 +162,7 @@ void write_case_table(const JobContext& context) {
   Table table(context, columns_of("case"));
   for (const CaseKey& key : case_keys()) {
     const std::string value = case_value_text(key, the_case);
-    if (value.empty()) continue;
+    if (value.empty() && !is_absent(the_case, key)) continue;
     table.row(key.name, value, key.unit, origin_of(key, the_case),
               key.description + "; admissible: " + key.admissible());
   }

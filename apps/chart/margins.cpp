@@ -2,6 +2,7 @@
 #include <string>
 
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/margins/proved_margins.hpp"
@@ -60,6 +61,7 @@ class MarginsTable {
 void MarginsQuestion::run(const JobContext& context) const {
   const Case& the_case = context.case_data;
   if (prove) refuse_to_prove(the_case);
+  require_absorber(the_case);
   const Sampling<double> sampling = sampling_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
   auto [margins, looked_everywhere] = prove ? CaseMargins{walked_margins_of(the_case, gains), false}

@@ -23,7 +23,7 @@ struct ModalDampingQuestion {
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
     if (device || position || damping) return write_chart(context);
-    const bool has_devices = !the_case.devices.empty();
+    const bool has_devices = !the_case.devices.empty() || !has_absorber(the_case);
     if (has_devices) report_warning(absent_absorber_note(the_case), context.quiet);
     Table table(context, columns_of("modal-damping"));
     // All that grow are named, not those alone that are shown.

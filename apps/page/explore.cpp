@@ -1,4 +1,4 @@
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "explorer/explorer_page.hpp"
 #include "job.hpp"
 
@@ -11,7 +11,8 @@ void explore(const JobContext& context) {
   if (context.output->extension() != ".html")
     throw WrongInput("--output " + context.output->string() +
                      ": the explorer is a page for a browser; let its name end in .html");
-  require_absorber(context.case_data);
+  require_loop_keys(context.case_data);
+  excitation_of(context.case_data);
   write_explorer_page(*context.output, context.case_data, context.case_source);
 }
 

@@ -58,7 +58,10 @@ class Case:
     holds for the program holds here: ``holdfast JOB --help`` explains each option further.
 
     :param source: a case file, a dict of its tables (nested or with dotted keys), another case; None:
-        the built-in case, which every key that is not given is taken from
+        the built-in case. A file or dict that gives the conductor's name, mass, span, tension or sag,
+        or the whole plant, is a cable of its own: nothing of the built-in case stands in for what it
+        does not give. Any other varies the built-in case. A number may be a text with a unit,
+        ``"28.2 kN"``.
     :param tables: further values, ``control={"processing_delay": 0.001}``; ``device`` is a list of
         dicts, or one, that are added
     :raises ValueError: an unknown key, or a value that is not admissible; the message names key,
@@ -143,7 +146,7 @@ class Case:
         plant = "a plant of your own" if self._core.has_own_plant() else self["plant.model"]
         return (
             f"<holdfast.Case {plant}: P = {control['proportional_gain']} N/m, "
-            f"D = {control['differential_gain']} N s/m, tau = {control['sampling_period']} s>"
+            f"D = {control['differential_gain']} N s/m, tau = {control.get('sampling_period', '?')} s>"
         )
 
     def _repr_html_(self) -> str:

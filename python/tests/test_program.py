@@ -187,7 +187,7 @@ def test_job_on_a_string(program, words, question):
     assert_same(question(holdfast.Case(STRING)), program([*words, *settings(STRING)]))
 
 
-SPAN = {"conductor.name": "Drake", "conductor.span": 300.0, "conductor.sag": 6.0}
+SPAN = {"conductor.name": "Drake", "conductor.span": 300.0, "conductor.sag": 6.0, "conductor.damping_ratio": 0.001}
 DEVICE = {"kind": "dashpot", "position": 1.5, "damping": 300.0}
 OF_SPAN = [
     (["aeolian", "--frequency", "10:40:4"], lambda case: case.aeolian((10, 40, 4))),
@@ -204,6 +204,6 @@ def test_job_on_a_span(program, words, question, tmp_path):
     case = holdfast.Case(SPAN, device=DEVICE)
     file = tmp_path / "case.toml"
     file.write_text(
-        '[conductor]\nname = "Drake"\nspan = 300.0\nsag = 6.0\n\n[[device]]\nkind = "dashpot"\nposition = 1.5\ndamping = 300.0\n'
+        '[conductor]\nname = "Drake"\nspan = 300.0\nsag = 6.0\ndamping_ratio = 0.001\n\n[[device]]\nkind = "dashpot"\nposition = 1.5\ndamping = 300.0\n'
     )
     compare(program, [*words, "--case", str(file)], lambda: question(case))

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "case/model/own/own_parts.hpp"
+#include "case/needed.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
@@ -22,7 +23,7 @@ bool speaks_of_absorber(const Case& the_case) {
 }
 
 bool is_of_another_cable(const Case& the_case) {
-  return !the_case.devices.empty() || !the_case.conductor.name.empty();
+  return !the_case.stands_alone && (!the_case.devices.empty() || !the_case.conductor.name.empty());
 }
 
 }  // namespace
@@ -96,8 +97,10 @@ case_tables::Wind wind_for(const Case& the_case) {
     const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
     return std::round(value * scale) / scale;
   };
+  require_keys(the_case, {"conductor.span", "conductor.sag", "excitation.frequency"});
   const case_tables::Conductor& cable = the_case.conductor;
   const double frequency = the_case.excitation.frequency;
+  if (!std::isfinite(cable.diameter)) require_keys(the_case, {"conductor.area"});
   const double wave_speed = cable.span * std::sqrt(cable.gravity / (8.0 * cable.sag));
   case_tables::Wind wind;
   wind.diameter = std::isfinite(cable.diameter)
@@ -109,7 +112,7 @@ case_tables::Wind wind_for(const Case& the_case) {
 }
 
 std::string wind_warning(const Case& the_case) {
-  if (!the_case.wind) return {};
+  if (!the_case.wind || !(the_case.conductor.sag > 0.0)) return {};
   const double frequency = effective_excitation(the_case).frequency;
   if (frequency >= 3.0 && frequency <= 150.0) return {};
   const std::string found = "the wind sheds vortices at " + format_number(frequency) +

@@ -21,14 +21,17 @@ struct OwnParts;
 /// admissible ranges and meaning of each are in case_keys().
 namespace case_tables {
 
+/// Of a number that nobody gave and nothing stands in for; who needs it asks: needed.hpp.
+inline constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
 struct Conductor {
   std::string name;  // of the library; "": none
-  double mass_per_length = 0.0;
-  double span = 0.0;
-  double sag = 0.0;
-  double area = 0.0;
-  double youngs_modulus = 0.0;
-  double damping_ratio = 0.0;
+  double mass_per_length = absent;
+  double span = absent;
+  double sag = absent;
+  double area = absent;
+  double youngs_modulus = absent;
+  double damping_ratio = absent;
   double gravity = 9.81;
   double tension = std::numeric_limits<double>::infinity();  // infinity: "sag", what that leaves
   double bending_stiffness = 0.0;
@@ -43,27 +46,27 @@ struct Conductor {
 };
 
 struct Absorber {
-  double mass = 0.0;
-  double position = 0.0;
+  double mass = absent;
+  double position = absent;
   double clamp_mass = 0.0;
   std::string motion = "vertical";
 };
 
 struct Reduction {
-  double first_frequency = 0.0;   // Hz
-  double second_frequency = 0.0;  // Hz
-  std::string stiffness_reading;
-  double reading_below = 0.0;
-  double reading_above = 0.0;
+  double first_frequency = absent;   // Hz
+  double second_frequency = absent;  // Hz
+  std::string stiffness_reading = "least_squares";
+  double reading_below = 0.008;
+  double reading_above = 0.007;
 };
 
 struct Plant {
-  double conductor_mass = 0.0;
-  double conductor_stiffness = 0.0;
-  double conductor_damping = 0.0;
-  double absorber_mass = 0.0;
-  double absorber_stiffness = 0.0;
-  double absorber_damping = 0.0;
+  double conductor_mass = absent;
+  double conductor_stiffness = absent;
+  double conductor_damping = absent;
+  double absorber_mass = absent;
+  double absorber_stiffness = absent;
+  double absorber_damping = absent;
   std::string model = "two_masses";
   double modes = std::numeric_limits<double>::infinity();  // whole; infinity: "chosen"
 };
@@ -72,7 +75,7 @@ struct Control {
   double proportional_gain = 0.0;  // not in force while tuned: ask resolved_proportional_gain()
   bool proportional_gain_tuned = false;
   double differential_gain = 0.0;
-  double sampling_period = 0.0;
+  double sampling_period = absent;
   double processing_delay = 0.0;
   double displacement_quantum = 0.0;
   double velocity_quantum = 0.0;
@@ -94,7 +97,7 @@ struct Backlash {
 
 struct Excitation {
   double amplitude = 0.0;
-  double frequency = 0.0;  // Hz
+  double frequency = absent;  // Hz
   std::string hold = "sampled";
   std::vector<std::array<double, 3>> harmonics;  // amplitude (N), frequency (Hz), phase (rad)
   std::string record;                            // a file, seen from the working folder; "": none
@@ -176,6 +179,8 @@ struct Case {
 
   // Where the user gave a key: "plant.absorber_mass" -> "my.toml:12" or "--set plant....=0.2".
   std::map<std::string, std::string> places;
+  // The case file describes its own cable or plant: nothing of the built-in case is in it.
+  bool stands_alone = false;
   bool plant_given = false;      // the user gave a key of [plant] that the two masses depend on
   bool conductor_given = false;  // or one of [conductor], [absorber] or [reduction]
   // The frequencies of [reduction] are computed from the conductor: it is the user's, they are not.
@@ -183,8 +188,9 @@ struct Case {
   bool second_frequency_computed = false;
 };
 
-/// Whether the case has an absorber with a computer on its span. Beside [[device]] or a named
-/// conductor it has one where the user says something of it: the built-in one is of another cable.
+/// Whether the case has an absorber with a computer on its span. A file of its own cable has one
+/// where it gives one. The built-in one counts beside [[device]] or a named conductor where the
+/// user says something of it: it is of another cable.
 bool has_active_absorber(const Case& the_case);
 
 /// Whether the plant is one of the user's own, in place of conductor and absorber.

@@ -77,6 +77,7 @@ class CaseReader {
 
  private:
   void read_override(const std::string& text);
+  void stand_alone();
   std::vector<Entry> entries(const toml::table& root, const std::string& name) const;
   void set(const std::string& name, const toml::node& node, const std::string& place, Layer layer);
   void set_value(const CaseKey& key, const toml::node& node, const std::string& place);
@@ -94,6 +95,7 @@ class CaseReader {
   void check_wind() const;
   void check_devices();
   void settle_frequencies();
+  void settle_own();
   bool given_by_user(const std::string& key) const;
   void check_faults() const;
 
@@ -109,15 +111,13 @@ bool is_word_of(const CaseKey& key, const std::string& word) {
 }
 
 /// [amplitude, frequency, phase], of which the last may be left out; nothing where it is not that.
-std::optional<std::array<double, 3>> harmonic_of(const toml::node& node) {
+std::optional<std::array<double, 3>> harmonic_of(const toml::node& node, const std::string& place) {
   const toml::array* numbers = node.as_array();
   const auto& parts = harmonic_parts();
   if (numbers == nullptr || (numbers->size() != 2 && numbers->size() != parts.size())) return {};
   std::array<double, 3> harmonic{};
   for (std::size_t k = 0; k < numbers->size(); ++k) {
-    const toml::node& number = (*numbers)[k];
-    if (!number.is_number()) return {};
-    harmonic[k] = number.value<double>().value_or(std::nan(""));
+    harmonic[k] = number_in((*numbers)[k], parts[k].unit, place).value_or(std::nan(""));
     if (!parts[k].range.contains(harmonic[k])) return {};
   }
   return harmonic;
@@ -129,7 +129,7 @@ std::vector<std::array<double, 3>> harmonics_of(const CaseKey& key, const toml::
   if (list == nullptr) throw WrongInput(place + ": must be " + key.admissible());
   std::vector<std::array<double, 3>> harmonics;
   for (const toml::node& one : *list) {
-    const auto harmonic = harmonic_of(one);
+    const auto harmonic = harmonic_of(one, place);
     if (!harmonic) {
       throw WrongInput(place + ": the harmonic " + value_text(one) + " must be as in " +
                        key.admissible());
@@ -146,9 +146,8 @@ std::array<double, 2> interval_of(const CaseKey& key, const toml::node& node,
   std::array<double, 2> ends{};
   bool fine = list != nullptr && list->size() == ends.size();
   for (std::size_t k = 0; fine && k < ends.size(); ++k) {
-    const toml::node& number = (*list)[k];
-    ends[k] = number.value<double>().value_or(std::nan(""));
-    fine = number.is_number() && key.range.contains(ends[k]);
+    ends[k] = number_in((*list)[k], key.unit, place).value_or(std::nan(""));
+    fine = key.range.contains(ends[k]);
   }
   if (!fine || !(ends[0] < ends[1])) throw WrongInput(place + ": must be " + key.admissible());
   return ends;
@@ -200,8 +199,36 @@ toml::table device_override(const std::string& text, std::string_view value,
   return parse_override_value(form, key->admissible(), value, place);
 }
 
+/// Whether a table gives a key, and not the word that says that there is none.
+bool gives(const toml::table& table, const char* key) {
+  const toml::node* node = table.get(key);
+  const auto word = node == nullptr ? std::nullopt : node->value_exact<std::string>();
+  return node != nullptr && word != "" && word != "sag";
+}
+
+/// Whether a case file describes its own cable, or the whole plant of two masses.
+bool describes_its_own(const toml::table& root) {
+  const toml::table* conductor = root["conductor"].as_table();
+  for (const char* key : {"name", "mass_per_length", "span", "tension", "sag"})
+    if (conductor != nullptr && gives(*conductor, key)) return true;
+  const toml::table* plant = root["plant"].as_table();
+  const auto& keys = case_keys();
+  return plant != nullptr && std::all_of(keys.begin(), keys.end(), [&](const CaseKey& key) {
+           return key.table() != "plant" || key.beyond_two_masses ||
+                  plant->contains(key.short_name());
+         });
+}
+
+/// Nothing built-in is left but constants of nature and methods.
+void CaseReader::stand_alone() {
+  case_ = Case{};
+  case_.stands_alone = true;
+  given_.clear();
+}
+
 void CaseReader::read_text(std::string_view text, const std::string& name, Layer layer) {
   const toml::table root = parse_case_text(text, name);
+  if (layer == Layer::file && describes_its_own(root)) stand_alone();
   folder_ = std::filesystem::path(name).parent_path();
   if (const toml::node* wind = root.get("wind"); wind != nullptr && wind->is_table()) {
     begin_wind(name + ":" + std::to_string(line_of(*wind)) + ": [wind]", layer);
@@ -284,7 +311,7 @@ void CaseReader::set(const std::string& name, const toml::node& node, const std:
 
 void CaseReader::set_value(const CaseKey& key, const toml::node& node, const std::string& place) {
   if (key.word != nullptr) {
-    *key.word(case_) = read_word(node, {key.admissible(), key.words}, place);
+    *key.word(case_) = read_word(node, {key.admissible(), key.words, ""}, place);
   } else if (key.file != nullptr) {
     set_file(key, node, place);
   } else if (key.conductor != nullptr) {
@@ -292,7 +319,8 @@ void CaseReader::set_value(const CaseKey& key, const toml::node& node, const std
   } else if (key.interval != nullptr) {
     *key.interval(case_) = interval_of(key, node, place);
   } else if (key.numbers != nullptr) {
-    *key.numbers(case_) = read_numbers(node, key.range, key.admissible(), place);
+    *key.numbers(case_) =
+        read_numbers(node, key.range, {key.admissible(), key.words, key.unit}, place);
   } else if (key.harmonics != nullptr) {
     *key.harmonics(case_) = harmonics_of(key, node, place);
   } else {
@@ -318,7 +346,7 @@ void CaseReader::set_number(const CaseKey& key, const toml::node& node, const st
     key.give_word(case_);
     return;
   }
-  *key.number(case_) = read_number(node, key.range, {key.admissible(), key.words}, place);
+  *key.number(case_) = read_number(node, key.range, {key.admissible(), key.words, key.unit}, place);
   if (key.tuned != nullptr) *key.tuned(case_) = false;
 }
 
@@ -440,6 +468,23 @@ bool CaseReader::given_by_user(const std::string& key) const {
   return given != nullptr && given->layer != Layer::builtin;
 }
 
+/// Whether a case tells all that its natural frequencies depend on.
+bool can_have_frequencies(const Case& the_case) {
+  const case_tables::Conductor& c = the_case.conductor;
+  return std::isfinite(c.mass_per_length + c.span + c.sag + c.area + c.youngs_modulus +
+                       the_case.absorber.position);
+}
+
+/// What follows from other keys of a case that stands alone: of the absorber's mass and that of the
+/// plant either stands for the other, and devices are on a string.
+void CaseReader::settle_own() {
+  if (!case_.stands_alone) return;
+  double &hung = case_.absorber.mass, &of_plant = case_.plant.absorber_mass;
+  if (std::isnan(hung) && of_plant > 0.0) hung = of_plant;
+  if (std::isnan(of_plant)) of_plant = hung;
+  if (!case_.devices.empty() && !given_by_user("plant.model")) case_.plant.model = "string";
+}
+
 /// The built-in frequencies of [reduction] belong to the built-in conductor and the absorber's
 /// place on it; another one's are computed where they are not given.
 void CaseReader::settle_frequencies() {
@@ -450,7 +495,9 @@ void CaseReader::settle_frequencies() {
                          !key.beyond_two_masses);
     return shapes && *key.number(case_) != *key.number(builtin_);
   });
-  if (!another || !conductor_fault(case_).message.empty()) return;
+  const bool is_told = !case_.stands_alone || can_have_frequencies(case_);
+  if (!(another || case_.stands_alone) || !is_told || !conductor_fault(case_).message.empty())
+    return;
   const auto [first, second] = default_frequencies(case_);
   case_.first_frequency_computed = !given_by_user("reduction.first_frequency");
   case_.second_frequency_computed = !given_by_user("reduction.second_frequency");
@@ -476,6 +523,7 @@ Case CaseReader::finish(const std::vector<std::string>& overrides) {
   check_wind();
   check_devices();
   if (!given_by_user("conductor.sag")) settle_sag(case_);
+  settle_own();
   settle_frequencies();
   check_faults();
   return case_;

@@ -13,6 +13,11 @@ namespace holdfast::program {
 
 /// The built-in case, then the file, then each override `key=value` in its order (the value is
 /// TOML; a bare word counts as a string: `control.proportional_gain=tuned`).
+/// Of a file that gives conductor.name, mass_per_length, span, tension or sag, or every key of the
+/// two masses of [plant], nothing of the built-in case stands below: the case stands alone, and
+/// what it does not give is absent, gains, play and force are 0, gravity, Strouhal's number and
+/// methods as documented.
+/// A number may be a text with a unit, "28.2 kN", of those in units.hpp.
 /// conductor.name stands for what neither file nor override gives of that conductor.
 /// [wind] takes the place of excitation.amplitude and excitation.frequency; the other keys of
 /// [excitation] may stand beside it.
@@ -41,11 +46,11 @@ std::string case_to_toml(const Case& the_case);
 /// Of what a case file to begin with makes the plant.
 enum class CaseForm {
   conductor,  ///< [conductor], [absorber] and [reduction]; of [plant] what was given beside them
-  plant       ///< [plant] alone, unless the user gave both
+  plant       ///< [plant], and what was given beside it
 };
 
-/// A commented case file to begin with. As conductor its plant follows each change of the
-/// conductor: frequencies of [reduction] that were not given stand there as comments, computed.
+/// A commented case file to begin with: what was given, and of the rest a comment each with the
+/// value that holds without, so that nothing of the built-in case becomes the user's.
 std::string case_to_begin_with(const Case& the_case, CaseForm form);
 
 /// The full case, a JSON object for each table.

@@ -6,7 +6,7 @@
 #include "case/builtin_case.hpp"
 #include "case/case_file.hpp"
 #include "case/device/device_values.hpp"
-#include "case/model/cable_of_case.hpp"
+#include "case/needed.hpp"
 #include "case/toml_values.hpp"
 
 namespace holdfast::program {
@@ -56,6 +56,7 @@ nlohmann::ordered_json json_value(const CaseKey& key, Case& the_case) {
 /// [site] where nothing is said of it.
 bool is_in_force(const CaseKey& key, const Case& the_case) {
   if (key.table() == "site") return has_site(the_case);
+  if (is_absent(the_case, key)) return false;
   // What a plant of the user's own stands in place of is no part of the case.
   if (has_own_plant(the_case))
     for (const char* table : {"conductor", "absorber", "reduction", "plant", "initial"})
@@ -67,40 +68,49 @@ bool is_in_force(const CaseKey& key, const Case& the_case) {
 /// What a person should know of a table before changing it; empty for most.
 std::string table_comment(const std::string& table) {
   if (table == "conductor")
-    return "# Sag or tension: the other one is what it leaves.\n"
-           "# This table, [absorber] and [reduction] make the plant where [plant] does not give "
-           "it.\n";
+    return "# name, from the library (holdfast conductors), or the conductor's data; sag or "
+           "tension, "
+           "of which\n"
+           "# the other one is what it leaves. This table, [absorber] and [reduction] make the "
+           "plant "
+           "where\n"
+           "# [plant] does not give it.\n";
   if (table == "plant")
-    return "# What stands here is used as it is. Take this table away to have the plant reduced "
-           "from\n"
-           "# [conductor], [absorber] and [reduction].\n";
+    return "# What stands here is used as it is. Without it the plant is reduced from "
+           "[conductor],\n"
+           "# [absorber] and [reduction].\n";
   if (table == "reduction")
-    return "# Take the frequencies away to have them computed for another conductor, or give those "
-           "that\n"
-           "# you measured; the higher one should be near that of the excitation.\n";
+    return "# Without the frequencies they are computed for the conductor; give those that you "
+           "measured: the\n"
+           "# higher one should be near that of the excitation.\n";
   if (table == "excitation")
     return "# In place of amplitude and frequency: a table [wind] with speed, diameter (of the\n"
            "# conductor) and effective_length.\n";
   return "";
 }
 
-/// How a key stands in a case file to begin with.
+constexpr const char* begun_head =
+    "#\n"
+    "# Take the # away before a key to give it; what stands behind it now is what holds without.\n"
+    "# A file that gives conductor.name, mass_per_length, span, tension or sag, or every number "
+    "of\n"
+    "# [plant], describes a cable or plant of its own: then nothing of the built-in case stands in "
+    "for\n"
+    "# what is not given. Numbers are in the unit that is told, or have another: \"28.2 kN\".\n";
+
+/// How a key stands in a case file to begin with: what was given as a value, the rest as a comment.
 enum class Standing { left_out, comment, value };
 
 Standing standing_of(const CaseKey& key, const Case& the_case, CaseForm form) {
   if (!is_in_force(key, the_case)) return Standing::left_out;
-  const bool is_given = the_case.places.count(key.name) > 0;
-  const bool reduced = plant_is_reduced(the_case), from_conductor = form == CaseForm::conductor;
   const std::string table = key.table();
-  if (table == "plant" && key.beyond_two_masses)
-    return is_given ? Standing::value : Standing::left_out;
-  if (table == "plant" && from_conductor)
-    return is_given && reduced ? Standing::value : Standing::left_out;
   const bool of_cable = table == "conductor" || table == "absorber" || table == "reduction";
-  if (of_cable && !from_conductor)
-    return the_case.conductor_given && !reduced ? Standing::value : Standing::left_out;
-  const bool computed = from_conductor && !is_given && table == "reduction" && key.unit == "Hz";
-  return computed ? Standing::comment : Standing::value;
+  const bool is_given = the_case.places.count(key.name) > 0;
+  if (of_cable && form == CaseForm::plant && !the_case.conductor_given) return Standing::left_out;
+  if (table == "plant" && form == CaseForm::conductor && !is_given && !key.beyond_two_masses)
+    return Standing::left_out;
+  const bool of_new_wind = table == "wind" && key.required;
+  return is_given || of_new_wind ? Standing::value : Standing::comment;
 }
 
 std::string toml_line(const CaseKey& key, Case& the_case) {
@@ -112,8 +122,8 @@ std::string toml_line(const CaseKey& key, Case& the_case) {
 
 /// The case, its keys standing as `standing` tells.
 template <class StandingOf>
-std::string written_case(Case the_case, const StandingOf& standing) {
-  std::string text = "# A case of holdfast, SI units.\n";
+std::string written_case(Case the_case, const char* head, const StandingOf& standing) {
+  std::string text = std::string("# A case of holdfast, SI units.\n") + head;
   std::string table;
   for (const CaseKey& key : case_keys()) {
     const Standing stands = standing(key);
@@ -142,13 +152,13 @@ std::string case_default(const CaseKey& key) {
 }
 
 std::string case_to_toml(const Case& the_case) {
-  return written_case(the_case, [&](const CaseKey& key) {
+  return written_case(the_case, "", [&](const CaseKey& key) {
     return is_in_force(key, the_case) ? Standing::value : Standing::left_out;
   });
 }
 
 std::string case_to_begin_with(const Case& the_case, CaseForm form) {
-  return written_case(the_case,
+  return written_case(the_case, begun_head,
                       [&](const CaseKey& key) { return standing_of(key, the_case, form); });
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "case/toml_depth.hpp"
+#include "case/units.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -59,7 +60,9 @@ std::string guess_of_value(std::string_view value) {
   const std::size_t blank = value.find_first_of(" \t");
   const bool number_first = parse_number(value.substr(0, blank)).has_value();
   if (number_first && blank != std::string_view::npos)
-    return "; a number stands alone, in the unit that `holdfast case --check` gives for its key";
+    return "; a number stands alone, in the unit that `holdfast case --check` gives for its key, "
+           "or "
+           "with another one in quotes: \"28.2 kN\"";
   return "";
 }
 
@@ -96,7 +99,8 @@ toml::table parse_override_value(ValueForm form, const std::string& admissible,
     toml::table parsed = toml::parse("value = " + std::string(value));
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
-    if (form == ValueForm::name || is_bare_word(value))
+    const bool has_unit = form == ValueForm::number && written_quantity(value).has_value();
+    if (form == ValueForm::name || is_bare_word(value) || has_unit)
       return toml::table{{"value", std::string(value)}};
   }
   const std::string guess = guess_of_value(value);
@@ -104,12 +108,25 @@ toml::table parse_override_value(ValueForm form, const std::string& admissible,
   throw WrongInput(place + ": admissible is " + admissible + (guess.empty() ? plain : guess));
 }
 
+std::optional<double> number_in(const toml::node& node, const std::string& unit,
+                                const std::string& place) {
+  if (node.is_number()) return node.value<double>().value_or(std::nan(""));
+  const auto text = node.value_exact<std::string>();
+  const auto written = text ? written_quantity(*text) : std::nullopt;
+  if (!written) return std::nullopt;
+  if (const auto value = in_own_unit(*written, unit)) return value;
+  const std::string known = units_in_words(unit);
+  throw WrongInput(place + ": " + shortened(written->unit, 20) + " is no unit of it: " +
+                   (known.empty() ? "it is a number without unit" : "it may be in " + known));
+}
+
 double read_number(const toml::node& node, const AdmissibleRange& range,
                    const Admissible& admissible, const std::string& place) {
-  if (!node.is_number())
+  const auto number = number_in(node, admissible.unit, place);
+  if (!number)
     throw WrongInput(place + ": must be a number; admissible is " + admissible.text +
                      suggested_word(admissible.words, node));
-  const double value = node.value<double>().value_or(std::nan(""));
+  const double value = *number;
   if (!std::isfinite(value))
     throw WrongInput(place + ": must be finite; admissible is " + admissible.text);
   if (!range.contains(value)) throw WrongInput(place + ": admissible is " + admissible.text);
@@ -117,15 +134,15 @@ double read_number(const toml::node& node, const AdmissibleRange& range,
 }
 
 std::vector<double> read_numbers(const toml::node& node, const AdmissibleRange& range,
-                                 const std::string& admissible, const std::string& place) {
+                                 const Admissible& admissible, const std::string& place) {
   const toml::array* list = node.as_array();
-  if (list == nullptr) throw WrongInput(place + ": must be " + admissible);
+  if (list == nullptr) throw WrongInput(place + ": must be " + admissible.text);
   std::vector<double> values;
   for (const toml::node& one : *list) {
-    const double value = one.value<double>().value_or(std::nan(""));
-    if (!one.is_number() || !range.contains(value))
-      throw WrongInput(place + ": " + value_text(one) + " must be as in " + admissible);
-    values.push_back(value + 0.0);
+    const auto value = number_in(one, admissible.unit, place);
+    if (!value || !range.contains(*value))
+      throw WrongInput(place + ": " + value_text(one) + " must be as in " + admissible.text);
+    values.push_back(*value + 0.0);
   }
   return values;
 }

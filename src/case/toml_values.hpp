@@ -1,6 +1,7 @@
 #pragma once
 
 #include <toml++/toml.h>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,18 +27,25 @@ ValueForm form_of(const CaseKey& key);
 toml::table parse_override_value(ValueForm form, const std::string& admissible,
                                  std::string_view value, const std::string& place);
 
-/// What is admissible, in words, and the words among it.
+/// What is admissible, in words, the words among it, and the unit of a number.
 struct Admissible {
   std::string text;
   const std::vector<std::string>& words;
+  std::string unit;
 };
+
+/// A number, or a text of one with a unit, in the own unit; nothing where the node is neither, NaN
+/// where it is a number of some other kind. Throws WrongInput, which begins with the place and
+/// names the units that would do, for a unit of something else.
+std::optional<double> number_in(const toml::node& node, const std::string& unit,
+                                const std::string& place);
 
 /// What a node holds. Each throws WrongInput, which begins with the place, where it is something
 /// else, or a number that is out of range.
 double read_number(const toml::node& node, const AdmissibleRange& range,
                    const Admissible& admissible, const std::string& place);
 std::vector<double> read_numbers(const toml::node& node, const AdmissibleRange& range,
-                                 const std::string& admissible, const std::string& place);
+                                 const Admissible& admissible, const std::string& place);
 std::string read_word(const toml::node& node, const Admissible& admissible,
                       const std::string& place);
 /// As it stands there; "" where that is given.

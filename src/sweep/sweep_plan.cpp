@@ -8,8 +8,10 @@
 #include "case/axes/axis.hpp"
 #include "case/axes/grid.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/needed.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "io/text/text.hpp"
@@ -121,6 +123,7 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
       std::any_of(layout_.axes.begin(), layout_.axes.end(),
                   [](const GridAxis& axis) { return axis.column.name == "plant.absorber_mass"; });
   if (!over_absorbers) require_absorber(context_.case_data);
+  require_loops();
   samples_ = counted_samples();
   for (const GridAxis& axis : layout_.axes) grid_.shape.push_back(axis.count());
   const auto most =
@@ -159,6 +162,17 @@ Case SweepPlan::case_of(std::int64_t cell) const {
   }
   check_case(the_case);
   return the_case;
+}
+
+/// What is wrong with one cell alone is told as its outcome.
+void SweepPlan::require_loops() const {
+  try {
+    require_loop_keys(case_of(0));
+  } catch (const MissingKeys&) {
+    throw;
+  } catch (const Refusal&) {
+  } catch (const InvalidParameter&) {
+  }
 }
 
 double SweepPlan::counted_samples() const {

@@ -69,6 +69,7 @@ class SweepPlan {
 
  private:
   void settle_case();
+  void require_loops() const;
   double counted_samples() const;
   double chosen_chunk_cells() const;
   StorePlan store_plan() const;

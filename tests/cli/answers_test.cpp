@@ -75,7 +75,8 @@ TEST(Answers, AskTheConductorOnlyWhereTheCaseGivesIt) {
   const std::string file = folder / "plant.toml";
   write_text(file,
              "[plant]\nconductor_mass = 0.08\nconductor_stiffness = 52\nconductor_damping = 0.08\n"
-             "absorber_mass = 0.16\nabsorber_stiffness = 74\nabsorber_damping = 4\n");
+             "absorber_mass = 0.16\nabsorber_stiffness = 74\nabsorber_damping = 4\n"
+             "[control]\nsampling_period = 0.001\n[excitation]\namplitude = 0.5\nfrequency = 10\n");
   const auto answers = table_of("answers --quiet --case '" + file + "'");
   EXPECT_TRUE(holds(answers.text(answers.rows() - 1, "answer"), "Not asked"));
 }
@@ -162,6 +163,22 @@ TEST(Answers, SayWhichGainsAndWhichPlayAreNotOfTheUsersCase) {
                     "backlash.width: the built-in value stands in"))
       << detail;
   EXPECT_FALSE(holds(table_of("answers --details").text(help, "detail"), "stands in"));
+}
+
+TEST(Answers, OfASpanWhoseAbsorberNobodyGaveAreOfTheWindAndItsDevicesAlone) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "line.toml").string();
+  write_text(file, "[conductor]\nname = \"Drake\"\nspan = 900\ntension = \"28.02 kN\"\n");
+  for (const std::string line : {" --case '" + file + "'",
+                                 std::string(" --quiet --set conductor.name=Drake --set "
+                                             "conductor.span=900 --set conductor.tension=28020")}) {
+    const Outcome outcome = run_holdfast("answers" + line);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_TRUE(holds(outcome.output, "vibrate")) << outcome.output;
+    for (const char* other : {"D =", "tuned", "the case has"})
+      EXPECT_FALSE(holds(outcome.output, other)) << outcome.output;
+  }
 }
 
 TEST(Answers, SayThatAMotionDivergesAndNotWhatIsLeftOfIt) {

@@ -265,7 +265,7 @@ CaseFault devices_fault(const Case& the_case) {
   const double span = the_case.conductor.span;
   for (std::size_t k = 0; k < the_case.devices.size(); ++k) {
     const double position = the_case.devices[k].position;
-    if (position < span) continue;
+    if (!(position >= span)) continue;
     const std::string key = device_key_text(k + 1, "position");
     return {{key, "conductor.span"},
             key + " = " + format_number(position) +

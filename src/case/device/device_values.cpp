@@ -23,16 +23,18 @@ nlohmann::ordered_json json_value(const DeviceKey& key, const Device& device) {
 void set_device_value(Device& device, const DeviceKey& key, const toml::node& node,
                       const std::string& place, const std::filesystem::path& folder) {
   if (key.word != nullptr) {
-    device.*key.word = read_word(node, {key.admissible(), key.words}, place);
+    device.*key.word = read_word(node, {key.admissible(), key.words, ""}, place);
   } else if (key.file != nullptr) {
     const std::string name = read_file_name(node, key.admissible(), place);
     if (name.empty()) throw WrongInput(place + ": must be " + key.admissible());
     device.*key.file = (folder / name).string();
   } else if (key.numbers != nullptr) {
-    device.*key.numbers = read_numbers(node, key.range, key.admissible(), place);
+    device.*key.numbers =
+        read_numbers(node, key.range, {key.admissible(), key.words, key.unit}, place);
     if ((device.*key.numbers).empty()) throw WrongInput(place + ": must be " + key.admissible());
   } else {
-    device.*key.number = read_number(node, key.range, {key.admissible(), key.words}, place);
+    device.*key.number =
+        read_number(node, key.range, {key.admissible(), key.words, key.unit}, place);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "case/case_keys.hpp"
+#include "case/library/named_conductor.hpp"
+#include "case/needed.hpp"
 #include "holdfast/cable/modes.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "io/text/text.hpp"
@@ -27,6 +29,14 @@ std::string blame_for_range(const Case& the_case, const char* key, const char* r
                 : "";
 }
 
+/// Of the absorber's place, upward of its rest (m, below 0), before the statics end.
+double highest_reading(const Case& the_case) {
+  const auto irvine = irvine_statics_of(the_case);
+  return irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));
+}
+
+double known_or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
+
 }  // namespace
 
 bool plant_is_reduced(const Case& the_case) {
@@ -37,27 +47,67 @@ bool plant_is_reduced(const Case& the_case) {
          });
 }
 
-Conductor<double> conductor_of(const Case& the_case) {
+bool is_users(const Case& the_case, const std::string& key) {
+  return the_case.places.count(key) > 0 || is_from_library(the_case, key) ||
+         (key == "conductor.sag" && std::isfinite(the_case.conductor.tension));
+}
+
+bool is_half_borrowed(const Case& the_case, const std::vector<std::string>& keys) {
+  if (the_case.stands_alone) return false;
+  int telling = 0;
+  for (const char* key : {"conductor.name", "conductor.mass_per_length", "conductor.span",
+                          "conductor.tension", "conductor.sag"})
+    telling += the_case.places.count(key) > 0 ? 1 : 0;
+  const auto is_borrowed = [&](const std::string& key) {
+    const std::string table = key.substr(0, key.find('.'));
+    return (table == "conductor" || table == "absorber") && key != "conductor.gravity" &&
+           key != "conductor.tension" && !is_users(the_case, key);
+  };
+  return telling >= 2 && std::any_of(keys.begin(), keys.end(), is_borrowed);
+}
+
+double parabolic_tension_of(const Case& the_case) {
   const auto& c = the_case.conductor;
-  return {c.mass_per_length, c.span, c.sag, c.area, c.youngs_modulus, c.damping_ratio, c.gravity};
+  return c.mass_per_length * c.gravity * c.span * c.span / (8.0 * c.sag);
+}
+
+double damping_ratio_of(const Case& the_case) {
+  return needed(the_case, "conductor.damping_ratio");
+}
+
+Conductor<double> conductor_of(const Case& the_case) {
+  require_keys(the_case, {"conductor.mass_per_length", "conductor.span", "conductor.sag",
+                          "conductor.area", "conductor.youngs_modulus"});
+  const auto& c = the_case.conductor;
+  return {
+      c.mass_per_length, c.span, c.sag, c.area, c.youngs_modulus, known_or_zero(c.damping_ratio),
+      c.gravity};
 }
 
 StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case) {
-  return irvine_statics(conductor_of(the_case), the_case.absorber.position, the_case.absorber.mass);
+  return irvine_statics(conductor_of(the_case), needed(the_case, "absorber.position"),
+                        known_or_zero(the_case.absorber.mass));
 }
 
 StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case) {
-  return exact_statics(conductor_of(the_case), the_case.absorber.position, the_case.absorber.mass);
+  return exact_statics(conductor_of(the_case), needed(the_case, "absorber.position"),
+                       known_or_zero(the_case.absorber.mass));
 }
 
 ReadingRange reading_range_of(const Case& the_case) {
-  return {the_case.reduction.reading_below, the_case.reduction.reading_above};
+  ReadingRange range{the_case.reduction.reading_below, the_case.reduction.reading_above};
+  if (!the_case.stands_alone) return range;
+  const auto stays_within = [&](const char* key, double& reading, double most) {
+    if (the_case.places.count(key) == 0) reading = std::min(reading, 0.5 * most);
+  };
+  stays_within("reduction.reading_above", range.above, -highest_reading(the_case));
+  stays_within("reduction.reading_below", range.below, the_case.conductor.sag);
+  return range;
 }
 
 void require_reading_range(const Case& the_case) {
   const ReadingRange range = reading_range_of(the_case);
-  const auto irvine = irvine_statics_of(the_case);
-  const double highest = irvine.displacement(irvine.lowest_force() * (1.0 - 1e-6));
+  const double highest = highest_reading(the_case);
   if (!(-range.above > highest))
     throw WrongInput(blame_for_range(the_case, "absorber.position", "reduction.reading_above") +
                      "reduction.reading_above = " + format_number(range.above) +
@@ -79,7 +129,7 @@ double conductor_stiffness_of(const Case& the_case) {
 
 std::pair<double, double> default_frequencies(const Case& the_case) {
   constexpr std::size_t wanted = 6;
-  const double place = the_case.absorber.position / the_case.conductor.span;
+  const double place = needed(the_case, "absorber.position") / the_case.conductor.span;
   std::vector<double> moving;
   // A place near a support is moved by high modes only; the first of all stands in for the first.
   const auto modes = irvine_modes(conductor_of(the_case), 200);
@@ -91,7 +141,7 @@ std::pair<double, double> default_frequencies(const Case& the_case) {
 }
 
 std::string borrowed_cable_warning(const Case& the_case) {
-  if (!the_case.plant_given || the_case.conductor_given) return "";
+  if (!the_case.plant_given || the_case.conductor_given || the_case.stands_alone) return "";
   return "the case gives [plant] and no [conductor]: the cable is that of the built-in case";
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "case/case.hpp"
 #include "holdfast/cable/statics.hpp"
@@ -12,7 +13,24 @@ namespace holdfast::program {
 /// it.
 bool plant_is_reduced(const Case& the_case);
 
-/// The library's objects for [conductor], [absorber] and the readings of [reduction].
+/// Whether a value is the user's: given, of the conductor that he named, or the sag that his
+/// tension leaves.
+bool is_users(const Case& the_case, const std::string& key);
+
+/// Whether some of these keys of conductor and absorber are the built-in cable's, where two or more
+/// of name, mass, span, tension and sag tell that the user's is another: together they say nothing
+/// of either.
+bool is_half_borrowed(const Case& the_case, const std::vector<std::string>& keys);
+
+/// H = mass_per_length gravity span²/(8 sag) (N); NaN where the case does not tell it.
+double parabolic_tension_of(const Case& the_case);
+
+/// conductor.damping_ratio. Throws MissingKeys where the case has none.
+double damping_ratio_of(const Case& the_case);
+
+/// The library's objects for [conductor], [absorber] and the readings of [reduction], an absorber
+/// of 0 kg where the case has none. A damping ratio that the case has not is 0 here. Each throws
+/// MissingKeys.
 Conductor<double> conductor_of(const Case& the_case);
 StaticsFromRest<IrvinePointLoad<double>> irvine_statics_of(const Case& the_case);
 StaticsFromRest<CatenaryPointLoad<double>> exact_statics_of(const Case& the_case);

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "case/model/cable_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/needed.hpp"
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
@@ -30,8 +32,7 @@ ContactLaw law_of(const std::string& word) {
 /// The main harmonic first, then the further ones, then the noise.
 MultiHarmonicForce force_of(const Case& the_case) {
   const auto given = effective_excitation(the_case);
-  MultiHarmonicForce force =
-      multi_harmonic_force(HarmonicExcitation<double>{given.amplitude, given.frequency});
+  MultiHarmonicForce force = multi_harmonic_force(motion_excitation_of(the_case));
   for (const auto& [amplitude, frequency, phase] : given.harmonics)
     force.harmonics.push_back({amplitude, frequency, phase});
   if (given.noise_rms > 0.0) {
@@ -51,9 +52,24 @@ IdealLoop<double> ideal_loop_of(const Case& the_case) {
   return {plant_of(the_case),
           sampling_of(the_case),
           gains_of(the_case),
-          excitation_of(the_case),
+          motion_excitation_of(the_case),
           width,
           force_hold_of(the_case)};
+}
+
+void require_loop_keys(const Case& the_case) {
+  if (has_own_plant(the_case)) return;
+  plant_of(the_case);
+  require_absorber(the_case);
+  if (!is_two_masses(the_case)) {
+    if (is_cable(the_case)) conductor_of(the_case);
+    string_of(the_case);
+    damping_ratio_of(the_case);
+    if (!is_infinite(the_case)) require_keys(the_case, {"absorber.position"});
+  }
+  gains_of(the_case);
+  sampling_of(the_case);
+  motion_excitation_of(the_case);
 }
 
 SampledMotion<double> motion_of(const Case& the_case) {

@@ -40,6 +40,10 @@ bool is_of_the_paper(const Case& the_case, Switching switching);
 /// the paper's model: exact play or none, one harmonic, an ideal computer. Nothing of any other.
 std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case);
 
+/// Throws MissingKeys for what a loop of the case needs, its motion too, and the case has not; a
+/// job that computes for long asks first.
+void require_loop_keys(const Case& the_case);
+
 /// The motion of the paper's model from the case's initial state.
 SampledMotion<double> motion_of(const Case& the_case);
 

@@ -13,7 +13,8 @@
 
 namespace holdfast::program {
 
-/// The library's objects for what a case file says of plant, control and excitation.
+/// The library's objects for what a case file says of plant, control and excitation. Each throws
+/// MissingKeys where the case does not say it.
 TwoMass<double> plant_of(const Case& the_case);
 PdGains<double> gains_of(const Case& the_case);
 Sampling<double> sampling_of(const Case& the_case);
@@ -21,6 +22,9 @@ Sampling<double> sampling_of(const Case& the_case);
 SampledLoop<double> loop_of(const Case& the_case);
 OperatingPoint operating_point_of(const Case& the_case);
 HarmonicExcitation<double> excitation_of(const Case& the_case);
+/// The same for a motion, which can do without: no force at all has the period of a sample, as of
+/// any other, where the case has neither amplitude nor frequency.
+HarmonicExcitation<double> motion_excitation_of(const Case& the_case);
 ForceHold force_hold_of(const Case& the_case);
 Vector<double, 4> initial_state_of(const Case& the_case);
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/needed.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -28,8 +29,11 @@ NoAnswer no_plant(const Case& the_case, const FrequencyReduction<double>& asked,
 }  // namespace
 
 FrequencyReduction<double> reduction_options_of(const Case& the_case) {
-  return {conductor_stiffness_of(the_case), the_case.absorber.mass,
-          the_case.reduction.first_frequency, the_case.reduction.second_frequency};
+  require_keys(the_case, {"absorber.mass", "absorber.position", "conductor.damping_ratio"});
+  const double stiffness = conductor_stiffness_of(the_case);
+  require_keys(the_case, {"reduction.first_frequency", "reduction.second_frequency"});
+  return {stiffness, the_case.absorber.mass, the_case.reduction.first_frequency,
+          the_case.reduction.second_frequency};
 }
 
 ReductionResult reduction_of(const Case& the_case) {

@@ -42,7 +42,7 @@ std::string distant_force_text(const Case& the_case) {
   const double frequency = effective_excitation(the_case).frequency;
   const double first = the_case.reduction.first_frequency;
   const double second = the_case.reduction.second_frequency;
-  if (0.5 * first <= frequency && frequency <= 2.0 * second) return "";
+  if (!(frequency < 0.5 * first || frequency > 2.0 * second)) return "";
   return "the excitation is at " + format_rounded(frequency) +
          " Hz, far from the natural frequencies of " + format_rounded(first) + " and " +
          format_rounded(second) +
@@ -68,7 +68,7 @@ std::string settle_damping(Case& the_case) {
 std::string settle_absorber(Case& the_case) {
   if (the_case.places.count("plant.absorber_mass") == 0)
     the_case.plant.absorber_mass = the_case.absorber.mass;
-  if (!has_absorber(the_case)) return "";
+  if (!has_absorber(the_case) || the_case.stands_alone) return "";
   std::string names;
   for (const char* key : {"plant.absorber_stiffness", "plant.absorber_damping"})
     if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);

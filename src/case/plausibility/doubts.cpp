@@ -8,6 +8,9 @@
 
 #include "case/case_source.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/needed.hpp"
+#include "case/units.hpp"
+#include "holdfast/core/types.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -17,26 +20,6 @@ namespace {
 using Keys = std::vector<std::string>;
 using Quantities = std::vector<PlausibleQuantity>;
 
-/// A unit that values are often written in, and how much of the key's own it is.
-struct OtherUnit {
-  const char* own;
-  const char* name;
-  double factor;
-};
-
-constexpr std::array<OtherUnit, 28> other_units = {{
-    {"m", "mm", 1e-3},         {"m", "cm", 1e-2},          {"m", "km", 1e3},
-    {"m2", "mm2", 1e-6},       {"m2", "cm2", 1e-4},        {"kg", "g", 1e-3},
-    {"kg", "t", 1e3},          {"kg/m", "g/m", 1e-3},      {"kg/m", "t/m", 1e3},
-    {"Pa", "GPa", 1e9},        {"Pa", "MPa", 1e6},         {"Pa", "kPa", 1e3},
-    {"N", "mN", 1e-3},         {"N", "kN", 1e3},           {"N/m", "kN/m", 1e3},
-    {"N/m", "mN/m", 1e-3},     {"N s/m", "kN s/m", 1e3},   {"N s/m", "mN s/m", 1e-3},
-    {"s", "ms", 1e-3},         {"s", "us", 1e-6},          {"m/s", "km/h", 1.0 / 3.6},
-    {"m/s", "mm/s", 1e-3},     {"m/s", "m/min", 1.0 / 60}, {"Hz", "rad/s", 1.0 / 6.283185307179586},
-    {"Hz", "1/min", 1.0 / 60}, {"m/s2", "cm/s2", 1e-2},    {"kg/m3", "g/cm3", 1e3},
-    {"", "%", 1e-2},
-}};
-
 bool is_given(const Case& the_case, const std::string& key) {
   return the_case.places.count(key) > 0;
 }
@@ -44,6 +27,25 @@ bool is_given(const Case& the_case, const std::string& key) {
 /// NaN, where the case does not tell the quantity, is beyond nothing.
 bool is_beyond(const AdmissibleRange& range, double value) {
   return value < range.lowest || value > range.highest;
+}
+
+/// What a cable mostly is: by this units that make a case equally possible are told apart.
+int oddness(const Case& the_case) {
+  const case_tables::Conductor& c = the_case.conductor;
+  const double diameter = std::isfinite(c.diameter) ? c.diameter
+                          : the_case.wind           ? the_case.wind->diameter
+                                                    : std::nan("");
+  const double circle = 0.25 * pi<double> * diameter * diameter;
+  const std::array<std::array<double, 3>, 5> mostly = {
+      {{c.youngs_modulus, 4e10, 2.2e11},              // metals, stranded or not
+       {c.mass_per_length / c.area, 2500.0, 9000.0},  // aluminium to copper
+       {c.area / circle, 0.5, 1.0},                   // a strand
+       {parabolic_tension_of(the_case) / c.rated_strength, 0.05, 0.5},
+       {c.mass_per_length / circle, 1500.0, 8000.0}}};
+  int odd = 0;
+  for (const auto& [value, lowest, highest] : mostly)
+    odd += value < lowest || value > highest ? 1 : 0;
+  return odd;
 }
 
 /// How much is wrong with a case; less is better.
@@ -109,19 +111,21 @@ class BestUnits {
 
   void try_keys(const Keys& keys) {
     const std::string unit = find_case_key(keys.front())->unit;
-    for (const OtherUnit& other : other_units) {
-      if (unit != other.own) continue;
-      const Case changed = scaled(case_, keys, other.factor);
-      const int bad = badness(changed, quantities_);
+    for (const Unit& other : other_units()) {
+      if (unit != other.own || !other.is_mistaken) continue;
+      const Case changed = scaled(case_, keys, other.factor());
+      const int bad = badness(changed, quantities_), odd = oddness(changed);
       // What half as much again mends for the most part is no mistaken unit.
-      const double a_little = other.factor < 1.0 ? 1.0 / 1.5 : 1.5;
+      const double a_little = other.factor() < 1.0 ? 1.0 / 1.5 : 1.5;
       const int mended = badness_ - badness(scaled(case_, keys, a_little), quantities_);
-      if (2 * mended > badness_ - bad) continue;
-      if (bad > least_ || (bad == least_ && keys != guess_.keys)) continue;
-      is_sure_ = bad < least_;
+      if (2 * mended > badness_ - bad || bad >= badness_) continue;
+      const auto now = std::pair(bad, odd), least = std::pair(least_, oddness_);
+      if (now > least || (now == least && keys != guess_.keys)) continue;
+      is_sure_ = now < least;
       names_ = (is_sure_ ? "" : names_ + " or ") + other.name;
       if (is_sure_) guess_ = {keys, "", changed};
       least_ = bad;
+      oddness_ = odd;
     }
   }
 
@@ -137,7 +141,7 @@ class BestUnits {
  private:
   const Case& case_;
   const Quantities& quantities_;
-  int badness_, least_;
+  int badness_, least_, oddness_ = 0;
   std::string names_;
   bool is_sure_ = false;  // one unit alone
   UnitGuess guess_;
@@ -169,7 +173,7 @@ UnitGuess guessed_unit(const Case& the_case, const Keys& keys, const Quantities&
 CaseFault impossible_fault(const Case& the_case) {
   for (const PlausibleQuantity& quantity : quantities_of_case()) {
     const double value = quantity.of(the_case);
-    if (is_beyond(quantity.possible, value))
+    if (is_beyond(quantity.possible, value) && !is_half_borrowed(the_case, quantity.keys))
       return {quantity.keys, found_text(quantity, value) + "; admissible is " +
                                  quantity.possible.in_words(quantity.unit) + ": " +
                                  quantity.reason};
@@ -198,7 +202,7 @@ std::vector<std::string> doubts_about(const Case& the_case, const Quantities& qu
   Case read = the_case;  // with the units that are guessed
   for (const PlausibleQuantity& quantity : quantities) {
     const double value = quantity.of(read);
-    if (!is_beyond(quantity.usual, value)) continue;
+    if (!is_beyond(quantity.usual, value) || is_half_borrowed(the_case, quantity.keys)) continue;
     UnitGuess guess;
     if (quantity.asks_unit) guess = guessed_unit(read, quantity.keys, quantities);
     Keys keys = guess.keys;
@@ -221,6 +225,8 @@ std::string contradicted_conductor_text(const Case& the_case) {
   double stiffness = the_case.plant.conductor_stiffness;
   try {
     stiffness = conductor_stiffness_of(the_case);
+  } catch (const MissingKeys&) {
+    return "";
   } catch (const WrongInput&) {
     // The range of its readings is not that of this conductor, which no answer needs.
   }
@@ -249,7 +255,7 @@ std::string contradicted_conductor_text(const Case& the_case) {
 }
 
 std::string borrowed_control(const Case& the_case) {
-  if (!the_case.plant_given && !the_case.conductor_given) return "";
+  if (the_case.stands_alone || (!the_case.plant_given && !the_case.conductor_given)) return "";
   Keys missing;
   for (const char* key : {"control.proportional_gain", "control.differential_gain",
                           "control.sampling_period", "backlash.width"})
@@ -258,7 +264,7 @@ std::string borrowed_control(const Case& the_case) {
 }
 
 std::string borrowed_gains_text(const Case& the_case) {
-  if (is_given(the_case, "control.proportional_gain") ||
+  if (the_case.stands_alone || is_given(the_case, "control.proportional_gain") ||
       is_given(the_case, "control.differential_gain"))
     return "";
   const auto impedance = [](const case_tables::Plant& plant) {

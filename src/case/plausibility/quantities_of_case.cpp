@@ -278,6 +278,27 @@ const Quantities listed_of_case = {
      {0.005, 1.1},
      whatever,
      "a rod has 1, a strand 0.75, a sheathed stay 0.3, a model under foam 0.01"},
+    {"wind.diameter over conductor.diameter",
+     "",
+     {"wind.diameter", "conductor.diameter"},
+     [](const Case& c) {
+       return c.wind ? c.wind->diameter / known(c.conductor.diameter) : unknown;
+     },
+     {0.9, 10},
+     whatever,
+     "the wind meets the conductor, or the ice about it"},
+    {"plant.absorber_mass over absorber.mass",
+     "",
+     {"plant.absorber_mass", "absorber.mass"},
+     [](const Case& c) {
+       const bool both =
+           c.places.count("plant.absorber_mass") + c.places.count("absorber.mass") == 2;
+       return both && c.plant.absorber_mass > 0.0 ? c.plant.absorber_mass / c.absorber.mass
+                                                  : unknown;
+     },
+     {0.5, 2},
+     whatever,
+     "both are of the one absorber, and the first counts"},
     {"control.sampling_period over the period of the force",
      "",
      {"control.sampling_period", "excitation.frequency", "wind.speed", "wind.diameter"},

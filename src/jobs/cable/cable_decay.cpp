@@ -1,5 +1,9 @@
 #include "jobs/cable/cable_decay.hpp"
 
+#include <cmath>
+#include <utility>
+
+#include "case/needed.hpp"
 #include "holdfast/plant/free_decay.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -11,6 +15,21 @@
 #endif
 
 namespace holdfast::program {
+
+CableElements elements_of(const Case& the_case, int elements, AbsorberReading reading) {
+  const auto known_or_zero = [](double value) { return std::isnan(value) ? 0.0 : value; };
+  const auto& plant = the_case.plant;
+  if (reading == AbsorberReading::spring_mass)
+    require_keys(the_case, {"plant.absorber_stiffness", "plant.absorber_damping"});
+  const HangingAbsorber absorber{reading, known_or_zero(the_case.absorber.mass),
+                                 known_or_zero(plant.absorber_stiffness),
+                                 known_or_zero(plant.absorber_damping)};
+  const Conductor<double> conductor = conductor_of(the_case);
+  const auto& [first, second] = std::pair(needed(the_case, "reduction.first_frequency"),
+                                          needed(the_case, "reduction.second_frequency"));
+  return {conductor, needed(the_case, "absorber.position"), elements, absorber,
+          rayleigh_damping(conductor.damping_ratio, first, second)};
+}
 
 CableDecayOptions usual_decay(const Case& the_case) {
   const double period = 1.0 / the_case.reduction.first_frequency;
@@ -68,6 +87,7 @@ bool has_sundials() { return true; }
 void require_sundials() {}
 
 CableDecay cable_decay(const Case& the_case, const CableDecayOptions& options) {
+  require_keys(the_case, {"absorber.mass", "conductor.damping_ratio"});
   require_force_within_statics(the_case, options.force);
   require_followable(the_case, options);
   return decay_of(elements_of(the_case, options.elements, options.reading), options);

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
+#include "case/needed.hpp"
 #include "io/text/text.hpp"
 #include "jobs/cable/cable_decay.hpp"
 #include "process/errors.hpp"
@@ -20,13 +22,15 @@ namespace holdfast::program {
 namespace {
 
 CableElements driven_elements_of(const Case& the_case, int elements) {
+  require_keys(the_case, {"absorber.position", "plant.absorber_mass", "plant.absorber_stiffness",
+                          "plant.absorber_damping"});
   const auto& plant = the_case.plant;
   const HangingAbsorber absorber{AbsorberReading::spring_mass, plant.absorber_mass,
                                  plant.absorber_stiffness,     plant.absorber_damping,
                                  the_case.absorber.clamp_mass, the_case.absorber.motion == "plane"};
   const auto& [first, second] = the_case.conductor.rayleigh_frequencies;
   return {conductor_of(the_case), the_case.absorber.position, elements, absorber,
-          rayleigh_damping(the_case.conductor.damping_ratio, first, second)};
+          rayleigh_damping(damping_ratio_of(the_case), first, second)};
 }
 
 /// The elements at rest, the absorber's place displaced by z1 (m) under a force; by the secant.

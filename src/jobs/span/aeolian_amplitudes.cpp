@@ -8,6 +8,15 @@
 
 namespace holdfast::program {
 
+namespace {
+
+TautString<double> string_in_wind(const Case& the_case) {
+  require_diameter(the_case, "the vibration in the wind");
+  return string_of(the_case);
+}
+
+}  // namespace
+
 double taken_by_devices(const TautString<double>& string, double angular_frequency,
                         const std::array<EndResponse, 2>& ends) {
   double taken = 0.0;
@@ -27,15 +36,13 @@ double sharpest_angle(const std::array<EndResponse, 2>& ends) {
 }
 
 AeolianBalance::AeolianBalance(const Case& the_case, bool controlled)
-    : string_(string_of(the_case)),
+    : string_(string_in_wind(the_case)),
       diameter_(the_case.conductor.diameter),
       strouhal_(strouhal_of(the_case)),
       wind_share_(turbulent_share(the_case.site.turbulence_intensity)),
       losses_(loss_laws_of(the_case)),
       bending_(clamp_bending_of(the_case)),
-      devices_(span_devices_of(the_case, controlled)) {
-  require_diameter(the_case, "the vibration in the wind");
-}
+      devices_(span_devices_of(the_case, controlled)) {}
 
 double AeolianBalance::outer_wire_modulus() const {
   return bending_ ? bending_->outer_wire_modulus : std::nan("");

@@ -105,7 +105,8 @@ std::vector<ModeRow> rows_of_span(const Case& the_case, int count, bool controll
 double ModeRow::damping() const { return -root.real() / std::abs(root); }
 
 std::vector<ModeRow> mode_rows_of(const Case& the_case, int count, bool controlled) {
-  if (!the_case.devices.empty()) return rows_of_span(the_case, count, controlled);
+  if (!the_case.devices.empty() || (the_case.stands_alone && !has_absorber(the_case)))
+    return rows_of_span(the_case, count, controlled);
   if (is_two_masses(the_case) || is_infinite(the_case))
     throw WrongInput(
         std::string("modal-damping is of the conductor's modes, and the case's plant ") +
@@ -151,9 +152,10 @@ const case_tables::Device& charted_device(const Case& the_case, int number) {
 }
 
 void require_on_span(const Case& the_case, const Axis& positions, const Axis& dampings) {
-  if (!(positions.min > 0.0 && positions.max < the_case.conductor.span))
+  const double span = string_of(the_case).span;
+  if (!(positions.min > 0.0 && positions.max < span))
     throw WrongInput("--position: places must lie inside the span, between 0 and " +
-                     format_number(the_case.conductor.span) + " m");
+                     format_number(span) + " m");
   if (!(dampings.min >= 0.0)) throw WrongInput("--damping: must be at least 0 N s/m");
 }
 

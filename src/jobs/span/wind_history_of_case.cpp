@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/model/cable_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "io/text/text.hpp"
@@ -26,10 +27,10 @@ WindHistorySetting setting_of(const Case& the_case, bool controlled, double freq
   setting.wind.intensity = the_case.site.turbulence_intensity;
   setting.force = WakeOscillatorLaw{};
   const bool is_stranded = std::isfinite(the_case.conductor.rated_strength);
+  setting.string.damping_ratio = is_stranded ? 0.0 : damping_ratio_of(the_case);
   if (is_stranded) {
     setting.rated_strength = the_case.conductor.rated_strength;
     setting.self_damping = self_damping_laws[0];
-    setting.string.damping_ratio = 0.0;
   }
   const double first = setting.string.wave_speed() / (2.0 * setting.string.span);
   const double nearest = std::max(1.0, std::round(frequency / first));

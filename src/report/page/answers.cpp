@@ -22,6 +22,7 @@
 #include "report/page/html.hpp"
 #include "report/page/motions.hpp"
 #include "report/page/vibration.hpp"
+#include "report/span/span_answers.hpp"
 #include "report/switching/switching_study.hpp"
 
 namespace holdfast::program {
@@ -351,6 +352,11 @@ Answer what_motion(const MotionRow& row) {
 
 std::vector<Answer> answers_of(const JobContext& context) {
   const Case& the_case = context.case_data;
+  if (!has_active_absorber(the_case)) return span_answers(context);
+  if (!the_case.devices.empty())
+    throw WrongInput(
+        "answers about a computer know its absorber alone, and the case has [[device]] beside it: "
+        "take the devices away, or ask report --for span");
   const Question question = question_about(the_case, context.instructions);
   std::vector<Answer> answers;
   if (!context.doubts.empty()) answers.push_back(what_is_doubtful(context.doubts));

@@ -17,8 +17,8 @@ struct Answer {
 
 /// What is doubtful of the case, where something is; does control help, which D, how slow a
 /// computer, how much play, what motion, does it hold on the conductor itself: for the case as it
-/// is, switching at samples. A question that the case does not let be answered says why. Throws
-/// Interrupted.
+/// is, switching at samples; of a span without an absorber span_answers(). A question that the case
+/// does not let be answered says why. Throws Interrupted.
 std::vector<Answer> answers_of(const JobContext& context);
 
 }  // namespace holdfast::program

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "case/case_file.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/loop_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "explorer/explorer_page.hpp"
 #include "io/file/output.hpp"
@@ -62,7 +62,8 @@ bool write_explorer(const JobContext& context, const fs::path& folder) {
 
 void write_report(const JobContext& context, const Arguments& case_arguments,
                   const CommandRunner& run) {
-  require_absorber(context.case_data);
+  require_loop_keys(context.case_data);
+  excitation_of(context.case_data);
   const bool builtin = is_builtin(context.case_data);
   const fs::path folder = *context.output;
   // Refuses loops that are too stiff.

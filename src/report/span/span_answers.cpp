@@ -180,7 +180,7 @@ std::string taken_text(const Case& the_case, const SpanEnd& end, const std::stri
 
 Answer what_devices_take(const Case& the_case, const Axis& axis) {
   const auto devices = span_devices_of(the_case);
-  const auto ends = span_ends(devices, the_case.conductor.span);
+  const auto ends = span_ends(devices, string_of(the_case).span);
   const Values values = {{"frequencies", frequencies_text(axis)},
                          {"end", ends[0].devices.empty() ? "right" : "left"}};
   return answered(question_of("taken", values), [&](Answer& answer) {

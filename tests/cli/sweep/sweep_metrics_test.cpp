@@ -187,8 +187,11 @@ TEST(SweepMetrics, AreWhatTheOtherJobsSayWhereForcingAndSamplingNeverCoincide) {
 TEST(SweepMetrics, FollowTheWindAndTheConductorThatThePlantIsMadeFrom) {
   const TemporaryFolder folder;
   write_text(folder / "cable.toml",
-             "[conductor]\nspan = 6.4\n[wind]\nspeed = 1.0\ndiameter = 0.02\n"
-             "effective_length = 5.0\n[control]\nproportional_gain = \"tuned\"\n");
+             "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
+             "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\n"
+             "position = 0.64\n[wind]\nspeed = 1.0\ndiameter = 0.02\n"
+             "effective_length = 5.0\n[control]\nproportional_gain = \"tuned\"\n"
+             "differential_gain = -13\nsampling_period = 0.001\n[backlash]\nwidth = 0.0005\n");
   const std::string common = "--case '" + (folder / "cable.toml").string() + "'";
   const CsvTable sweep =
       table_of("sweep --axis wind.speed=0.9,1.1 --axis absorber.mass=0.15,0.16 " + common +
@@ -200,7 +203,12 @@ TEST(SweepMetrics, FollowTheWindAndTheConductorThatThePlantIsMadeFrom) {
 
 TEST(SweepMetrics, OfAReducedPlantAreThoseOfTheCaseWithOneValueSet) {
   const TemporaryFolder folder;
-  write_text(folder / "line.toml", "[conductor]\nspan = 6.4\n");
+  write_text(folder / "line.toml",
+             "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
+             "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\n"
+             "position = 0.64\n[control]\nproportional_gain = -557\n"
+             "differential_gain = -13\nsampling_period = 0.001\n[backlash]\nwidth = 0.0005\n"
+             "[excitation]\namplitude = 0.5\nfrequency = 10\n");
   const std::string common = "--case '" + (folder / "line.toml").string() + "'";
   const CsvTable sweep = table_of("sweep --axis plant.absorber_damping=3,4 " + common +
                                   every_metric + " --duration 2");

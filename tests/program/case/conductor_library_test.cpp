@@ -198,8 +198,10 @@ TEST(ConductorName, AnotherNameGoesOverItAndNoneTakesItAway) {
   const std::string text = "[conductor]\nname = \"Drake\"\n";
   EXPECT_EQ(from_text(text, {"conductor.name=hawk"}).conductor.area, find_conductor("Hawk")->area);
   const Case none = from_text(text, {"conductor.name=\"\""});
-  EXPECT_EQ(case_to_json(none), case_to_json(load_case(std::nullopt, {})));
-  EXPECT_FALSE(none.conductor_given);
+  EXPECT_TRUE(none.stands_alone && std::isnan(none.conductor.area));
+  const Case builtin = load_case(std::nullopt, {"conductor.name=Drake", "conductor.name=\"\""});
+  EXPECT_EQ(case_to_json(builtin), case_to_json(load_case(std::nullopt, {})));
+  EXPECT_FALSE(builtin.conductor_given);
 }
 
 TEST(ConductorName, ItsMassCountsInTheSagOfATension) {
@@ -251,19 +253,19 @@ TEST(ConductorName, NamesWithBlanksNeedNoQuotesOfTheirOwnInAnOverride) {
 }
 
 TEST(ConductorName, AFaultOfItsValuesIsLaidToItUnlessAnOverrideIsLater) {
-  const std::string text = "[conductor]\nname = \"Akron\"\n";
+  const std::string text = "[conductor]\nname = \"Akron\"\nspan = 6.4\n";
   EXPECT_TRUE(holds(refusal(text + "sag = 1e-9\n"), "case.toml:"));
   EXPECT_EQ(refusal(text, {"conductor.sag=1e-9"}).rfind("--set conductor.sag=1e-9: ", 0), 0U);
 }
 
-TEST(ConductorName, ThatFillsNothingIsDoubted) {
+TEST(ConductorName, ThatIsContradictedIsDoubted) {
   const std::string written = case_to_toml(from_text(span_of(*find_conductor("Drake"))));
-  EXPECT_EQ(idle_name_text(from_text(written)), "");
-  const std::string text = idle_name_text(from_text(written, {"conductor.name=Hawk"}));
-  EXPECT_EQ(text.rfind("--set conductor.name=Hawk: conductor.name = \"Hawk\" fills nothing", 0), 0U)
+  EXPECT_EQ(contradicted_name_text(from_text(written)), "");
+  const std::string text = contradicted_name_text(from_text(written, {"conductor.name=Hawk"}));
+  EXPECT_EQ(text.rfind("--set conductor.name=Hawk: values beside conductor.name = \"Hawk\"", 0), 0U)
       << text;
   EXPECT_TRUE(holds(text, "conductor.mass_per_length 1.628 instead of 0.975")) << text;
-  EXPECT_EQ(idle_name_text(load_case(std::nullopt, {"conductor.name=Hawk"})), "");
+  EXPECT_EQ(contradicted_name_text(load_case(std::nullopt, {"conductor.name=Hawk"})), "");
 }
 
 const std::string wind = "[wind]\nspeed = 3.0\neffective_length = 2.0\n";

@@ -268,8 +268,8 @@ TEST(Devices, OverridesThatMeetNoDeviceAreRefused) {
   EXPECT_EQ(override_refusal({"device.1.kind="}), "--set device.1.kind=: expected key=value");
   EXPECT_TRUE(holds(override_refusal({"device.1.kind=dashpot"}),
                     "--set device.1.kind=dashpot: device.1: position is missing"));
-  EXPECT_TRUE(holds(override_refusal({"device.1.kind=dashpot", "device.1.position=3 m"}),
-                    "a number stands alone"));
+  EXPECT_TRUE(holds(override_refusal({"device.1.kind=dashpot", "device.1.position=3 kg"}),
+                    "kg is no unit of it: it may be in m, mm"));
 }
 
 TEST(Devices, AShorterSpanLeavesThemOutside) {

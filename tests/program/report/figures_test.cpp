@@ -23,8 +23,13 @@ Case case_of(const std::string& text) {
 constexpr const char* stay =
     "[conductor]\nmass_per_length = 60\nspan = 100\nsag = 0.184\narea = 0.006\n"
     "youngs_modulus = 1.95e11\ndamping_ratio = 0.001\n[absorber]\nmass = 30\nposition = 3\n"
-    "[control]\nproportional_gain = \"tuned\"\ndifferential_gain = -1000\n";
-constexpr const char* span = "[conductor]\nmass_per_length = 0.0654\n";
+    "[control]\nproportional_gain = \"tuned\"\ndifferential_gain = -1000\n"
+    "sampling_period = 0.001\n[excitation]\namplitude = 0.5\nfrequency = 10\n";
+constexpr const char* span =
+    "[conductor]\nmass_per_length = 0.0654\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
+    "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\nposition = 0.64\n"
+    "[control]\nproportional_gain = -557\ndifferential_gain = -13\nsampling_period = 0.001\n"
+    "[excitation]\namplitude = 0.5\nfrequency = 10\n";
 
 std::string decay_caption(const Case& the_case) {
   for (const Figure& figure : figures_of(the_case, false))

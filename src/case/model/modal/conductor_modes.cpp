@@ -7,6 +7,8 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/needed.hpp"
 #include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/cable/elements.hpp"
 #include "process/errors.hpp"
@@ -14,6 +16,18 @@
 
 namespace holdfast::program {
 namespace {
+
+/// All that the modes are asked for with, at once: they are seen by an absorber and its computer.
+void require_all(const Case& the_case) {
+  require_absorber(the_case);
+  std::vector<std::string> keys = {
+      "conductor.mass_per_length", "conductor.span",           "conductor.sag",
+      "conductor.damping_ratio",   "absorber.position",        "plant.absorber_stiffness",
+      "plant.absorber_damping",    "control.sampling_period"};
+  if (is_cable(the_case))
+    keys.insert(keys.begin() + 3, {"conductor.area", "conductor.youngs_modulus"});
+  require_keys(the_case, keys);
+}
 
 /// Of what is chosen.
 constexpr int fewest_modes = 60, most_modes_of_string = 300, most_modes_of_cable = 200;
@@ -116,11 +130,13 @@ ConductorModes all_modes_of_string(const Case& the_case, int apart) {
 
 /// One mass under its own spring and dashpot, or a string without ends.
 ConductorModes one_mode_of(const Case& the_case) {
-  if (is_infinite(the_case))
+  if (is_infinite(the_case)) {
+    require_keys(the_case, {"control.sampling_period"});
     return {{infinite_string_mode(string_of(the_case).wave_impedance(),
                                   the_case.absorber.clamp_mass, the_case.control.sampling_period)},
             1};
-  const auto& plant = the_case.plant;
+  }
+  const TwoMass<double> plant = plant_of(the_case);
   const double omega = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
   return {{{omega, plant.conductor_damping / (2.0 * omega * plant.conductor_mass), 1.0,
             plant.conductor_mass}},
@@ -134,8 +150,12 @@ double ConductorModes::highest_frequency() const {
 }
 
 TautString<double> string_of(const Case& the_case) {
-  TautString<double> string = taut_string(conductor_of(the_case));
-  if (std::isfinite(the_case.conductor.tension)) string.tension = the_case.conductor.tension;
+  require_keys(the_case, {"conductor.mass_per_length", "conductor.span", "conductor.sag"});
+  const auto& conductor = the_case.conductor;
+  const double ratio = std::isnan(conductor.damping_ratio) ? 0.0 : conductor.damping_ratio;
+  TautString<double> string{
+      std::isfinite(conductor.tension) ? conductor.tension : parabolic_tension_of(the_case),
+      conductor.mass_per_length, conductor.span, ratio};
   string.bending_stiffness = is_cable(the_case) ? 0.0 : the_case.conductor.bending_stiffness;
   return string;
 }
@@ -144,13 +164,15 @@ double bare_damping_of(const Case& the_case, double angular_frequency) {
   const auto& conductor = the_case.conductor;
   const bool rayleigh =
       conductor.damping == "rayleigh" || (conductor.damping == "chosen" && is_cable(the_case));
-  if (!rayleigh) return conductor.damping_ratio;
+  const double ratio = damping_ratio_of(the_case);
+  if (!rayleigh) return ratio;
   const auto& [first, second] = conductor.rayleigh_frequencies;
-  return rayleigh_damping(conductor.damping_ratio, first, second).damping_ratio(angular_frequency);
+  return rayleigh_damping(ratio, first, second).damping_ratio(angular_frequency);
 }
 
 ConductorModes all_conductor_modes_of(const Case& the_case, int apart) {
   if (is_two_masses(the_case) || is_infinite(the_case)) return one_mode_of(the_case);
+  require_all(the_case);
   return is_cable(the_case) ? all_modes_of_cable(the_case, apart, bars_of(the_case, apart))
                             : all_modes_of_string(the_case, apart);
 }
@@ -171,6 +193,7 @@ ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conduc
 
 ConductorModes conductor_modes_of(const Case& the_case) {
   if (is_two_masses(the_case) || is_infinite(the_case)) return one_mode_of(the_case);
+  require_all(the_case);
   if (!std::isfinite(the_case.plant.modes))
     return all_conductor_modes_of(the_case, chosen_modes(the_case));
   const int modes = static_cast<int>(the_case.plant.modes);

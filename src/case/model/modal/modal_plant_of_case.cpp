@@ -7,6 +7,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/own/own_parts.hpp"
 #include "case/model/span/span_loop.hpp"
+#include "case/needed.hpp"
 #include "holdfast/control/late_controller.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
@@ -21,6 +22,7 @@ namespace holdfast::program {
 
 void require_absorber(const Case& the_case) {
   if (has_absorber(the_case)) return;
+  require_keys(the_case, {"plant.absorber_mass"});
   const auto place = the_case.places.find("plant.absorber_mass");
   const bool in_file = place != the_case.places.end() && place->second.rfind("--set", 0) != 0;
   throw WrongInput((in_file ? place->second + ": " : "") +
@@ -31,6 +33,7 @@ void require_absorber(const Case& the_case) {
 Absorber<double> absorber_of(const Case& the_case) {
   const auto& plant = the_case.plant;
   require_absorber(the_case);
+  require_keys(the_case, {"plant.absorber_stiffness", "plant.absorber_damping"});
   // Of a string without ends the clamp is the mode's own mass; one mass has none.
   const bool clamped = !is_two_masses(the_case) && !is_infinite(the_case);
   return {plant.absorber_mass, plant.absorber_stiffness, plant.absorber_damping,

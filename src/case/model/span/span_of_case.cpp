@@ -5,9 +5,11 @@
 #include <variant>
 
 #include "case/device/impedance_table.hpp"
+#include "case/model/cable_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "case/needed.hpp"
 #include "holdfast/span/wind/self_damping_law.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -40,6 +42,11 @@ double stiffness_at_rest(const SpanDevice& device) {
 }  // namespace
 
 std::string absent_absorber_note(const Case& the_case) {
+  const auto& control = the_case.control;
+  const bool has_gains = control.proportional_gain_tuned || control.proportional_gain != 0.0 ||
+                         control.differential_gain != 0.0;
+  if (the_case.stands_alone && !has_absorber(the_case) && has_gains)
+    return "the gains of [control] drive nothing: the case gives no absorber (absorber.mass, kg)";
   if (has_active_absorber(the_case) || !has_absorber(the_case)) return "";
   return "the built-in absorber and its computer are of another cable and do not count here: give "
          "[absorber], plant.absorber_mass or [control] to have one";
@@ -72,6 +79,7 @@ SpanDevice span_device_of(const case_tables::Device& device) {
 }
 
 SpanDevice active_device_of(const Case& the_case, bool controlled) {
+  require_keys(the_case, {"absorber.position"});
   // Of two masses the clamp mass is part of the conductor's; on the conductor it is not.
   Absorber<double> absorber = absorber_of(the_case);
   absorber.clamp_mass = the_case.absorber.clamp_mass;
@@ -86,7 +94,7 @@ std::vector<SpanDevice> span_devices_of(const Case& the_case, bool controlled) {
   for (const case_tables::Device& device : the_case.devices)
     devices.push_back(span_device_of(device));
   if (has_active_absorber(the_case)) devices.push_back(active_device_of(the_case, controlled));
-  return in_order(std::move(devices), the_case.conductor.span);
+  return in_order(std::move(devices), string_of(the_case).span);
 }
 
 bool comes_back(const TautString<double>& string, const std::vector<SpanDevice>& devices,
@@ -119,19 +127,21 @@ void require_measured(const Case& the_case, double lowest, double highest) {
 
 void require_diameter(const Case& the_case, const std::string& job) {
   if (std::isfinite(the_case.conductor.diameter)) return;
-  throw WrongInput(job +
-                   " needs the conductor's outside diameter, by which the wind sheds its vortices: "
-                   "give conductor.diameter, or conductor.name of one in the library (holdfast "
-                   "conductors --find TEXT)");
+  throw MissingKeys(
+      job +
+      " needs the conductor's outside diameter, by which the wind sheds its vortices: "
+      "give conductor.diameter (m), or conductor.name of one in the library (holdfast "
+      "conductors --find TEXT)");
 }
 
 std::vector<LossLaw> loss_laws_of(const Case& the_case) {
   const auto& conductor = the_case.conductor;
   const TautString<double> string = string_of(the_case);
   if (!std::isfinite(conductor.rated_strength) || !std::isfinite(conductor.diameter))
-    return {{"damping_ratio", [string](double frequency, double amplitude) {
-               return damped_power(string.mass_per_length, string.damping_ratio,
-                                   2.0 * pi<double> * frequency, amplitude);
+    return {{"damping_ratio",
+             [string, ratio = damping_ratio_of(the_case)](double frequency, double amplitude) {
+               return damped_power(string.mass_per_length, ratio, 2.0 * pi<double> * frequency,
+                                   amplitude);
              }}};
   const StrandedConductor strand{conductor.mass_per_length, conductor.diameter,
                                  conductor.rated_strength, string.tension};
