@@ -144,7 +144,8 @@ void examine(JobContext& context, bool needs_plant, bool needs_gains) {
         doubts_about(context.case_data, in_question(context.case_data, quantities_of_case())));
   doubt(context, {contradicted_conductor_text(context.case_data)});
   doubt(context, {contradicted_name_text(context.case_data)});
-  doubt(context, phase_doubts(context.case_data));
+  doubt(context, impedance_doubts(context.case_data));
+  doubt(context, {record_doubt(context.case_data)});
   if (needs_plant) doubt(context, {borrowed_damping_text(context.case_data)});
   if (needs_plant) settle(context);
   // What follows from one mistake in the plant would look like another.

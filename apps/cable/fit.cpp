@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 
@@ -130,6 +131,39 @@ std::string unit_warning(const std::string& file, const DecayRecord& record, con
          " m: is it in mm, " + format_rounded(1e-3 * largest) + " m?";
 }
 
+/// Rows in which half a period of the conductor is not seen are likely in milliseconds.
+std::string time_warning(const std::string& file, const DecayRecord& record,
+                         const TwoMass<double>& plant) {
+  const double half = pi<double> * std::sqrt(plant.conductor_mass / plant.conductor_stiffness);
+  const double usual = usual_step(record.times);
+  if (!(usual > half)) return "";
+  return file + ": its rows are " + format_rounded(usual) + " s apart, where the conductor has a " +
+         "period of " + format_rounded(2.0 * half) + " s: is time_s in ms?";
+}
+
+/// A fit to the rows does not mind a gap, in which an extreme may be missed.
+std::string gap_warning(const std::string& file, const DecayRecord& record,
+                        const fit::DecayFitOptions& question) {
+  const std::string gap = gap_text(record.times);
+  if (gap.empty()) return "";
+  if (fit::is_measured(question.target))
+    throw WrongInput(file + ": " + gap +
+                     ", in which a peak may be missed; --target history is fitted to the rows that "
+                     "are there");
+  return file + ": " + gap + "; the fit is to the rows that are there";
+}
+
+/// The record of a file, with what is doubtful of it.
+DecayRecord record_of(const std::string& file, const JobContext& context,
+                      const TwoMass<double>& plant, const fit::DecayFitOptions& question) {
+  DecayRecord record = read_decay_file(file);
+  for (const std::string& warning :
+       {unit_warning(file, record, context.case_data), time_warning(file, record, plant),
+        gap_warning(file, record, question)})
+    report_warning(warning, context.quiet);
+  return record;
+}
+
 /// All minima; where nothing but the case is given, those of `reduce`.
 std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitQuestion& options,
                                          fit::DecayFitOptions& question) {
@@ -142,10 +176,8 @@ std::vector<fit::DecayMinimum> minima_of(const JobContext& context, const FitQue
     report_warning(misfit_warning(found), context.quiet);
     return found.fit.minima;
   }
-  const DecayRecord record =
-      options.data ? read_decay_file(*options.data) : record_for_fit(context.case_data);
-  if (options.data)
-    report_warning(unit_warning(*options.data, record, context.case_data), context.quiet);
+  const DecayRecord record = options.data ? record_of(*options.data, context, plant, question)
+                                          : record_for_fit(context.case_data);
   const auto minima = fit_record(record, plant, question).minima;
   if (!fit::is_measured(question.target))
     report_warning(course_warning(minima.front(), record), context.quiet);

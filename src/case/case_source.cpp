@@ -7,6 +7,7 @@
 #include "case/model/own/own_parts.hpp"
 #include "holdfast/excitation/recorded_force.hpp"
 #include "io/text/record_file.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 
@@ -44,6 +45,23 @@ Case CaseSource::load(const std::vector<std::string>& further) const {
   require_consistent(loaded);
   attach_tables(loaded);
   return loaded;
+}
+
+std::string record_doubt(const Case& the_case) {
+  if (the_case.force_record == nullptr) return "";
+  constexpr double many = 300.0;  // sampling periods
+  constexpr std::size_t a_series = 10;
+  const std::vector<double>& times = the_case.force_record->times();
+  const double usual = usual_step(times), first = times.front();
+  const double periods = usual / the_case.control.sampling_period;
+  std::string said = gap_text(times);
+  const auto add = [&](const std::string& more) { said += (said.empty() ? "" : "; ") + more; };
+  if (first > 1.5 * usual)
+    add("its first row is at " + format_rounded(first) + " s, and before there is no force");
+  if (periods > many && times.size() >= a_series)
+    add("its rows are " + format_rounded(usual) + " s apart, " + format_rounded(periods) +
+        " sampling periods: is time_s in ms?");
+  return said.empty() ? "" : the_case.excitation.record + ": " + said;
 }
 
 }  // namespace holdfast::program

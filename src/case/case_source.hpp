@@ -37,4 +37,8 @@ struct CaseSource {
   void attach_tables(Case& the_case) const;
 };
 
+/// What is said of a recorded force that begins after 0, has a gap or has rows hundreds of sampling
+/// periods apart, as where its time is in ms; empty of any other.
+std::string record_doubt(const Case& the_case);
+
 }  // namespace holdfast::program

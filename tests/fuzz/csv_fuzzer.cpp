@@ -13,11 +13,15 @@ namespace {
 using namespace holdfast::program;
 using holdfast::fuzz::require;
 
+/// All in quotes: nothing in them separates or begins a comment.
 std::string line_of(const std::vector<std::string>& cells) {
   std::string line;
-  for (std::size_t k = 0; k < cells.size(); ++k) line += (k == 0 ? "" : ",") + csv_cell(cells[k]);
-  // An empty cell alone on its line would read as a blank line.
-  return (line.empty() ? "\"\"" : line) + "\r\n";
+  for (const std::string& cell : cells) {
+    line += line.empty() ? "\"" : ",\"";
+    for (const char character : cell) line += character == '"' ? "\"\"" : std::string(1, character);
+    line += '"';
+  }
+  return line + "\r\n";
 }
 
 std::vector<std::vector<std::string>> rows_of(const CsvTable& table) {

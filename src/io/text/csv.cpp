@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "io/file/input.hpp"
@@ -15,7 +17,7 @@ namespace {
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
 bool needs_quotes(std::string_view text) {
-  return text.find_first_of(",\"\r\n") != std::string_view::npos;
+  return begins_with(text, "#") || text.find_first_of(",\"\r\n") != std::string_view::npos;
 }
 
 void append_quoted(std::string& buffer, std::string_view text) {
@@ -99,23 +101,55 @@ struct CsvRow {
   std::size_t line = 0;
 };
 
-/// Takes rows off the front of a CSV text.
+/// The first of comma, semicolon and tab that stands outside quotes in the first line.
+char separator_of(std::string_view text) {
+  constexpr std::string_view known = ",;\t";
+  bool quoted = false;
+  std::size_t first = known.size();
+  for (const char character : text) {
+    if (character == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (character == '\r' || character == '\n') break;
+    first = std::min(first, known.find(character));
+  }
+  return known[first % known.size()];
+}
+
+/// Takes rows off the front of a CSV text, over blank lines and comments.
 class CsvScanner {
  public:
   CsvScanner(std::string_view text, const std::string& name) : text_(text), name_(name) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text_.substr(0, 3) == byte_order_mark) position_ = 3;
+    const std::string_view wide = text_.substr(0, 2);
+    if (wide == "\xFF\xFE" || wide == "\xFE\xFF") refuse("is UTF-16; save it as UTF-8");
+  }
+
+  char separator() const { return separator_; }
+
+  /// The names of the columns; where the first line has numbers already, of the comment before it.
+  std::vector<std::string> header() {
+    skip_idle_lines();
+    const std::string_view rest = text_.substr(position_);
+    if (!comment_.empty() && rest.find_first_of("+-.0123456789") == 0) {
+      separator_ = separator_of(comment_);
+      return CsvScanner(comment_, name_).header();
+    }
+    separator_ = separator_of(rest);
+    std::vector<std::string> names = next_row().cells;
+    for (std::string& name : names) name = trimmed(name);
+    while (!names.empty() && names.back().empty()) names.pop_back();
+    return names;
   }
 
   CsvRow next_row() {
-    while (take_line_end()) {
-    }
+    skip_idle_lines();
     CsvRow row;
     row.line = line_;
     if (at_end()) return row;
     do {
       row.cells.push_back(next_cell());
-    } while (take(','));
+    } while (take(separator_));
     if (!at_end() && !take_line_end()) refuse("text after a closing quote");
     return row;
   }
@@ -140,9 +174,33 @@ class CsvScanner {
     return carriage_return || line_feed;
   }
 
+  void skip_idle_lines() {
+    while (take_line_end() || take('#')) {
+      if (text_[position_ - 1] != '#') continue;
+      comment_ = text_.substr(position_, end_of_cell("\r\n") - position_);
+      position_ += comment_.size();
+    }
+  }
+
+  std::size_t end_of_cell(std::string_view ends) const {
+    return std::min(text_.find_first_of(ends, position_), text_.size());
+  }
+
+  void skip_blanks() {
+    position_ = std::min(text_.find_first_not_of(' ', position_), text_.size());
+  }
+
+  /// Blanks may stand about the quotes of a cell.
   std::string next_cell() {
-    if (take('"')) return quoted_cell();
-    const std::size_t end = std::min(text_.find_first_of(",\r\n", position_), text_.size());
+    const std::size_t begin = position_;
+    skip_blanks();
+    if (take('"')) {
+      std::string cell = quoted_cell();
+      skip_blanks();
+      return cell;
+    }
+    position_ = begin;
+    const std::size_t end = end_of_cell(std::string{separator_, '\r', '\n'});
     std::string cell(text_.substr(position_, end - position_));
     if (cell.find('"') != std::string::npos) refuse("a quote inside a cell without quotes");
     position_ = end;
@@ -172,7 +230,48 @@ class CsvScanner {
   const std::string& name_;
   std::size_t position_ = 0;
   std::size_t line_ = 1;
+  std::string_view comment_;  // the last one
+  char separator_ = ',';
 };
+
+/// "0,5" as "0.5"; nothing where that is no number.
+std::optional<std::string> with_point(std::string cell) {
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  cell[comma] = '.';
+  if (!parse_number(trimmed(cell))) return std::nullopt;
+  return cell;
+}
+
+/// Whether the comma may be one of thousands, as in "1,234".
+bool may_be_grouped(std::string_view cell) {
+  const std::size_t comma = cell.find(',');
+  return comma >= 1 && comma <= 3 && cell.front() != '0' && cell.size() == comma + 4;
+}
+
+/// Makes points of the decimal commas in a table whose cells stand between semicolons or tabs.
+/// Throws WrongInput where they may be others.
+void take_decimal_commas(std::vector<std::string>& cells, char separator, const std::string& file) {
+  bool has_comma = false, has_point = false, is_decimal = separator == ';';
+  for (std::string& cell : cells) {
+    const bool is_number = parse_number(trimmed(cell)).has_value();
+    has_point = has_point || (is_number && cell.find('.') != std::string::npos);
+    const auto pointed = is_number ? std::nullopt : with_point(cell);
+    if (!pointed) continue;
+    has_comma = true;
+    is_decimal = is_decimal || !may_be_grouped(trimmed(cell));
+    cell = *pointed;
+  }
+  if (has_comma && (has_point || !is_decimal))
+    throw WrongInput(file + ": some of its numbers have commas" +
+                     (has_point ? " and some have points" : ", which may be of thousands") +
+                     "; write a decimal point, and nothing between thousands");
+}
+
+bool is_blank(const std::vector<std::string>& cells) {
+  return std::all_of(cells.begin(), cells.end(),
+                     [](const std::string& cell) { return trimmed(cell).empty(); });
+}
 
 /// Says which columns they are, not what they are called: the file may be none of the user's.
 void refuse_repeated_names(const std::vector<std::string>& names, const std::string& file) {
@@ -196,8 +295,10 @@ bool CsvTable::has(std::string_view column) const {
 std::size_t CsvTable::index(std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);
   if (found == names_.end()) {
-    throw WrongInput(name_ + ": has no column \"" + std::string(column) + "\" among its " +
-                     std::to_string(names_.size()));
+    throw WrongInput(
+        name_ + ": has no column \"" + std::string(column) + "\" among its " +
+        std::to_string(names_.size()) +
+        (names_.size() == 1 ? ": columns are told apart by commas, semicolons or tabs" : ""));
   }
   return static_cast<std::size_t>(found - names_.begin());
 }
@@ -215,13 +316,40 @@ double CsvTable::number_at(std::size_t row, std::size_t column) const {
   const std::string& cell = cells_.at(row * names_.size() + column);
   const auto value = parse_number(trimmed(cell));
   if (!value) {
-    const std::string place = name_ + ":" + std::to_string(lines_[row]) + ": ";
-    throw WrongInput(
-        place +
-        (known_ ? names_[column] + " = \"" + cell + "\"" : "column " + std::to_string(column + 1)) +
-        " is not a number");
+    throw fault(row, (known_ ? names_[column] + " = \"" + cell + "\""
+                             : "column " + std::to_string(column + 1)) +
+                         " is not a number" + (with_point(cell) ? ": write a decimal point" : ""));
   }
   return *value;
+}
+
+double CsvTable::finite(std::size_t row, const std::string& column) const {
+  if (trimmed(text(row, column)).empty()) throw fault(row, column + " is missing");
+  const double value = number(row, column);
+  if (!std::isfinite(value))
+    throw fault(row, column + " = " + format_number(value) + ": must be finite");
+  return value;
+}
+
+void CsvTable::require_rows(std::size_t fewest, const std::string& what) const {
+  if (rows() < fewest)
+    throw WrongInput(name_ + ": " + what + " needs " + std::to_string(fewest) +
+                     " rows at least, here are " + std::to_string(rows()));
+}
+
+std::vector<double> CsvTable::ascending(const std::string& column) const {
+  std::vector<double> values;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    values.push_back(finite(row, column));
+    if (row > 0 && values[row] <= values[row - 1])
+      throw fault(row, column + " = " + format_number(values[row]) + " does not come after " +
+                           format_number(values[row - 1]) + " of the row before");
+  }
+  return values;
+}
+
+WrongInput CsvTable::fault(std::size_t row, const std::string& message) const {
+  return WrongInput(name_ + ":" + std::to_string(lines_[row]) + ": " + message);
 }
 
 double CsvTable::number(std::size_t row, std::string_view column) const {
@@ -244,18 +372,24 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   CsvScanner scanner(text, name);
   CsvTable table;
   table.name_ = name;
-  table.names_ = scanner.next_row().cells;
-  if (table.names_.empty()) throw WrongInput(name + ": has no header row");
+  table.names_ = scanner.header();
+  const std::size_t width = table.names_.size();
+  if (width == 0) throw WrongInput(name + ": has no header row");
   refuse_repeated_names(table.names_, name);
   for (CsvRow row = scanner.next_row(); !row.cells.empty(); row = scanner.next_row()) {
-    if (row.cells.size() != table.names_.size()) {
-      throw WrongInput(name + ":" + std::to_string(row.line) + ": has " +
-                       std::to_string(row.cells.size()) + " cells, the header has " +
-                       std::to_string(table.names_.size()));
-    }
-    for (std::string& cell : row.cells) table.cells_.push_back(std::move(cell));
+    if (width > 1 && is_blank(row.cells)) continue;
+    while (row.cells.size() > width && trimmed(row.cells.back()).empty()) row.cells.pop_back();
     table.lines_.push_back(row.line);
+    if (row.cells.size() != width)
+      throw table.fault(table.rows() - 1,
+                        "has " + std::to_string(row.cells.size()) + " cells, the header has " +
+                            std::to_string(width) +
+                            (row.cells.size() > width && scanner.separator() == ','
+                                 ? ": where commas are decimal, semicolons tell columns apart"
+                                 : ""));
+    for (std::string& cell : row.cells) table.cells_.push_back(std::move(cell));
   }
+  if (scanner.separator() != ',') take_decimal_commas(table.cells_, scanner.separator(), name);
   return table;
 }
 

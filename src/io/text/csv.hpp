@@ -10,6 +10,7 @@
 #include "host/received_table.hpp"
 #include "io/column.hpp"
 #include "io/file/output.hpp"
+#include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
 namespace holdfast::program {
@@ -129,6 +130,15 @@ class CsvTable {
   /// Throws WrongInput with file and line for a cell that is not a number; `inf`, `nan` are.
   double number(std::size_t row, std::string_view column) const;
   std::vector<double> numbers(std::string_view column) const;
+  /// The same; throws also for an empty cell and for a number that is not finite.
+  double finite(std::size_t row, const std::string& column) const;
+  /// A column of finite numbers, each above the one before. Throws WrongInput where one is not.
+  std::vector<double> ascending(const std::string& column) const;
+  /// Throws WrongInput for fewer rows than `what` needs.
+  void require_rows(std::size_t fewest, const std::string& what) const;
+
+  /// What is wrong with a row, with file and line.
+  WrongInput fault(std::size_t row, const std::string& message) const;
 
   /// The line of the file on which a row begins, for messages.
   std::size_t line(std::size_t row) const { return lines_[row]; }
@@ -145,8 +155,11 @@ class CsvTable {
   bool known_ = false;  // it has the columns of what it was taken for
 };
 
-/// Reads a CSV file with a header row: LF or CRLF, quoted fields that may hold both, blank lines
-/// skipped. Throws WrongInput, `file:line: …`, for anything malformed or unreadable.
+/// Reads a CSV file with a header row: LF or CRLF, quoted fields that may hold both; blank lines,
+/// lines that begin with #, and separators at the end of lines count for nothing. Columns stand
+/// between commas or, where the header has none outside quotes, between semicolons or tabs; then
+/// numbers may have decimal commas. Above numbers without a header the last comment is one.
+/// Throws WrongInput, `file:line: …`, for anything malformed, ambiguous or unreadable.
 CsvTable read_csv(const std::filesystem::path& file);
 
 /// The same from a text; `name` stands for the file in messages.

@@ -4,6 +4,8 @@
 
 #include "case/case_source.hpp"
 #include "case/device/impedance_table.hpp"
+#include "holdfast/core/types.hpp"
+#include "holdfast/span/device/measured_impedance.hpp"
 #include "program/case/case_text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -319,9 +321,35 @@ TEST(ImpedanceTable, ADeviceThatWouldGivePowerIsRefusedAtItsFrequency) {
   EXPECT_TRUE(holds(message, "shaker.csv:3: at 12.5 Hz the real part of the impedance is -1.5 N"))
       << message;
   EXPECT_TRUE(holds(message, "would give power")) << message;
-  EXPECT_TRUE(holds(table_refusal(header + "5,3,-90.001\n6,3,0\n"), "at 5 Hz"));
+  EXPECT_TRUE(holds(table_refusal(header + "5,3,-91.2\n6,3,0\n"), "at 5 Hz"));
   EXPECT_EQ(read_impedance_text(header + "5,3,90\n6,0,180\n", "a").magnitude.size(), 2U)
       << "a mere mass, and nothing at all";
+}
+
+TEST(ImpedanceTable, PhasesThatMissByADegreeKeepTheImaginaryPartAlone) {
+  Case the_case = load_case(std::nullopt, {});
+  the_case.devices.resize(1);
+  the_case.devices[0].file = "shaker.csv";
+  the_case.devices[0].table = std::make_shared<const ImpedanceTable>(read_impedance_text(
+      header + "5,100,90.4\n6,100,-91\n7,100,269.5\n8,100,30\n9,0,180\n", "shaker.csv"));
+  const ImpedanceTable& table = *the_case.devices[0].table;
+  std::vector<MeasuredImpedance::Row> rows;
+  for (std::size_t k = 0; k < table.frequency.size(); ++k)
+    rows.push_back({table.frequency[k],
+                    std::polar(table.magnitude[k], table.phase_deg[k] * pi<double> / 180.0)});
+  const MeasuredImpedance device(rows);  // refuses one that gives power
+  const auto expect = [&](double frequency, double real, double imaginary) {
+    EXPECT_NEAR(device.at(frequency).real(), real, 1e-12);
+    EXPECT_NEAR(device.at(frequency).imag(), imaginary, 1e-12);
+  };
+  expect(5.0, 0.0, 100.0 * std::cos(0.4 * pi<double> / 180.0));
+  expect(6.0, 0.0, -100.0 * std::cos(1.0 * pi<double> / 180.0));
+  expect(7.0, 0.0, -100.0 * std::cos(0.5 * pi<double> / 180.0));
+  expect(8.0, 50.0 * std::sqrt(3.0), 50.0);
+  const auto doubts = impedance_doubts(the_case);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_TRUE(holds(doubts.front(), "3 row(s)") && holds(doubts.front(), "1.7452 %"))
+      << doubts.front();
 }
 
 TEST(ImpedanceTable, PhasesInRadiansAreDoubted) {
@@ -331,7 +359,7 @@ TEST(ImpedanceTable, PhasesInRadiansAreDoubted) {
     the_case.devices[0].file = "shaker.csv";
     the_case.devices[0].table =
         std::make_shared<const ImpedanceTable>(read_impedance_text(header + rows, "shaker.csv"));
-    return phase_doubts(the_case);
+    return impedance_doubts(the_case);
   };
   EXPECT_TRUE(doubts("5,3,0\n6,3,0.2\n").empty());
   EXPECT_TRUE(doubts("5,3,-20\n6,3,1.5\n").empty());

@@ -1,5 +1,9 @@
 #include "io/text/record_file.hpp"
 
+#include "case/case_file.hpp"
+#include "case/case_source.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
+
 #include "process/errors.hpp"
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
@@ -64,6 +68,33 @@ TEST(ForceRecordFile, RefusesWhatIsNoRecord) {
             "force.csv: has no column \"force_N\" among its 2");
   EXPECT_EQ(force_refusal("t,force_N\n0,1\n1,2\n"),
             "force.csv: has no column \"time_s\" among its 2");
+}
+
+/// What is doubted of a record of 100 rows, `step` s apart from `first` on, with one row later by
+/// `gap` (s) and all after it.
+std::string doubt_of(double first, double step, double gap) {
+  std::vector<double> times;
+  for (int k = 0; k < 100; ++k) times.push_back(first + step * k + (k > 40 ? gap : 0.0));
+  Case the_case = load_case(std::nullopt, {});
+  the_case.excitation.record = "force.csv";
+  the_case.force_record = std::make_shared<const RecordedForce>(
+      times, std::vector<double>(times.size(), 1.0), RecordInterpolation::linear);
+  return record_doubt(the_case);
+}
+
+TEST(ForceRecord, IsDoubtedForAGapALateStartAndTimeInMilliseconds) {
+  const auto expect = [](const std::string& doubt, const std::string& part) {
+    EXPECT_EQ(doubt.rfind("force.csv: ", 0), 0U) << doubt;
+    EXPECT_NE(doubt.find(part), std::string::npos) << doubt;
+  };
+  EXPECT_EQ(doubt_of(0.0, 0.01, 0.0), "");
+  EXPECT_EQ(doubt_of(0.01, 0.01, 0.0), "");
+  EXPECT_EQ(doubt_of(-3.0, 0.01, 0.005), "");
+  expect(doubt_of(0.0, 0.01, 0.8), "a gap of 0.81 s after 0.4 s");
+  expect(doubt_of(2.0, 0.01, 0.0), "its first row is at 2 s, and before there is no force");
+  expect(doubt_of(0.0, 10.0, 0.0), "10000 sampling periods: is time_s in ms?");
+  expect(doubt_of(1.7e9, 0.01, 0.8), "a gap of 0.81 s");
+  expect(doubt_of(1.7e9, 0.01, 0.8), "its first row is at 1.7e+09 s");
 }
 
 TEST(ForceRecordFile, IsReadFromItsPlaceAndNamedWhereItCannotBe) {

@@ -105,6 +105,66 @@ TEST(CsvReader, TakesEitherLineEndBlankLinesAndAByteOrderMark) {
   EXPECT_FALSE(table.has("time"));
 }
 
+/// Rows of time and force as other programs write them.
+const std::vector<std::string> dialects = {
+    "time_s,force_N\n0.5,-1.25\n1.5,2000\n",
+    "time_s;force_N\n0.5;-1.25\n1.5;2000\n",
+    "time_s;force_N\r\n0,5;-1,25\r\n1,5;2000\r\n",
+    "time_s;force_N\n0,500;-1,250\n1,500;2e3\n",
+    "time_s\tforce_N\n0.5\t-1.25\n1.5\t2000\n",
+    "time_s\tforce_N\r0,5\t-1,25\r1,5\t2000\r",
+    "time_s, force_N\n0.5, -1.25\n1.5, 2000\n",
+    " \"time_s\" , \"force_N\" \n\"0.5\", \"-1.25\"\n 1.5 , 2000 \n",
+    "\"time_s\";\"force_N\"\n\"0,5\";\"-1,25\"\n\"1,5\";2000\n",
+    "time_s,force_N,\n0.5,-1.25,\n1.5,2000,\n,,\n",
+    "time_s,force_N\n0.5,-1.25,,\n1.5,2000\n",
+    "\xEF\xBB\xBFtime_s;force_N;\n0,5;-1,25;\n1,5;2000;\n",
+    "# a shaker, Monday\ntime_s,force_N\n# a pause\n0.5,-1.25\n1.5,2000\n",
+    "# a shaker, Monday\n# time_s,force_N\n0.5,-1.25\n1.5,2000\n",
+    "#time_s;force_N\n0,5;-1,25\n1,5;2000\n",
+    "note;time_s;force_N\n1,2 and 3.4;0,5;-1,25\n\"a;b\";1,5;2000\n",
+};
+
+TEST(CsvReader, TakesWhatOtherProgramsWriteForTheSameTable) {
+  for (const std::string& text : dialects) {
+    CsvTable table = parse_csv(text, "data.csv");
+    table.require({"time_s", "force_N"});
+    EXPECT_EQ(table.numbers("time_s"), (std::vector<double>{0.5, 1.5})) << text;
+    EXPECT_EQ(table.numbers("force_N"), (std::vector<double>{-1.25, 2000.0})) << text;
+  }
+}
+
+TEST(CsvReader, WhereItCannotKnowItNamesTheRemedy) {
+  const auto refused = [](const std::string& text) {
+    return message_of<WrongInput>([&] {
+      CsvTable table = parse_csv(text, "data.csv");
+      table.require({"time_s", "force_N"});
+      table.numbers("force_N");
+    });
+  };
+  const auto expect = [&](const std::string& text, const std::string& remedy) {
+    const std::string message = refused(text);
+    EXPECT_NE(message.find(remedy), std::string::npos) << text << '\n' << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  };
+  expect("time_s,force_N\n0,5,1,25\n", "semicolons tell columns apart");
+  expect("time_s force_N\n0.5 1.25\n", "columns are told apart by commas, semicolons or tabs");
+  expect("time_s;force_N\n0,5;1.25\n", "write a decimal point");
+  expect("time_s;force_N\n0.5;1,25\n", "write a decimal point");
+  expect("time_s\tforce_N\n1\t1,250\n2\t12,500\n", "may be of thousands");
+  expect("time_s,force_N\n1,\"1,250\"\n", "write a decimal point");
+  expect("time_s;force_N\n1;1.234,5\n", "is not a number");
+  expect(std::string("\xFF\xFEt\0", 4), "save it as UTF-8");
+}
+
+TEST(CsvWriter, ATextThatLooksLikeACommentIsNone) {
+  const std::string text =
+      written({"#a", "b"}, [](CsvWriter& writer) { writer.row("# no comment", 1); });
+  const CsvTable table = parse_csv(text, "out.csv");
+  ASSERT_EQ(table.rows(), 1U);
+  EXPECT_EQ(table.text(0, "#a"), "# no comment");
+}
+
 TEST(CsvReader, MalformedTablesAreRefusedWithFileAndLine) {
   const auto refused = [](const std::string& text) {
     return message_of<WrongInput>([&] { parse_csv(text, "data.csv"); });

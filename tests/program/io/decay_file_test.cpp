@@ -52,9 +52,31 @@ TEST(DecayFile, NamesFileAndLineOfAFault) {
             "decay.csv:2: displacement_m = 0: the decay must start displaced");
 }
 
-TEST(DecayFile, RefusesAGap) {
-  const std::string message = refusal(record_with(4, ""));
-  EXPECT_EQ(message.rfind("decay.csv:7: a gap of ", 0), 0U) << message;
+/// 200 instants that are 10 ms apart, each off by 4 ms at most.
+std::vector<double> jittering_times() {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> jitter(-0.004, 0.004);
+  std::vector<double> times;
+  for (int k = 0; k < 200; ++k) times.push_back(0.01 * k + jitter(random));
+  return times;
+}
+
+TEST(Gaps, OfStampsThatJitterThereIsNone) {
+  std::vector<double> times = jittering_times();
+  EXPECT_EQ(gap_text(times), "");
+  for (std::size_t k = 120; k < times.size(); ++k) times[k] += 0.8;
+  EXPECT_EQ(gap_text(times).rfind("a gap of 0.8", 0), 0U) << gap_text(times);
+}
+
+TEST(Gaps, AreNoneWhereFewRowsSayAllOfAForce) {
+  EXPECT_EQ(gap_text({0.0, 1e-3}), "");
+  EXPECT_EQ(gap_text({0.0, 1.0, 1.001, 50.0}), "");
+}
+
+TEST(DecayFile, StampsAreData) {
+  const DecayRecord record = read_decay_text(record_with(4, ""), "decay.csv");
+  EXPECT_EQ(record.times.size(), 9U);
+  EXPECT_EQ(record.times[4], 0.5);
 }
 
 TEST(DecayFile, RefusesWhatIsNoRecord) {
