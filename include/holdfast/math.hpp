@@ -36,6 +36,7 @@
 #include "holdfast/math/signal/spectrum.hpp"
 #include "holdfast/math/signal/spectrum_lines.hpp"
 #include "holdfast/math/stats/batch_sums.hpp"
+#include "holdfast/math/stats/settled_means.hpp"
 #include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/math/stats/slab_quadrature.hpp"
 #include "holdfast/math/stats/student_quantile.hpp"

@@ -44,61 +44,14 @@ inline void validate(const IndicatorOptions& options) {
 
 namespace detail {
 
-/// The largest exponent of a spectrum with a 99 % interval that holds also where the sums s_n =
-/// Σ ln |R_jj| are bounded. Two things bound the error of s_n/n, the larger of which counts
-/// (`exponent_estimate`):
-///
-///  - the scatter of batch means, or of pairs of them where that is more since what a batch saw is
-///    still felt in the next, which a chaotic motion has;
-///  - s_n − n λ of a motion that is not chaotic (a linear loop with complex multipliers, a closed
-///    orbit) turns within bounds, and batch means of whole turns hardly scatter; the error is at
-///    most the width of those bounds over n. The width is read off the last 1/32 of the steps,
-///    where a wandering sum moves by much less than its standard error.
+/// The largest exponent of a spectrum with a 99 % interval; only after at least 64 steps.
 template <int Size>
-class ExponentWatch {
- public:
-  /// @throws InvalidParameter for fewer than 64 steps
-  explicit ExponentWatch(std::int64_t expected_steps)
-      : watched_from_(expected_steps - expected_steps / 32) {
-    require_within("number of steps", static_cast<double>(expected_steps), "", 64.0, 1e15);
-    sums_.reserve(static_cast<std::size_t>(std::min<std::int64_t>(expected_steps / 32, most_sums)));
-  }
-
-  /// Whether the steps have come to those that are watched.
-  bool watches(std::int64_t steps) const {
-    return steps >= watched_from_ && sums_.size() < most_sums;
-  }
-  /// Looks at a spectrum after a step that is watched.
-  void look_at(const LyapunovSpectrum<double, Size>& spectrum) {
-    sums_.push_back(spectrum.exponents() * static_cast<double>(spectrum.steps()));
-  }
-
-  /// The largest exponent; only after at least 64 steps.
-  ExponentEstimate largest(const LyapunovSpectrum<double, Size>& spectrum) const {
-    Eigen::Index which = 0;
-    const double value = spectrum.exponents().maxCoeff(&which);
-    const double steps = static_cast<double>(spectrum.steps());
-    return exponent_estimate(value, spectrum.cautious_standard_errors()[which],
-                             bounds_width(which, value) / steps);
-  }
-
- private:
-  static constexpr std::size_t most_sums = 4096;
-
-  /// max − min of s_n − n λ over the watched steps.
-  double bounds_width(Eigen::Index which, double value) const {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t n = 0; n < sums_.size(); ++n) {
-      const double deviation = sums_[n][which] - static_cast<double>(n) * value;
-      low = std::min(low, deviation);
-      high = std::max(high, deviation);
-    }
-    return std::isfinite(high - low) ? high - low : 0.0;
-  }
-
-  std::int64_t watched_from_;
-  std::vector<Vector<double, Size>> sums_;
-};
+ExponentEstimate largest_exponent(const LyapunovSpectrum<double, Size>& spectrum) {
+  const SettledMeans<Size> found = spectrum.settled();
+  Eigen::Index which = 0;
+  const double value = found.means.maxCoeff(&which);
+  return exponent_estimate(value, found.standard_errors[which]);
+}
 
 }  // namespace detail
 
@@ -114,9 +67,9 @@ class LeadingExponent {
   /// the second their size, where that is known at run time alone.
   /// @throws InvalidParameter for fewer
   explicit LeadingExponent(std::int64_t expected_steps, Eigen::Index size = Size < 0 ? 0 : Size)
-      : basis_(Matrix<double, Size>::Identity(size, size)),
-        spectrum_(basis_),
-        watch_(expected_steps) {}
+      : basis_(Matrix<double, Size>::Identity(size, size)), spectrum_(basis_) {
+    require_within("number of steps", static_cast<double>(expected_steps), "", 64.0, 1e15);
+  }
 
   /// Turns the basis by one map of the transient; call before the first push.
   void settle(const Matrix<double, Size>& tangent) {
@@ -128,19 +81,17 @@ class LeadingExponent {
   void push(const Matrix<double, Size>& tangent) {
     if (spectrum_.steps() == 0) spectrum_ = LyapunovSpectrum<double, Size>(basis_);
     spectrum_.push(tangent);
-    if (watch_.watches(spectrum_.steps())) watch_.look_at(spectrum_);
   }
 
   /// All exponents over the maps pushed.
   const LyapunovSpectrum<double, Size>& spectrum() const { return spectrum_; }
 
   /// The largest exponent; only after at least 64 maps.
-  ExponentEstimate indicators() const { return watch_.largest(spectrum_); }
+  ExponentEstimate indicators() const { return detail::largest_exponent(spectrum_); }
 
  private:
   Matrix<double, Size> basis_;
   LyapunovSpectrum<double, Size> spectrum_;
-  detail::ExponentWatch<Size> watch_;
 };
 
 namespace detail {

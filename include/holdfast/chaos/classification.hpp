@@ -43,19 +43,15 @@ struct ExponentEstimate {
 
 /// An estimate from an exponent and its standard error by batch means. The half width is Student's
 /// quantile at `exponent_confidence` for the fewest batches that a series of more than 64 steps has
-/// (32) times the standard error, or the end effect where that is more; plus 10⁻¹² for the rounding
-/// of logarithms.
+/// (32) times the standard error, plus 10⁻¹² for the rounding of logarithms.
 /// @param value           the exponent, natural logarithm per step
 /// @param standard_error  ≥ 0, not NaN
-/// @param end_effect      ≥ 0: what a bounded sum can add to the mean, see LeadingExponent
-/// @throws InvalidParameter for another standard error or end effect
-inline ExponentEstimate exponent_estimate(double value, double standard_error,
-                                          double end_effect = 0.0) {
+/// @throws InvalidParameter for another standard error
+inline ExponentEstimate exponent_estimate(double value, double standard_error) {
   require_non_negative("standard error of the exponent", standard_error, "");
-  require_non_negative("end effect of the exponent", end_effect, "");
   constexpr double rounding = 1e-12;
   const double quantile = student_quantile(exponent_confidence, 31);
-  return {value, std::fmax(quantile * standard_error, end_effect) + rounding};
+  return {value, quantile * standard_error + rounding};
 }
 
 /// A search for a repetition of the states, of three periods and more.

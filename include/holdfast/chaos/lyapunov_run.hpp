@@ -44,22 +44,24 @@ enum class LyapunovOutcome {
                  ///< samples before that, NaN where it happened among those left out
 };
 
-/// The Lyapunov exponents of a motion, natural logarithm per sample.
+/// The Lyapunov exponents of a motion, natural logarithm per sample, over the samples from where
+/// they have settled (settled_means()).
 struct LyapunovResult {
   LyapunovOutcome outcome;  ///< why no more samples were taken
-  /// λ₁ … λ₅ in the order of the QR, −∞ for a null direction; NaN but for the first
-  /// where that alone was asked for.
+  /// λ₁ … λ₅ in the order of the QR, −∞ for a null direction; NaN but for the first where that
+  /// alone was asked for.
   Vector<double, 5> exponents;
-  /// By batch means, the larger of those from the batches and from pairs of them; 0 for −∞.
+  /// Count what the beginning may have left in the means, as settled_means() says; 0 for −∞.
   Vector<double, 5> standard_errors;
-  std::int64_t samples;  ///< averaged over
+  std::int64_t samples;       ///< averaged over
+  std::int64_t settling = 0;  ///< left out before them, beyond those of LyapunovRun::discard
 
   /// Whether the 99 % interval of λ₁ leaves out zero: whether it is known if neighbours separate.
   bool sign_is_known() const {
     if (exponents[0] == -std::numeric_limits<double>::infinity()) return true;
     if (!std::isfinite(exponents[0]) || !std::isfinite(standard_errors[0])) return false;
-    const ExponentEstimate indicators = exponent_estimate(exponents[0], standard_errors[0]);
-    return indicators.positive() || indicators.negative();
+    const ExponentEstimate first = exponent_estimate(exponents[0], standard_errors[0]);
+    return first.positive() || first.negative();
   }
 };
 
@@ -74,8 +76,10 @@ template <int Size>
 LyapunovResult lyapunov_result(LyapunovOutcome outcome,
                                const LyapunovSpectrum<double, Size>& spectrum,
                                const LyapunovRun& run) {
-  LyapunovResult result{outcome, spectrum.exponents().template head<5>(),
-                        spectrum.cautious_standard_errors().template head<5>(), spectrum.steps()};
+  const SettledMeans<Size> settled = spectrum.settled();
+  LyapunovResult result{outcome, settled.means.template head<5>(),
+                        settled.standard_errors.template head<5>(), settled.steps,
+                        settled.left_out};
   if (run.scope == LyapunovScope::largest) {
     result.exponents.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
     result.standard_errors.tail<4>().setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -104,15 +108,14 @@ auto run_average(Motions& motions, const LyapunovRun& run) {
   const auto settle = [&](bool at_end) {
     const auto spectra = motions.spectra();
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const double error = spectra[lane].cautious_standard_errors()[0];
+      if (settled[lane]) continue;
       const bool diverged = motions.diverged(lane);
-      const bool accurate = !at_end && !diverged && error <= run.standard_error;
-      if (settled[lane] || !(at_end || accurate)) continue;
+      const auto ending = diverged ? LyapunovOutcome::diverged : LyapunovOutcome::sample_limit;
+      LyapunovResult now = lyapunov_result(ending, spectra[lane], run);
+      if (!at_end && (diverged || !(now.standard_errors[0] <= run.standard_error))) continue;
+      if (!at_end) now.outcome = LyapunovOutcome::accurate;
       settled[lane] = true;
-      results[lane] = lyapunov_result(accurate   ? LyapunovOutcome::accurate
-                                      : diverged ? LyapunovOutcome::diverged
-                                                 : LyapunovOutcome::sample_limit,
-                                      spectra[lane], run);
+      results[lane] = now;
     }
   };
   motions.advance(run.discard, go_on);

@@ -10,6 +10,7 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/stats/batch_sums.hpp"
+#include "holdfast/math/stats/settled_means.hpp"
 
 namespace holdfast {
 
@@ -79,9 +80,15 @@ class LyapunovSpectrum {
     return with(state_.sums.standard_errors(), Scalar(0));
   }
 
-  /// Standard errors that do not trust the batches to be longer than the correlation: the larger of
-  /// those from the batches and, where there are eight or more, from pairs of them.
-  Vector<Scalar, Size> cautious_standard_errors() const;
+  /// The exponents over the steps from where the directions have settled, with standard errors that
+  /// hold also where the sums are bounded: settled_means(), of the sums alone. −∞ ± 0 for a null
+  /// direction.
+  SettledMeans<Size> settled() const {
+    SettledMeans<Size> found = settled_means(state_.sums);
+    found.means = with(found.means, -std::numeric_limits<double>::infinity());
+    found.standard_errors = with(found.standard_errors, 0.0);
+    return found;
+  }
 
   /// n, the number of maps since the start or the last restart.
   std::int64_t steps() const { return state_.sums.steps(); }
@@ -133,13 +140,6 @@ Vector<Scalar, Size> LyapunovSpectrum<Scalar, Size>::exponents() const {
   const Scalar steps_taken(static_cast<double>(steps()));
   return with((state_.sums.totals() + state_.remainder) / steps_taken,
               -std::numeric_limits<Scalar>::infinity());
-}
-
-template <class Scalar, int Size>
-Vector<Scalar, Size> LyapunovSpectrum<Scalar, Size>::cautious_standard_errors() const {
-  if (state_.sums.complete_batches() < 8) return standard_errors();
-  const Vector<Scalar, Size> single = state_.sums.standard_errors(1);
-  return with(single.cwiseMax(state_.sums.standard_errors(2)), Scalar(0));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

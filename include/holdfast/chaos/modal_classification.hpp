@@ -24,7 +24,6 @@ ChaosIndicators indicators_of_motion(const Loop& loop, ModalMotion motion,
                                      const IndicatorOptions& options) {
   ModalSpectrum tangent(NaturalMotions(loop, plant_poles(loop.modes, loop.absorber)), loop.gains,
                         loop.sampling.processing_delay > 0.0);
-  ExponentWatch<5> watch(options.samples);
   bool engaged = true, counted = false;
   const auto seen = [&] {
     Vector<double, 5> state;
@@ -40,12 +39,11 @@ ChaosIndicators indicators_of_motion(const Loop& loop, ModalMotion motion,
     if (counts && !counted) tangent.restart();
     counted = counts;
     tangent.push(engaged);
-    if (counts && watch.watches(tangent.steps())) watch.look_at(tangent.spectrum());
   };
   ChaosIndicators indicators = indicators_of_system<5>(
       seen(), advance, [](const Vector<double, 5>& state) { return state[0]; }, options,
       take_tangent, [&] { return engaged; });
-  if (!indicators.diverged_at) indicators.largest_exponent = watch.largest(tangent.spectrum());
+  if (!indicators.diverged_at) indicators.largest_exponent = largest_exponent(tangent.spectrum());
   return indicators;
 }
 

@@ -51,10 +51,15 @@ class BatchSums {
   /// Batches that are full, < `Batches`: reaching that number, they are merged into half as many.
   std::size_t complete_batches() const { return complete_; }
 
-  /// Sums over all steps.
-  Sums totals() const {
+  /// Steps of a batch.
+  std::int64_t batch_length() const { return length_; }
+  /// Sums over the steps of a complete batch.
+  const Sums& batch(std::size_t k) const { return sums_[k]; }
+
+  /// Sums over all steps but those of the first so many complete batches.
+  Sums totals(std::size_t first = 0) const {
     Sums total = open_;
-    for (std::size_t k = 0; k < complete_; ++k) total += sums_[k];
+    for (std::size_t k = first; k < complete_; ++k) total += sums_[k];
     return total;
   }
 
@@ -68,19 +73,19 @@ class BatchSums {
     return result;
   }
 
-  /// Standard errors of the means per step from the complete batches, `merged` neighbours (≥ 1)
-  /// taken together; NaN while there are fewer than four.
-  Sums standard_errors(std::size_t merged = 1) const {
+  /// Standard errors of the means per step from the complete batches but the first ones, `merged`
+  /// neighbours (≥ 1) taken together; NaN while there are fewer than four.
+  Sums standard_errors(std::size_t merged = 1, std::size_t first = 0) const {
     using std::sqrt;
-    const std::size_t batches = complete_ / merged;
+    const std::size_t batches = (complete_ - first) / merged;
     if (batches < 4)
       return Sums::Constant(open_.size(), Number(std::numeric_limits<double>::quiet_NaN()));
     Sums centre = Sums::Constant(open_.size(), Number(0)), spread = centre;
-    for (std::size_t k = 0; k < batches * merged; ++k) centre += sums_[k];
+    for (std::size_t k = 0; k < batches * merged; ++k) centre += sums_[first + k];
     const Number share(1.0 / static_cast<double>(batches));
     for (std::size_t k = 0; k < batches; ++k) {
       Sums deviation = -share * centre;
-      for (std::size_t m = 0; m < merged; ++m) deviation += sums_[k * merged + m];
+      for (std::size_t m = 0; m < merged; ++m) deviation += sums_[first + k * merged + m];
       spread += deviation.cwiseProduct(deviation);
     }
     const Number unit(1.0 / static_cast<double>(length_ * static_cast<std::int64_t>(merged)));

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "holdfast/core/types.hpp"
+#include "holdfast/math/stats/batch_sums.hpp"
+#include "holdfast/math/stats/student_quantile.hpp"
+
+namespace holdfast {
+
+/// Means per step of series whose beginning may not be typical of them.
+template <int Series>
+struct SettledMeans {
+  Vector<double, Series> means;            ///< over the steps that were not left out
+  Vector<double, Series> standard_errors;  ///< NaN of fewer than four batches
+  std::int64_t steps;                      ///< averaged over
+  std::int64_t left_out;                   ///< steps at the beginning that were not settled
+};
+
+namespace detail {
+
+/// What settled_means() reads off the batches of some series.
+template <int Series, std::size_t Batches>
+class SettledBatches {
+  using Means = Vector<double, Series>;
+
+ public:
+  explicit SettledBatches(const BatchSums<double, Series, Batches>& sums) : sums_(sums) {
+    if (sums.complete_batches() < 8) return;
+    while (from_ <= sums.complete_batches() / 4 && begins_otherwise())
+      from_ = std::max<std::size_t>(1, 2 * from_);
+  }
+
+  SettledMeans<Series> means() const {
+    const std::int64_t left_out = static_cast<std::int64_t>(from_) * sums_.batch_length();
+    const std::int64_t steps = sums_.steps() - left_out;
+    const Means found = sums_.totals(from_) / static_cast<double>(steps);
+    return {found, errors(found, static_cast<double>(steps)), steps, left_out};
+  }
+
+ private:
+  /// Per step, over the batches first … last − 1.
+  Means mean(std::size_t first, std::size_t last) const {
+    return (sums_.totals(first) - sums_.totals(last)) /
+           (static_cast<double>(last - first) * static_cast<double>(sums_.batch_length()));
+  }
+
+  /// By the batches from the first on that counts, or pairs of them where that is more.
+  Means scatter(std::size_t first) const {
+    const Means single = sums_.standard_errors(1, first);
+    if (sums_.complete_batches() - first < 8) return single;
+    return single.cwiseMax(sums_.standard_errors(2, first));
+  }
+
+  /// Whether as many batches as were left out (or the first one) differ from those after them by
+  /// more than six standard errors of such a difference, the scatter being that of the second half.
+  bool begins_otherwise() const {
+    const std::size_t all = sums_.complete_batches(), half = all / 2;
+    const std::size_t next = std::max<std::size_t>(1, 2 * from_);
+    const double shares =
+        1.0 / static_cast<double>(next - from_) + 1.0 / static_cast<double>(all - next);
+    const double difference = mean(from_, next)[0] - mean(next, all)[0];
+    constexpr double rounding = 1e-13;
+    return std::abs(difference) >
+           6.0 * std::sqrt(static_cast<double>(all - half) * shares) * scatter(half)[0] + rounding;
+  }
+
+  /// max − min of s_n − n mean over the ends of the batches.
+  Means width(const Means& found) const {
+    Means deviation = Means::Zero(found.size()), low = deviation, high = deviation;
+    const double length = static_cast<double>(sums_.batch_length());
+    for (std::size_t k = from_; k < sums_.complete_batches(); ++k) {
+      deviation += sums_.batch(k) - length * found;
+      low = low.cwiseMin(deviation);
+      high = high.cwiseMax(deviation);
+    }
+    return high - low;
+  }
+
+  /// The second quarter of what counts against the half after it; of what has not settled the
+  /// second quarter of all against the half that counts.
+  Means drift() const {
+    const std::size_t all = sums_.complete_batches(), half = (from_ + all) / 2;
+    if (from_ > all / 4) return (mean(from_ / 2, from_) - mean(from_, all)).cwiseAbs();
+    return (mean(from_ + (all - from_) / 4, half) - mean(half, all)).cwiseAbs();
+  }
+
+  Means errors(const Means& found, double steps) const {
+    const Means scattered = scatter(from_);
+    if (sums_.complete_batches() < 4) return scattered;
+    const double share = 1.1 / normal_quantile(0.99);
+    return scattered.cwiseMax(share * (width(found) / steps).cwiseMax(drift()));
+  }
+
+  const BatchSums<double, Series, Batches>& sums_;
+  std::size_t from_ = 0;  // batches left out
+};
+
+}  // namespace detail
+
+/// Means of series with standard errors that hold also where the series settle first, or stay
+/// within bounds. Left out is the shortest beginning (of 0, 1, 2, 4, … batches, up to half of all)
+/// of which as much again does not differ from what follows by six standard errors in the first
+/// series. An error is the largest of three:
+///
+///  - the scatter of batch means, or of pairs of them where that is more since what a batch saw is
+///    still felt in the next;
+///  - the width of the bounds within which the sums s_n − n mean stay, over n: of bounded sums (a
+///    linear loop, a closed orbit) batch means of whole turns hardly scatter. Sums that wander stay
+///    within less than the quantile of their scatter;
+///  - how far the mean of the second quarter is from that of the second half: what settles as 1/n
+///    leaves as much.
+///
+/// The last two count 1.1 times over the normal quantile of 99 %.
+/// @param sums  of the series, per step; at least one
+template <int Series, std::size_t Batches>
+SettledMeans<Series> settled_means(const BatchSums<double, Series, Batches>& sums) {
+  return detail::SettledBatches<Series, Batches>(sums).means();
+}
+
+}  // namespace holdfast
