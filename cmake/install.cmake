@@ -25,6 +25,8 @@ if(TARGET holdfast_compiled)
   export(EXPORT holdfast_compiled_targets
     FILE ${PROJECT_BINARY_DIR}/holdfast-compiled-targets.cmake
     NAMESPACE holdfast::)
+  configure_file(cmake/holdfast-compiled.pc.in holdfast-compiled.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/holdfast-compiled.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endif()
 
 configure_package_config_file(cmake/holdfast-config.cmake.in holdfast-config.cmake

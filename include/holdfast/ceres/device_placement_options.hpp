@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "holdfast/core/compiler.hpp"
+
 /// What is asked of the search for a device's best place and strength, and what it answers; this
 /// header needs no Ceres.
 namespace holdfast::placement {

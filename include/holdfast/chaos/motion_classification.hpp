@@ -333,6 +333,14 @@ SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                 {loop.excitation.amplitude > 0.0}, look);
   return found;
 }
+/// The same from any column of Eigen's.
+template <class Scalar, class Column>
+SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
+                                      const Eigen::MatrixBase<Column>& initial_state,
+                                      const OrbitLimits& limits = {}) {
+  const Vector<double, 4> state = detail::state_of(converted<double>(loop.plant), initial_state);
+  return classify_motion(loop, state, limits);
+}
 
 /// The same of an implemented loop, with the saltation at every change of contact in the tangent.
 ///
@@ -354,14 +362,19 @@ template <class Plant>
 EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<Plant>& loop,
                                                         const StateOf<Plant>& initial_state,
                                                         const OrbitLimits& limits = {}) {
-  validate(loop);
   validate(limits);
-  require_finite("initial state", initial_state.sum(), "");
   const auto motion = event_motion(loop, initial_state);
   EventClassificationOf<states_of<Plant>> found{{}, find_event_orbit(motion, limits), {}};
   if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
     detail::weigh_samples(loop, motion, found);
   return found;
+}
+/// The same from any column of Eigen's.
+template <class Plant, class Column>
+EventClassificationOf<states_of<Plant>> classify_motion(
+    const ImplementedLoopOf<Plant>& loop, const Eigen::MatrixBase<Column>& initial_state,
+    const OrbitLimits& limits = {}) {
+  return classify_motion(loop, detail::state_of(loop.plant, initial_state), limits);
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

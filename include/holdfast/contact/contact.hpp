@@ -69,17 +69,18 @@ class DriveContact {
   /// @param switching      between the samples, or at them alone
   /// @param initial_state  where the motion begins, N × 1: its Δz decides which stop of an exact
   ///                       dead zone is touched; play begins engaged, σ not known yet
-  /// @throws InvalidParameter where plant or backlash are not admissible
+  /// @throws InvalidParameter where plant or backlash are not admissible, or the state is of
+  /// another size
   DriveContact(const Plant& plant, const BacklashParameters& backlash, Switching switching,
                const State& initial_state)
-      : plant_(plant),
+      : plant_((validate(plant), plant)),
         readings_(plant),
         backlash_(backlash),
         law_(backlash),
         free_(gap_acceleration(plant, released_dynamics(plant))),
         driven_(gap_acceleration(plant, engaged_dynamics(plant))),
         mobility_(gap_mobility(plant)) {
-    validate(plant);
+    detail::require_state(initial_state, plant);
     if (backlash.law == ContactLaw::none) backlash_.width = 0.0;
     if (switching == Switching::sampled) return;
     kind_ = backlash.law == ContactLaw::dead_zone ? Kind::stops : Kind::play;

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// What the drive does at an instant, when its backlash switches between the samples.

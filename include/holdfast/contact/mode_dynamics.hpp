@@ -38,7 +38,7 @@ DynamicsOf<Plant> released_dynamics(const Plant& plant) {
 /// @param plant  rᵀb ≠ 0 of its relative velocity r
 template <int States>
 AffineDynamicsOf<States> locked_dynamics(const LinearPlant<double, States>& plant) {
-  const RowVector<double, States>& r = plant.connections.relative_velocity;
+  const RowVector<double, States>& r = plant.ports().relative_velocity;
   const Vector<double, States> pushed = plant.force_input / r.dot(plant.force_input);
   return {plant.released_matrix - pushed * (r * plant.released_matrix),
           plant.command_input - pushed * r.dot(plant.command_input),

@@ -21,12 +21,30 @@ using ControllerDerivative = Matrix<double, larger_size(States, 1), larger_size(
 namespace detail {
 
 template <class Law, class = void>
-struct IsController : std::false_type {};
+struct HasStates : std::false_type {};
 template <class Law>
-struct IsController<Law, std::void_t<decltype(Law::states)>>
+struct HasStates<Law, std::void_t<decltype(Law::states)>> : std::true_type {};
+
+template <class Law, class = void>
+struct HasCommand : std::false_type {};
+template <class Law>
+struct HasCommand<
+    Law, std::void_t<decltype(std::declval<const Law&>().command(
+             std::declval<const ControlSample&>(), std::declval<Vector<double, Law::states>&>()))>>
     : std::is_same<double, decltype(std::declval<const Law&>().command(
                                std::declval<const ControlSample&>(),
                                std::declval<Vector<double, Law::states>&>()))> {};
+
+/// Whether a type is a controller; the compiler says what it lacks.
+template <class Law>
+constexpr bool is_controller() {
+  static_assert(HasStates<Law>::value,
+                "a controller says how many numbers it remembers: `static constexpr int states`");
+  static_assert(!HasStates<Law>::value || HasCommand<Law>::value,
+                "a controller has `double command(const ControlSample&, Vector<double, states>&) "
+                "const`; what it remembers stands in that vector alone");
+  return HasCommand<Law>::value;
+}
 
 template <class Law, class = void>
 struct HasDerivative : std::false_type {};
@@ -73,24 +91,8 @@ class OwnController {
 
   /// Any controller; copied.
   template <class Law>
-  explicit OwnController(const Law& law)
-      : value_([law](const Column& at, double elapsed) {
-          Vector<double, Law::states> state = at.tail(at.size() - 2);
-          Column result(at.size() - 1);
-          result[0] = law.command({at[0], at[1], elapsed}, state);
-          result.tail(at.size() - 2) = state;
-          return result;
-        }) {
-    static_assert(detail::IsController<Law>::value,
-                  "a controller has `static constexpr int states` and "
-                  "`double command(const ControlSample&, Vector<double, states>&) const`");
-    at_ = largest_ = Column::Zero(detail::memory_size(law) + 2);
-    if constexpr (detail::HasDerivative<Law>::value) {
-      derivative_ = [law](const Column& at, double elapsed) -> Derivative {
-        return law.derivative({at[0], at[1], elapsed},
-                              Vector<double, Law::states>(at.tail(at.size() - 2)));
-      };
-    }
+  explicit OwnController(const Law& law) {
+    if constexpr (detail::is_controller<Law>()) take(law);
   }
 
   /// Whether there is one.
@@ -130,6 +132,24 @@ class OwnController {
   }
 
  private:
+  template <class Law>
+  void take(const Law& law) {
+    value_ = [law](const Column& at, double elapsed) {
+      Vector<double, Law::states> state = at.tail(at.size() - 2);
+      Column result(at.size() - 1);
+      result[0] = law.command({at[0], at[1], elapsed}, state);
+      result.tail(at.size() - 2) = state;
+      return result;
+    };
+    at_ = largest_ = Column::Zero(detail::memory_size(law) + 2);
+    if constexpr (detail::HasDerivative<Law>::value) {
+      derivative_ = [law](const Column& at, double elapsed) -> Derivative {
+        return law.derivative({at[0], at[1], elapsed},
+                              Vector<double, Law::states>(at.tail(at.size() - 2)));
+      };
+    }
+  }
+
   std::function<Column(const Column&, double)> value_;
   std::function<Derivative(const Column&, double)> derivative_;
   double elapsed_ = 0.0;                         // h_j of the last sample
@@ -159,20 +179,25 @@ std::enable_if_t<std::is_same_v<Plant, ControlledPlant>> validate(const Plant& p
 }
 
 /// The plant under a controller. Filters and lags of the plant come first.
+/// @throws InvalidParameter where the parts of the plant are of different orders
 template <class Law, int States>
 ControlledPlant with_controller(const LinearPlant<double, States>& plant, const Law& law) {
-  const auto [a, b, command, force, row, direct, ports] =
-      detail::enlarged<Law::states>(plant, detail::memory_size(law));
-  return {{a,
-           b,
-           command,
-           force,
-           row,
-           direct,
-           {ports.displacement, ports.velocity, ports.measured_displacement,
-            ports.measured_velocity, ports.relative_displacement, ports.relative_velocity,
-            ports.displacement_lift, ports.velocity_lift}},
-          OwnController(law)};
+  if constexpr (detail::is_controller<Law>()) {
+    const auto [a, b, command, force, row, direct, ports] =
+        detail::enlarged<Law::states>(plant, detail::memory_size(law));
+    return {{a,
+             b,
+             command,
+             force,
+             row,
+             direct,
+             {ports.displacement, ports.velocity, ports.measured_displacement,
+              ports.measured_velocity, ports.relative_displacement, ports.relative_velocity,
+              ports.displacement_lift, ports.velocity_lift}},
+            OwnController(law)};
+  } else {
+    return {};
+  }
 }
 /// The same of the two masses.
 /// @throws InvalidParameter where they are not admissible

@@ -19,6 +19,7 @@ struct ControlSample {
 /// Source: Kollár 2022, Eq. (5) and Eq. (11), whose row matrix D is [P, D, 0, 0].
 template <class Scalar>
 struct PdGains {
+  static_assert(is_real<Scalar>, "a gain is a real number: PdGains<double>");
   static constexpr int states = 0;  ///< it remembers nothing
   Scalar proportional = Scalar(0);  ///< P (N/m), finite
   Scalar differential = Scalar(0);  ///< D (N s/m), finite

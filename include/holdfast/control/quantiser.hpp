@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// What a sensor of finite resolution reads: the multiple of its quantum that is nearest to the

@@ -12,6 +12,8 @@ namespace holdfast {
 /// When the computer samples and when its force arrives.
 template <class Scalar>
 struct Sampling {
+  static_assert(is_real<Scalar>, "a time is a real number: Sampling<double>");
+
   Scalar period;  ///< τ (s), > 0
   Scalar processing_delay =
       Scalar(0);  ///< δ (s), 0 ≤ δ ≤ τ: from taking a sample to applying its force
@@ -93,7 +95,7 @@ SampledLoop<To, States> converted(const SampledLoop<From, States>& loop) {
 /// @param plant     two masses admissible, another one finite
 /// @param sampling  0 ≤ δ ≤ τ; τ = 0, no time at all, gives the identity
 /// @tparam Plant    anything with `state_matrix()`, `control_input()` and `excitation_input()`
-/// @throws InvalidParameter where the sampling or the plant is another
+/// @throws InvalidParameter where the sampling or the plant is another, or the sizes disagree
 template <class Plant, class Scalar = ScalarOf<Plant>>
 SampledLoop<Scalar, states_of<Plant>> sampled_loop(
     const Plant& plant, const Sampling<detail::Undeduced<Scalar>>& sampling) {
@@ -103,6 +105,9 @@ SampledLoop<Scalar, states_of<Plant>> sampled_loop(
   detail::require_admissible(plant);
   const Matrix<Scalar, states> a = plant.state_matrix();
   const Vector<Scalar, states> b = plant.control_input();
+  require_size("order of the state matrix", a.cols(), a.rows());
+  require_size("size of the control input", b.size(), a.rows());
+  require_size("size of the excitation input", plant.excitation_input().size(), a.rows());
   const Scalar entries = a.sum() + b.sum() + plant.excitation_input().sum();
   require_finite("entries of the plant's matrices", static_cast<double>(entries), "");
   const auto period = static_cast<double>(sampling.period);

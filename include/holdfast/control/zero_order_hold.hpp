@@ -1,5 +1,6 @@
 #pragma once
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/exponential.hpp"
 
@@ -22,6 +23,7 @@ struct HeldStep {
 /// @param a      A, States × States (1/s); either size may be Eigen::Dynamic
 /// @param b      B, States × Inputs
 /// @param period h (s), finite, ≥ 0; h = 0 gives the identity and a zero input
+/// @throws InvalidParameter where A is not square, or B not as high
 /// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE TAC 23
 /// (1978).
 template <class Scalar, int States, int Inputs>
@@ -29,6 +31,8 @@ HeldStep<Scalar, States, Inputs> zero_order_hold(const Matrix<Scalar, States>& a
                                                  const Matrix<Scalar, States, Inputs>& b,
                                                  const Scalar& period) {
   const Eigen::Index n = a.rows(), m = b.cols();
+  require_size("columns of the state matrix", a.cols(), n);
+  require_size("rows of the input matrix", b.rows(), n);
   if (period == Scalar(0)) {
     return {Matrix<Scalar, States>::Identity(n, n), Matrix<Scalar, States, Inputs>::Zero(n, m)};
   }

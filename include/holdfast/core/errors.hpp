@@ -1,11 +1,15 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "holdfast/core/compiler.hpp"
 
 namespace holdfast {
 
@@ -70,13 +74,27 @@ inline void require_non_negative(std::string_view name, double value, std::strin
   }
 }
 
-/// @throws InvalidParameter unless lower ≤ value ≤ upper.
+/// @throws InvalidParameter unless lower ≤ value ≤ upper; where upper is the largest number, it
+/// says that the value must be finite, where both are equal, what it must be.
 inline void require_within(std::string_view name, double value, std::string_view unit, double lower,
                            double upper) {
   if (value >= lower && value <= upper) return;
   std::ostringstream range;
-  range << "between " << lower << " and " << upper;
+  if (lower == upper) {
+    range << lower;
+  } else if (upper < std::numeric_limits<double>::max()) {
+    range << "between " << lower << " and " << upper;
+  } else {
+    range << "finite and >= " << lower;
+  }
   throw InvalidParameter(std::string(name), value, std::string(unit), range.str());
+}
+
+/// Refuses a vector, or a side of a matrix, of another length.
+/// @throws InvalidParameter unless size = wanted.
+inline void require_size(std::string_view name, std::ptrdiff_t size, std::ptrdiff_t wanted) {
+  const auto entries = static_cast<double>(wanted);
+  if (size != wanted) require_within(name, static_cast<double>(size), "", entries, entries);
 }
 
 }  // namespace holdfast

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// An open interval (lower, upper) of the real line; an end may be infinite.

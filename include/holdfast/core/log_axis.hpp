@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// Values of equal ratio from `min` to `max`, both included exactly.

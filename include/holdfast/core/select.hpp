@@ -1,5 +1,7 @@
 #pragma once
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// Branching on data, written once for scalars and for SIMD packs.

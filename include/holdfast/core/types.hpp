@@ -3,7 +3,14 @@
 #include <Eigen/Core>
 #include <type_traits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
+
+/// Whether a number type stands for real numbers, as those of floating point, duals and packs do,
+/// and not for whole ones, in which 1/m is 0.
+template <class Scalar>
+inline constexpr bool is_real = !std::is_integral_v<Scalar>;
 
 /// Column vector with `Size` entries.
 template <class Scalar, int Size>

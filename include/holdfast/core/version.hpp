@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// Version of the library and the program, "major.minor.patch" (semantic versioning). The build

@@ -38,7 +38,7 @@ struct HarmonicInput {
 /// @param c                  N × 1, per newton of F
 /// @param period             τ (s), ≥ 0
 /// @param angular_frequency  ω = 2π f (rad/s), finite
-/// @throws InvalidParameter for another τ or ω
+/// @throws InvalidParameter for another τ or ω, or where the sizes disagree
 template <class Scalar, int States>
 HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
                                              const Vector<Scalar, States>& c, const Scalar& period,
@@ -47,6 +47,7 @@ HarmonicInput<Scalar, States> exact_harmonic(const Matrix<Scalar, States>& a,
     require_non_negative("sampling period tau", static_cast<double>(period), "s");
     require_finite("angular frequency", static_cast<double>(angular_frequency), "rad/s");
   }
+  require_size("size of the excitation input", c.size(), a.rows());
   constexpr int size = larger_size(States, 2);
   const Eigen::Index n = a.rows();
   Matrix<Scalar, size> generator = Matrix<Scalar, size>::Zero(n + 2, n + 2);

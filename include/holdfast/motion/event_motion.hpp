@@ -14,6 +14,7 @@
 #include "holdfast/control/digital_loop.hpp"
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/control/sampling_clock.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/excitation/force_over_samples.hpp"
 #include "holdfast/math/roots/first_root.hpp"
 #include "holdfast/math/roots/series.hpp"
@@ -88,7 +89,8 @@ class EventMotion {
   static constexpr int most_switches = 1000;
 
   /// @throws InvalidParameter where the loop is not admissible, or turns more than
-  ///         `ModeMotion::most_turns_per_sample` in one sampling period
+  ///         `ModeMotion::most_turns_per_sample` in one sampling period, or the state is not finite
+  ///         or of another size
   EventMotion(const DigitalLoop& loop, const Contact& contact, const State& initial_state)
       : loop_(loop),
         readings_(contact.readings()),
@@ -100,6 +102,9 @@ class EventMotion {
     validate(loop);
     for (int mode = 0; mode < Contact::modes; ++mode)
       modes_.emplace_back(contact_.dynamics(mode), loop, force_);
+    require_size("size of the initial state", state_.size(),
+                 modes_.front().dynamics().state.rows());
+    require_finite("initial state", state_.sum(), "");
     for (const double after : {0.0, loop.sampling.processing_delay, loop.sampling.period})
       instants_.push_back(force_.instant(after));
   }
@@ -188,8 +193,10 @@ class EventMotion {
 
   /// Goes on at sample `index` from a state, a command in force until t_j + δ, and a contact. What
   /// the controller last read stays.
+  /// @throws InvalidParameter for a state of another size
   void restore(std::int64_t index, const State& state, double previous_command,
                const Contact& contact) {
+    require_size("size of the state", state.size(), state_.size());
     index_ = index;
     state_ = state;
     previous_command_ = previous_command;

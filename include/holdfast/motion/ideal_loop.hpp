@@ -13,6 +13,7 @@
 #include "holdfast/excitation/harmonic_excitation.hpp"
 #include "holdfast/excitation/multi_harmonic_force.hpp"
 #include "holdfast/motion/sampled_motion.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/port_readings.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -24,6 +25,10 @@ namespace holdfast {
 /// @tparam Plant  TwoMass<Scalar> or a LinearPlant<Scalar, N>
 template <class Scalar, class Plant = TwoMass<Scalar>>
 struct IdealLoop {
+  static_assert(detail::IsDriven<Plant>::value,
+                "a motion has to know what the drive moves and its gap sees: its plant is a "
+                "TwoMass, a LinearPlant or made by with_controller()");
+
   Plant plant;                            ///< conductor, absorber and what else has states
   Sampling<Scalar> sampling;              ///< τ and δ
   PdGains<Scalar> gains;                  ///< P and D
@@ -86,7 +91,7 @@ SampledMotion<Scalar, Backlash<Scalar>, Forcing, Plant> forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state,
     const More&... more) {
   validate(converted<double>(loop));
-  require_finite("initial state", static_cast<double>(initial_state.sum()), "");
+  require_state(initial_state, loop.plant);
   const auto sampled = sampled_loop(loop.plant, loop.sampling);
   const auto input =
       harmonic_input(loop.plant, sampled, loop.hold, loop.excitation.angular_frequency());
@@ -112,6 +117,13 @@ PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
   return detail::forced_motion<PeriodicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation.amplitude, ratio);
 }
+/// The same from any column of Eigen's.
+template <class Scalar, class Plant, class Column>
+PeriodicallyForcedMotion<Scalar, Plant> periodically_forced_motion(
+    const IdealLoop<Scalar, Plant>& loop, const Rational& ratio,
+    const Eigen::MatrixBase<Column>& initial_state) {
+  return periodically_forced_motion(loop, ratio, detail::state_of(loop.plant, initial_state));
+}
 
 /// The motion from an initial state, for any ratio of the frequencies; else as above.
 /// @param loop           with its excitation and backlash
@@ -122,6 +134,12 @@ HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
     const IdealLoop<Scalar, Plant>& loop, const StateOf<Plant>& initial_state) {
   return detail::forced_motion<HarmonicForcing<Scalar, states_of<Plant>>>(
       loop, initial_state, loop.excitation, loop.sampling.period);
+}
+/// The same from any column of Eigen's.
+template <class Scalar, class Plant, class Column>
+HarmonicallyForcedMotion<Scalar, Plant> harmonically_forced_motion(
+    const IdealLoop<Scalar, Plant>& loop, const Eigen::MatrixBase<Column>& initial_state) {
+  return harmonically_forced_motion(loop, detail::state_of(loop.plant, initial_state));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

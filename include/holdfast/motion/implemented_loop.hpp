@@ -21,6 +21,10 @@ namespace holdfast {
 /// @tparam Plant  TwoMass<double>, a LinearPlant<double, N> or a ControlledPlant
 template <class Plant>
 struct ImplementedLoopOf {
+  static_assert(detail::IsDriven<Plant>::value,
+                "a motion has to know what the drive moves and its gap sees: its plant is a "
+                "TwoMass, a LinearPlant or made by with_controller()");
+
   Plant plant;                               ///< conductor, absorber and what else has states
   DigitalLoop digital;                       ///< sampling, gains, limits, clock and excitation
   BacklashParameters backlash = {};          ///< the law; by itself `kollar` with r₀ = 0
@@ -82,16 +86,22 @@ std::optional<IdealLoop<double, Plant>> ideal_loop(const ImplementedLoopOf<Plant
                                   digital.hold};
 }
 
-/// The motion of the loop from [z₁, ż₁, z₂, ż₂].
-/// @throws InvalidParameter where the loop is not admissible or the state not finite
+/// The motion of the loop from x₀, N × 1; of the two masses [z₁, ż₁, z₂, ż₂].
+/// @throws InvalidParameter where the loop is not admissible, or the state not finite or of another
+/// size
 template <class Plant>
 EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
                                               const StateOf<Plant>& initial_state) {
   validate(loop);
-  require_finite("initial state", initial_state.sum(), "");
   return {loop.digital,
           DriveContact<Plant>(loop.plant, loop.backlash, loop.switching, initial_state),
           initial_state};
+}
+/// The same from any column of Eigen's.
+template <class Plant, class Column>
+EventMotion<DriveContact<Plant>> event_motion(const ImplementedLoopOf<Plant>& loop,
+                                              const Eigen::MatrixBase<Column>& initial_state) {
+  return event_motion(loop, detail::state_of(loop.plant, initial_state));
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

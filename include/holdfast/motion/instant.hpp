@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// Relative round-off by which a sample j τ may miss the instant that it was meant to be: 5 · 0.011

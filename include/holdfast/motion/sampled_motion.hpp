@@ -6,6 +6,7 @@
 #include "holdfast/contact/hysteresis.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/control/sampled_loop.hpp"
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/select.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/excitation/forcing.hpp"
@@ -73,6 +74,7 @@ class SampledMotion {
                       initial_state, readings) {}
 
   /// The motion under any forcing, taken up where that stands; u_{−1} = 0.
+  /// @throws InvalidParameter for a state of another size than the loop's
   SampledMotion(const Loop& loop, const PdGains<Scalar>& gains, const Forcing& forcing,
                 const Law& law, const State& initial_state, const Readings& readings = Readings())
       : loop_(loop),
@@ -81,7 +83,9 @@ class SampledMotion {
         forcing_(forcing),
         law_(law),
         state_(initial_state),
-        previous_force_(0) {}
+        previous_force_(0) {
+    require_size("size of the initial state", state_.size(), loop_.transition.rows());
+  }
 
   /// Takes sample j: decides whether the force is transmitted, and how large it is. Call once per
   /// sample.
@@ -128,8 +132,10 @@ class SampledMotion {
         state_, previous_force_, law_.memory()};
   }
   /// Goes on from what a motion of the same loop remembered, at the forcing's present phase.
+  /// @throws InvalidParameter for a state of another size
   template <class LawMemory>
   void restore(const MotionMemory<Scalar, LawMemory, states>& memory) {
+    require_size("size of the state", memory.state.size(), state_.size());
     state_ = memory.state;
     previous_force_ = memory.previous_force;
     law_ = Law(law_.width(), memory.backlash);

@@ -198,6 +198,14 @@ OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
   return detail::orbit_of_motion(loop, *ratio, limits,
                                  periodically_forced_motion(loop, *ratio, initial_state));
 }
+/// The same from any column of Eigen's.
+template <class Scalar, class Column>
+OrbitResult find_periodic_orbit(const IdealLoop<Scalar>& loop,
+                                const Eigen::MatrixBase<Column>& initial_state,
+                                const OrbitLimits& limits = {}) {
+  const Vector<double, 4> state = detail::state_of(converted<double>(loop.plant), initial_state);
+  return find_periodic_orbit(loop, state, limits);
+}
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template OrbitResult detail::orbit_of_motion(const IdealLoop<double>&, const Rational&,

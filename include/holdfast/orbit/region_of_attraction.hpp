@@ -110,7 +110,7 @@ class SampledDeviations {
 
   std::array<Matrix<Scalar, 5>, 2> maps_;
   std::array<Read, 2> relative_;  // Δz and Δż
-  Deviations deviations_;
+  Deviations deviations_ = Deviations::Zero();
 };
 
 /// Follows deviations e = [e_x; e_gap], in metres, along an orbit.

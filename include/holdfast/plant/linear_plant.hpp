@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
@@ -20,6 +22,8 @@ namespace holdfast {
 /// @tparam States  N; Eigen::Dynamic where it is known at run time alone
 template <class Number, int States = Eigen::Dynamic>
 struct LinearPlant {
+  static_assert(is_real<Number>, "the numbers of a plant are real: LinearPlant<double>");
+
   Matrix<Number, States> released_matrix;  ///< A, N × N (1/s), no force being transmitted
   Vector<Number, States> force_input;      ///< b, N × 1 per newton of s
   Vector<Number, States> command_input;    ///< b_u, N × 1 per newton of u; 0 of an ideal drive
@@ -29,19 +33,42 @@ struct LinearPlant {
   Ports<Number, States> connections;       ///< what is measured, and what the gap sees
 
   /// A + b f, N × N: the state while the drive transmits.
+  /// @throws InvalidParameter as `require_one_order`; so do all that follow
   Matrix<Number, States> state_matrix() const {
+    require_one_order();
     return released_matrix + force_input * drive_force;
   }
   /// b_u + g b, N × 1 per newton of the command while the drive transmits.
   Vector<Number, States> control_input() const {
+    require_one_order();
     return command_input + direct_transmission * force_input;
   }
   /// c, N × 1 per newton of F.
-  const Vector<Number, States>& excitation_input() const { return excitation; }
+  const Vector<Number, States>& excitation_input() const {
+    require_one_order();
+    return excitation;
+  }
   /// What is measured, and what the gap sees.
-  const Ports<Number, States>& ports() const { return connections; }
+  const Ports<Number, States>& ports() const {
+    require_one_order();
+    return connections;
+  }
   /// N.
   Eigen::Index order() const { return released_matrix.rows(); }
+
+  /// Refuses parts of different orders, which no sum of them may meet.
+  /// @throws InvalidParameter unless A is N × N, N ≥ 1, and all else N long
+  void require_one_order() const {
+    if constexpr (States == Eigen::Dynamic) {
+      const Eigen::Index n = order();
+      const auto fits = [n](const auto&... of) { return ((of.size() == n) && ...); };
+      if (n >= 1 && released_matrix.cols() == n && connections.are_of(n) &&
+          fits(force_input, command_input, excitation, drive_force))
+        return;
+      throw InvalidParameter("order of the plant", static_cast<double>(n), "",
+                             "the same of all its matrices and ports, at least 1");
+    }
+  }
 };
 
 /// The two masses as a plant of order 4, x = [z₁, ż₁, z₂, ż₂].
@@ -61,11 +88,19 @@ const LinearPlant<Scalar, States>& linear_plant(const LinearPlant<Scalar, States
 
 namespace detail {
 
+template <class Plant, class = void>
+struct IsDriven : std::false_type {};
+/// Whether a plant says what the force of its drive moves and what the gap sees.
+template <class Plant>
+struct IsDriven<Plant, std::void_t<decltype(linear_plant(std::declval<const Plant&>()))>>
+    : std::true_type {};
+
 /// The plant with `more` further states that nothing moves yet, behind its own.
 /// @tparam More  the same, or Eigen::Dynamic
 template <int More, class Scalar, int States>
 LinearPlant<Scalar, larger_size(States, More)> enlarged(const LinearPlant<Scalar, States>& plant,
                                                         Eigen::Index more = More) {
+  plant.require_one_order();
   constexpr int size = larger_size(States, More);
   const Eigen::Index n = plant.order();
   const auto column = [&](const Vector<Scalar, States>& of) {
@@ -165,22 +200,14 @@ LinearPlant<Scalar, larger_size(States, 2)> with_drive_lag(const LinearPlant<Sca
 /// relative velocity r)
 template <int States>
 void validate(const LinearPlant<double, States>& plant) {
-  const Eigen::Index n = plant.order();
   const Ports<double, States>& ports = plant.ports();
-  bool sized = n >= 1 && plant.released_matrix.cols() == n;
   double sum = plant.released_matrix.sum() + plant.direct_transmission;
-  const auto take = [&](const auto& row_or_column) {
-    sized = sized && row_or_column.size() == n;
-    sum += row_or_column.sum();
-  };
+  const auto take = [&](const auto& row_or_column) { sum += row_or_column.sum(); };
   take(plant.force_input), take(plant.command_input), take(plant.excitation);
   take(plant.drive_force), take(ports.displacement), take(ports.velocity);
   take(ports.measured_displacement), take(ports.measured_velocity);
   take(ports.relative_displacement), take(ports.relative_velocity);
   take(ports.displacement_lift), take(ports.velocity_lift);
-  if (!sized)
-    throw InvalidParameter("order of the plant", static_cast<double>(n), "",
-                           "the same of all its matrices and ports, at least 1");
   require_finite("sum of the entries of the plant", sum, "");
   if (plant.control_input().isZero(0.0) && plant.drive_force.isZero(0.0))
     throw InvalidParameter("direct transmission g", plant.direct_transmission, "",

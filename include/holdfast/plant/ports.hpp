@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -70,6 +71,13 @@ struct Ports {
                                          const Scalar& differential) const {
     return proportional * measured_displacement + differential * measured_velocity;
   }
+
+  /// Whether all are of a plant of that order.
+  bool are_of(Eigen::Index order) const {
+    const auto fits = [order](const auto&... of) { return ((of.size() == order) && ...); };
+    return fits(displacement, velocity, measured_displacement, measured_velocity,
+                relative_displacement, relative_velocity, displacement_lift, velocity_lift);
+  }
 };
 
 /// The ports of a state that begins with [z₁, ż₁, z₂, ż₂], the two masses'; those of a plant that
@@ -91,14 +99,50 @@ Ports<Scalar, States> two_mass_ports(Eigen::Index states = States) {
 
 /// The ports of a plant: its own, or those of the two masses where it has four states and no
 /// `ports()`.
+/// @throws InvalidParameter where one of them is of another order than the plant
 template <class Plant>
 Ports<ScalarOf<Plant>, states_of<Plant>> ports_of(const Plant& plant) {
   if constexpr (detail::HasPorts<Plant>::value) {
+    const auto order = plant.excitation_input().size();
+    if (!plant.ports().are_of(order))
+      throw InvalidParameter("order of a plant's ports", static_cast<double>(order), "",
+                             "that of each of them");
     return plant.ports();
-  } else {
-    static_assert(states_of<Plant> == 4, "a plant of another order says where its ports are");
+  } else if constexpr (states_of<Plant> == 4) {
     return two_mass_ports<ScalarOf<Plant>>();
+  } else {
+    static_assert(detail::HasPorts<Plant>::value,
+                  "a plant of another order than 4 says what is measured: it has `ports()`");
+    return {};
   }
 }
+
+namespace detail {
+
+/// Any column of Eigen's as a state of a plant.
+/// @throws InvalidParameter where it is of another size
+template <class Plant, class Derived>
+StateOf<Plant> state_of(const Plant& plant, const Eigen::MatrixBase<Derived>& column) {
+  constexpr int states = states_of<Plant>, size = Derived::RowsAtCompileTime;
+  constexpr bool fits = Derived::ColsAtCompileTime == 1 &&
+                        std::is_same_v<typename Derived::Scalar, ScalarOf<Plant>> &&
+                        (size == states || size == Eigen::Dynamic || states == Eigen::Dynamic);
+  static_assert(fits, "a state of a plant is a column of as many numbers as it has states");
+  if constexpr (fits) {
+    require_size("size of the initial state", column.size(), plant.excitation_input().size());
+    return column;
+  } else {
+    return {};
+  }
+}
+
+/// Refuses a state of a plant that is of another size or not finite.
+template <class Plant>
+void require_state(const StateOf<Plant>& state, const Plant& plant) {
+  require_size("size of the initial state", state.size(), plant.excitation_input().size());
+  require_finite("initial state", static_cast<double>(state.sum()), "");
+}
+
+}  // namespace detail
 
 }  // namespace holdfast

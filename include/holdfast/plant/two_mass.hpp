@@ -18,6 +18,8 @@ namespace holdfast {
 /// row used here, [k₂/m₂, c₂/m₂, −k₂/m₂, −c₂/m₂], is what the equations of motion above give.
 template <class Scalar>
 struct TwoMass {
+  static_assert(is_real<Scalar>, "the numbers of a plant are real: TwoMass<double>");
+
   Scalar conductor_mass;       ///< m₁ (kg), > 0
   Scalar conductor_stiffness;  ///< k₁ (N/m), > 0
   Scalar conductor_damping;    ///< c₁ (N s/m), ≥ 0

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast::simd {
 
 /// Does the rows of a chart in tiles on several threads; in a browser, whose modules have one

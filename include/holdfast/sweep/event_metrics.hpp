@@ -95,7 +95,6 @@ MotionMetrics event_metrics(const ImplementedLoopOf<Plant>& loop,
                             const StateOf<Plant>& initial_state, double duration,
                             const std::function<void()>& pause = {}) {
   validate(loop);
-  for (const double entry : initial_state) require_finite("initial state", entry, "SI");
   const detail::SampleSpan span = detail::sample_span(
       0, duration, SamplingClock(loop.digital.sampling.period, loop.digital.jitter));
   auto motion = event_motion(loop, initial_state);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// How a motion ended.

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -26,10 +27,13 @@ int nearest_power_of_four(Scalar ratio, int most) {
 /// brings close to the spectral radius. Powers of two round nothing. The numbers need the four
 /// operations and a comparison; the powers of dual numbers are constants.
 /// Source: B. N. Parlett, C. Reinsch, Balancing a matrix, Numer. Math. 13 (1969).
+/// @throws InvalidParameter where the matrix is empty or not square; so does all that balances
 template <class Scalar, int Size>
 Vector<Scalar, Size> balancing(const Matrix<Scalar, Size>& matrix) {
   // Entries at the end of the range of numbers would carry the factors beyond it.
   constexpr int most = std::numeric_limits<Scalar>::max_exponent / 5;
+  require_positive("rows of a square matrix", static_cast<double>(matrix.rows()), "");
+  require_size("columns of a square matrix", matrix.cols(), matrix.rows());
   const auto size = static_cast<int>(matrix.rows());
   const Matrix<Scalar, Size> moduli = matrix.cwiseAbs();
   Vector<Scalar, Size> factors = Vector<Scalar, Size>::Ones(size);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// e^x − 1 of a complex number to full relative accuracy.

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -15,6 +16,7 @@ namespace holdfast {
 /// for which V − MᵀV M differs from I by less than a half, rounding included.
 /// @param map  M, n × n
 /// @return nothing where M does not contract, or so slowly that rounding hides it
+/// @throws InvalidParameter where M is not square
 /// Work: 4 n³ multiply-adds for each doubling, of which there are log₂ of the steps that M takes to
 /// forget.
 /// @tparam Scalar  double; a parameter so that who does not ask compiles none of it
@@ -25,6 +27,7 @@ std::optional<Matrix<Scalar, Eigen::Dynamic>> discrete_lyapunov(
   constexpr int most_doublings = 48;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const Eigen::Index n = map.rows();
+  require_size("columns of a square matrix", map.cols(), n);
   const Square identity = Square::Identity(n, n);
   Square measure = identity, power = map;
   for (int count = 0; count < most_doublings; ++count) {

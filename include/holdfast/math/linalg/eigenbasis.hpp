@@ -27,6 +27,8 @@ class EigenBasis {
   using ComplexMatrix = Matrix<Complex, Eigen::Dynamic>;  ///< N × N
 
   /// @param matrix  A, N × N, finite, N ≥ 1
+  /// @throws InvalidParameter where it is empty or not square; `coordinates` and `readings` for
+  /// another N
   explicit EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix);
 
   /// s, N × 1; those of a conjugate pair side by side.
@@ -117,6 +119,7 @@ EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
 template <class Scalar>
 auto EigenBasis<Scalar>::coordinates(const Vector<Scalar, Eigen::Dynamic>& b) const
     -> ComplexVector {
+  require_size("size of an input", b.size(), factors_.size());
   const Vector<Scalar, Eigen::Dynamic> balanced = factors_.cwiseInverse().cwiseProduct(b);
   return vectors_.template triangularView<Eigen::UnitUpper>().solve(basis_.adjoint() * balanced);
 }
@@ -124,6 +127,7 @@ auto EigenBasis<Scalar>::coordinates(const Vector<Scalar, Eigen::Dynamic>& b) co
 template <class Scalar>
 auto EigenBasis<Scalar>::readings(const RowVector<Scalar, Eigen::Dynamic>& h) const
     -> ComplexVector {
+  require_size("size of a reading", h.size(), factors_.size());
   const RowVector<Scalar, Eigen::Dynamic> balanced = h.cwiseProduct(factors_.transpose());
   return ((balanced.template cast<Complex>() * basis_) * vectors_).transpose();
 }

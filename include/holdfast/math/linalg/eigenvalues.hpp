@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -46,12 +47,15 @@ Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues_of_schur_fo
 /// @param matrix  finite, square, not empty
 /// @return each as often as its multiplicity, complex pairs side by side, otherwise in no order;
 ///         NaN where the QR algorithm does not converge within 40 n steps
+/// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size, int Most>
 Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1> eigenvalues(
     const Eigen::Matrix<Scalar, Size, Size, 0, Most, Most>& matrix) {
   using Square = Eigen::Matrix<Scalar, Size, Size, 0, Most, Most>;
   using Values = Eigen::Matrix<std::complex<Scalar>, Size, 1, 0, Most, 1>;
   const Eigen::Index size = matrix.rows();
+  require_positive("rows of a square matrix", static_cast<double>(size), "");
+  require_size("columns of a square matrix", matrix.cols(), size);
   const Scalar scale = matrix.cwiseAbs().maxCoeff();
   if (scale < std::numeric_limits<Scalar>::min()) return Values::Zero(size);
   const Eigen::HessenbergDecomposition<Square> hessenberg(Square(matrix / scale));

@@ -3,6 +3,7 @@
 #include <complex>
 #include <utility>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 
 namespace holdfast {
@@ -30,10 +31,13 @@ Scalar pivot_size(const std::complex<Scalar>& z) {
 /// for c columns.
 /// @param matrix  M, n × n; where it is singular the result is not finite
 /// @param right   B, n × c
+/// @throws InvalidParameter where the sizes are others
 template <class Square, class Columns>
 Columns eliminated(Square matrix, Columns right) {
   using Scalar = typename Square::Scalar;
   const Eigen::Index n = matrix.rows(), columns = right.cols();
+  require_size("columns of a square matrix", matrix.cols(), n);
+  require_size("rows of the right-hand side", right.rows(), n);
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = k;
     for (Eigen::Index i = k + 1; i < n; ++i) {

@@ -94,6 +94,7 @@ Square approximated(const PadeApproximant& approximant, const Square& matrix) {
 /// Source: N. J. Higham, The scaling and squaring method for the matrix exponential revisited,
 /// SIAM J. Matrix Anal. Appl. 26 (2005).
 /// @param matrix  square, of fixed or dynamic size; not finite, or of a sum |M_ij| that is not: NaN
+/// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Matrix<Scalar, Size> exponential(const Matrix<Scalar, Size>& matrix) {
   using Square = Matrix<Scalar, Size>;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// A complex number that moves with a number x, −1 ≤ x ≤ 1: Σ_k terms[k] xᵏ and what is not in it.

@@ -19,7 +19,7 @@ namespace holdfast {
 ///
 ///     S(x) = I + Σ_k terms[k] xᵏ + R(x),   |R_ij(x)| ≤ remainder_ij
 struct MovingMatrix {
-  std::vector<Eigen::MatrixXd> terms;  ///< terms[0] = S(0) − I and so on, n × n each, at least one
+  std::vector<Eigen::MatrixXd> terms;  ///< terms[0] = S(0) − I and so on, n × n each, at least two
   Eigen::MatrixXd remainder;           ///< n × n, ≥ 0
 };
 
@@ -92,6 +92,7 @@ class MovingSpectrum {
   using Complex = std::complex<Scalar>;  ///< of the triangular form
 
   /// @param matrix  finite; a matrix that is not has no proof
+  /// @throws InvalidParameter for fewer than two terms, or where the sizes disagree
   explicit MovingSpectrum(const MovingMatrix& matrix);
 
   /// Whether all eigenvalues of S(0) are computed to lie inside the unit circle.
@@ -106,6 +107,7 @@ class MovingSpectrum {
   /// @param from_one  λ(x) − 1, of as many terms as S
   /// @param source    g(x), likewise
   /// @param rows      c, any number of them, each n wide
+  /// @throws InvalidParameter for another number of terms, or rows of another width
   std::vector<MovingNumber> responses(const MovingNumber& from_one, const MovingVector& source,
                                       const Eigen::MatrixXd& rows) const;
 
@@ -304,6 +306,11 @@ class MovingSpectrum {
 
 template <class Scalar>
 MovingSpectrum<Scalar>::MovingSpectrum(const MovingMatrix& matrix) {
+  require_within("number of terms", static_cast<double>(matrix.terms.size()), "", 2.0, 1e6);
+  for (const Eigen::MatrixXd& term : matrix.terms) {
+    require_size("rows of a term", term.rows(), matrix.remainder.rows());
+    require_size("columns of a term", term.cols(), matrix.remainder.cols());
+  }
   if (!matrix.terms.front().allFinite()) return;
   take(matrix);
   inside_at_centre_ =
@@ -315,6 +322,11 @@ template <class Scalar>
 std::vector<MovingNumber> MovingSpectrum<Scalar>::responses(const MovingNumber& from_one,
                                                             const MovingVector& source,
                                                             const Eigen::MatrixXd& rows) const {
+  require_size("number of terms", static_cast<Eigen::Index>(from_one.terms.size()),
+               static_cast<Eigen::Index>(terms_.size()));
+  require_size("number of terms", static_cast<Eigen::Index>(source.terms.size()),
+               static_cast<Eigen::Index>(terms_.size()));
+  require_size("width of a row", rows.cols(), size());
   std::vector<Eigen::VectorXcd> y;
   std::vector<Eigen::VectorXd> beyond(order() + 1, Eigen::VectorXd::Zero(size()));
   for (std::size_t k = 0; k <= order(); ++k) {

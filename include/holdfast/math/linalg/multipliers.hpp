@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/gram_schmidt.hpp"
@@ -165,9 +166,15 @@ std::vector<Multiplier> multipliers_of_turn(const Matrix<Scalar, Size>& turn,
 /// eigenvalues whose moduli are apart. Each block is scaled by its own exponent.
 /// @param maps  at least one, N × N, N ≥ 2; each well enough conditioned to be factorised alone
 /// @return N of them; those of null directions have log_modulus −∞
+/// @throws InvalidParameter where there is no map, or one of another size
 template <class Scalar = double, int Size = 5>
 std::vector<Multiplier> multipliers_of_product(const std::vector<Matrix<Scalar, Size>>& maps) {
   constexpr int most_turns = 40;
+  require_positive("number of maps", static_cast<double>(maps.size()), "");
+  for (const Matrix<Scalar, Size>& map : maps) {
+    require_size("rows of a map", map.rows(), maps.front().rows());
+    require_size("columns of a map", map.cols(), maps.front().rows());
+  }
   const Eigen::Index order = maps.front().rows();
   Matrix<Scalar, Size> basis = detail::generic_basis<Scalar, Size>(static_cast<int>(order)), turn;
   detail::ScaledTriangle<Scalar, Size> triangle(order);

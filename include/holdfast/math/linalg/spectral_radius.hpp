@@ -22,6 +22,7 @@ Vector<std::complex<Scalar>, Size> balanced_eigenvalues(const Matrix<Scalar, Siz
 
 /// ρ(M) = max |λ_i|, by the QR algorithm. A discrete loop is asymptotically stable ⇔ ρ < 1.
 /// NaN for a matrix that is not finite.
+/// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
   if (!map.allFinite()) return std::numeric_limits<Scalar>::quiet_NaN();
@@ -30,6 +31,7 @@ Scalar spectral_radius(const Matrix<Scalar, Size>& map) {
 
 /// α(M) = max Re λ_i, by the QR algorithm. A continuous loop is asymptotically stable ⇔ α < 0.
 /// NaN for a matrix that is not finite.
+/// @throws InvalidParameter where the matrix is empty or not square
 template <class Scalar, int Size>
 Scalar spectral_abscissa(const Matrix<Scalar, Size>& generator) {
   if (!generator.allFinite()) return std::numeric_limits<Scalar>::quiet_NaN();

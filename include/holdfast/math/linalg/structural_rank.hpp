@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// What a loop carries along beside the state z of its plant, unchanged until it acts.

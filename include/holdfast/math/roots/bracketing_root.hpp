@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// Two arguments between which a function changes sign, and its values there.

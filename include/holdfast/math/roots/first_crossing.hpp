@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// What is known of a stretch |x − centre| ≤ radius.

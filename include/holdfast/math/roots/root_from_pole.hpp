@@ -5,6 +5,8 @@
 #include <complex>
 #include <limits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// The root of 1 − ε g(s) at ε = 1 that begins at a pole p of g at ε = 0: how a natural motion

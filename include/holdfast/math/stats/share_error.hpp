@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// The standard error of a share of which `count` of `all` independent draws were seen:

@@ -193,8 +193,8 @@ inline std::optional<ModalMotion> modal_motion(const ModalLoop& loop,
                                                const ModalMotion::Full& state) {
   validate(loop);
   require_finite("initial state", state.sum(), "");
-  const double size = static_cast<double>(2 * loop.modes.size() + 2);
-  require_within("size of the initial state", static_cast<double>(state.size()), "", size, size);
+  require_size("size of the initial state", state.size(),
+               static_cast<Eigen::Index>(2 * loop.modes.size() + 2));
   if (poles.empty()) return std::nullopt;
   return ModalMotion(loop, poles, state);
 }

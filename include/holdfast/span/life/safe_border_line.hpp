@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// The life of a conductor at its clamps under bending, by the safe border line of CIGRE Study

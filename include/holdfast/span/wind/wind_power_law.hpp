@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "holdfast/core/compiler.hpp"
+
 namespace holdfast {
 
 /// What a steady wind gives a cylinder that vibrates across it at the frequency at which it sheds

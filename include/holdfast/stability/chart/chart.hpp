@@ -92,13 +92,22 @@ struct GainGrid {
   }
 
   /// Number of cells, values of P times values of D.
-  std::int64_t cells() const { return proportional.count * differential.count; }
+  /// @throws InvalidParameter unless they are 1 … 10¹⁵
+  std::int64_t cells() const {
+    require_within(
+        "number of cells of a chart",
+        static_cast<double>(proportional.count) * static_cast<double>(differential.count), "", 1.0,
+        1e15);
+    return proportional.count * differential.count;
+  }
 };
 
-/// @throws InvalidParameter unless the gains are finite, ascend, and there is one at least of each
+/// @throws InvalidParameter unless the gains are finite, ascend, and there is one at least of each,
+/// and no more than 10¹⁵ together
 inline void validate(const GainGrid& grid) {
   validate(grid.proportional, "proportional gain P", "N/m");
   validate(grid.differential, "differential gain D", "N s/m");
+  grid.cells();
 }
 
 /// Rows of the chart of stable gains, each of a fixed P.

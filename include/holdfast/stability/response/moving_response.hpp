@@ -59,8 +59,11 @@ class MovingResponse {
   /// @param loop               the loop
   /// @param input              `harmonic_input` of the same loop and ω
   /// @param angular_frequency  ω (rad/s), > 0
+  /// @throws InvalidParameter for an input of another size than the loop
   MovingResponse(const Loop& loop, const Input& input, const Scalar& angular_frequency)
       : loop_(loop) {
+    for (const auto* part : {&input.cosine, &input.sine})
+      require_size("size of the harmonic input", part->size(), loop.increment.rows());
     const Scalar angle = angular_frequency * loop.sampling.period;
     lambda_ = std::polar(Scalar(1), angle);
     lambda_rate_ = Complex(0, angular_frequency) * lambda_;

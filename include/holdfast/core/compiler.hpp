@@ -1,0 +1,19 @@
+#pragma once
+
+// What a compiler must be told, or not be told, to compile the library; every header reads this
+// one.
+
+// NaN and infinity are refused by comparisons, proofs and exponentials rest on sums in their order.
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error \
+    "holdfast does not compile under -ffast-math, -Ofast or /fp:fast, which remove its checks \
+of NaN and reorder its sums: add -fno-fast-math (/fp:precise) for the files that include it"
+#endif
+
+// A value that is not admissible is refused by throwing InvalidParameter.
+#if !defined(__cpp_exceptions) && !defined(__EXCEPTIONS) && !defined(_CPPUNWIND)
+#error \
+    "holdfast refuses what is not admissible by exceptions: compile the files that include it \
+without -fno-exceptions (with /EHsc)"
+#endif
