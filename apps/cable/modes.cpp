@@ -1,4 +1,6 @@
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "case/model/cable_of_case.hpp"
 #include "holdfast/cable/chain_modes.hpp"
@@ -8,14 +10,32 @@
 namespace holdfast::program {
 namespace {
 
-/// Frequencies of the finite elements of one family, ascending, without the modes along the span,
-/// which Irvine and Caughey do not have.
-std::vector<double> of_family(const ElementsModes& modes, ModeFamily family) {
-  std::vector<double> frequencies;
-  for (const ElementsMode& mode : modes.modes)
-    if (mode.family == family && mode.along_share < 0.5) frequencies.push_back(mode.frequency);
-  return frequencies;
+/// Whether Irvine and Caughey have such a mode: waves along the conductor have modes from about
+/// sqrt(EA/mu)/(2 L) on, and of a slower one that moves along the span the sag is the reason.
+bool is_across(const ElementsMode& mode, const Conductor<double>& conductor) {
+  const double slowest_along =
+      std::sqrt(conductor.youngs_modulus * conductor.area / conductor.mass_per_length) /
+      (2.0 * conductor.span);
+  return mode.along_share < 0.5 || mode.frequency < 0.5 * slowest_along;
 }
+
+/// Frequencies of Irvine and Caughey, of each family in turn.
+class IrvineFrequencies {
+ public:
+  /// Of the first modes, as many of each family as of the other, give or take one.
+  IrvineFrequencies(const Conductor<double>& conductor, int of_each)
+      : modes_(irvine_modes(conductor, 2 * of_each + 2)) {}
+
+  double next(ModeFamily family) {
+    std::size_t& at = taken_[family == ModeFamily::symmetric ? 0 : 1];
+    while (modes_[at].family != family) ++at;
+    return modes_[at++].frequency;
+  }
+
+ private:
+  std::vector<CableMode> modes_;
+  std::array<std::size_t, 2> taken_ = {0, 0};
+};
 
 struct ModesQuestion {
   int count = 6;
@@ -33,19 +53,16 @@ struct ModesQuestion {
                        ", admissible is an even number from " + std::to_string(4 * count) + " on");
     report_warning(borrowed_cable_warning(context.case_data), context.quiet);
     const Conductor<double> conductor = conductor_of(context.case_data);
-    const auto irvine = irvine_modes(conductor, count);
-    const ElementsModes modes = elements_modes(conductor, elements, 2 * (elements - 1));
-    if (modes.outcome != EquilibriumOutcome::converged)
+    const ElementsModes found = elements_modes(conductor, elements, count);
+    if (found.outcome != EquilibriumOutcome::converged)
       throw NoAnswer("no equilibrium of the elements was found");
-    const std::array<std::vector<double>, 2> found = {of_family(modes, ModeFamily::symmetric),
-                                                      of_family(modes, ModeFamily::antisymmetric)};
+    IrvineFrequencies irvine(conductor, count);
     Table table(context, columns_of("modes"));
-    std::array<std::size_t, 2> taken = {0, 0};
-    for (std::size_t k = 0; k < irvine.size(); ++k) {
-      const bool symmetric = irvine[k].family == ModeFamily::symmetric;
-      const std::size_t which = symmetric ? 0 : 1;
-      table.row(k + 1, symmetric ? "symmetric" : "antisymmetric", irvine[k].frequency,
-                found[which].at(taken[which]++));
+    for (int k = 0; k < count; ++k) {
+      const ElementsMode& mode = found.modes[static_cast<std::size_t>(k)];
+      table.row(k + 1, mode.family == ModeFamily::symmetric ? "symmetric" : "antisymmetric",
+                is_across(mode, conductor) ? irvine.next(mode.family) : std::nan(""),
+                mode.frequency, mode.along_share);
     }
     table.commit();
   }

@@ -9,9 +9,11 @@
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "io/text/range_text.hpp"
 #include "job.hpp"
 #include "jobs/charts/conditioning.hpp"
 #include "jobs/charts/names.hpp"
+#include "report/figures/figure.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -137,7 +139,7 @@ std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
     for (std::size_t k = 0; k < here.size(); ++k)
       if (moved(k))
         return "the answer depends on the modes kept: " + at + other.words + " the interval is " +
-               format_rounded(there[k].lower) + " to " + format_rounded(there[k].upper) + " " +
+               range_text(format_rounded(there[k].lower), format_rounded(there[k].upper)) + " " +
                found[i].gain.unit;
   }
   return "";
@@ -239,8 +241,10 @@ struct BoundaryQuestion {
     job.add("--features", features);
   }
 
-  void run(const Job& job) const {
+  void run(const Job& job) {
     const JobContext context = job.context();
+    p = shown_gains(context, "--p", p);
+    d = shown_gains(context, "--d", d);
     refuse_on_modes(context.case_data, continuous, "--continuous");
     refuse_on_modes(context.case_data, regions, "--regions");
     refuse_on_modes(context.case_data, features, "--features");

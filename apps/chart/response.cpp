@@ -3,6 +3,7 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
+#include "report/figures/figure.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -27,7 +28,8 @@ struct ResponseQuestion {
                                       "amplitudes are those of the force as it "
                                       "is held, ratios to the true force's"),
                    context.quiet);
-    const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
+    const GainGrid grid{parse_axis("--p", shown_gains(context, "--p", p)),
+                        parse_axis("--d", shown_gains(context, "--d", d))};
     write_chart(context, {gain_axes(grid), cell_columns_of("response")},
                 response_chart(context, response, excitation.amplitude, grid));
   }

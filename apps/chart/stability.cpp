@@ -14,6 +14,7 @@
 #include "jobs/charts/proved_stability.hpp"
 #include "jobs/columns.hpp"
 #include "process/exit.hpp"
+#include "report/figures/figure.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -71,13 +72,17 @@ struct StabilityQuestion {
     if (!radius) return cell_columns_of("stability");
     return cell_columns_of(continuous ? "continuous stability" : "sampled stability");
   }
+  GainGrid gains_of_chart(const JobContext& context) const {
+    return {parse_axis("--p", shown_gains(context, "--p", p)),
+            parse_axis("--d", shown_gains(context, "--d", d))};
+  }
   void run_over_gains(const JobContext& context) const;
   void run_over_axes(const JobContext& context) const;
   void prove_gains(const JobContext& context) const;
 };
 
 void StabilityQuestion::run_over_gains(const JobContext& context) const {
-  const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
+  const GainGrid grid = gains_of_chart(context);
   const auto rows = [&] {
     if (continuous) return continuous_chart(plant_of(context.case_data), grid, radius);
     return stability_chart_of(context.case_data, grid, radius, context.instructions);
@@ -106,7 +111,7 @@ void StabilityQuestion::prove_gains(const JobContext& context) const {
     throw WrongInput(
         "--output " + context.output->string() +
         ": --prove makes boxes, not the cells of a grid; give a name that ends in .csv");
-  const GainGrid grid{parse_axis("--p", p), parse_axis("--d", d)};
+  const GainGrid grid = gains_of_chart(context);
   if (grid.proportional.count < 2 || grid.differential.count < 2)
     throw WrongInput(
         "--prove proves what lies between the points of --p and of --d, two of each at least");

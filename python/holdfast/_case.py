@@ -231,7 +231,8 @@ class Case:
 
     def modes(self, *, count: Optional[int] = None, elements: Optional[int] = None, **how: Any) -> Table:
         """Natural frequencies (Hz) of the bare conductor in its plane: Irvine and Caughey, and finite
-        elements. Columns ``mode, family, irvine_Hz, elements_Hz``.
+        elements. Columns ``mode, family, irvine_Hz, elements_Hz,
+        along_share``.
         """
         return self._run("modes", _options.arguments({"count": count, "elements": elements}), how)
 

@@ -304,6 +304,63 @@ TEST(Coverage, GrowsWithTime) {
   EXPECT_DOUBLE_EQ(table.number(1, "fraction"), table.number(1, "visited") / 400.0);
 }
 
+const std::string deep_span =
+    " --quiet --set conductor.name=Drake --set conductor.span=300 --set conductor.sag=";
+
+/// An absorber next to none, where no slow mode has a node; Lanczos' process finds its modes.
+TEST(Modes, OfADeepSpanAreAllThereAndThoseThatItsPlantHas) {
+  const CsvTable modes = table_of("modes --count 6" + deep_span + "80");
+  const CsvTable plant = table_of(
+      "modal-damping --count 6 --no-control --set plant.model=cable --set absorber.position=100"
+      " --set plant.absorber_mass=1e-4" +
+      deep_span + "80");
+  ASSERT_EQ(modes.rows(), 6U);
+  ASSERT_EQ(plant.rows(), 6U);
+  for (std::size_t row = 0; row < modes.rows(); ++row)
+    EXPECT_NEAR(modes.number(row, "elements_Hz") / plant.number(row, "frequency_Hz"), 1.0, 1e-3);
+  EXPECT_GT(modes.number(0, "along_share"), 0.5);
+  // The n-th of its family, whichever way it moves: sin nπx/L of the taut string.
+  EXPECT_NEAR(modes.number(2, "irvine_Hz") / modes.number(0, "irvine_Hz"), 2.0, 1e-9);
+}
+
+TEST(Modes, AlongTheConductorHaveItsStretchAndNoneOfIrvine) {
+  const CsvTable modes = table_of("modes --count 40 --elements 400" + deep_span + "8");
+  // √(EA/μ)/(2 S), S the length of the conductor, L + 8 d²/(3 L).
+  const double modulus = 62e9, area = 468.6e-6, mass = 1.628, length = 300.57;
+  int along = 0;
+  double before = 0.0;
+  for (std::size_t row = 0; row < modes.rows(); ++row) {
+    const double frequency = modes.number(row, "elements_Hz");
+    EXPECT_GE(frequency, before);
+    before = frequency;
+    const bool has_none = std::isnan(modes.number(row, "irvine_Hz"));
+    EXPECT_EQ(has_none, modes.number(row, "along_share") > 0.5);
+    if (!has_none) continue;
+    ++along;
+    EXPECT_NEAR(frequency / (std::sqrt(modulus * area / mass) / (2.0 * length)), 1.0, 0.15);
+  }
+  EXPECT_EQ(along, 1);
+}
+
+TEST(Charts, ShowTheGainsOfTheCaseWhereNoWindowIsAskedFor) {
+  const std::string large =
+      " --quiet --set plant.absorber_stiffness=180000 --set plant.absorber_mass=5 --set "
+      "plant.conductor_stiffness=1e5 --set plant.conductor_mass=50"
+      " --set control.differential_gain=-300 --set control.proportional_gain=";
+  for (const double gain : {-136457.0, -0.5, 3e4})
+    for (const char* job : {"stability", "response", "boundary"}) {
+      const CsvTable table = table_of(job + large + std::to_string(gain));
+      const auto p = table.numbers("proportional_gain");
+      const auto [lowest, highest] = std::minmax_element(p.begin(), p.end());
+      EXPECT_LT(*lowest, gain) << job;
+      EXPECT_GT(*highest, gain) << job;
+      EXPECT_GT(*highest - *lowest, 180000.0) << job;
+    }
+  const CsvTable given = table_of("stability --p -5:5:2 --d -1:1:2" + large + "-136457");
+  EXPECT_EQ(given.numbers("proportional_gain").front(), -5.0);
+  EXPECT_EQ(table_of("stability").numbers("proportional_gain").front(), -1000.0);
+}
+
 TEST(Threads, DoNotChangeAnyByte) {
   const std::string job = "stability --p -1000:200:31 --d -40:20:31 --threads ";
   EXPECT_EQ(run_holdfast(job + "1").output, run_holdfast(job + "2").output);

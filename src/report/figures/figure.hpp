@@ -5,6 +5,7 @@
 
 #include "case/case.hpp"
 #include "io/text/compiled_texts.hpp"
+#include "process/job_context.hpp"
 
 namespace holdfast::program {
 
@@ -72,6 +73,12 @@ std::vector<Figure> figures_of(const Case& the_case, bool builtin);
 
 /// "P" and "D": a window of gains around those of the case, as wide as the gains themselves.
 Values window_of_gains(const Case& the_case);
+
+/// What a chart of gains shows: the range of --p or --d as it is given, else the paper's, and where
+/// the case's gains lie outside of that, or its absorber is of another size, one about the case's.
+/// @param range  given or the paper's, MIN:MAX with a count behind it or without
+std::string shown_gains(const JobContext& context, const std::string& option,
+                        const std::string& range);
 
 /// Where the spectrum of a motion ends (Hz): behind the fourth harmonic of the force, or where the
 /// samples show no more.

@@ -6,6 +6,7 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/core/interval.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
 #include "io/text/text.hpp"
 #include "jobs/cable/cable_decay.hpp"
@@ -229,6 +230,30 @@ Values window_of_gains(const Case& the_case) {
   const double d_reach =
       std::max({2.0 * std::abs(gains.differential), 5.0 * plant.absorber_damping, p_reach / 100.0});
   return {{"P", about(gains.proportional, p_reach)}, {"D", about(gains.differential, d_reach)}};
+}
+
+namespace {
+
+/// Whether the paper's window of gains shows those of the case, and its absorber's stiffness.
+bool is_of_papers_size(const Case& the_case) {
+  const PdGains<double> gains = gains_of(the_case);
+  const double size = std::max(std::abs(gains.proportional), plant_of(the_case).absorber_stiffness);
+  if (!(size > 0.0)) return true;
+  return Interval<double>{-1000.0, 200.0}.contains(gains.proportional) &&
+         Interval<double>{-40.0, 20.0}.contains(gains.differential) &&
+         Interval<double>{50.0, 1200.0}.contains(size);
+}
+
+}  // namespace
+
+std::string shown_gains(const JobContext& context, const std::string& option,
+                        const std::string& range) {
+  const bool is_given = std::any_of(context.options.begin(), context.options.end(),
+                                    [&](const auto& given) { return given.first == option; });
+  if (is_given || is_of_papers_size(context.case_data)) return range;
+  const bool has_count = std::count(range.begin(), range.end(), ':') == 2;
+  return filled(option == "--p" ? "@P@" : "@D@", window_of_gains(context.case_data)) +
+         (has_count ? range.substr(range.rfind(':')) : "");
 }
 
 std::string greatest_frequency(const Case& the_case) {

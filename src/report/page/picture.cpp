@@ -60,6 +60,11 @@ std::string option_text(const PictureRequest& request, const std::string& option
   return filled("@" + option + "@", request.options);
 }
 
+/// A range of gains as the job takes it.
+std::string shown_option(const PictureRequest& request, const std::string& option) {
+  return shown_gains(request.context, option, option_text(request, option));
+}
+
 /// The row of the list of pictures that says how the table is drawn.
 const toml::array& row_for(const PictureRequest& request) {
   const std::string& job = request.context.job;
@@ -90,8 +95,8 @@ std::vector<KeyValues> axes_of(const PictureRequest& request) {
   if (axes.empty() && job == "diagram")
     return {parse_key_values("--axis", option_text(request, "--axis"))};
   if (!axes.empty() || (job != "stability" && job != "response")) return axes;
-  return {{"control.proportional_gain", parse_axis("--p", option_text(request, "--p"))},
-          {"control.differential_gain", parse_axis("--d", option_text(request, "--d"))}};
+  return {{"control.proportional_gain", parse_axis("--p", shown_option(request, "--p"))},
+          {"control.differential_gain", parse_axis("--d", shown_option(request, "--d"))}};
 }
 
 /// Throws WrongInput for a single value; for a list where an image needs even steps.
@@ -165,7 +170,7 @@ Values picture_values(const PictureRequest& request) {
   const std::string& job = request.context.job;
   Values values = {{"greatest frequency", greatest_frequency(the_case)}};
   if (job == "boundary") {
-    const Range p = parse_range("--p", option_text(request, "--p"));
+    const Range p = parse_range("--p", shown_option(request, "--p"));
     values.emplace_back("P", ends_of({p.min, p.max, 2}));
     values = joined(values, window_of_gains(the_case));
   }
