@@ -32,6 +32,7 @@ struct AeolianQuestion {
     require_measured(the_case, axis.min, axis.max);
     report_warning(absent_absorber_note(the_case), context.quiet);
     const AeolianBalance balance(the_case, !no_control);
+    report_warning(self_damping_note(the_case), context.quiet);
     report_warning(unknown_strain_note(balance), context.quiet);
     require_text_meant(context, axis.count, "rows", "--frequency");
     Table table(context, columns_of("aeolian"));
@@ -56,6 +57,7 @@ struct AeolianQuestion {
     const Case& the_case = context.case_data;
     require_measured(the_case, *history, *history);
     report_warning(absent_absorber_note(the_case), context.quiet);
+    report_warning(self_damping_note(the_case), context.quiet);
     Table table(context, columns_of("aeolian-history"));
     const WindHistory found = wind_history_of(the_case, !no_control, *history, duration);
     for (std::size_t k = 0; k < found.times.size(); ++k)

@@ -24,6 +24,7 @@ struct FatigueQuestion {
     require_measured(the_case, range.min, range.max);
     report_warning(absent_absorber_note(the_case), context.quiet);
     const FatigueLife life = fatigue_life_of(the_case, !no_control, range.min, range.max);
+    report_warning(self_damping_note(the_case), context.quiet);
     report_warning(life_line_note(the_case), context.quiet);
     report_warning(life_advice(life, the_case.site.years), context.quiet);
     report_warning(instability_note(the_case, !no_control), context.quiet);

@@ -108,7 +108,7 @@ void write_absorber(Table& table, const PlacedDevice& placed, const PlacementQue
                     const PlacementLevels& levels) {
   const Case& the_case = placed.the_case;
   const auto row = [&](const std::string& quantity, double value, const char* unit) {
-    table.row(quantity, value, std::string(unit));
+    if (std::isfinite(value)) table.row(quantity, value, std::string(unit));
   };
   row(levels.name() + "_without_absorber", without_absorber(the_case, question),
       levels.unit().c_str());
@@ -147,7 +147,8 @@ void PlaceQuestion::run(const JobContext& context) const {
     if (placed.numbers[k].quantity != "position")
       table.row(placed.numbers[k].quantity, placed.numbers[k].sign * placed.found.values[k],
                 placed.numbers[k].unit);
-  table.row(levels.name() + "_before", placed.before, levels.unit());
+  if (std::isfinite(placed.before))
+    table.row(levels.name() + "_before", placed.before, levels.unit());
   table.row(levels.name(), placed.after, levels.unit());
   if (question.goal == PlacementGoal::modes)
     table.row(std::string("worst_mode"),

@@ -1,4 +1,7 @@
 #include "cli/program.hpp"
+#include "holdfast/plant/free_decay.hpp"
+#include "holdfast/plant/two_mass.hpp"
+#include "io/text/text.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::tests {
@@ -332,6 +335,44 @@ TEST(Plausibility, IsDoubtedByEveryKindOfJobAndOnTheFirstLineOfTheAnswers) {
       EXPECT_NE(lines_of(outcome.output).at(1).find("is it in mm"), std::string::npos);
     }
   }
+}
+
+/// A decay of the paper's plant whose stamps are true and off an even step by up to 4 ms.
+std::string jittering_decay(double unit_of_time, double left_out) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> jitter(-0.004, 0.004);
+  std::vector<double> times = {0.0};
+  for (int k = 1; k < 120; ++k) times.push_back(0.01 * k + jitter(random));
+  const auto motion = free_decay(kollar2022_plant(), 0.01, times);
+  std::string text = "time_s,displacement_m\n";
+  for (std::size_t k = 0; k < times.size(); ++k)
+    if (!(times[k] > 0.5 && times[k] < 0.5 + left_out))
+      text += program::format_number(times[k] / unit_of_time) + "," +
+              program::format_number(motion[k]) + "\n";
+  return text;
+}
+
+TEST(Fit, TakesStampsAsTheyAreAndSaysWhatIsDoubtfulOfThem) {
+  if (!both_packages) GTEST_SKIP() << "needs Ceres Solver";
+  const TemporaryFolder folder;
+  const std::string file = (folder / "decay.csv").string();
+  const auto fitted = [&](const std::string& text, const std::string& options = "") {
+    write_text(file, text);
+    return run_holdfast("fit --data '" + file + "'" + options);
+  };
+  for (const double left_out : {0.0, 0.3}) {
+    const Outcome outcome = fitted(jittering_decay(1.0, left_out));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("a gap of 0.3") != std::string::npos, left_out > 0.0)
+        << outcome.errors;
+    EXPECT_NEAR(program::parse_csv(outcome.output, "fit").number(0, "value"),
+                kollar2022_plant().absorber_damping, 1e-6);
+  }
+  const Outcome peaks = fitted(jittering_decay(1.0, 0.3), " --target peak");
+  EXPECT_EQ(peaks.exit_code, 2);
+  EXPECT_NE(peaks.errors.find("--target history"), std::string::npos) << peaks.errors;
+  const Outcome slow = fitted(jittering_decay(1e-3, 0.0));
+  EXPECT_NE(slow.errors.find("is time_s in ms?"), std::string::npos) << slow.errors;
 }
 
 TEST(Plausibility, ARecordInMillimetresIsNamedAsSuch) {

@@ -109,6 +109,14 @@ TEST_F(PlaceJob, ADashpotOnAStayIsThatOfTheFormulas) {
   EXPECT_NEAR(wave.at("least_ratio"), std::tan(phase / 2.0), 1e-6);
 }
 
+TEST_F(PlaceJob, WhatIsNotKnownHasNoRowAndIsSaid) {
+  const Outcome outcome = run_holdfast("place --for damping --frequency 20:40:3");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output.find("nan"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("largest_force"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.errors.find("conductor.diameter"), std::string::npos) << outcome.errors;
+}
+
 TEST_F(PlaceJob, SaysWhereABoundEndsIt) {
   const Outcome outcome = run(stay_text, "place --modes 1:5");
   EXPECT_NE(outcome.errors.find("position ends at the upper bound of what was searched, 30 m"),

@@ -9,6 +9,7 @@
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
+#include "io/text/range_text.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -78,6 +79,18 @@ std::string instability_note(const Case& the_case, bool controlled) {
          "grow, place finds gains that hold)";
 }
 
+std::string self_damping_note(const Case& the_case) {
+  if (!std::isfinite(the_case.conductor.rated_strength)) return "";
+  const LibraryConductor* conductor = find_conductor(the_case.conductor.name);
+  if (conductor != nullptr && conductor->kind == "ACSR") return "";
+  return "the laws of self-damping were measured on steel-cored aluminium (ACSR) alone, and " +
+         (conductor != nullptr ? conductor->name + " is " + conductor->kind +
+                                     ": it may take far less, and vibrate more"
+                               : "the case does not say that this is one (conductor.name): another "
+                                 "one may take far less, and vibrate more") +
+         " than they say";
+}
+
 std::string life_line_note(const Case& the_case) {
   const LibraryConductor* conductor = find_conductor(the_case.conductor.name);
   if (conductor == nullptr || conductor->kind == "ACSR") return "";
@@ -96,7 +109,7 @@ std::string life_advice(const FatigueLife& life, double years) {
   const Band served = years_of(life.damage);
   const std::string asked = format_rounded(years) + " years";
   const std::string shortest = years_text(served.lowest), longest = years_text(served.highest);
-  const std::string band = shortest == longest ? shortest : shortest + " to " + longest;
+  const std::string band = range_text(shortest, longest);
   if (life.damage.lowest == 0.0 && served.lowest < years)
     return "by some laws the vibration is nowhere as large as they were measured for, and what it "
            "does to the conductor is not known; the shortest life is that of its bound, a "

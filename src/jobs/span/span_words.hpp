@@ -29,6 +29,10 @@ std::string unknown_strain_note(const AeolianBalance& balance);
 /// or there is no absorber.
 std::string instability_note(const Case& the_case, bool controlled);
 
+/// That the laws of self-damping are of other conductors than the case's, or that nobody knows;
+/// empty where it is of their kind, or damped by its ratio.
+std::string self_damping_note(const Case& the_case);
+
 /// That the line of life is of other conductors than the case's; empty where it is of its kind or
 /// nobody knows.
 std::string life_line_note(const Case& the_case);

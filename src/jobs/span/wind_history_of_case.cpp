@@ -7,6 +7,7 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
+#include "io/text/range_text.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 
@@ -74,7 +75,7 @@ std::string history_text(const WindHistory& history, const std::vector<AeolianRo
   return "at its largest place it vibrates with " + format_rounded(history.amplitude / diameter) +
          " diameters (root mean square times 1.41) at " + format_rounded(history.frequency) +
          " Hz in mode " + std::to_string(history.mode) + "; the energy balance has " +
-         format_rounded(lowest / diameter) + " to " + format_rounded(highest / diameter) +
+         range_text(format_rounded(lowest / diameter), format_rounded(highest / diameter)) +
          (is_bound ? ", where 0.01 is as little as the laws of the wind were measured for" : "");
 }
 

@@ -13,6 +13,7 @@
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/margins/margins.hpp"
+#include "io/text/range_text.hpp"
 #include "io/text/text.hpp"
 #include "jobs/design/best_gains.hpp"
 #include "jobs/design/gain_margins.hpp"
@@ -140,7 +141,7 @@ std::string stretch_text(const TwoSidedMargin& margin, double unit, const std::s
   const auto text = [unit](const MarginEnd& at) { return rounded(unit * at.position, 4); };
   const std::string below = text(margin.below), above = text(margin.above);
   if (is_end(margin.below) && is_end(margin.above))
-    return "from " + below + " to " + above + " " + name;
+    return range_text(below, above, "from ") + " " + name;
   if (is_end(margin.above)) return "up to " + above + " " + name;
   return is_end(margin.below) ? "from " + below + " " + name + " on" : "of any size";
 }
@@ -304,19 +305,25 @@ std::string play_text(const Question& question, const std::vector<double>& width
     return widths[static_cast<std::size_t>(place - serve.begin())];
   };
   const auto limit = [&](auto serving, auto failing) {
-    return millimetres(limit_between(question, width(serving), width(failing)));
+    return limit_between(question, width(serving), width(failing));
   };
   Values values = {{"own", millimetres(question.the_case.backlash.width)},
                    {"widest", millimetres(widths.back())}};
   if (begin == serve.end()) return page_text("no play", values);
-  if (end != serve.end()) values.emplace_back("limit", limit(end - 1, end));
+  const double most = end == serve.end() ? widths.back() : limit(end - 1, end);
+  values.emplace_back("limit", millimetres(most));
   if (begin == serve.begin())
     return page_text(end == serve.end() ? "every play" : "up to a play", values);
-  values.emplace_back("least", limit(begin, begin - 1));
+  const double least = limit(begin, begin - 1);
+  values.emplace_back("least", millimetres(least));
+  constexpr double held = 0.05;  // so exactly a play is held at best
   const bool is_first = std::find(serve.begin(), begin, 1) == begin;
   values.emplace_back(
       "why", is_first && question.is_unstable_without_play() ? page_text("needs play") : "");
-  return page_text(end == serve.end() ? "from a play on" : "between two plays", values);
+  const char* const name = end == serve.end()           ? "from a play on"
+                           : most - least > held * most ? "between two plays"
+                                                        : "one play";
+  return page_text(name, values);
 }
 
 /// The play that swallows the whole motion without control, and some half as much again.

@@ -11,6 +11,7 @@
 #include "case/model/modal/modes_warning.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/plausibility/words.hpp"
+#include "io/text/range_text.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
@@ -155,8 +156,8 @@ void judge(const Case& the_case, const Case& cable, Answer& answer) {
   Values values = {{"D", gain_text(gains.differential)}};
   if (!stable.empty()) {
     const Interval<double> nearest = nearest_interval(stable, gains.differential);
-    values.emplace_back("lower", gain_text(nearest.lower));
-    values.emplace_back("upper", gain_text(nearest.upper));
+    values.emplace_back("stretch",
+                        range_text(gain_text(nearest.lower), gain_text(nearest.upper), "from "));
   }
   answer.answer = page_text(name_of_answer(holding), values);
   throw_if_interrupted();

@@ -7,6 +7,7 @@
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/span/end_response.hpp"
+#include "io/text/range_text.hpp"
 #include "jobs/span/aeolian_amplitudes.hpp"
 #include "jobs/span/fatigue_life.hpp"
 #include "jobs/span/mode_dampings.hpp"
@@ -56,13 +57,14 @@ std::string amplitude_text(const BalancedAmplitude& amplitude, double diameter) 
   return page_text("as much as", {{"size", size}});
 }
 
-/// The lowest and highest frequency at which a strain is above the limit; empty where none is.
+/// "within 6 to 9 Hz", "at 6 Hz": where a strain is above the limit; empty where none is.
 std::string beyond_limit(const std::vector<BandAt>& bands, Vibration BandAt::*which) {
   std::vector<double> beyond;
   for (const BandAt& band : bands)
     if ((band.*which).strain > endurance_limit) beyond.push_back(band.frequency);
   if (beyond.empty()) return "";
-  return rounded(beyond.front(), 3) + " to " + rounded(beyond.back(), 3) + " Hz";
+  return (beyond.size() > 1 ? "within " : "at ") +
+         range_text(rounded(beyond.front(), 3), rounded(beyond.back(), 3)) + " Hz";
 }
 
 std::string strain_text(const std::vector<BandAt>& bands) {
@@ -82,8 +84,9 @@ std::string vibration_text(const AeolianBalance& balance, const std::vector<Band
   const bool is_still = worst.highest.amplitude.range == BalanceRange::below;
   const std::string text =
       page_text(is_still ? "hardly vibrates" : "vibrates most",
-                {{"lowest", amplitude_text(worst.lowest.amplitude, balance.diameter())},
-                 {"highest", amplitude_text(worst.highest.amplitude, balance.diameter())},
+                {{"amplitude",
+                  range_text(amplitude_text(worst.lowest.amplitude, balance.diameter()),
+                             amplitude_text(worst.highest.amplitude, balance.diameter()), "from ")},
                  {"frequency", rounded(worst.frequency, 3)},
                  {"speed", rounded(worst.speed, 2)}});
   return text + (balance.knows_strain() ? strain_text(bands) : page_text("strain unknown"));
@@ -106,6 +109,12 @@ Answer answered(Answer answer, const Tell& tell) {
   return answer;
 }
 
+/// That the laws are of other conductors.
+std::string laws_text(const Case& the_case) {
+  const std::string note = self_damping_note(the_case);
+  return note.empty() ? "" : page_text("note of laws", {{"note", note}});
+}
+
 Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
   const Values values = {{"frequencies", frequencies_text(axis)}};
   return answered(question_of(damped ? "damped" : "bare", values), [&](Answer& answer) {
@@ -116,7 +125,13 @@ Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
     }
     const auto which = damped ? &AeolianRow::damped : &AeolianRow::bare;
     answer.answer = vibration_text(balance, bands_of(balance, axis, which));
+    if (!damped) answer.answer += laws_text(the_case);
   });
+}
+
+/// "by the laws from 3 to 5", "by every law".
+std::string by_laws(const std::string& lowest, const std::string& highest) {
+  return lowest == highest ? "by every law" : "by the laws " + range_text(lowest, highest, "from ");
 }
 
 Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& values) {
@@ -124,13 +139,14 @@ Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& v
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
     const Band damped = years_of(life.damage), bare = years_of(life.damage_bare);
     const auto told = [&](const std::string& name, const Band& years) {
-      return page_text(name, {{"value", years_text(years.value)},
-                              {"lowest", years_text(years.lowest)},
-                              {"highest", years_text(years.highest)}});
+      return page_text(name,
+                       {{"value", years_text(years.value)},
+                        {"laws", by_laws(years_text(years.lowest), years_text(years.highest))}});
     };
     answer.answer = told("life", damped);
     if (!span_devices_of(the_case).empty()) answer.answer += told("life bare", bare);
-    answer.answer += page_text("advice", {{"advice", life_advice(life, the_case.site.years)}});
+    answer.answer += page_text("advice", {{"advice", life_advice(life, the_case.site.years)}}) +
+                     laws_text(the_case);
   });
 }
 
@@ -144,14 +160,14 @@ Answer which_frequency(const Case& the_case, const Axis& axis, const Values& val
                                          [](const SpeedDamage& one, const SpeedDamage& other) {
                                            return one.damage.value < other.damage.value;
                                          });
-    answer.answer = page_text("worst frequency",
-                              {{"frequency", rounded(balance.frequency_of(most.speed), 3)},
-                               {"speed", rounded(most.speed, 2)},
-                               {"part", rounded(100.0 * most.damage.value / life.damage.value, 2)},
-                               {"stressed", rounded(life.worst_frequency, 3)},
-                               {"value", megapascal(life.stress.value)},
-                               {"lowest", megapascal(life.stress.lowest)},
-                               {"highest", megapascal(life.stress.highest)}});
+    answer.answer = page_text(
+        "worst frequency",
+        {{"frequency", rounded(balance.frequency_of(most.speed), 3)},
+         {"speed", rounded(most.speed, 2)},
+         {"part", rounded(100.0 * most.damage.value / life.damage.value, 2)},
+         {"stressed", rounded(life.worst_frequency, 3)},
+         {"value", megapascal(life.stress.value)},
+         {"laws", by_laws(megapascal(life.stress.lowest), megapascal(life.stress.highest))}});
     if (&most == &life.by_speed.front()) answer.answer += page_text("worst at the edge");
   });
 }
@@ -171,11 +187,13 @@ std::string taken_text(const Case& the_case, const SpanEnd& end, const std::stri
     if (share < least.share) least = {share, axis.at(k)};
     if (share > most.share) most = {share, axis.at(k)};
   }
-  return page_text("taken by an end", {{"end", name},
-                                       {"least", rounded(100.0 * least.share, 2)},
-                                       {"least frequency", rounded(least.frequency, 3)},
-                                       {"most", rounded(100.0 * most.share, 3)},
-                                       {"most frequency", rounded(most.frequency, 3)}});
+  const bool one = rounded(100.0 * least.share, 2) == rounded(100.0 * most.share, 2);
+  return page_text(one ? "taken at all" : "taken by an end",
+                   {{"end", name},
+                    {"least", rounded(100.0 * least.share, 2)},
+                    {"least frequency", rounded(least.frequency, 3)},
+                    {"most", rounded(100.0 * most.share, 3)},
+                    {"most frequency", rounded(most.frequency, 3)}});
 }
 
 Answer what_devices_take(const Case& the_case, const Axis& axis) {
@@ -204,14 +222,17 @@ Answer how_modes_are_damped(const Case& the_case) {
     };
     const auto [least, most] = std::minmax_element(modes.begin(), modes.end(), ascending);
     const auto number = [&](auto mode) { return std::to_string(mode - modes.begin() + 1); };
-    answer.answer = page_text("modes damped", {{"count", std::to_string(modes.size())},
-                                               {"least", rounded(100.0 * least->damping(), 2)},
-                                               {"least mode", number(least)},
-                                               {"least frequency", rounded(least->frequency, 3)},
-                                               {"most", rounded(100.0 * most->damping(), 2)},
-                                               {"most mode", number(most)},
-                                               {"most frequency", rounded(most->frequency, 3)},
-                                               {"bare", rounded(100.0 * least->bare, 2)}});
+    const std::string lowest = rounded(100.0 * least->damping(), 2);
+    const std::string highest = rounded(100.0 * most->damping(), 2);
+    answer.answer = page_text(lowest == highest ? "modes damped alike" : "modes damped",
+                              {{"count", std::to_string(modes.size())},
+                               {"least", lowest},
+                               {"least mode", number(least)},
+                               {"least frequency", rounded(least->frequency, 3)},
+                               {"most", highest},
+                               {"most mode", number(most)},
+                               {"most frequency", rounded(most->frequency, 3)},
+                               {"bare", rounded(100.0 * least->bare, 2)}});
   });
 }
 

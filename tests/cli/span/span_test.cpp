@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <regex>
 
 #include "cli/program.hpp"
 #include "io/text/csv.hpp"
@@ -76,6 +77,49 @@ TEST(Span, BareAmplitudesAreThoseOfTheBalance) {
   EXPECT_NEAR(found["diana_falco+kraus_hagedorn"], 0.152, 2e-3);
   EXPECT_NEAR(found["diana_falco+noiseux"], 0.054, 1e-3);
   EXPECT_NEAR(found["brika_laneville+seppa"], 0.029, 1e-3);
+}
+
+const std::string ground_wire =
+    " --set 'conductor.name=OPGW 24B1-105' --set conductor.span=300 --set conductor.tension=12000"
+    " --set conductor.damping_ratio=0.0003 --set plant.model=string --set plant.absorber_mass=0"
+    " --set control.proportional_gain=0 --set control.differential_gain=0";
+
+TEST(Span, LawsOfOtherConductorsAreSaidToBe) {
+  const auto said = [](const std::string& arguments) {
+    return run_holdfast(arguments).errors.find("measured on steel-cored aluminium (ACSR) alone") !=
+           std::string::npos;
+  };
+  const std::string unnamed =
+      " --set conductor.mass_per_length=0.44 --set conductor.diameter=0.0142 --set "
+      "conductor.rated_strength=63600 --set conductor.tension=12000 --set conductor.span=300"
+      " --set conductor.area=1.035e-4 --set conductor.youngs_modulus=1e11";
+  const std::string site = " --set site.weibull_scale=4";
+  const std::string line =
+      " --set conductor.name=Drake --set conductor.span=300 --set conductor.tension=28020";
+  EXPECT_TRUE(said("aeolian --frequency 20:20:1" + ground_wire));
+  EXPECT_TRUE(said("fatigue" + ground_wire + site));
+  EXPECT_TRUE(said("aeolian --frequency 20:20:1" + unnamed));
+  EXPECT_FALSE(said("aeolian --frequency 20:20:1" + line));
+  EXPECT_FALSE(said("fatigue" + line + site));
+}
+
+/// A wire whose laws agree, with a dashpot that does next to nothing: nothing has two ends.
+TEST(Span, ARangeOfOneNumberIsToldAsOne) {
+  const TemporaryFolder folder;
+  const std::string page = (folder / "page").string();
+  const Outcome outcome = run_holdfast(
+      "report --quiet --for span --output '" + page + "'" + ground_wire +
+      " --set site.weibull_scale=4 --set device.1.kind=dashpot --set device.1.position=0.02 --set "
+      "device.1.damping=1");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string text = read_text(page + "/report.html");
+  const std::string answers = text.substr(0, text.find("Is the absorber"));
+  EXPECT_NE(answers.find("by every law"), std::string::npos);
+  EXPECT_NE(answers.find("The first 20 of them to 0.03 % of critical each"), std::string::npos);
+  EXPECT_NE(answers.find("ACSR"), std::string::npos);
+  const std::regex twice(R"(([0-9][0-9.]*)( [%A-Za-z/]+)?( \([^)]*\))? (to|and) \1\b)");
+  std::smatch found;
+  EXPECT_FALSE(std::regex_search(answers, found, twice)) << found.str();
 }
 
 TEST(Span, TurbulenceAndDampersGiveYears) {

@@ -1,5 +1,6 @@
 #include "io/text/text.hpp"
 
+#include "io/text/range_text.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::program {
@@ -92,6 +93,12 @@ TEST(NearestName, IsThatOfFewestEdits) {
   }
   EXPECT_EQ(nearest_name(names, "deadzone"), "dead_zone");
   EXPECT_EQ(nearest_name({"b", "a"}, "c"), "b");
+}
+
+TEST(Text, ARangeWhoseEndsReadAlikeIsOneNumber) {
+  EXPECT_EQ(range_text("3", "5"), "3 to 5");
+  EXPECT_EQ(range_text("3", "5", "from "), "from 3 to 5");
+  EXPECT_EQ(range_text("6.5", "6.5", "from "), "6.5");
 }
 
 TEST(Text, ALongTextIsCutBetweenCharacters) {

@@ -248,6 +248,10 @@ std::vector<std::string> placement_warnings(const PlacedDevice& placed,
   if (std::isnan(placed.before) && question.is_absorber())
     warnings.emplace_back(
         "with the gains of the case the loop is unstable on this span: the number before is none");
+  if (question.is_absorber() && !std::isfinite(placed.the_case.conductor.diameter))
+    warnings.emplace_back(
+        "what the drive has to do is not told: how far the wind moves the conductor follows from "
+        "conductor.diameter, which the case does not give");
   if (!placed.is_better) warnings.emplace_back("nothing better was found than what the case has");
   for (std::size_t k = 0; k < placed.numbers.size(); ++k)
     warnings.push_back(bound_warning(placed.numbers[k], placed.found.bounds[k]));
