@@ -107,6 +107,57 @@ int expect_same(const OwnLoop& own, const BuiltInLoop& other, double tolerance,
   return in_gap;
 }
 
+/// P, D and an integral of the displacement, which a force between the two masses cannot move: the
+/// loop has no way of bringing it back but the leak.
+struct IntegratingPd {
+  static constexpr int states = 1;
+  double kept;  // of the integral, a sample
+  double command(const ControlSample& sample, Vector<double, 1>& integral) const {
+    integral[0] = kept * integral[0] + sample.displacement * sample.elapsed;
+    return -200.0 * sample.displacement - 5.0 * sample.velocity - 50.0 * integral[0];
+  }
+};
+
+OwnLoop integrating_loop(double kept, Switching switching) {
+  OwnLoop loop = own_loop(IntegratingPd{kept}, switching, 0.0);
+  loop.backlash.width = 0.0;
+  return loop;
+}
+
+TEST(OwnController, AnIntegratorThatNothingBringsBackIsNamed) {
+  for (const auto switching : {Switching::exact, Switching::sampled}) {
+    const OwnLoop loop = integrating_loop(1.0, switching);
+    Column start = rest_of(loop);
+    Column first[2];
+    for (Column& begins : first) {
+      const auto found = find_event_orbit(event_motion(loop, start));
+      ASSERT_EQ(found.outcome, OrbitOutcome::neutral);
+      EXPECT_EQ(found.neutral_state, std::optional<std::int64_t>(4));
+      ASSERT_TRUE(found.orbit);
+      EXPECT_NEAR(found.orbit->multipliers.front().log_modulus, 0.0, 1e-8);
+      EXPECT_LT(found.orbit->multipliers[1].log_modulus, -1e-3);
+      EXPECT_LT(found.samples, 1'000'000);
+      begins = found.orbit->states.front();
+      start[4] += 0.01;
+    }
+    EXPECT_GT(std::abs(first[1][4] - first[0][4]), 1e-3) << "another one of the family";
+  }
+}
+
+TEST(OwnController, AnIntegratorWithALeakHasOneOrbit) {
+  const OwnLoop loop = integrating_loop(0.99, Switching::exact);
+  const auto found = find_event_orbit(event_motion(loop, rest_of(loop)));
+  EXPECT_EQ(found.outcome, OrbitOutcome::certified);
+  EXPECT_FALSE(found.neutral_state);
+}
+
+TEST(OwnController, TheVerdictNamesWhatIsNotBroughtBack) {
+  const OwnLoop loop = integrating_loop(1.0, Switching::exact);
+  const auto found = classify_motion(loop, rest_of(loop));
+  EXPECT_NE(found.classification.rests_on.find("state number 4"), std::string::npos)
+      << found.classification.rests_on;
+}
+
 TEST(OwnController, PAndDAreTheBuiltInLoop) {
   for (const Switching switching : {Switching::sampled, Switching::exact})
     for (const double delay : {0.0, 0.001})

@@ -365,8 +365,13 @@ EventClassificationOf<states_of<Plant>> classify_motion(const ImplementedLoopOf<
   validate(limits);
   const auto motion = event_motion(loop, initial_state);
   EventClassificationOf<states_of<Plant>> found{{}, find_event_orbit(motion, limits), {}};
-  if (!detail::is_decided_by_search(found, "it switches alike in three successive periods"))
-    detail::weigh_samples(loop, motion, found);
+  if (detail::is_decided_by_search(found, "it switches alike in three successive periods"))
+    return found;
+  detail::weigh_samples(loop, motion, found);
+  if (found.search.outcome == OrbitOutcome::neutral)
+    found.classification.rests_on += " 1 is a multiplier: nothing brings back the state number " +
+                                     std::to_string(*found.search.neutral_state) +
+                                     " (from 0), so that the motion is one of a family.";
   return found;
 }
 /// The same from any column of Eigen's.

@@ -67,6 +67,9 @@ enum class OrbitOutcome {
   none_found,      ///< no orbit in the given number of samples, or q is beyond the largest period;
                    ///< of one solution: 1 is a multiplier, so that there is none, or many
   not_reproduced,  ///< the contacts repeat, but the periodic solution switches otherwise
+  neutral,         ///< 1 is a multiplier: the motion is on one orbit of a whole family, or drifts
+                   ///< along it, as an integrator does whose state nothing brings back. Give the
+                   ///< state named a leak, leave it out, or take its value from the start as given
 };
 
 /// What a search for a periodic orbit found, or one solution of it.
@@ -74,9 +77,13 @@ enum class OrbitOutcome {
 template <class Orbit>
 struct OrbitResultOf {
   OrbitOutcome outcome = OrbitOutcome::none_found;  ///< how the search ended
-  std::optional<Orbit> orbit;  ///< certified, approached, touching a surface, or not reproduced
+  std::optional<Orbit> orbit;  ///< certified, approached, touching a surface, not reproduced, or
+                               ///< one of a family
   std::int64_t samples = 0;    ///< of the motion that was looked at
   int candidates = 0;          ///< periods that were solved for
+  /// Of `neutral`: the number, from 0, of the state by which the orbits of the family differ most, a
+  /// controller's where one of these is moved; they stand behind the plant's.
+  std::optional<std::int64_t> neutral_state = {};
 };
 
 namespace detail {

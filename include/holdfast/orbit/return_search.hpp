@@ -137,8 +137,13 @@ class ReturnSearch {
     ++candidates_;
     const std::int64_t taken = seen_.taken();
     const Result found = model_.solve(seen_, period, reference_);
+    const bool is_closed = seen_.extent.share_of(model_.state() - reference_.state) <= 1e-9;
     if (seen_.taken() > taken) set_reference();
     if (!found.orbit) return false;
+    if (found.outcome == OrbitOutcome::neutral) {
+      (is_closed ? proposed_ : failed_) = found;
+      return is_closed;
+    }
     if (found.outcome == OrbitOutcome::not_reproduced) {
       failed_ = found;
       return false;
@@ -166,7 +171,7 @@ class ReturnSearch {
   std::int64_t solved_samples_ = 0;
   int candidates_ = 0;
   Result proposed_;  // certified but for the motion's coming to it
-  Result failed_;    // not reproduced
+  Result failed_;    // not reproduced, or one of a family that the motion drifts along
 };
 
 }  // namespace detail

@@ -33,10 +33,13 @@ struct Ratio {
   double cycles_per_sample;
 };
 
-constexpr Named<OrbitOutcome> reasons[] = {
-    {OrbitOutcome::incommensurate, "incommensurate"}, {OrbitOutcome::diverges, "diverges"},
-    {OrbitOutcome::on_surface, "on surface"},         {OrbitOutcome::approaching, "approaching"},
-    {OrbitOutcome::not_reproduced, "not reproduced"}, {OrbitOutcome::none_found, "none found"}};
+constexpr Named<OrbitOutcome> reasons[] = {{OrbitOutcome::incommensurate, "incommensurate"},
+                                           {OrbitOutcome::diverges, "diverges"},
+                                           {OrbitOutcome::on_surface, "on surface"},
+                                           {OrbitOutcome::approaching, "approaching"},
+                                           {OrbitOutcome::not_reproduced, "not reproduced"},
+                                           {OrbitOutcome::none_found, "none found"},
+                                           {OrbitOutcome::neutral, "neutral"}};
 
 /// Why there is no certificate, as a sentence without its end.
 /// @param found  of either model
@@ -49,6 +52,7 @@ std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t lar
       {{"cycles", format_number(ratio.cycles_per_sample)},
        {"period", std::to_string(found.orbit ? found.orbit->period_samples() : 0)},
        {"samples", std::to_string(found.samples)},
+       {"state", std::to_string(found.neutral_state.value_or(0) + 1)},
        {"coincidence", std::to_string(coincidence)},
        {"longest", std::to_string(largest_period)}});
 }

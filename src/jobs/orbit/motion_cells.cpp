@@ -113,10 +113,10 @@ bool all_of_the_paper(const Case& the_case, const MapGrid& grid, Switching switc
 
 /// The number of the outcome among the words of the column.
 double outcome_number(const MapCell& cell) {
-  constexpr std::array<OrbitOutcome, 7> order = {
-      OrbitOutcome::certified,     OrbitOutcome::approaching,    OrbitOutcome::on_surface,
-      OrbitOutcome::diverges,      OrbitOutcome::incommensurate, OrbitOutcome::none_found,
-      OrbitOutcome::not_reproduced};
+  constexpr std::array<OrbitOutcome, 8> order = {
+      OrbitOutcome::certified,      OrbitOutcome::approaching,    OrbitOutcome::on_surface,
+      OrbitOutcome::diverges,       OrbitOutcome::incommensurate, OrbitOutcome::none_found,
+      OrbitOutcome::not_reproduced, OrbitOutcome::neutral};
   return static_cast<double>(std::find(order.begin(), order.end(), cell.outcome) - order.begin());
 }
 

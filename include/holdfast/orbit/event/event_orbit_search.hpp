@@ -151,16 +151,28 @@ class EventOrbitSolver {
     const bool gap_opens = !way.switches.empty();
     const auto units = return_units(motion_.motion(), extent, way.forces);
     ReturnMap<Contact> map(motion_, samples, units, gap_opens);
-    const auto solution = map.fixed_point(moved(near, section));
-    if (!solution) return {};
-    Result found = measured(moved(*solution, samples - section), samples, extent);
+    const Point start = moved(near, section);
+    const auto solution = map.fixed_point(start);
+    const Point& first = solution ? *solution : start;
+    const auto neutral = solution ? std::nullopt : map.neutral_coordinate(start);
+    if (!solution && !neutral) return {};
+    Result found = measured(moved(first, samples - section), samples, extent);
     const std::int64_t shortest = found.orbit->period_samples();
     if (shortest < samples) map = {motion_, shortest, units, gap_opens};
-    found.orbit->multipliers = map.multipliers(*solution);
+    found.orbit->multipliers = map.multipliers(first);
+    found.neutral_state = solution && is_neutral(found.orbit->multipliers.front())
+                              ? map.neutral_coordinate(first)
+                              : neutral;
+    if (found.neutral_state && found.outcome == OrbitOutcome::certified)
+      found.outcome = OrbitOutcome::neutral;
     return found;
   }
 
  private:
+  static bool is_neutral(const Multiplier& largest) {
+    return largest.angle == 0.0 && std::abs(largest.log_modulus) <= 1e-8;
+  }
+
   Point moved(const Point& from, std::int64_t samples) {
     motion_.go_to(from);
     for (std::int64_t j = 0; j < samples; ++j) {
@@ -306,7 +318,8 @@ class EventSearchModel {
 ///     if (found.outcome == OrbitOutcome::certified) use(found.orbit->period());
 ///
 /// `certified` means beside what EventOrbit says that the motion was seen to come to the orbit:
-/// within a millionth of its size, nearer still over two further periods. `none_found` is also the
+/// within a millionth of its size, nearer still over two further periods. `neutral` names the state
+/// of an integrator whose value nothing brings back. `none_found` is also the
 /// answer where changes of contact accumulate, `incommensurate` where sampling and forcing never
 /// coincide: other frequencies, a recorded force, samples that jitter.
 ///

@@ -207,6 +207,32 @@ class ReturnMap {
     return least <= 1e-10 ? best : std::nullopt;
   }
 
+  /// Which coordinate of x is moved most, in the units, by the deviation that is what it was after
+  /// N samples, of a controller's own where these are moved; nothing where there is none or others
+  /// grow.
+  std::optional<Eigen::Index> neutral_coordinate(const Point& point) {
+    Extent unused(motion_.motion().readings());
+    const Blocks blocks = linearised(point, 64, unused).blocks;
+    Eigen::MatrixXd map = blocks.front();
+    for (std::size_t k = 1; k < blocks.size(); ++k) map = (blocks[k] * map).eval();
+    Eigen::MatrixXd power = map;
+    for (int doubling = 0; doubling < 12; ++doubling) power = (power * power).eval();
+    Eigen::Index which = 0;
+    if (!(power.colwise().norm().maxCoeff(&which) > 0.0) || !power.allFinite()) return std::nullopt;
+    Eigen::VectorXd stays = power.col(which);
+    constexpr double of_differences = 1e-8;  // controllers may be known by difference quotients
+    if (!((map * stays - stays).norm() <= of_differences * stays.norm()) ||
+        stays.head(order()).norm() <= 1e-6 * stays.norm())
+      return std::nullopt;
+    if constexpr (detail::HasController<typename Motion::Plant>::value) {
+      const Eigen::Index own = motion_.motion().contact().plant().controller.states();
+      if (stays.segment(order() - own, own).norm() > 1e-6 * stays.norm())
+        stays.head(order() - own).setZero();
+    }
+    stays.head(order()).cwiseAbs().maxCoeff(&which);
+    return which;
+  }
+
   /// The multipliers of a fixed point, largest first: one of each number that the coming
   /// samples depend on, at least five; those of null directions have log_modulus −∞.
   std::vector<Multiplier> multipliers(const Point& point) {
