@@ -258,7 +258,10 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   const bool has_loop =
       has_active_absorber(the_case) ||
       (the_case.devices.empty() && !the_case.stands_alone && !is_told("spans_too", false));
-  examine(context, needs_plant && has_loop && is_told("needs_plant", true),
+  const bool asks_for_plant = needs_plant && is_told("needs_plant", true);
+  if (!asks_for_plant && is_told("absorber_alone", false) && has_active_absorber(the_case))
+    report_warning(settle_absorber(context.case_data), context.quiet);
+  examine(context, asks_for_plant && has_loop,
           has_loop && controlled && is_told("needs_gains", false));
   context.options = given_options(*options_);
   context.progress = common_->progress;

@@ -281,8 +281,11 @@ void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
       certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
   for (const auto& [from, to, proof] : proved_orbit_along(context.case_data, orbit, key, range)) {
     const bool decides = proof.nearest.sample >= 0;
-    table.row(from, to, name_in(orbit_proof_names, proof.outcome), proof.decided_by,
-              decides ? name_in(surface_names, proof.nearest.surface) : "", proof.nearest.sample);
+    const bool proved = proof.outcome == OrbitProofOutcome::proved;
+    table.row(from, to, proved ? "proved" : "not_shown",
+              proved || decides ? proof.decided_by : std::nan(""),
+              decides ? name_in(surface_names, proof.nearest.surface) : "", proof.nearest.sample,
+              proved ? "" : name_in(orbit_proof_names, proof.outcome));
   }
   table.commit();
 }

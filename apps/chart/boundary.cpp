@@ -2,10 +2,12 @@
 #include "case/axes/axis.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/circle_boundary.hpp"
+#include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
@@ -86,35 +88,41 @@ std::vector<Interval<double>> rounded(const std::vector<Interval<Precise>>& inte
   return result;
 }
 
-template <int Degree>
-std::vector<GainPlane> answers(const AffinePolynomial<Precise, Degree>& polynomial,
-                               const FixedGains& fixed) {
+/// @param stable  (free gain, gains) → the stable intervals of the free one
+template <class Stable>
+std::vector<GainPlane> answers(const Stable& stable, const FixedGains& fixed) {
   std::vector<GainPlane> result;
   for (const double p : fixed.proportional)
-    result.push_back({differential, proportional, p,
-                      rounded(stable_differential_gains(polynomial, Precise(p)))});
+    result.push_back({differential, proportional, p, stable(FreeGain::differential, {p, 0.0})});
   for (const double d : fixed.differential)
-    result.push_back({proportional, differential, d,
-                      rounded(stable_proportional_gains(polynomial, Precise(d)))});
+    result.push_back({proportional, differential, d, stable(FreeGain::proportional, {0.0, d})});
   return result;
 }
 
 /// Of a modal case.
 std::vector<GainPlane> answers(const ResolvedCircle<double>& circle, const FixedGains& fixed) {
-  std::vector<GainPlane> result;
-  for (const double p : fixed.proportional)
-    result.push_back(
-        {differential, proportional, p, circle.stable_gains(FreeGain::differential, {p, 0.0})});
-  for (const double d : fixed.differential)
-    result.push_back(
-        {proportional, differential, d, circle.stable_gains(FreeGain::proportional, {0.0, d})});
-  return result;
+  return answers(
+      [&](FreeGain free, const PdGains<double>& gains) { return circle.stable_gains(free, gains); },
+      fixed);
 }
 
 std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bool continuous) {
   if (is_modal(the_case)) return answers(circle_of(the_case), fixed);
-  return with_polynomial<Precise>(
-      the_case, continuous, [&](const auto& polynomial) { return answers(polynomial, fixed); });
+  if (!continuous) {
+    // The crossings that `margins` has.
+    const auto map = loop_map(linear_plant(plant_of(the_case)), sampling_of(the_case));
+    return answers(
+        [&](FreeGain free, const PdGains<double>& gains) { return stable_gains(map, free, gains); },
+        fixed);
+  }
+  const auto polynomial = characteristic_polynomial(converted<Precise>(plant_of(the_case)));
+  return answers(
+      [&](FreeGain free, const PdGains<double>& gains) {
+        return rounded(free == FreeGain::differential
+                           ? stable_differential_gains(polynomial, Precise(gains.proportional))
+                           : stable_proportional_gains(polynomial, Precise(gains.differential)));
+      },
+      fixed);
 }
 
 /// What the same conductor by other modes says; empty where no end moves by more than a hundredth.
@@ -156,6 +164,23 @@ void report_refusals(const std::vector<GainPlane>& all, bool quiet) {
   }
   if (refusals.size() == all.size()) throw NoAnswer(together);
   for (const std::string& refusal : refusals) report_warning(refusal, quiet);
+}
+
+/// What the judge of loops calls unstable within the intervals; empty where nothing.
+std::string judge_warning(const Case& the_case, const std::vector<GainPlane>& all) {
+  const JudgedLoop judge = judged_loop_of(the_case);
+  for (const GainPlane& answer : all)
+    for (const Interval<double>& interval : answer.intervals) {
+      const double middle = interval.representative();
+      const bool is_d = &answer.gain == &differential;
+      if (judge.is_stable(is_d ? PdGains<double>{answer.value, middle}
+                               : PdGains<double>{middle, answer.value}))
+        continue;
+      return "by " + std::to_string(judge.modes) + " modes of the conductor, up to " +
+             format_rounded(judge.highest) + " Hz, the loop is unstable at " + answer.gain.symbol +
+             " = " + format_rounded(middle) + " too, in the middle of an interval";
+    }
+  return "";
 }
 
 /// What the columns of angles hold.
@@ -206,6 +231,8 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
   report_refusals(all, context.quiet);
   if (is_modal(context.case_data))
     report_warning(truncation_warning(context.case_data, fixed, all), context.quiet);
+  if (has_chosen_modes(context.case_data))
+    report_warning(judge_warning(context.case_data, all), context.quiet);
   for (const GainPlane& answer : all) {
     for (const Interval<double>& interval : answer.intervals)
       table.row(answer.gain.column, answer.value, interval.lower, interval.upper);

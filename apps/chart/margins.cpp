@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,27 @@ constexpr Named<MarginEndOutcome> margin_end_names[] = {
     {MarginEndOutcome::none, "none"},
     {MarginEndOutcome::beyond_search, "beyond_search"}};
 
+/// What became of the proof of one direction.
+struct ProofWords {
+  std::string outcome;  // proved; in part, or not proved, and why
+  double stable_to;     // NaN where nothing is proved
+};
+
+/// Whole, but for a hundredth of the way to a loop that is proved unstable.
+bool is_whole(const ProvedMarginEnd& proved, double value) {
+  const double open = std::abs(proved.unstable_at - proved.stable_to);
+  return proved.stop == ProofStop::at_end && !(open > 0.01 * std::abs(proved.unstable_at - value));
+}
+
+ProofWords proof_words(const ProvedMarginEnd& proved, double value) {
+  if (is_whole(proved, value)) return {"proved", proved.stable_to};
+  const std::string why = proved.stop == ProofStop::work
+                              ? "the steps of the proof are used up"
+                              : "a root is too near the unit circle to be told from one on it";
+  if (proved.stable_to == value) return {"not proved: " + why, std::nan("")};
+  return {"in part: " + why, proved.stable_to};
+}
+
 struct MarginsQuestion {
   bool prove = false;
 
@@ -41,6 +63,8 @@ class MarginsTable {
     row(quantity, unit, value, "above", margin.above, ends.above);
   }
   void commit() { table_.commit(); }
+  /// Whether every end is proved.
+  bool is_proved() const { return is_proved_; }
 
  private:
   void row(const char* quantity, const char* unit, double value, const char* side,
@@ -51,11 +75,15 @@ class MarginsTable {
                  end.distance, crosses ? name_in(curve_names, end.curve) : "", end.frequency,
                  more...);
     };
-    proved_ ? with(proved.stable_to, proved.unstable_at) : with();
+    if (!proved_) return with();
+    const ProofWords words = proof_words(proved, value);
+    is_proved_ = is_proved_ && is_whole(proved, value);
+    with(words.stable_to, proved.unstable_at, words.outcome);
   }
 
   Table table_;
   const std::optional<ProvedMargins>& proved_;
+  bool is_proved_ = true;
 };
 
 void MarginsQuestion::run(const JobContext& context) const {
@@ -70,6 +98,8 @@ void MarginsQuestion::run(const JobContext& context) const {
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(spectral_radius_of(the_case)));
+  if (const std::string otherwise = judged_otherwise(the_case); !otherwise.empty())
+    throw NoAnswer(otherwise + ": it has no margins");
   std::optional<ProvedMargins> proved;
   if (prove) proved = proved_margins_of(the_case, gains, margins);
   if (!prove && !looked_everywhere) {
@@ -88,6 +118,8 @@ void MarginsQuestion::run(const JobContext& context) const {
               &ProvedMargins::sampling_period);
   table.write("processing_delay", "s", sampling.processing_delay, margins.processing_delay,
               &ProvedMargins::processing_delay);
+  if (!table.is_proved())
+    report_warning("not every end is proved: the column proof says which, and why", context.quiet);
   table.commit();
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
@@ -105,9 +107,11 @@ struct MaxDelayQuestion {
                            " s; longer ones are not judged",
                        context.quiet);
       note(plant, question, answer, context);
+      const bool has_proof = proved.upper >= proved.lower;
       if (prove)
         table.row(question.frequency, question.proportional_gain, answer.sampling_period,
-                  answer.differential_gain, proved.lower, proved.upper);
+                  answer.differential_gain, has_proof ? proved.lower : std::nan(""),
+                  has_proof ? proved.upper : std::nan(""));
       else
         table.row(question.frequency, question.proportional_gain, answer.sampling_period,
                   answer.differential_gain);
@@ -152,9 +156,8 @@ struct MaxDelayQuestion {
     const PdGains<double> gains{question.proportional_gain, answer.differential_gain};
     if (excess_of(plant, question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
-      held_force_ =
-          held_force_warning(context.case_data, answer.sampling_period, question.frequency,
-                             "what attenuates is judged by the force as it is held");
+      held_force_ = held_force_warning(context.case_data, answer.sampling_period,
+                                       question.frequency, "what attenuates is below the true one");
   }
 
   std::vector<EnclosedPole> poles_;  // of what is proved

@@ -71,7 +71,8 @@ void add_minimum_amplitude(const Question& q, std::vector<Sensitivities>& answer
   // No gain on the boundary: it decays at least half as fast as the fastest, its radius being held.
   const MinimumRadius fastest =
       minimum_radius(sampled_loop(q.plant, q.sampling), q.gains.proportional);
-  const AmplitudeOptions question{q.sampling, q.hold, std::sqrt(std::min(1.0, fastest.radius))};
+  const AmplitudeOptions question{q.sampling, q.hold, std::sqrt(std::min(1.0, fastest.radius)), 0.0,
+                                  true};
   const auto least = minimum_amplitude(q.plant, question, q.frequency, q.gains.proportional);
   if (!std::isfinite(least.differential_gain)) return;
   const auto moved = amplitude_sensitivity(q.plant, question, q.frequency, q.gains.proportional);
@@ -88,6 +89,7 @@ void add_largest_period(const Question& q, DelayCriterion criterion, const char*
   question.proportional_gain = q.gains.proportional;
   question.criterion = criterion;
   question.hold = q.hold;
+  question.relative_to_true_force = true;
   question.delay_fraction = q.sampling.processing_delay / q.sampling.period;
   const MaxDelay answer = max_sampling_period(q.plant, question);
   if (answer.outcome != MaxDelayOutcome::found) return;

@@ -118,8 +118,8 @@ void write_absorber(Table& table, const PlacedDevice& placed, const PlacementQue
   row("perfect_absorption_frequency", middle, "Hz");
   row("perfect_absorption_proportional_gain", perfect.proportional, "N/m");
   row("perfect_absorption_differential_gain", perfect.differential, "N s/m");
-  row("perfect_absorption_stable",
-      known && StableGains(the_case, 0.0).is_stable(perfect) ? 1.0 : 0.0, "");
+  const StableGains judge(the_case, question.margin);
+  row("perfect_absorption_stable", known && judge.is_stable(perfect) ? 1.0 : 0.0, "");
   const AbsorberDemands demands =
       absorber_demands(the_case, levels.frequencies(), placed.worst_frequency);
   constexpr double day = 86400.0;
@@ -127,6 +127,8 @@ void write_absorber(Table& table, const PlacedDevice& placed, const PlacementQue
   row("largest_stroke", demands.largest_stroke, "m");
   row("drive_power", demands.drive_power, "W");
   row("energy_per_day", day * demands.drive_power, "J");
+  row("judged_modes", judge.judged_modes(), "");
+  row("highest_judged_frequency", judge.highest_frequency(), "Hz");
 }
 
 void PlaceQuestion::run(const JobContext& context) const {

@@ -491,8 +491,8 @@ class Case:
         sampling period with the delay in proportion. Columns ``quantity, unit, value, side, outcome, position,
         distance, curve, frequency_Hz``.
 
-        :param prove: also ``proved_stable_to``, up to which every value from the case's is proved stable, and
-            ``proved_unstable_at`` just beyond
+        :param prove: also ``proved_stable_to``, up to which every value from the case's is proved stable,
+            ``proved_unstable_at`` beyond, and ``proof``: proved, or why not or in part only
         """
         return self._run("margins", _options.arguments({"prove": prove}), how)
 

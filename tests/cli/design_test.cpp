@@ -288,5 +288,41 @@ TEST(SensitivityJob, ATunedGainIsCarriedAlong) {
   EXPECT_EQ(carried.number(gain, "derivative"), 0.0);
 }
 
+/// The largest period that still helps is where `response` and `design` say that nothing is left of
+/// the help: all by the amplitude without control under the true force.
+TEST(MaxDelayJob, HelpsByTheReferenceOfResponseAndDesign) {
+  const std::string free = " --set backlash.width=0 --quiet";
+  for (const char* f : {"10", "20"}) {
+    const std::string frequency = f;
+    const CsvTable longest =
+        table_of("max-delay --frequency " + frequency + ":" + frequency + ":1");
+    const double period = longest.number(0, "max_sampling_period_s");
+    const std::string p = longest.text(0, "proportional_gain"),
+                      d = longest.text(0, "differential_gain");
+    const std::string loop = free + " --set excitation.frequency=" + frequency +
+                             " --set control.sampling_period=" + std::to_string(0.999 * period);
+    const CsvTable left =
+        table_of("response --p " + p + ":" + p + ":1 --d " + d + ":" + d + ":1" + loop);
+    EXPECT_NEAR(left.number(0, "ratio_to_uncontrolled"), 1.0, 0.01) << frequency;
+    EXPECT_LT(left.number(0, "ratio_to_uncontrolled"), 1.0) << frequency;
+  }
+  // And `sensitivity` says what `design` says at the same D.
+  const std::string slow = free +
+                           " --set control.sampling_period=0.02 --set "
+                           "control.proportional_gain=-557";
+  const CsvTable answers = table_of("sensitivity" + slow);
+  const auto value = [&](const std::string& name) {
+    for (std::size_t row = 0; row < answers.rows(); ++row)
+      if (answers.text(row, "answer") == name) return answers.number(row, "value");
+    return std::nan("");
+  };
+  std::ostringstream gain;
+  gain.precision(17);
+  gain << value("least_amplitude_gain");
+  const CsvTable cell =
+      table_of("response --p -557:-557:1 --d " + gain.str() + ":" + gain.str() + ":1" + slow);
+  EXPECT_NEAR(cell.number(0, "ratio_to_uncontrolled"), value("least_amplitude_ratio"), 1e-9);
+}
+
 }  // namespace
 }  // namespace holdfast::tests

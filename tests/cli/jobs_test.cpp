@@ -43,7 +43,7 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "control.sampling_period,plant.absorber_mass,stable");
   EXPECT_EQ(header_of("margins --prove"),
             "quantity,unit,value,side,outcome,position,distance,curve,frequency_Hz,"
-            "proved_stable_to,proved_unstable_at");
+            "proved_stable_to,proved_unstable_at,proof");
   EXPECT_EQ(header_of("max-delay --frequency 10:10:1 --criterion stable --prove"),
             "frequency_Hz,proportional_gain,max_sampling_period_s,differential_gain,"
             "proved_from_s,proved_sampling_period_s");
@@ -60,7 +60,7 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
   EXPECT_EQ(header_of("orbit --certificate"), "quantity,value,unit");
   EXPECT_EQ(header_of("orbit --prove"), "quantity,value,unit");
   EXPECT_EQ(header_of("orbit --prove --follow backlash.width=0.00049:0.00051"),
-            "from,to,outcome,decided_by,surface,sample");
+            "from,to,outcome,decided_by,surface,sample,reason");
   EXPECT_EQ(header_of("orbit --follow backlash.width=0:0.001"),
             "side,outcome,position,distance,surface,sample,largest_multiplier,"
             "multiplier_angle_rad");
@@ -186,6 +186,28 @@ TEST(Margins, PassOverNoWindow) {
       "--set control.velocity=difference");
   EXPECT_NE(unsure.errors.find("walked in steps of 5 %"), std::string::npos);
   EXPECT_EQ(unsure.errors.find("--prove"), std::string::npos);
+}
+
+/// Of a cable whose fastest waves hardly move the roots near the circle little is proved: it says
+/// so, and tells no number that was not.
+TEST(Margins, SayWhatIsNotProved) {
+  const std::string job =
+      "margins --prove --set plant.model=cable --set plant.modes=20 --set "
+      "control.differential_gain=-5";
+  const Outcome told = run_holdfast(job);
+  ASSERT_EQ(told.exit_code, 0) << told.errors;
+  const CsvTable table = parse_csv(told.output, job);
+  bool is_whole = true;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string proof = table.text(row, "proof");
+    const double value = table.number(row, "value"), stable = table.number(row, "proved_stable_to");
+    is_whole = is_whole && proof == "proved";
+    const bool nothing = proof.rfind("not proved: ", 0) == 0;
+    EXPECT_EQ(nothing, std::isnan(stable)) << row;
+    if (proof.rfind("in part: ", 0) == 0) EXPECT_NE(stable, value) << row;
+    EXPECT_TRUE(nothing || proof == "proved" || proof.rfind("in part: ", 0) == 0) << proof;
+  }
+  EXPECT_EQ(is_whole, told.errors.find("not every end is proved") == std::string::npos);
 }
 
 TEST(Margins, RefusesProofsOfWhatItCannotProve) {

@@ -105,6 +105,17 @@ TEST(OrbitJob, ProvesTheRangeOfAnOrbit) {
   for (std::size_t row = 0; row < ranges.rows(); ++row)
     if (ranges.text(row, "outcome") == "proved")
       proved += ranges.number(row, "to") - ranges.number(row, "from");
+  for (std::size_t row = 0; row < ranges.rows(); ++row)
+    EXPECT_EQ(ranges.text(row, "outcome") == "proved", ranges.text(row, "reason").empty());
+  // What a range does not show may be so in a part of it: the rows beside the proved one hold loops
+  // that have the orbit.
+  const CsvTable coarse = table_of("orbit --prove --follow backlash.width=0:0.004" + loop);
+  const double from = quantity(proof, "backlash_width_from");
+  for (std::size_t row = 0; row < coarse.rows(); ++row) {
+    const bool is_proved = coarse.text(row, "outcome") == "proved";
+    if (!is_proved) EXPECT_EQ(coarse.text(row, "outcome"), "not_shown");
+    if (is_proved) EXPECT_GE(coarse.number(row, "from"), from);
+  }
   EXPECT_LE(proved, along.number(1, "position") - along.number(0, "position") + 1e-12);
   EXPECT_GE(proved, along.number(1, "position") - along.number(0, "position") - 0.02);
 }

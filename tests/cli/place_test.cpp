@@ -176,5 +176,62 @@ TEST_F(PlaceJob, RefusesWhatIsNoQuestion) {
   expect_wrong(drake_line + drake_absorber, "--device 1", "no [[device]]");
 }
 
+/// A line whose absorber is of [absorber] alone: every job has the same one, and what is placed is
+/// stable by all of them.
+constexpr const char* cardinal = R"([conductor]
+name = "Cardinal"
+span = 350
+tension = 30070
+damping_ratio = 0.0003
+[absorber]
+mass = 5
+position = 1.5
+[plant]
+model = "string"
+absorber_stiffness = 12580
+absorber_damping = 30
+[control]
+proportional_gain = 0
+differential_gain = 0
+sampling_period = 0.002
+processing_delay = 0.0005
+[backlash]
+width = 0
+)";
+
+std::string gains_of(double p, double d) {
+  return " --quiet --set control.proportional_gain=" + program::format_number(p) +
+         " --set control.differential_gain=" + program::format_number(d);
+}
+
+TEST_F(PlaceJob, PlacesGainsThatEveryJobCallsStable) {
+  auto found = answer(cardinal, "--device absorber --frequency 10:40:4 --quiet");
+  const std::string gains = gains_of(found["proportional_gain"], found["differential_gain"]);
+  EXPECT_GT(found["judged_modes"], 1000.0);
+  EXPECT_EQ(run(cardinal, "margins" + gains).exit_code, 0);
+  const CsvTable modes =
+      parse_csv(run(cardinal, "modal-damping --count 400" + gains).output, "modes");
+  for (std::size_t row = 0; row < modes.rows(); ++row)
+    EXPECT_GT(modes.number(row, "damping_ratio"), 0.0) << row;
+}
+
+/// Gains with which modes 157 and more grow: nobody calls them stable, and no amplitude is told.
+TEST_F(PlaceJob, OfAGrowingLoopNoAmplitudeIsTold) {
+  const std::string gains = gains_of(-76810, 48.1);
+  EXPECT_EQ(run(cardinal, "margins" + gains).exit_code, 1);
+  const CsvTable vibration =
+      parse_csv(run(cardinal, "aeolian --frequency 10:40:4" + gains).output, "aeolian");
+  for (std::size_t row = 0; row < vibration.rows(); ++row) {
+    EXPECT_TRUE(std::isnan(vibration.number(row, "amplitude_m")));
+    EXPECT_TRUE(std::isnan(vibration.number(row, "strain")));
+    EXPECT_GT(vibration.number(row, "amplitude_bare_m"), 0.0);
+  }
+}
+
+TEST_F(PlaceJob, HasTheAbsorberOfItsOwnTable) {
+  const std::string job = "absorption --frequency 5:45:5 --quiet";
+  EXPECT_EQ(run(cardinal, job).output, run(cardinal, job + " --set plant.absorber_mass=5").output);
+}
+
 }  // namespace
 }  // namespace holdfast::tests

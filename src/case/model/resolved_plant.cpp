@@ -64,8 +64,10 @@ std::string settle_damping(Case& the_case) {
   return misfit_warning(found);
 }
 
-/// Of a conductor by its modes only the absorber is wanted, which no reduction changes.
+}  // namespace
+
 std::string settle_absorber(Case& the_case) {
+  if (!plant_is_reduced(the_case) || has_own_plant(the_case)) return "";
   if (the_case.places.count("plant.absorber_mass") == 0)
     the_case.plant.absorber_mass = the_case.absorber.mass;
   if (!has_absorber(the_case) || the_case.stands_alone) return "";
@@ -74,8 +76,6 @@ std::string settle_absorber(Case& the_case) {
     if (the_case.places.count(key) == 0) names += (names.empty() ? "" : ", ") + std::string(key);
   return names.empty() ? "" : names + " not given: the absorber's built-in value stands in";
 }
-
-}  // namespace
 
 std::string settle_plant(Case& the_case) {
   if (!plant_is_reduced(the_case) || has_own_plant(the_case)) return "";

@@ -13,4 +13,9 @@ namespace holdfast::program {
 /// Throws NoAnswer where there is no such plant, or a package is missing.
 std::string settle_plant(Case& the_case);
 
+/// The same of the absorber alone, which is all of [plant] that a conductor by its modes has: its
+/// mass is absorber.mass unless plant.absorber_mass is given.
+/// @return which of its values are built-in, or an empty text
+std::string settle_absorber(Case& the_case);
+
 }  // namespace holdfast::program

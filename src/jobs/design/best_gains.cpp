@@ -119,6 +119,7 @@ MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {
   question.watch = throw_if_interrupted;
   question.criterion = DelayCriterion::attenuates;
   question.hold = force_hold_of(the_case);
+  question.relative_to_true_force = true;
   question.delay_fraction = the_case.control.processing_delay / the_case.control.sampling_period;
   question.frequency = frequency;
   question.proportional_gain = tuned_proportional_gain(the_case.plant.absorber_stiffness,

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "case/model/modal/conductor_modes.hpp"
+#include "case/model/span/span_loop.hpp"
 #include "holdfast/span/wind/turbulence.hpp"
 
 namespace holdfast::program {
-
 namespace {
+
+/// Of a loop that grows.
+constexpr Vibration none{{std::numeric_limits<double>::quiet_NaN(), BalanceRange::within},
+                         std::numeric_limits<double>::quiet_NaN()};
 
 TautString<double> string_in_wind(const Case& the_case) {
   require_diameter(the_case, "the vibration in the wind");
@@ -42,7 +47,8 @@ AeolianBalance::AeolianBalance(const Case& the_case, bool controlled)
       wind_share_(turbulent_share(the_case.site.turbulence_intensity)),
       losses_(loss_laws_of(the_case)),
       bending_(clamp_bending_of(the_case)),
-      devices_(span_devices_of(the_case, controlled)) {}
+      devices_(span_devices_of(the_case, controlled)),
+      grows_(is_growing_span(the_case, controlled)) {}
 
 double AeolianBalance::outer_wire_modulus() const {
   return bending_ ? bending_->outer_wire_modulus : std::nan("");
@@ -76,12 +82,15 @@ std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
     for (const LossLaw& loss : losses_) {
       const Vibration bare = vibration(wind, loss, frequency, {support, support});
       rows.push_back({frequency, speed_of(frequency), std::string(wind.name), loss.name, bare,
-                      has_devices() ? vibration(wind, loss, frequency, damped) : bare});
+                      grows_          ? none
+                      : has_devices() ? vibration(wind, loss, frequency, damped)
+                                      : bare});
     }
   return rows;
 }
 
 Vibration AeolianBalance::largest(double frequency) const {
+  if (grows_) return none;
   const std::array<EndResponse, 2> ends = ends_at(2.0 * pi<double> * frequency);
   std::optional<Vibration> largest;
   for (const WindPowerLaw& wind : wind_power_laws)

@@ -15,7 +15,7 @@ namespace holdfast::program {
 
 /// A vibration at one frequency, without the devices and with them.
 struct Vibration {
-  BalancedAmplitude amplitude;  ///< at the antinodes of the free span
+  BalancedAmplitude amplitude;  ///< at the antinodes of the free span; NaN where the loop grows
   double strain;                ///< of the outermost wire, zero to peak; NaN where not known
 };
 
@@ -53,6 +53,7 @@ class AeolianBalance {
   double diameter() const { return diameter_; }  ///< m
   bool knows_strain() const { return bending_.has_value(); }
   bool has_devices() const { return !devices_.empty(); }
+  bool is_growing() const { return grows_; }  ///< with the devices; then they have no amplitude
   /// Pa, of the outer wires; NaN where they are not known.
   double outer_wire_modulus() const;
 
@@ -66,6 +67,7 @@ class AeolianBalance {
   std::vector<LossLaw> losses_;
   std::optional<ClampBending> bending_;
   std::vector<SpanDevice> devices_;
+  bool grows_;  // with the devices it comes to no steady vibration
 };
 
 /// How many rows lie beyond the amplitudes that the law of the wind was measured for.

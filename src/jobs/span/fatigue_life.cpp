@@ -156,11 +156,14 @@ FatigueLife fatigue_life_of(const Case& the_case, bool controlled, double lowest
         "speeds, or a wider --frequency");
   const SafeBorderLine line = life_line_of(the_case);
   life.damage_bare = bare.damage(line);
-  life.damage = damped.damage(line);
   life.stress_bare = bare.stress();
-  life.stress = damped.stress();
-  life.worst_frequency = damped.worst_frequency();
-  share_out(bare.parts(line), damped.parts(line), life);
+  const bool is_told = !balance.is_growing();
+  const Band none{std::nan(""), std::nan(""), std::nan("")};
+  life.damage = is_told ? damped.damage(line) : none;
+  life.stress = is_told ? damped.stress() : none;
+  life.worst_frequency = is_told ? damped.worst_frequency() : none.value;
+  share_out(bare.parts(line),
+            is_told ? damped.parts(line) : std::vector<Band>(life.by_speed.size(), none), life);
   return life;
 }
 

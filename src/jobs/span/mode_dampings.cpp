@@ -115,9 +115,9 @@ std::vector<ModeRow> mode_rows_of(const Case& the_case, int count, bool controll
 }
 
 std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes) {
-  Case on_string = the_case;
-  if (!the_case.devices.empty()) on_string.plant.model = "string";
-  const int outside = circle_of(on_string).roots_outside(gains_of(the_case));
+  const bool is_judged = !the_case.devices.empty() || has_chosen_modes(the_case);
+  const int outside = (is_judged ? judged_loop_of(the_case).circle : circle_of(the_case))
+                          .roots_outside(gains_of(the_case));
   int growing = 0;
   std::string names;
   for (std::size_t n = 0; n < modes.size(); ++n) {
@@ -131,8 +131,8 @@ std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes)
   // A pair each.
   if (outside > 2 * growing || growing == 0)
     text += std::string(growing > 0 ? ", and " : "") +
-            "a root grows that is no mode of the conductor: the absorber's place with its "
-            "computer, which feels the waves that it sends out and its clamp";
+            "a root grows that is none of these modes: a faster one, or the absorber's place with "
+            "its computer, which feels the waves that it sends out and its clamp";
   return text;
 }
 

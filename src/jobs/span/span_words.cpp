@@ -73,10 +73,10 @@ std::string instability_note(const Case& the_case, bool controlled) {
   for (const case_tables::Device& device : the_case.devices)
     if (device.table)
       return "whether the computer's loop is stable beside a measured impedance is not computed";
-  if (is_stable_span(the_case)) return "";
-  return "the loop of absorber and computer is unstable on this span: it grows by itself, and what "
-         "is told of its steady vibration does not come to be (modal-damping shows which modes "
-         "grow, place finds gains that hold)";
+  if (!is_growing_span(the_case, controlled)) return "";
+  return "the loop of absorber and computer is unstable on this span: it grows by itself and comes "
+         "to no steady vibration, of which none is told (modal-damping shows which modes grow, "
+         "place finds gains that hold)";
 }
 
 std::string self_damping_note(const Case& the_case) {
@@ -107,6 +107,7 @@ std::string years_text(double years) {
 
 std::string life_advice(const FatigueLife& life, double years) {
   const Band served = years_of(life.damage);
+  if (std::isnan(served.value)) return "";  // of a loop that grows
   const std::string asked = format_rounded(years) + " years";
   const std::string shortest = years_text(served.lowest), longest = years_text(served.highest);
   const std::string band = range_text(shortest, longest);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case/model/modal/conductor_modes.hpp"
+#include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
 #include "holdfast/span/end_response.hpp"
 #include "io/text/range_text.hpp"
@@ -115,6 +116,11 @@ std::string laws_text(const Case& the_case) {
   return note.empty() ? "" : page_text("note of laws", {{"note", note}});
 }
 
+/// Throws NoAnswer where the loop of the absorber grows, so that nothing with it is steady.
+void require_steady(const Case& the_case) {
+  if (is_growing_span(the_case, true)) throw NoAnswer(instability_note(the_case, true));
+}
+
 Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
   const Values values = {{"frequencies", frequencies_text(axis)}};
   return answered(question_of(damped ? "damped" : "bare", values), [&](Answer& answer) {
@@ -123,6 +129,7 @@ Answer what_vibrates(const Case& the_case, const Axis& axis, bool damped) {
       answer.answer = page_text("no device");
       return;
     }
+    if (damped) require_steady(the_case);
     const auto which = damped ? &AeolianRow::damped : &AeolianRow::bare;
     answer.answer = vibration_text(balance, bands_of(balance, axis, which));
     if (!damped) answer.answer += laws_text(the_case);
@@ -136,6 +143,7 @@ std::string by_laws(const std::string& lowest, const std::string& highest) {
 
 Answer how_long_it_lives(const Case& the_case, const Axis& axis, const Values& values) {
   return answered(question_of("life", values), [&](Answer& answer) {
+    require_steady(the_case);
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
     const Band damped = years_of(life.damage), bare = years_of(life.damage_bare);
     const auto told = [&](const std::string& name, const Band& years) {
@@ -154,6 +162,7 @@ std::string megapascal(double stress) { return rounded(1e-6 * stress, 3); }
 
 Answer which_frequency(const Case& the_case, const Axis& axis, const Values& values) {
   return answered(question_of("worst", values), [&](Answer& answer) {
+    require_steady(the_case);
     const AeolianBalance balance(the_case, true);
     const FatigueLife life = fatigue_life_of(the_case, true, axis.min, axis.max);
     const auto& most = *std::max_element(life.by_speed.begin(), life.by_speed.end(),

@@ -230,5 +230,34 @@ TEST(MaxDelay, SaysHowFarItCameWhereItGivesUp) {
   EXPECT_THROW(max_sampling_period(stiff, brief), InvalidParameter);
 }
 
+/// At the longest period the best D leaves just what the true force gives without control, whose
+/// amplitude is that of the continuous plant; just before it less.
+TEST(MaxDelay, AttenuatesBelowWhatTheTrueForceGives) {
+  const TwoMass<double> plant = kollar2022_plant();
+  for (const double frequency : {6.0, 10.0, 20.0}) {
+    for (const double fraction : {0.0, 0.5}) {
+      MaxDelayOptions options = tuned_to(frequency, DelayCriterion::attenuates);
+      options.delay_fraction = fraction;
+      options.relative_to_true_force = true;
+      const MaxDelay answer = max_sampling_period(plant, options);
+      ASSERT_EQ(answer.outcome, MaxDelayOutcome::found) << frequency;
+      const double omega = 2.0 * pi<double> * frequency;
+      const std::complex<double> s(0.0, omega);
+      const Eigen::Matrix4cd still = s * Eigen::Matrix4cd::Identity() - plant.state_matrix();
+      const Eigen::Vector4cd force = plant.excitation_input().cast<std::complex<double>>();
+      const double free = std::abs(still.partialPivLu().solve(force)[0]);
+      const auto ratio = [&](double period, double d) {
+        return steady_response(plant, options.sampling(period), options.hold, omega)
+                   .amplitude_per_force({options.proportional_gain, d}) /
+               free;
+      };
+      EXPECT_LT(ratio(answer.sampling_period, answer.differential_gain), 1.0 + 1e-9);
+      if (answer.limit != MaxDelayLimit::attenuation) continue;
+      EXPECT_NEAR(ratio(answer.sampling_period, answer.differential_gain), 1.0, 1e-6) << frequency;
+      EXPECT_FALSE(feasible_differential_gain(plant, options, 1.001 * answer.sampling_period));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace holdfast

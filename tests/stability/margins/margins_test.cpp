@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "holdfast/plant/linear_plant.hpp"
 #include "support/dense_routes.hpp"
 #include "support/testing.hpp"
 
@@ -25,6 +26,12 @@ const std::vector<MarginCase>& margin_cases() {
 
 double radius_of(const Sampling<double>& sampling, const PdGains<double>& gains) {
   return spectral_radius<double, 5>(sampled_loop(kollar2022_plant(), sampling).engaged_map(gains));
+}
+
+/// The same however late, the commands on their way being states.
+double radius_of_delay(const TwoMass<double>& plant, const Sampling<double>& sampling,
+                       const PdGains<double>& gains) {
+  return test::moduli_of(loop_map(linear_plant(plant), sampling).closed_map(gains))[0];
 }
 
 /// One quantity of a loop as it is moved: its margin, its value, and ρ at another value.
@@ -53,7 +60,7 @@ std::vector<Moved> all_moved(const MarginCase& c) {
              return radius_of({t, fraction * t}, c.gains);
            }},
           {"delay", margins.processing_delay, c.sampling.processing_delay, [c](double t) {
-             return radius_of({c.sampling.period, t}, c.gains);
+             return radius_of_delay(kollar2022_plant(), {c.sampling.period, t}, c.gains);
            }}};
 }
 
@@ -199,6 +206,7 @@ TEST(Margins, NoScanOfALightlyDampedLoopFindsAnEarlierExit) {
     const PdGains<double> gains{(share(generator) - 0.5) * between(0.01, 10.0),
                                 (share(generator) - 0.7) * between(1e-3, 1.0)};
     const auto radius = [&](double t, double delay) {
+      if (delay > t) return radius_of_delay(plant, {t, delay}, gains);
       return spectral_radius<double, 5>(
           sampled_loop(plant, Sampling<double>{t, delay}).engaged_map(gains));
     };
@@ -278,8 +286,56 @@ TEST(Margins, WithoutControlEveryPeriodIsStable) {
   EXPECT_EQ(margins.sampling_period.above.position, std::numeric_limits<double>::infinity());
   EXPECT_EQ(margins.processing_delay.below.outcome, MarginEndOutcome::none);
   EXPECT_EQ(margins.processing_delay.below.position, 0.0);
-  EXPECT_EQ(margins.processing_delay.above.position, 0.01);
+  EXPECT_EQ(margins.processing_delay.above.outcome, MarginEndOutcome::none);
+  EXPECT_EQ(margins.processing_delay.above.position, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isnan(margins.processing_delay.above.frequency));
+}
+
+/// A delay may be longer than a sample: what a walk has not met there is not infinitely far.
+TEST(Margins, OfTheDelayGoOnBeyondASample) {
+  for (const double d : {-13.0, -14.2122, -20.0, -5.0}) {
+    const PdGains<double> gains{-557.0, d};
+    const MarginEnd above = stability_margins(kollar2022_plant(), Sampling<double>{0.001}, gains)
+                                .processing_delay.above;
+    const bool ends = above.outcome == MarginEndOutcome::boundary;
+    ASSERT_TRUE(ends || above.outcome == MarginEndOutcome::beyond_search) << d;
+    EXPECT_TRUE(std::isfinite(above.distance)) << d;
+    for (int k = 1; k <= 40; ++k)
+      EXPECT_LT(
+          radius_of_delay(kollar2022_plant(), {0.001, above.position * 0.999 * k / 40}, gains), 1.0)
+          << d;
+    if (ends)
+      EXPECT_GT(radius_of_delay(kollar2022_plant(), {0.001, 1.001 * above.position}, gains), 1.0);
+    if (d == -14.2122) EXPECT_NEAR(above.position, 0.009196, 1e-6);
+    if (!ends) EXPECT_NEAR(above.position, 0.010, 1e-12) << "ten samples";
+  }
+}
+
+/// Ends of P that the roots of the characteristic polynomial give to five digits only, and what
+/// extended precision has.
+TEST(Margins, OfIllConditionedLoopsHaveTheEndsOfTheCrossings) {
+  struct Hard {
+    TwoMass<double> plant;
+    Sampling<double> sampling;
+    PdGains<double> gains;
+    double end;
+  };
+  for (const Hard& hard : {Hard{{0.0907159, 10.4702, 0.162981, 965.835, 43983.8, 778.704},
+                                {0.000201064, 7.97458e-05},
+                                {-45315.37, -566.0896772},
+                                3551.480851},
+                           {{0.0369828, 0.427114, 0.0264557, 10.8146, 25651.0, 87.5551},
+                            {0.000122939, 6.21177e-05},
+                            {-2160.3654, -650.0431934},
+                            14418.460745091}}) {
+    const auto margins = stability_margins(hard.plant, hard.sampling, hard.gains);
+    EXPECT_NEAR(margins.proportional_gain.above.position, hard.end, 1e-9 * hard.end);
+    const auto crossings = stable_gains(loop_map(linear_plant(hard.plant), hard.sampling),
+                                        FreeGain::proportional, hard.gains);
+    EXPECT_TRUE(std::any_of(crossings.begin(), crossings.end(), [&](const auto& interval) {
+      return interval.upper == margins.proportional_gain.above.position;
+    }));
+  }
 }
 
 TEST(Margins, AnUnstableLoopHasNone) {

@@ -56,6 +56,28 @@ std::vector<ProvedLoop> proved_loops() {
           {string_with_absorber(3, 0.02, {80.0, 60.0, 0.7}), {0.003, 0.003}, {-100.0, -1.0}}};
 }
 
+/// A path of which nothing, or all up to a place, can be proved.
+struct PathTo {
+  double last;
+
+  bool keeps_stability(double, double to) const { return to <= last; }
+  ProvedStability at(double) const { return ProvedStability::undecided; }
+};
+
+TEST(ProvedMargins, SayWhyTheyGoNoFurther) {
+  const auto walked = [](double last, int steps) {
+    return detail::walked_end(PathTo{last}, 1.0, 2.0, {0.01, 1e-6, steps}, unwatched);
+  };
+  EXPECT_EQ(walked(2.0, 1000).stop, ProofStop::at_end);
+  EXPECT_EQ(walked(2.0, 3).stop, ProofStop::work);
+  EXPECT_EQ(walked(1.5, 1000).stop, ProofStop::undecided);
+  EXPECT_NEAR(walked(1.5, 1000).stable_to, 1.5, 1e-5);
+  const ProvedMarginEnd nothing = walked(1.0, 1000);
+  EXPECT_EQ(nothing.stop, ProofStop::undecided);
+  EXPECT_EQ(nothing.stable_to, 1.0);
+  EXPECT_TRUE(std::isnan(nothing.unstable_at));
+}
+
 /// That all of a stretch is stable and what is just beyond is not, by spectral radii.
 template <class RadiusAt>
 void expect_end(const ProvedMarginEnd& end, double value, const RadiusAt& radius_at) {

@@ -80,24 +80,27 @@ TEST(AmplitudeSensitivity, IsTheSlopeOfTheLeastAmplitude) {
        16.45,
        -256.4,
        MinimumAmplitudeOutcome::stationary}};
-  for (const AmplitudeCase& c : cases) {
-    const auto least = [&c](const LoopSetting& at) {
-      return minimum_amplitude(at.plant, {at.sampling, c.hold, c.largest_radius}, c.frequency,
-                               at.gains.proportional);
-    };
-    LoopSetting setting{kollar2022_plant(), c.sampling, {c.proportional_gain, 0.0}};
-    const MinimumAmplitude answer = least(setting);
-    setting.gains.differential = answer.differential_gain;
-    const auto s = amplitude_sensitivity(setting.plant, {c.sampling, c.hold, c.largest_radius},
-                                         c.frequency, c.proportional_gain);
-    EXPECT_EQ(s.outcome, c.outcome);
-    expect_sensitivity(
-        s.ratio, [&](const LoopSetting& at) { return least(at).ratio_to_uncontrolled; }, setting,
-        answer.ratio_to_uncontrolled, 1e-5);
-    expect_sensitivity(
-        s.differential_gain, [&](const LoopSetting& at) { return least(at).differential_gain; },
-        setting, std::abs(answer.differential_gain), 1e-5);
-  }
+  for (const bool of_true_force : {false, true})
+    for (const AmplitudeCase& c : cases) {
+      const auto least = [&](const LoopSetting& at) {
+        return minimum_amplitude(at.plant,
+                                 {at.sampling, c.hold, c.largest_radius, 0.0, of_true_force},
+                                 c.frequency, at.gains.proportional);
+      };
+      LoopSetting setting{kollar2022_plant(), c.sampling, {c.proportional_gain, 0.0}};
+      const MinimumAmplitude answer = least(setting);
+      setting.gains.differential = answer.differential_gain;
+      const auto s = amplitude_sensitivity(
+          setting.plant, {c.sampling, c.hold, c.largest_radius, 0.0, of_true_force}, c.frequency,
+          c.proportional_gain);
+      EXPECT_EQ(s.outcome, c.outcome);
+      expect_sensitivity(
+          s.ratio, [&](const LoopSetting& at) { return least(at).ratio_to_uncontrolled; }, setting,
+          answer.ratio_to_uncontrolled, 1e-5);
+      expect_sensitivity(
+          s.differential_gain, [&](const LoopSetting& at) { return least(at).differential_gain; },
+          setting, std::abs(answer.differential_gain), 1e-5);
+    }
 }
 
 TEST(AmplitudeSensitivity, ThereIsNoneWhereNoGainIsAdmitted) {
@@ -114,14 +117,17 @@ TEST(AmplitudeSensitivity, ThereIsNoneWhereNoGainIsAdmitted) {
 }
 
 TEST(MaxDelaySensitivity, IsTheSlopeOfTheLargestPeriod) {
-  for (const auto criterion : {DelayCriterion::stable, DelayCriterion::attenuates}) {
+  for (const bool of_true_force : {false, true}) {
     for (const double fraction : {0.0, 0.4}) {
+      const auto criterion =
+          of_true_force || fraction > 0.0 ? DelayCriterion::attenuates : DelayCriterion::stable;
       const auto options_of = [&](const LoopSetting& at) {
         MaxDelayOptions options;
         options.frequency = 10.0;
         options.proportional_gain = at.gains.proportional;
         options.criterion = criterion;
         options.delay_fraction = fraction;
+        options.relative_to_true_force = of_true_force;
         return options;
       };
       const auto answer_of = [&](const LoopSetting& at) {

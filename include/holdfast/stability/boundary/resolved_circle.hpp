@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,8 @@ struct GainPassage {
 /// where Im X rises through zero, since dλ/dx = 1/X′(λ). Every interval whose count says that it is
 /// stable, or would be had two pairs been missed, is counted a second time by the winding (of a few
 /// intervals all are); where the two differ, every one is decided by winding alone.
-/// Work: about 30 angles a pole once, then some 10 operations an angle and 10 values of G a
-/// passage. No power of λ and no determinant is formed.
+/// Work: about 30 angles a pole once (`ModalResponse::Nearby`), then some 10 operations an angle
+/// and 10 values of G a passage. No power of λ and no determinant is formed.
 template <class Scalar>
 class ResolvedCircle {
  public:
@@ -52,14 +53,19 @@ class ResolvedCircle {
     const Scalar from_ends(1e-4);
     Scalar angle = from_ends * nearest(poles, Scalar(0));
     const Scalar last = pi<Scalar> - from_ends * nearest(poles, pi<Scalar>);
+    std::optional<typename ModalResponse<Scalar>::Nearby> nearby;
     while (angle < last) {
-      add(angle);
-      const Scalar to_ends = std::min(angle, pi<Scalar> - angle);
-      const Scalar step = close * std::min(nearest(poles, angle), to_ends);
+      const std::complex<Scalar> mu = circle_increment(angle);
+      if (!nearby || !nearby->holds(mu)) nearby.emplace(response_, mu);
+      const Scalar to_ends = std::min(angle, pi<Scalar> - angle), to_pole = nearby->nearest(mu);
+      // Next to the real axis no digit of Im X is to spare.
+      const bool at_end = to_ends < Scalar(0.1) * to_pole;
+      places_.push_back({angle, at_end ? response_.at_angle(angle) : nearby->at(mu)});
+      const Scalar step = close * std::min(to_pole, to_ends);
       const Scalar least = Scalar(1e-13) + Scalar(1e-14) * angle;
       angle += std::min(std::max(step, least), Scalar(0.4) / Scalar(response_.held_commands()));
     }
-    add(pi<Scalar>);
+    places_.push_back({pi<Scalar>, response_.at_angle(pi<Scalar>)});
     for (const Place& place : places_) {
       size_of_z_ = std::max(size_of_z_, std::abs(place.g.displacement));
       size_of_v_ = std::max(size_of_v_, std::abs(place.g.velocity));
@@ -73,6 +79,13 @@ class ResolvedCircle {
   std::vector<Scalar> angles() const {
     std::vector<Scalar> all;
     for (const Place& place : places_) all.push_back(place.angle);
+    return all;
+  }
+
+  /// G_z and G_v at those angles.
+  std::vector<CommandResponse<Scalar>> responses() const {
+    std::vector<CommandResponse<Scalar>> all;
+    for (const Place& place : places_) all.push_back(place.g);
     return all;
   }
 
@@ -182,8 +195,6 @@ class ResolvedCircle {
     /// Re X.
     Scalar gain(const CommandResponse<Scalar>& g) const { return (rest(g) / of_free(g)).real(); }
   };
-
-  void add(const Scalar& angle) { places_.push_back({angle, response_.at_angle(angle)}); }
 
   /// min |e^{iθ} − e^{sτ}| over the poles.
   static Scalar nearest(const std::vector<std::complex<Scalar>>& poles, const Scalar& angle) {

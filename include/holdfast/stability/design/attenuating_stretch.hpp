@@ -72,6 +72,11 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
   return result;
 }
 
+/// Whether the one stays above the other.
+inline Stretch stretch_of(const SquaresDifference& gap) {
+  return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
+}
+
 /// Whether the loop is shown to be stable and to keep the conductor's steady amplitude below that
 /// of no control, all within `radius` of a period.
 ///
@@ -80,12 +85,13 @@ MovingVector moving_input(const Plant& plant, const LoopMap<double>& map, ForceH
 ///
 ///     Z/Z₀ = n/(n − (c Y)(K y)),   n = (c y)(1 + K Y)
 ///
-/// so that no pole of the plant without control enters. Of the amplitude the series and what they
-/// leave out are bounded, the round-off of its own sums is not.
+/// so that no pole of the plant without control enters; Z itself is c y. Of the amplitude the
+/// series and what they leave out are bounded, the round-off of its own sums is not.
+/// @param reference  m/N, what c y is to stay below; NaN: Z₀
 template <class Plant>
 Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
                     const PdGains<double>& gains, ForceHold hold, double omega, double period,
-                    double radius) {
+                    double radius, double reference) {
   const LoopMap<double> map = family.map_at(period);
   const MovingMatrix closed = family.moving(map, gains, radius);
   const MovingSpectrum roots(closed);
@@ -95,12 +101,16 @@ Stretch attenuation(const Plant& plant, const SamplingFamily<Plant>& family,
   Eigen::MatrixXd rows(2, map.size());
   rows << map.conductor, gains.proportional * map.displacement + gains.differential * map.velocity;
   const auto y = roots.responses(phase, moving_input(plant, map, hold, omega, radius, terms), rows);
+  if (std::isfinite(reference)) {
+    MovingNumber held{std::vector<std::complex<double>>(y[0].terms.size()), 0.0};
+    held.terms[0] = reference;
+    return stretch_of(squares_difference(held, y[0]));
+  }
   auto by_command = roots.responses(phase, family.moving_command(map, radius), rows);
   by_command[1].terms[0] += 1.0;
   const MovingNumber controlled = y[0] * by_command[1];
   const MovingNumber free = sum_of(controlled, by_command[0] * y[1], -1.0);
-  const SquaresDifference gap = squares_difference(free, controlled);
-  return gap.least > 0.0 ? Stretch::holds : gap.at_centre > 0.0 ? Stretch::open : Stretch::fails;
+  return stretch_of(squares_difference(free, controlled));
 }
 
 }  // namespace holdfast::detail

@@ -42,6 +42,9 @@ struct MaxDelayOptions {
   int most_steps = 20000;  ///< ≥ 1; of the search, each some 40 µs or more for two masses,
                            ///< after which it gives up
   std::function<void()> watch = {};  ///< called at each step; may throw to end the search
+  /// What `attenuates` compares with: the plant without control under the true force, or under the
+  /// force held as with control, as `AmplitudeOptions` has it.
+  bool relative_to_true_force = false;
 
   /// ω = 2π f (rad/s).
   double angular_frequency() const { return 2.0 * pi<double> * frequency; }
@@ -79,7 +82,8 @@ DelayOffer<double> delay_offer(const Plant& plant, const MaxDelayOptions& option
   DelayOffer<double> offer{
       stable_gains(loop, FreeGain::differential, {options.proportional_gain, 0.0}), {}};
   if (options.criterion == DelayCriterion::stable || offer.stable.empty()) return offer;
-  offer.response = response_of_loop(plant, loop, options.hold, options.angular_frequency());
+  offer.response = response_of_loop(plant, loop, options.hold, options.angular_frequency(),
+                                    options.relative_to_true_force);
   return offer;
 }
 

@@ -63,7 +63,10 @@ class DelaySearch {
   DelaySearch(const Plant& plant, const MaxDelayOptions& options)
       : plant_(plant),
         options_(options),
-        family_(SamplingFamily<Plant>::of_period(plant, options.delay_fraction)) {}
+        family_(SamplingFamily<Plant>::of_period(plant, options.delay_fraction)),
+        reference_(options.relative_to_true_force
+                       ? true_amplitude_per_force(plant, options.angular_frequency())
+                       : std::numeric_limits<double>::quiet_NaN()) {}
 
   MaxDelay answer() {
     feasible_ = std::min(options_.shortest_period, 1e-3 / options_.frequency);
@@ -163,7 +166,7 @@ class DelaySearch {
       return options_.criterion == DelayCriterion::stable
                  ? family_.stability(gains, period, radius)
                  : attenuation(plant_, family_, gains, options_.hold, options_.angular_frequency(),
-                               period, radius);
+                               period, radius, reference_);
     };
     const auto edge = [](double, double failing) { return failing; };
     const double first = 0.25 * (next - feasible_);
@@ -264,6 +267,7 @@ class DelaySearch {
   Intervals gains_;        // that serve there
   int steps_ = 0;          // of the search so far
   double start_ = 0.0;     // D of minimum radius at a neighbouring period
+  double reference_;       // m/N, of the true force; NaN where the held one is it
 };
 
 }  // namespace detail

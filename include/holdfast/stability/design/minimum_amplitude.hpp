@@ -95,16 +95,6 @@ std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
 
 namespace detail {
 
-/// The steady response of a plant's loop, relative to what the options say.
-template <class Plant, class Loop>
-SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
-                                        double angular_frequency, bool relative_to_true_force) {
-  const auto response = response_of_loop(plant, loop, hold, angular_frequency);
-  return relative_to_true_force
-             ? response.relative_to(true_amplitude_per_force(plant, angular_frequency))
-             : response;
-}
-
 /// The D of least steady amplitude among some.
 /// @param admissible  perhaps none
 template <class Scalar>

@@ -55,9 +55,16 @@ class ModalDelayWalk {
     DelayOffer<double> offer{
         circle.stable_gains(FreeGain::differential, {options_.proportional_gain, 0.0}), {}};
     if (options_.criterion == DelayCriterion::attenuates && !offer.stable.empty())
-      offer.response =
-          steady_response<Scalar>(plant_, sampling, options_.hold, options_.angular_frequency());
+      offer.response = response_at(sampling);
     return offer;
+  }
+
+  SteadyResponse<double> response_at(const Sampling<double>& sampling) const {
+    const double omega = options_.angular_frequency();
+    const auto response = steady_response<Scalar>(plant_, sampling, options_.hold, omega);
+    return options_.relative_to_true_force ? response.relative_to(true_amplitude_per_force(
+                                                 plant_.modes, plant_.absorber, omega))
+                                           : response;
   }
 
   /// The D that serves best at a period, if one does.

@@ -12,6 +12,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
+#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
@@ -71,6 +72,17 @@ auto loop_of(const Plant& plant, const Sampling<double>& sampling) {
     return sampled_loop(plant, sampling);
   } else {
     return loop_map(plant, sampling);
+  }
+}
+
+/// The plant as one of any order: of the two masses `linear_plant`, whose loop may be late by many
+/// samples.
+template <class Plant>
+decltype(auto) with_ports(const Plant& plant) {
+  if constexpr (has_closed_forms<Plant>) {
+    return linear_plant(plant);
+  } else {
+    return (plant);
   }
 }
 

@@ -60,8 +60,7 @@ struct StabilityMargins {
   TwoSidedMargin differential_gain;  ///< D (N s/m)
   TwoSidedMargin proportional_gain;  ///< P (N/m)
   TwoSidedMargin sampling_period;    ///< τ (s), δ/τ kept; its range is (0, ∞)
-  TwoSidedMargin processing_delay;  ///< δ (s), τ kept; its range is [0, τ] for the two masses in
-                                    ///< closed form, [0, ∞) for a plant with ports
+  TwoSidedMargin processing_delay;   ///< δ (s), τ kept; its range is [0, ∞)
 };
 
 /// How far and how finely margins are looked for.
@@ -73,8 +72,7 @@ struct MarginSearch {
   /// 1e−12 … 0.1; what may be left unproved before a boundary of τ or δ, as a share of the
   /// position: an earlier boundary can lie within it, and nowhere else.
   double smallest_step = 1e-6;
-  /// 1 … 1000; the walk towards longer delays of a plant with ports gives up at so many samples
-  /// beyond δ.
+  /// 1 … 1000; the walk towards longer delays gives up at so many samples beyond δ.
   double longest_delay_ratio = 10.0;
   /// ≥ 1; steps of a walk along τ or δ, after which it gives up. Steps are about as long as the
   /// plant's fastest mode turns by a radian, and each takes some 40 µs for two masses.
@@ -194,15 +192,16 @@ TwoSidedMargin period_margin(const Plant& plant, const Sampling<double>& samplin
 }
 
 /// Both margins of δ, one stretch (k − 1) τ … k τ after the other, in each of which as many
-/// commands are on their way. At the seams one root comes or goes at λ = 0, and no other moves. The
-/// two masses in closed form have the first stretch alone.
+/// commands are on their way. At the seams one root comes or goes at λ = 0, and no other moves. No
+/// delay is too long for a loop without gains.
 template <class Plant>
 TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling,
                             const PdGains<double>& gains, const MarginSearch& search) {
   const double period = sampling.period, delay = sampling.processing_delay;
-  const int held = has_closed_forms<Plant> ? 1 : held_commands(sampling);
-  const double longest =
-      has_closed_forms<Plant> ? period : delay + search.longest_delay_ratio * period;
+  const int held = held_commands(sampling);
+  const double longest = delay + search.longest_delay_ratio * period;
+  if (gains.proportional == 0.0 && gains.differential == 0.0)
+    return {no_boundary(0.0), no_boundary(std::numeric_limits<double>::infinity())};
   const auto walk = [&](int direction) {
     double position = delay;
     for (int k = held; k >= 1; k += direction) {
@@ -217,7 +216,7 @@ TwoSidedMargin delay_margin(const Plant& plant, const Sampling<double>& sampling
         end.distance = std::abs(end.position - delay);
         return end;
       }
-      if (limit == longest) return has_closed_forms<Plant> ? end : beyond_search(longest, delay);
+      if (limit == longest) return beyond_search(longest, delay);
       position = limit;
     }
     return no_boundary(0.0);
@@ -238,14 +237,13 @@ inline void validate(const MarginSearch& search) {
 /// How far D, P, τ and δ, each on its own, are from the boundary of stability.
 ///
 /// D and P: the stable interval about the value, all crossings of the unit circle being known
-/// (`stable_gains`). τ and δ: from the value outwards, step by step, all roots are shown to lie
+/// (`circle_crossings`). τ and δ: from the value outwards, step by step, all roots are shown to lie
 /// inside the unit circle all over the step (`MovingSpectrum`), so that no boundary is passed over,
 /// and the one that stops this is found by a bracketing root finder on ρ − 1. Below a millionth of
 /// τ the continuous loop decides alone; towards τ = ∞ stability may be certain
 /// (`SlowSamplingBound`).
-/// @tparam Plant    two masses, of which all of this is in closed form, or a plant of any order
-/// with
-///                  ports, from the map of its loop; `validate` checks it
+/// @tparam Plant    two masses, whose periods are walked in closed form, or a plant of any order
+///                  with ports; `validate` checks it
 /// @param plant     within its ranges
 /// @param sampling  τ (s) > 0, δ (s) 0 … τ, of a plant with ports 0 … 1000 τ
 /// @param gains     P (N/m) and D (N s/m), finite
@@ -259,11 +257,13 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
   validate(gains);
   validate(search);
   const double reserve = -detail::loop_excess(loop, gains);
-  const TwoSidedMargin by_d = detail::margin_in(stable_gains(loop, FreeGain::differential, gains),
+  const auto& general = detail::with_ports(plant);
+  const auto map = loop_map(general, sampling);
+  const TwoSidedMargin by_d = detail::margin_in(stable_gains(map, FreeGain::differential, gains),
                                                 gains.differential, loop, [&](double d) {
                                                   return PdGains<double>{gains.proportional, d};
                                                 });
-  const TwoSidedMargin by_p = detail::margin_in(stable_gains(loop, FreeGain::proportional, gains),
+  const TwoSidedMargin by_p = detail::margin_in(stable_gains(map, FreeGain::proportional, gains),
                                                 gains.proportional, loop, [&](double p) {
                                                   return PdGains<double>{p, gains.differential};
                                                 });
@@ -275,7 +275,7 @@ StabilityMargins stability_margins(const Plant& plant, const Sampling<double>& s
           by_d,
           by_p,
           detail::period_margin(plant, sampling, gains, search),
-          detail::delay_margin(plant, sampling, gains, search)};
+          detail::delay_margin(general, sampling, gains, search)};
 }
 
 #ifdef HOLDFAST_EXTERN_TEMPLATES

@@ -19,6 +19,13 @@
 
 namespace holdfast {
 
+/// Why the proof of one direction goes no further.
+enum class ProofStop {
+  at_end,     ///< it came to where it was to end, or an unstable loop was met beyond
+  work,       ///< its steps were used up
+  undecided,  ///< a root is so near the circle that enclosures do not tell it from one on it
+};
+
 /// What is proved of one direction from a value.
 struct ProvedMarginEnd {
   /// The loop is stable at every position from the value to this one, both included; NaN where it
@@ -27,6 +34,7 @@ struct ProvedMarginEnd {
   /// The loop is not stable at this position beyond it; NaN where none was met. What lies between
   /// is undecided.
   double unstable_at = std::numeric_limits<double>::quiet_NaN();
+  ProofStop stop = ProofStop::undecided;  ///< why it goes no further
 };
 
 /// Down and up from a value.
@@ -137,7 +145,10 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit, const P
   ProvedMarginEnd end{value};
   double step = walk.first;
   for (int steps = 0; end.stable_to != limit && step >= walk.least_step; ++steps) {
-    if (steps == walk.most_steps) return end;
+    if (steps == walk.most_steps) {
+      end.stop = ProofStop::work;
+      return end;
+    }
     watch();
     const double next = ahead(end.stable_to, step);
     const auto [from, to] = std::minmax(end.stable_to, next);
@@ -151,6 +162,7 @@ ProvedMarginEnd walked_end(const Path& path, double value, double limit, const P
     if (path.at(position) == ProvedStability::unstable) end.unstable_at = position;
     if (std::isfinite(end.unstable_at) || position == limit || gap > 1e6 * walk.least_step) break;
   }
+  if (end.stable_to == limit || std::isfinite(end.unstable_at)) end.stop = ProofStop::at_end;
   return end;
 }
 
@@ -209,7 +221,7 @@ class MarginProver {
   }
   template <class Path>
   ProvedMarginEnd towards(const Path& path, double value, double limit) {
-    if (limit == value) return {value};
+    if (limit == value) return {value, std::nan(""), ProofStop::at_end};
     const double way = std::abs(limit - value);
     const ProvedWalk walk{0.01 * way, options_.resolution * way, options_.most_steps};
     return walked_end(path, value, limit, walk, watch_);

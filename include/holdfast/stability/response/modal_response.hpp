@@ -1,8 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "holdfast/control/loop_map.hpp"
@@ -53,28 +58,12 @@ class ModalResponse {
   /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
     if (dense_) return dense_->at_distance_from_one(mu);
-    const bool has_past = late_ > Scalar(0);
-    Complex z(0), v(0), past_z(0), past_v(0);
-    for (const Pole& pole : poles_) {
-      const Complex away = mu - pole.increment;
-      const Complex inverse = std::conj(away) / std::norm(away);
-      z += times(pole.displacement, inverse);
-      v += times(pole.velocity, inverse);
-      if (!has_past) continue;
-      past_z += times(pole.past_displacement, inverse);
-      past_v += times(pole.past_velocity, inverse);
-    }
-    const Complex lambda = Complex(1) + mu;
-    if (has_past) {
-      z += past_z / lambda;
-      v += past_v / lambda;
-    }
-    for (int k = 1; k < commands_; ++k) {
-      z /= lambda;
-      v /= lambda;
-    }
-    return {z, v};
+    Sums sums;
+    for (const Pole& pole : poles_) sums.add(pole, mu);
+    return finished(sums, mu);
   }
+
+  class Nearby;
 
   /// G_z and G_v at λ = e^{iθ}.
   /// @param angle  θ (rad), 0 … π
@@ -146,6 +135,32 @@ class ModalResponse {
     Complex past_displacement, past_velocity;  // b_k
   };
 
+  /// Σ a_k/(λ − e_k) and Σ b_k/(λ − e_k), of z and of v.
+  struct Sums {
+    Complex z{0}, v{0}, past_z{0}, past_v{0};
+
+    void add_times(const Pole& pole, const Complex& factor) {
+      z += times(pole.displacement, factor);
+      v += times(pole.velocity, factor);
+      past_z += times(pole.past_displacement, factor);
+      past_v += times(pole.past_velocity, factor);
+    }
+    void add(const Pole& pole, const Complex& mu) {
+      const Complex away = mu - pole.increment;
+      add_times(pole, std::conj(away) / std::norm(away));
+    }
+  };
+
+  CommandResponse<Scalar> finished(const Sums& sums, const Complex& mu) const {
+    const Complex lambda = Complex(1) + mu;
+    CommandResponse<Scalar> g{sums.z + sums.past_z / lambda, sums.v + sums.past_v / lambda};
+    for (int k = 1; k < commands_; ++k) {
+      g.displacement /= lambda;
+      g.velocity /= lambda;
+    }
+    return g;
+  }
+
   explicit ModalResponse(const Sampling<Scalar>& sampling) : period_(sampling.period) {
     require_positive("sampling period tau", static_cast<double>(sampling.period), "s");
     require_within("processing delay", static_cast<double>(sampling.processing_delay), "s", 0.0,
@@ -180,6 +195,72 @@ class ModalResponse {
   std::optional<LoopResponse<Scalar>> dense_;  // where the sums are not to be trusted
   int commands_ = 1, unstable_ = 0;
   Scalar period_, late_{0};  // τ and δ′
+};
+
+/// A response about one place, where many of its values are wanted: the poles nearest to it one by
+/// one, what all others add by its Taylor series, to the digits of the sums. Of N poles the nearest
+/// 3 √N, so that values at 30 angles a pole cost N^{3/2} operations together and not N².
+template <class Scalar>
+class ModalResponse<Scalar>::Nearby {
+ public:
+  /// @param response  must outlive this
+  /// @param centre    μ of the place
+  Nearby(const ModalResponse& response, const Complex& centre)
+      : response_(response), centre_(centre) {
+    std::vector<std::pair<Scalar, const Pole*>> poles;
+    for (const Pole& pole : response.poles_)
+      poles.emplace_back(std::norm(centre - pole.increment), &pole);
+    const auto wanted = static_cast<std::size_t>(
+        Scalar(8) + Scalar(3) * std::sqrt(static_cast<Scalar>(poles.size())));
+    const std::size_t count = std::min(wanted, poles.size());
+    if (count < poles.size()) {
+      std::nth_element(poles.begin(), poles.begin() + static_cast<std::ptrdiff_t>(count),
+                       poles.end());
+      reach_ = std::sqrt(poles[count].first);
+    }
+    for (std::size_t k = 0; k < poles.size(); ++k)
+      k < count ? near_.push_back(*poles[k].second) : add_far(*poles[k].second);
+  }
+
+  /// Whether the series holds at μ: within an eighth of the way to the poles that are in it.
+  bool holds(const Complex& mu) const { return std::abs(mu - centre_) <= reach_ / Scalar(8); }
+
+  /// G_z and G_v at μ.
+  CommandResponse<Scalar> at(const Complex& mu) const {
+    if (response_.dense_) return response_.dense_->at_distance_from_one(mu);
+    Sums sums = far_.back();
+    for (std::size_t j = far_.size() - 1; j-- > 0;) {
+      const Complex way = mu - centre_;
+      sums = {far_[j].z + times(way, sums.z), far_[j].v + times(way, sums.v),
+              far_[j].past_z + times(way, sums.past_z), far_[j].past_v + times(way, sums.past_v)};
+    }
+    for (const Pole& pole : near_) sums.add(pole, mu);
+    return response_.finished(sums, mu);
+  }
+
+  /// The distance from μ to the nearest pole, or a little less where none is near.
+  Scalar nearest(const Complex& mu) const {
+    Scalar least = std::min(Scalar(2), reach_ - std::abs(mu - centre_));
+    for (const Pole& pole : near_) least = std::min(least, std::abs(mu - pole.increment));
+    return least;
+  }
+
+ private:
+  /// 1/(μ − e) = Σ (−1)^j (μ − μ₀)^j/(μ₀ − e)^{j+1}.
+  void add_far(const Pole& pole) {
+    const Complex ratio = -Scalar(1) / (centre_ - pole.increment);
+    Complex factor = -ratio;
+    for (Sums& term : far_) {
+      term.add_times(pole, factor);
+      factor = times(factor, ratio);
+    }
+  }
+
+  const ModalResponse& response_;
+  Complex centre_;
+  Scalar reach_ = std::numeric_limits<Scalar>::infinity();
+  std::vector<Pole> near_;
+  std::array<Sums, 17> far_{};  // 8^−17 is round-off
 };
 
 template <class Scalar>

@@ -224,6 +224,20 @@ double true_amplitude_per_force(const Plant& plant, double angular_frequency) {
       .uncontrolled_amplitude_per_force();
 }
 
+namespace detail {
+
+/// The steady response of a plant's loop, relative to what the options say.
+template <class Plant, class Loop>
+SteadyResponse<double> response_of_loop(const Plant& plant, const Loop& loop, ForceHold hold,
+                                        double angular_frequency, bool relative_to_true_force) {
+  const auto response = response_of_loop(plant, loop, hold, angular_frequency);
+  return relative_to_true_force
+             ? response.relative_to(true_amplitude_per_force(plant, angular_frequency))
+             : response;
+}
+
+}  // namespace detail
+
 #ifdef HOLDFAST_EXTERN_TEMPLATES
 extern template class SteadyResponse<double>;
 extern template SteadyResponse<double> steady_response(const TwoMass<double>&,

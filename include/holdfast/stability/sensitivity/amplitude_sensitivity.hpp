@@ -34,20 +34,30 @@ Vector<Scalar, 3> squared_modulus_rates(const std::complex<Scalar>& a,
           2.0 * (std::conj(b) * b_rate).real()};
 }
 
-/// The rates of `SteadyResponse::squared_ratio` of the two masses, from those of the phasors and
-/// of P.
+/// The phasor without control whose modulus ratios are relative to, and its rates by all parameters
+/// but D.
+template <class Scalar>
+struct RatioReference {
+  std::complex<Scalar> phasor;
+  std::array<std::complex<Scalar>, by_d> rates{};
+};
+
+/// The rates of `SteadyResponse::squared_ratio` of the two masses, from those of the phasors, of
+/// the reference and of P.
 template <class Scalar>
 RatioOfQuadratics<Scalar> squared_ratio_rates(const LoopPhasors<Scalar>& phasors,
-                                              const LoopPhasors<Scalar>& rates, const Scalar& p,
-                                              const Scalar& p_rate) {
+                                              const LoopPhasors<Scalar>& rates,
+                                              const std::complex<Scalar>& reference,
+                                              const std::complex<Scalar>& reference_rate,
+                                              const Scalar& p, const Scalar& p_rate) {
   using Complex = std::complex<Scalar>;
   const auto& [t1, t2, f1, f2, t, f] = phasors;
   const auto& [t1_rate, t2_rate, f1_rate, f2_rate, t_rate, f_rate] = rates;
   const Complex slope_rate = t1_rate * f2 + t1 * f2_rate - t2_rate * f1 - t2 * f1_rate;
   const Complex below = 1.0 - p * t1, below_rate = -p * t1_rate - p_rate * t1;
   return {squared_modulus_rates(f1, phasors.differential_slope(), f1_rate, slope_rate),
-          2.0 * (std::conj(f1) * f1_rate).real() * squared_modulus(below, -t2) +
-              std::norm(f1) * squared_modulus_rates(below, -t2, below_rate, -t2_rate)};
+          2.0 * (std::conj(reference) * reference_rate).real() * squared_modulus(below, -t2) +
+              std::norm(reference) * squared_modulus_rates(below, -t2, below_rate, -t2_rate)};
 }
 
 /// The rates of the phasors by all parameters but D.
@@ -72,6 +82,26 @@ std::array<LoopPhasors<Scalar>, by_d> phasor_derivatives(
   return result;
 }
 
+/// The plant without control under the held force, or under the true one, which neither sampling
+/// nor gains move.
+template <class Scalar>
+RatioReference<Scalar> ratio_reference(const TwoMass<Scalar>& plant,
+                                       const LoopPhasors<Scalar>& phasors,
+                                       const std::array<LoopPhasors<Scalar>, by_d>& rates,
+                                       const Scalar& omega, bool relative_to_true_force) {
+  RatioReference<Scalar> reference{phasors.force_conductor};
+  for (std::size_t i = 0; i < rates.size(); ++i) reference.rates[i] = rates[i].force_conductor;
+  if (!relative_to_true_force) return reference;
+  const auto loop = sampled_loop(plant, Sampling<Scalar>{pi<Scalar> / (Scalar(4) * omega)});
+  const auto input = harmonic_input(plant, loop, ForceHold::exact, omega);
+  const MovingResponse<SampledLoop<Scalar>> response(loop, input, omega);
+  const auto moved = phasor_derivatives(plant, loop, ForceHold::exact, input, response, omega);
+  reference = {response.phasors().force_conductor};
+  for (std::size_t i = 0; i < plant_derivatives(plant).size(); ++i)
+    reference.rates[i] = moved[i].force_conductor;
+  return reference;
+}
+
 /// ∂ of the ratio at a held D, and of the stationary D, by all parameters.
 struct RatioEntries {
   Entries ratio = Entries::Zero();       ///< last entry: by D
@@ -82,18 +112,21 @@ struct RatioEntries {
 /// @param p, d   the gains
 template <class Scalar>
 RatioEntries ratio_entries(const LoopPhasors<Scalar>& phasors,
-                           const std::array<LoopPhasors<Scalar>, by_d>& rates, const Scalar& p,
+                           const std::array<LoopPhasors<Scalar>, by_d>& rates,
+                           const RatioReference<Scalar>& reference, const Scalar& p,
                            const Scalar& d) {
   using Ratio = RatioOfQuadratics<Scalar>;
-  const Ratio square = SteadyResponse<Scalar>(phasors).squared_ratio(p);
+  const Ratio square =
+      SteadyResponse<Scalar>(phasors).relative_to(std::abs(reference.phasor)).squared_ratio(p);
   const Scalar n = evaluate(square.numerator, d), m = evaluate(square.denominator, d);
   const Scalar ratio = std::sqrt(n / m);
   const Vector<Scalar, 3> s = square.slope_numerator();
   const Scalar s_slope = s[1] + 2.0 * s[2] * d;
   RatioEntries entries;
   for (int i = 0; i < by_d; ++i) {
-    const Ratio change =
-        squared_ratio_rates(phasors, rates[static_cast<std::size_t>(i)], p, i == by_p ? 1.0 : 0.0);
+    const auto k = static_cast<std::size_t>(i);
+    const Ratio change = squared_ratio_rates(phasors, rates[k], reference.phasor,
+                                             reference.rates[k], p, i == by_p ? 1.0 : 0.0);
     entries.ratio[i] =
         0.5 * ratio * (evaluate(change.numerator, d) / n - evaluate(change.denominator, d) / m);
     const Vector<Scalar, 3> s_rate = Ratio{change.numerator, square.denominator}.slope_numerator() +
@@ -131,9 +164,11 @@ AmplitudeSensitivity amplitude_sensitivity(const TwoMass<Scalar>& plant,
   const auto loop = sampled_loop(plant, options.sampling);
   const auto input = harmonic_input(plant, loop, options.hold, omega);
   const MovingResponse<SampledLoop<double>> response(loop, input, omega);
+  const auto phasors = response.phasors();
+  const auto rates = detail::phasor_derivatives(plant, loop, options.hold, input, response, omega);
   auto [ratio, gain] = detail::ratio_entries(
-      response.phasors(),
-      detail::phasor_derivatives(plant, loop, options.hold, input, response, omega),
+      phasors, rates,
+      detail::ratio_reference(plant, phasors, rates, omega, options.relative_to_true_force),
       proportional_gain, d);
   if (least.outcome == MinimumAmplitudeOutcome::edge) {
     gain = boundary_gain_sensitivity(plant, options.sampling, {proportional_gain, d},

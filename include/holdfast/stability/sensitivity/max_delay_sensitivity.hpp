@@ -28,7 +28,9 @@ Entries reserve_gradient(const TwoMass<Scalar>& plant, const MaxDelayOptions& op
   const auto sampling = options.sampling(answer.sampling_period);
   const double p = options.proportional_gain;
   if (answer.limit == MaxDelayLimit::attenuation)
-    return amplitude_sensitivity(plant, {sampling, options.hold}, options.frequency, p)
+    return amplitude_sensitivity(plant,
+                                 {sampling, options.hold, 1.0, 0.0, options.relative_to_true_force},
+                                 options.frequency, p)
         .ratio.entries;
   const auto least = minimum_radius_sensitivity(plant, sampling, {p, answer.differential_gain});
   if (least.kind == MinimumRadiusKind::fixed)

@@ -191,6 +191,19 @@ ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conduc
       the_case, is_cable(the_case) ? std::max(conductor.apart, fewest_modes) : conductor.apart);
 }
 
+ConductorModes judged_modes_of(const Case& the_case) {
+  const TautString<double> string = string_of(the_case);
+  constexpr int most = 2000;
+  const double twice_the_rate = 4.0 * pi<double> / the_case.control.sampling_period;
+  const auto comes_back = [&](int n) {
+    const double damping = bare_damping_of(the_case, string.angular_frequency(n));
+    return std::exp(-2.0 * pi<double> * n * damping) > 0.05;
+  };
+  int n = chosen_modes(the_case);
+  while (n < most && string.angular_frequency(n) < twice_the_rate && comes_back(n)) ++n;
+  return all_modes_of_string(the_case, n);
+}
+
 ConductorModes conductor_modes_of(const Case& the_case) {
   if (is_two_masses(the_case) || is_infinite(the_case)) return one_mode_of(the_case);
   require_all(the_case);

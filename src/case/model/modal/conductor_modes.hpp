@@ -40,6 +40,11 @@ ConductorModes all_conductor_modes_of(const Case& the_case, int apart);
 ConductorModes finer_modes_of(const Case& the_case, const ConductorModes& conductor);
 ConductorModes coarser_modes_of(const Case& the_case, const ConductorModes& conductor);
 
+/// All modes of the string by which its stability is judged: kept apart up to twice the sampling
+/// rate, or to where less than a twentieth of a wave comes back from the supports, 2000 at most and
+/// never fewer than it is computed with.
+ConductorModes judged_modes_of(const Case& the_case);
+
 /// Whether a cable would need more bars than it has for the waves that sampling shows.
 bool lacks_bars(const Case& the_case);
 

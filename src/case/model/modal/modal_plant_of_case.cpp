@@ -14,6 +14,7 @@
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
+#include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 #include "process/memo.hpp"
@@ -187,6 +188,29 @@ OtherModes other_modes_of(const Case& the_case) {
   return {circle_by(other), "with " + std::to_string(other.apart) + " modes kept apart" +
                                 fewer_bars + " instead of " + std::to_string(kept.apart) +
                                 (fewer_bars.empty() ? "" : " and " + std::to_string(kept.bars))};
+}
+
+JudgedLoop judged_loop_of(const Case& the_case) {
+  Case on_string = the_case;
+  on_string.plant.model = "string";
+  on_string.plant.modes = std::nan("");
+  const ConductorModes modes = judged_modes_of(on_string);
+  return {ResolvedCircle<double>(response_of(on_string, modes)), modes.apart,
+          modes.highest_frequency()};
+}
+
+bool has_chosen_modes(const Case& the_case) {
+  return the_case.plant.model == "string" && !std::isfinite(the_case.plant.modes) &&
+         !has_own_plant(the_case);
+}
+
+std::string judged_otherwise(const Case& the_case) {
+  if (!has_chosen_modes(the_case)) return "";
+  const JudgedLoop loop = judged_loop_of(the_case);
+  if (loop.is_stable(gains_of(the_case))) return "";
+  return "by " + std::to_string(loop.modes) + " modes of the conductor, up to " +
+         format_rounded(loop.highest) + " Hz, the loop is unstable, though by the " +
+         std::to_string(conductor_modes_of(the_case).apart) + " that it is computed with it is not";
 }
 
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,

@@ -76,6 +76,27 @@ struct OtherModes {
 /// with fewer bars.
 OtherModes other_modes_of(const Case& the_case);
 
+/// The loop of a case's absorber and computer as the one judge of its stability sees it: on the
+/// taut string with all devices, by all modes that the sampling can excite (`judged_modes_of`),
+/// whatever plant.model and plant.modes say.
+struct JudgedLoop {
+  ResolvedCircle<double> circle;
+  int modes;       ///< so many one by one, the faster ones bundled
+  double highest;  ///< Hz, of the last of them
+
+  bool is_stable(const PdGains<double>& gains) const { return circle.roots_outside(gains) == 0; }
+};
+
+/// Throws what `conductor_with_absorber_of` does, and WrongInput for a measured device.
+JudgedLoop judged_loop_of(const Case& the_case);
+
+/// Whether a case is of a string whose modes the program chooses, of which the judge has more.
+bool has_chosen_modes(const Case& the_case);
+
+/// What the judge says against a loop that is stable by the modes that a case is computed with;
+/// empty where it agrees, and without chosen modes.
+std::string judged_otherwise(const Case& the_case);
+
 /// The steady response of the loop of either kind of plant at ω (rad/s), and its amplitude without
 /// control under the true force, m/N.
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,

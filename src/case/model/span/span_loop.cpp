@@ -105,9 +105,14 @@ std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorM
 }
 
 bool is_stable_span(const Case& the_case) {
-  Case on_string = the_case;
-  on_string.plant.model = "string";
-  return circle_of(on_string).roots_outside(gains_of(on_string)) == 0;
+  return judged_loop_of(the_case).is_stable(gains_of(the_case));
+}
+
+bool is_growing_span(const Case& the_case, bool controlled) {
+  const auto& devices = the_case.devices;
+  const bool is_measured = std::any_of(devices.begin(), devices.end(),
+                                       [](const auto& device) { return device.table != nullptr; });
+  return controlled && has_active_absorber(the_case) && !is_measured && !is_stable_span(the_case);
 }
 
 }  // namespace holdfast::program

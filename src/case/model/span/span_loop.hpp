@@ -16,8 +16,12 @@ namespace holdfast::program {
 std::vector<PlantPole> poles_with_devices(const Case& the_case, const ConductorModes& conductor,
                                           const Absorber<double>& absorber);
 
-/// Whether the loop of a case's absorber and computer is stable on the string with its devices.
-/// Throws as above.
+/// Whether the loop of a case's absorber and computer is stable on the string with its devices, by
+/// `judged_loop_of`. Throws as above.
 bool is_stable_span(const Case& the_case);
+
+/// Whether the vibration of a span with its computer grows by itself, so that no steady one can be
+/// told. Not without control or absorber; beside a measured device nobody knows. Throws as above.
+bool is_growing_span(const Case& the_case, bool controlled);
 
 }  // namespace holdfast::program

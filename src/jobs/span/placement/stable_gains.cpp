@@ -4,15 +4,8 @@
 #include <cmath>
 #include <complex>
 
-#include "case/model/modal/modal_plant_of_case.hpp"
-
 namespace holdfast::program {
 namespace {
-
-Case on_string(Case the_case) {
-  the_case.plant.model = "string";
-  return the_case;
-}
 
 /// Widens an interval by others, as far as the bound of |gain|.
 void widen(Interval<double>& interval, const std::vector<Interval<double>>& others, double most) {
@@ -25,10 +18,7 @@ void widen(Interval<double>& interval, const std::vector<Interval<double>>& othe
 }  // namespace
 
 StableGains::StableGains(const Case& the_case, double margin)
-    : circle_(circle_of(on_string(the_case))), margin_(margin) {
-  for (const double angle : circle_.angles())
-    responses_.push_back(circle_.response().at_angle(angle));
-}
+    : judge_(judged_loop_of(the_case)), responses_(judge_.circle.responses()), margin_(margin) {}
 
 bool StableGains::admits(const PdGains<double>& gains) const {
   for (const CommandResponse<double>& g : responses_) {

@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "case/case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/response/loop_response.hpp"
 
 namespace holdfast::program {
@@ -17,14 +18,18 @@ struct GainRectangle {
 };
 
 /// The gains with which the computer's loop of a case is stable on the taut string with all its
-/// devices, at a modulus margin: min |1 − P G_z − D G_v| over the unit circle.
+/// devices, by the judge of loops (`judged_loop_of`), at a modulus margin: min |1 − P G_z − D G_v|
+/// over the unit circle.
 class StableGains {
  public:
   /// @param margin  0 … 1; 0: stability alone
-  /// Throws what `circle_of` throws, WrongInput for a measured device.
+  /// Throws what `judged_loop_of` throws.
   StableGains(const Case& the_case, double margin);
 
-  bool is_stable(const PdGains<double>& gains) const { return circle_.roots_outside(gains) == 0; }
+  bool is_stable(const PdGains<double>& gains) const { return judge_.is_stable(gains); }
+
+  int judged_modes() const { return judge_.modes; }            ///< one by one
+  double highest_frequency() const { return judge_.highest; }  ///< Hz, of the last of them
 
   /// Whether gains are stable and keep the margin.
   bool admits(const PdGains<double>& gains) const;
@@ -39,7 +44,7 @@ class StableGains {
   GainRectangle around(const PdGains<double>& most) const;
 
  private:
-  ResolvedCircle<double> circle_;
+  JudgedLoop judge_;
   std::vector<CommandResponse<double>> responses_;  // at its angles
   double margin_;
 };
