@@ -169,9 +169,10 @@ TEST(Answers, OfASpanWhoseAbsorberNobodyGaveAreOfTheWindAndItsDevicesAlone) {
   const TemporaryFolder folder;
   const std::string file = (folder / "line.toml").string();
   write_text(file, "[conductor]\nname = \"Drake\"\nspan = 900\ntension = \"28.02 kN\"\n");
-  for (const std::string line : {" --case '" + file + "'",
-                                 std::string(" --quiet --set conductor.name=Drake --set "
-                                             "conductor.span=900 --set conductor.tension=28020")}) {
+  for (const std::string& line :
+       {" --case '" + file + "'",
+        std::string(" --quiet --set conductor.name=Drake --set "
+                    "conductor.span=900 --set conductor.tension=28020")}) {
     const Outcome outcome = run_holdfast("answers" + line);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
     EXPECT_EQ(outcome.errors, "");

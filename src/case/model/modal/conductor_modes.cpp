@@ -7,7 +7,6 @@
 
 #include "case/model/cable_of_case.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/needed.hpp"
 #include "holdfast/cable/cable_place_modes.hpp"
 #include "holdfast/cable/elements.hpp"
@@ -19,13 +18,13 @@ namespace {
 
 /// All that the modes are asked for with, at once: they are seen by an absorber and its computer.
 void require_all(const Case& the_case) {
-  require_absorber(the_case);
-  std::vector<std::string> keys = {
-      "conductor.mass_per_length", "conductor.span",           "conductor.sag",
-      "conductor.damping_ratio",   "absorber.position",        "plant.absorber_stiffness",
-      "plant.absorber_damping",    "control.sampling_period"};
-  if (is_cable(the_case))
-    keys.insert(keys.begin() + 3, {"conductor.area", "conductor.youngs_modulus"});
+  std::vector<std::string> keys = {"plant.absorber_mass",     "conductor.mass_per_length",
+                                   "conductor.span",          "conductor.sag",
+                                   "conductor.damping_ratio", "absorber.position",
+                                   "control.sampling_period"};
+  if (is_cable(the_case)) keys.insert(keys.end(), {"conductor.area", "conductor.youngs_modulus"});
+  if (has_absorber(the_case))
+    keys.insert(keys.end(), {"plant.absorber_stiffness", "plant.absorber_damping"});
   require_keys(the_case, keys);
 }
 
