@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 case = holdfast.Case(backlash={"width": 0.0002})
-P, D, tau = (case["control"][key] for key in ("proportional_gain", "differential_gain", "sampling_period"))
+P, D, tau = (float(case["control"][key]) for key in ("proportional_gain", "differential_gain", "sampling_period"))
 
 # %% [markdown]
 # ## A gust

@@ -6,22 +6,22 @@ import html
 import json
 import os
 import warnings
-from collections.abc import Mapping, Sequence
-from typing import Any, Optional, Union
-
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union
 
 from . import _core, _options, _toml
 from ._drive import controller_of, force_of
+from ._errors import speaking_python, suggestion, words_of
 from ._progress import watch_of
 from ._store import Store, store_name
 from ._table import Table
+from ._typing import CellsHow, How, Interval, Path, Range, Switching
 
-Path = Union[str, "os.PathLike[str]"]
-#: (min, max, count), an array in equal steps as numpy.linspace gives it, or one number.
-Range = Any
-#: (min, max).
-Interval = Any
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
+    from ._plant import Plant
 
 #: Whose result is cells over axes, which a store can hold.
 _JOBS_OF_CELLS = ("stability", "response", "basins", "sweep")
@@ -36,7 +36,7 @@ class PlausibilityWarning(UserWarning):
 
 def _warn(texts: Sequence[str]) -> None:
     for text in texts:
-        warnings.warn(text.removeprefix("warning: "), PlausibilityWarning, stacklevel=4)
+        warnings.warn(words_of(text.removeprefix("warning: ")), PlausibilityWarning, stacklevel=4)
 
 
 class Case:
@@ -68,11 +68,12 @@ class Case:
         value and range
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_plant")
 
     def __init__(self, source: Optional[Union[Path, Mapping[str, Any], Case]] = None, /, **tables: Any) -> None:
         if isinstance(source, Case):
-            self._core = source.with_(**tables)._core if tables else source._core
+            other = source.with_(**tables) if tables else source
+            self._core, self._plant = other._core, other._plant
             return
         text, name = None, "case"
         if isinstance(source, Mapping):
@@ -80,21 +81,19 @@ class Case:
         elif source is not None:
             name = os.path.abspath(os.fspath(source))
             text = _file_text(name)
-        self._core = _core.Case(*_with_devices(text, name, tables), _toml.overrides(tables))
+        self._core, self._plant = _made(*_with_devices(text, name, tables), tables), None
 
     @classmethod
     def from_toml(cls, text: str, /, **tables: Any) -> Case:
         """A case from the text of a case file."""
         if not isinstance(text, str):
             raise TypeError(f"the text of a case file is a str, not {text!r}")
-        made = cls.__new__(cls)
-        made._core = _core.Case(*_with_devices(text, "case", tables), _toml.overrides(tables))
-        return made
+        return cls._of(_made(*_with_devices(text, "case", tables), tables))
 
     @classmethod
-    def _of(cls, core: Any) -> Case:
+    def _of(cls, core: Any, plant: Optional[Plant] = None) -> Case:
         made = cls.__new__(cls)
-        made._core = core
+        made._core, made._plant = core, plant
         return made
 
     def with_(self, values: Optional[Mapping[str, Any]] = None, /, **tables: Any) -> Case:
@@ -105,11 +104,12 @@ class Case:
         if "device" in tables or "device" in given:
             if self._core.has_own_plant():
                 raise ValueError("device: the plant is one of your own, which has no place for it")
-            text = self.to_toml() + _toml.devices_text(given) + _toml.devices_text(tables)
-            core = _core.Case(text, "case", [])
+            core = _made(self.to_toml() + _toml.devices_text(given) + _toml.devices_text(tables), "case", {})
         else:
             core = self._core
-        return Case._of(core.with_overrides(_toml.overrides(given) + _toml.overrides(tables)))
+        _require_tables(given, tables)
+        with speaking_python():
+            return Case._of(core.with_overrides(_toml.overrides(given) + _toml.overrides(tables)), self._plant)
 
     # -- what it says ------------------------------------------------------------------------------
     def to_dict(self) -> dict[str, Any]:
@@ -124,22 +124,40 @@ class Case:
         """A value, ``case["control.sampling_period"]``, or a table, ``case["control"]``."""
         found: Any = self.to_dict()
         for part in str(key).split("."):
-            if isinstance(found, list):
-                part = int(part) - 1
-            elif part not in found:
-                raise KeyError(f"{key}: the case has {', '.join(found)}")
-            found = found[part]
+            try:
+                found = found[int(part) - 1] if isinstance(found, list) and int(part) > 0 else found[part]
+            except (KeyError, IndexError, TypeError, ValueError):
+                names = f"the case has {', '.join(found)}" if isinstance(found, dict) else "the case has no such key"
+                raise KeyError(f"{key}: {names}") from None
         return found
+
+    def __contains__(self, key: object) -> bool:
+        try:
+            self[key]  # type: ignore[index]
+        except KeyError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the tables, as those of ``to_dict()``."""
+        return iter(self.to_dict())
+
+    def __len__(self) -> int:
+        return len(self.to_dict())
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Case):
             return NotImplemented
-        if self._core.has_own_plant() or other._core.has_own_plant():
-            return self._core is other._core
-        return self._core.json() == other._core.json()
+        return self._plant == other._plant and self._core.json() == other._core.json()
 
     def __hash__(self) -> int:
         return hash(self._core.json())
+
+    def __copy__(self) -> Case:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Case:
+        return self
 
     def __repr__(self) -> str:
         control = self.to_dict()["control"]
@@ -159,9 +177,7 @@ class Case:
         return f"<details open><summary>{html.escape(repr(self))}</summary><table>{rows}</table></details>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        if self._core.has_own_plant():
-            raise TypeError("a case with a plant of your own cannot be pickled: make it anew from its plant")
-        return _restored, self._core.source()
+        return _restored, (*self._core.source(), self._plant)
 
     # -- running a job -----------------------------------------------------------------------------
     def _run(self, job: str, words: Sequence[str], how: dict[str, Any], *own: Any) -> Any:
@@ -192,35 +208,35 @@ class Case:
         progress = how.pop("progress", None)
         common = ("threads", "instructions", "output", "yes") + (("zarr_format",) if job in _JOBS_OF_CELLS else ())
         given = {name: how.pop(name, None) for name in common}
-        if how:
-            raise TypeError(f"{job} has no option {', '.join(how)}")
+        _refuse_unknown(how)
+        given["threads"] = _options.threads_of(given["threads"])
         if given["output"] is not None:
             given["output"] = os.fspath(given["output"])
         core, force = self._core, None
         if excitation is not None:
             force = force_of(excitation, duration, self["control.sampling_period"])
             core = core.with_overrides([f"excitation.{key}" for key in _WITHOUT_FORCE])
-        with watch_of(job, progress) as watch:
+        with watch_of(job, progress) as watch, speaking_python():
             return _core.run_job(
                 core, [job, *words, *_options.arguments(given)], watch, controller_of(controller), force
             )
 
     # -- the case and its cable ---------------------------------------------------------------------
 
-    def explain(self, **how: Any) -> Table:
+    def explain(self, **how: Unpack[How]) -> Table:
         """Every key of the case with value, unit, origin and meaning, and what follows from them: natural
         frequencies, spectral radius, stable D about the case's. Columns ``key, value, unit, origin,
         meaning``, all words.
         """
         return self._run("case", _options.arguments({}), how)
 
-    def reduce(self, **how: Any) -> Table:
+    def reduce(self, **how: Unpack[How]) -> Table:
         """The six parameters m1, k1, c1, m2, k2, c2 of the two masses from conductor and absorber, and how
         sure each is. Columns ``quantity, symbol, value, unit``; ``table.value("conductor_mass")``.
         """
         return self._run("reduce", _options.arguments({}), how)
 
-    def statics(self, force: Range = None, **how: Any) -> Table:
+    def statics(self, force: Range = None, **how: Unpack[How]) -> Table:
         """Force F (N, downward, beyond the absorber's weight) and displacement (m) of the absorber's place:
         two elastic catenaries, Irvine's Eq. 1, the plant's spring, finite elements. Columns ``force_N,
         exact_m, irvine_m, linear_m, elements_m``.
@@ -229,7 +245,7 @@ class Case:
         """
         return self._run("statics", _axis("force", force), how)
 
-    def modes(self, *, count: Optional[int] = None, elements: Optional[int] = None, **how: Any) -> Table:
+    def modes(self, count: Optional[int] = None, *, elements: Optional[int] = None, **how: Unpack[How]) -> Table:
         """Natural frequencies (Hz) of the bare conductor in its plane: Irvine and Caughey, and finite
         elements. Columns ``mode, family, irvine_Hz, elements_Hz,
         along_share``.
@@ -241,11 +257,11 @@ class Case:
         force: Optional[float] = None,
         *,
         duration: Optional[float] = None,
-        absorber: Optional[str] = None,
+        absorber: Optional[Literal["weight", "rigid", "spring"]] = None,
         equal_displacement: bool = False,
         elements: Optional[int] = None,
         interval: Optional[float] = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """Vibration after a force (N) is removed: continuous cable beside the two masses. Columns ``time_s,
         elements_m, two_dof_m``.
@@ -273,10 +289,10 @@ class Case:
         force: Range = None,
         *,
         duration: Optional[float] = None,
-        absorber: Optional[str] = None,
+        absorber: Optional[Literal["weight", "rigid", "spring"]] = None,
         equal_displacement: bool = False,
         elements: Optional[int] = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """First opposite peak (m) after a force is removed, over the force. Columns ``force_N,
         elements_peak_m, two_dof_peak_m, discrepancy``.
@@ -293,9 +309,9 @@ class Case:
         data: Optional[Path] = None,
         *,
         parameters: Optional[str] = None,
-        target: Optional[str] = None,
+        target: Optional[Literal["history", "peak", "measures"]] = None,
         plain: bool = False,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """Damping of the absorber (or more) from a decay record by least squares. Columns ``quantity, value,
         standard_error, unit``.
@@ -329,7 +345,7 @@ class Case:
         continuous: bool = False,
         axes: Optional[Mapping[str, Range]] = None,
         store: Optional[Path] = None,
-        **how: Any,
+        **how: Unpack[CellsHow],
     ) -> Union[Table, Store]:
         """Where the sampled loop without play is stable: all roots of det(lambda I - S(P, D)) = 0 within the
         unit circle. Columns ``stable`` (bool) and, with ``radius``, ``spectral_radius`` (largest modulus of a
@@ -356,7 +372,7 @@ class Case:
         *,
         continuous: bool = False,
         undecided: float = 1e-3,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """Boxes of gains of which interval arithmetic proves that every loop is stable, or that every one is
         unstable: the cells between the points of p and d, quartered where that is needed. It is of the decimals of
@@ -377,15 +393,11 @@ class Case:
         how = dict(how)
         progress = how.pop("progress", None)
         threads, instructions = how.pop("threads", None), how.pop("instructions", None)
-        if how:
-            raise TypeError(f"chart has no option {', '.join(how)}")
+        _refuse_unknown(how)
         over = (_options.axis_of(p, "p"), _options.axis_of(d, "d"))
-        asked = (self._core, *over, bool(radius), int(threads or 0), instructions or "")
-        if progress is None or progress is False:
-            stable, radii, texts, axes = _core.chart(*asked)
-        else:
-            with watch_of("stability", progress) as watch:
-                stable, radii, texts, axes = _core.chart(*asked, watch)
+        asked = (self._core, *over, bool(radius), _options.threads_of(threads) or 0, instructions or "")
+        with watch_of("stability", progress) as watch, speaking_python():
+            stable, radii, texts, axes = _core.chart(*asked, watch)
         _warn(texts)
         columns = [("stable", "", "asymptotically stable", stable, None)]
         if radius:
@@ -400,7 +412,7 @@ class Case:
             },
         )
 
-    def boundary(self, p: Interval = None, *, continuous: bool = False, **how: Any) -> Table:
+    def boundary(self, p: Interval = None, *, continuous: bool = False, **how: Unpack[How]) -> Table:
         """The exact curves in the plane of P and D on which a root lies on the unit circle. Columns ``curve``
         (``plus_one``, ``minus_one``, ``complex_pair``), ``angle_rad``, ``proportional_gain`` (N/m),
         ``differential_gain`` (N s/m).
@@ -411,7 +423,7 @@ class Case:
         words = _interval("p", p) + _options.arguments({"continuous": continuous})
         return self._run("boundary", words, how)
 
-    def stable_intervals(self, p: Any = None, d: Any = None, *, continuous: bool = False, **how: Any) -> Table:
+    def stable_intervals(self, p: Any = None, d: Any = None, *, continuous: bool = False, **how: Unpack[How]) -> Table:
         """The open intervals of D that stabilise the loop at each P, and those of P at each D; without either
         at the case's gains. Columns ``gain, other_gain, lower, upper``.
 
@@ -424,7 +436,7 @@ class Case:
         words += [f"--d={_options.list_text(d, 'd')}"] if d is not None else []
         return self._run("boundary", words, how)
 
-    def gain_regions(self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Any) -> Table:
+    def gain_regions(self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Unpack[How]) -> Table:
         """The regions of a window of P and D with equally many unstable roots, the stable ones first: their
         areas, a point inside, their extents.
 
@@ -435,7 +447,7 @@ class Case:
         return self._run("boundary", words, how)
 
     def boundary_features(
-        self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Any
+        self, p: Interval = None, d: Interval = None, *, continuous: bool = False, **how: Unpack[How]
     ) -> Table:
         """Tangents, cusps, crossings and ends of the boundary's curves within a window of P and D.
 
@@ -451,7 +463,7 @@ class Case:
         d: Range = (-40.0, 20.0, 61),
         *,
         store: Optional[Path] = None,
-        **how: Any,
+        **how: Unpack[CellsHow],
     ) -> Union[Table, Store]:
         """Steady amplitude of the conductor over the gains, without play, in closed form. Columns ``stable``,
         ``amplitude_m`` and ``ratio_to_uncontrolled`` (below 1: control helps), of shape (P, D); NaN where
@@ -471,7 +483,7 @@ class Case:
         both_gains: bool = False,
         largest_radius: Optional[float] = None,
         margin: Optional[float] = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """The best D: that of least steady amplitude and that of least spectral radius, at the case's P and
         frequency or at each frequency with P tuned to it, P = k2 - m2 (2 pi f)^2 (Eq. 6). One row a frequency.
@@ -486,7 +498,7 @@ class Case:
         words += _options.arguments({"both_gains": both_gains, "largest_radius": largest_radius, "margin": margin})
         return self._run("design", words, how)
 
-    def margins(self, *, prove: bool = False, **how: Any) -> Table:
+    def margins(self, *, prove: bool = False, **how: Unpack[How]) -> Table:
         """How far the case's D, P, sampling period and delay are from instability, each moved alone, but the
         sampling period with the delay in proportion. Columns ``quantity, unit, value, side, outcome, position,
         distance, curve, frequency_Hz``.
@@ -496,7 +508,7 @@ class Case:
         """
         return self._run("margins", _options.arguments({"prove": prove}), how)
 
-    def modal_damping(self, *, count: Optional[int] = None, no_control: bool = False, **how: Any) -> Table:
+    def modal_damping(self, count: Optional[int] = None, *, no_control: bool = False, **how: Unpack[How]) -> Table:
         """How absorber, controller and devices damp each mode of the conductor. Columns ``mode, frequency_Hz,
         damping_ratio_bare, damping_ratio, damping_ratio_first_order`` and further laws. Needs ``plant.model =
         "string"`` or ``"cable"``.
@@ -504,7 +516,7 @@ class Case:
         return self._run("modal-damping", _options.arguments({"count": count, "no_control": no_control}), how)
 
     def place_strength(
-        self, device: int = 1, *, position: Range = None, damping: Range = None, count: Optional[int] = None, **how: Any
+        self, device: int = 1, *, position: Range = None, damping: Range = None, count: Optional[int] = None, **how: Unpack[How]
     ) -> Table:
         """The least damping ratio of the modes with a [[device]] elsewhere and of another strength.
 
@@ -515,7 +527,7 @@ class Case:
         words += _options.arguments({"device": device, "count": count})
         return self._run("modal-damping", words, how)
 
-    def sensitivity(self, *, tuned: bool = False, **how: Any) -> Table:
+    def sensitivity(self, *, tuned: bool = False, **how: Unpack[How]) -> Table:
         """How stable gains, best gains and the largest sampling period move with each parameter of the plant.
 
         :param tuned: P follows the absorber by Eq. 6
@@ -523,7 +535,7 @@ class Case:
         return self._run("sensitivity", _options.arguments({"tuned": tuned}), how)
 
     def max_delay(
-        self, frequency: Range = None, *, criterion: Optional[str] = None, prove: bool = False, **how: Any
+        self, frequency: Range = None, *, criterion: Optional[Literal["stable", "attenuates"]] = None, prove: bool = False, **how: Unpack[How]
     ) -> Table:
         """Largest sampling period (s) at which some D stabilises the loop (``criterion="stable"``) or beats no
         control (``"attenuates"``), P tuned to each frequency. Columns ``frequency_Hz, proportional_gain,
@@ -545,12 +557,12 @@ class Case:
         from_: float = 0.0,
         kick: Optional[tuple[float, float]] = None,
         no_control: bool = False,
-        switching: str = "sampled",
-        plant: Optional[str] = None,
+        switching: Switching = "sampled",
+        plant: Optional[Literal["case", "elements"]] = None,
         elements: Optional[int] = None,
         controller: Any = None,
         excitation: Any = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """Time history of the loop with play from its initial state, at the samples t = 0, tau, 2 tau, …
         Columns ``time_s, z1_m, v1_m_per_s, z2_m, v2_m_per_s, control_force_N, in_backlash``; with
@@ -589,11 +601,11 @@ class Case:
         duration: float = 60.0,
         *,
         discard: Optional[float] = None,
-        window: Optional[str] = None,
-        switching: str = "sampled",
+        window: Optional[Literal["rectangular", "hann"]] = None,
+        switching: Switching = "sampled",
         controller: Any = None,
         excitation: Any = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """Amplitude spectrum of z1 over a whole number of forcing periods. Columns ``frequency_Hz,
         amplitude_m``.
@@ -612,10 +624,10 @@ class Case:
         duration: float = 60.0,
         *,
         from_: float = 30.0,
-        switching: str = "sampled",
+        switching: Switching = "sampled",
         controller: Any = None,
         excitation: Any = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """Poincaré section: the instants at which z2 - z1 turns. Columns ``time_s, z1_m, v1_m_per_s, z2_m,
         rising, in_backlash``.
@@ -630,11 +642,11 @@ class Case:
 
     def deviation(
         self,
+        duration: Optional[float] = None,
         *,
         offset: Optional[float] = None,
-        duration: Optional[float] = None,
-        switching: Optional[str] = None,
-        **how: Any,
+        switching: Optional[Switching] = None,
+        **how: Unpack[How],
     ) -> Table:
         """How far two motions part that start close to each other. Columns ``time_s, z1_deviation_m,
         state_deviation``.
@@ -651,8 +663,8 @@ class Case:
         *,
         window: Any = None,
         cells: Optional[int] = None,
-        switching: Optional[str] = None,
-        **how: Any,
+        switching: Optional[Switching] = None,
+        **how: Unpack[How],
     ) -> Table:
         """How much of a window of the phase plane the samples fill as time grows. Columns ``duration_s, cells,
         visited, fraction``.
@@ -670,13 +682,13 @@ class Case:
 
     def orbit(
         self,
-        *,
         max_period: Optional[int] = None,
-        switching: Optional[str] = None,
+        *,
+        switching: Optional[Switching] = None,
         trace: bool = False,
         certificate: bool = False,
         prove: bool = False,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """The exact periodic orbit that the motion comes to, with its certificate. Columns ``period_samples,
         period_s, forcing_periods, largest_multiplier`` (below 1: it attracts), ``closure_error``,
@@ -705,7 +717,7 @@ class Case:
         )
 
     def orbit_ends(
-        self, key: str, interval: Interval, *, max_period: Optional[int] = None, prove: bool = False, **how: Any
+        self, key: str, interval: Interval, *, max_period: Optional[int] = None, prove: bool = False, **how: Unpack[How]
     ) -> Table:
         """Where the orbit ends along one key of the case, and why: fold, flip, torus, border collision; or, with
         ``prove``, in which ranges of it the loop is proved to have it, columns ``from, to, outcome, decided_by,
@@ -725,8 +737,8 @@ class Case:
         keys: Mapping[str, Interval],
         *,
         max_period: Optional[int] = None,
-        switching: Optional[str] = None,
-        **how: Any,
+        switching: Optional[Switching] = None,
+        **how: Unpack[How],
     ) -> Table:
         """The border of the region of two keys in which the orbit is and attracts, in pieces, each named by what
         ends it. Columns ``piece, border, surface, sample``, the two keys, ``largest_multiplier,
@@ -742,15 +754,15 @@ class Case:
 
     def lyapunov(
         self,
-        *,
         duration: Optional[float] = None,
+        *,
         discard: Optional[float] = None,
         standard_error: Optional[float] = None,
-        tangent: Optional[str] = None,
+        tangent: Optional[Literal["consistent", "printed"]] = None,
         largest: bool = False,
         history: bool = False,
-        switching: Optional[str] = None,
-        **how: Any,
+        switching: Optional[Switching] = None,
+        **how: Unpack[How],
     ) -> Table:
         """The Lyapunov exponents of the motion. Columns ``exponent, per_sample, per_second, standard_error``;
         with ``history`` ``time_s, lambda1, …``.
@@ -777,7 +789,7 @@ class Case:
             how,
         )
 
-    def verdict(self, *, max_period: Optional[int] = None, switching: Optional[str] = None, **how: Any) -> Table:
+    def verdict(self, max_period: Optional[int] = None, *, switching: Optional[Switching] = None, **how: Unpack[How]) -> Table:
         """What the motion is: periodic, quasi-periodic, chaotic, …, and what that rests on; one row."""
         return self._run("verdict", _options.arguments({"max_period": max_period, "switching": switching}), how)
 
@@ -788,9 +800,9 @@ class Case:
         fractions: bool = False,
         duration: Optional[float] = None,
         max_period: Optional[int] = None,
-        switching: Optional[str] = None,
+        switching: Optional[Switching] = None,
         store: Optional[Path] = None,
-        **how: Any,
+        **how: Unpack[CellsHow],
     ) -> Union[Table, Store]:
         """Which attractor each initial state of a grid comes to. Columns ``attractor, period_s`` over the two
         axes.
@@ -811,9 +823,9 @@ class Case:
         starts: Optional[Mapping[str, Range]] = None,
         each: bool = False,
         max_period: Optional[int] = None,
-        switching: Optional[str] = None,
+        switching: Optional[Switching] = None,
         store: Optional[Path] = None,
-        **how: Any,
+        **how: Unpack[CellsHow],
     ) -> Union[Table, Store]:
         """The periodic motions in the cells of a plane of two keys: what the case's initial state comes to, and how
         many coexist. Columns ``outcome, forcing_periods, period_s, amplitude_m, border_share, motions, …`` over the
@@ -835,8 +847,8 @@ class Case:
         axes: Mapping[str, Range],
         *,
         max_period: Optional[int] = None,
-        switching: Optional[str] = None,
-        **how: Any,
+        switching: Optional[Switching] = None,
+        **how: Unpack[How],
     ) -> Table:
         """The attractors at each value of a key, recognised from value to value, with the shares of the initial
         states of a grid that come to them and their standard errors.
@@ -856,8 +868,8 @@ class Case:
         *,
         transient: Optional[float] = None,
         strobes: Optional[int] = None,
-        switching: Optional[str] = None,
-        **how: Any,
+        switching: Optional[Switching] = None,
+        **how: Unpack[How],
     ) -> Table:
         """Orbit diagram: one state a forcing period against a key of the case, up and back.
 
@@ -878,13 +890,13 @@ class Case:
         duration: Optional[float] = None,
         best_gain: bool = False,
         max_period: Optional[int] = None,
-        switching: Optional[str] = None,
+        switching: Optional[Switching] = None,
         store: Optional[Path] = None,
         client: Any = None,
         resume: bool = False,
         part: Optional[tuple[int, int]] = None,
         chunk: Optional[int] = None,
-        **how: Any,
+        **how: Unpack[CellsHow],
     ) -> Union[Table, Store]:
         """Metrics of the motion over any number of axes, on all cores. A column for each metric, with a
         dimension for each axis.
@@ -931,7 +943,7 @@ class Case:
     # -- span and wind ------------------------------------------------------------------------------
 
     def absorption(
-        self, frequency: Range = None, *, end: Optional[str] = None, no_control: bool = False, **how: Any
+        self, frequency: Range = None, *, end: Optional[Literal["left", "right"]] = None, no_control: bool = False, **how: Unpack[How]
     ) -> Table:
         """What the devices at an end of the span do to the waves that come to it. Columns ``frequency_Hz``,
         real and imaginary part of the impedance (N s/m), ``reflection, absorbed_fraction,
@@ -946,7 +958,7 @@ class Case:
             how,
         )
 
-    def aeolian(self, frequency: Range = None, *, no_control: bool = False, **how: Any) -> Table:
+    def aeolian(self, frequency: Range = None, *, no_control: bool = False, **how: Unpack[How]) -> Table:
         """How much the conductor vibrates in the wind at each frequency, by each law of the wind and of its own
         damping: amplitudes (m) and strains with and without devices.
 
@@ -955,7 +967,7 @@ class Case:
         return self._run("aeolian", _axis("frequency", frequency) + _options.arguments({"no_control": no_control}), how)
 
     def aeolian_history(
-        self, frequency: float, *, duration: Optional[float] = None, no_control: bool = False, **how: Any
+        self, frequency: float, *, duration: Optional[float] = None, no_control: bool = False, **how: Unpack[How]
     ) -> Table:
         """Time history of the conductor's modes in a wind whose vortices are shed at one frequency (Hz), with a
         wake that swings with it at every place.
@@ -965,7 +977,7 @@ class Case:
         )
 
     def fatigue(
-        self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False, **how: Any
+        self, frequency: Interval = None, *, no_control: bool = False, by_speed: bool = False, **how: Unpack[How]
     ) -> Table:
         """How long the conductor lives at its clamps in the wind of [site]. Columns ``quantity, value, lowest,
         highest, unit``.
@@ -984,12 +996,12 @@ class Case:
         device: Optional[Union[int, str]] = None,
         *,
         frequency: Range = None,
-        for_: Optional[str] = None,
+        for_: Optional[Literal["strain", "damping"]] = None,
         modes: Optional[tuple[int, int]] = None,
-        keep: Optional[str] = None,
-        move: Optional[str] = None,
+        keep: Optional[Literal["position"]] = None,
+        move: Optional[Literal["position"]] = None,
         margin: Optional[float] = None,
-        **how: Any,
+        **how: Unpack[How],
     ) -> Table:
         """The best position, strength or gains of one device. Columns ``quantity, value, unit``.
 
@@ -1009,20 +1021,20 @@ class Case:
 
     # -- all of it ----------------------------------------------------------------------------------
 
-    def answers(self, *, details: bool = False, **how: Any) -> Table:
+    def answers(self, *, details: bool = False, **how: Unpack[How]) -> Table:
         """Does control help, which D, how slow a computer, how much play, what motion: in words. Columns
         ``question, answer``.
         """
         return self._run("answers", _options.arguments({"details": details}), how)
 
-    def report(self, folder: Path, *, for_: Optional[str] = None, **how: Any) -> None:
+    def report(self, folder: Path, *, for_: Optional[Literal["control", "span"]] = None, **how: Unpack[How]) -> None:
         """A folder with every table and picture of the case, and one ``report.html`` that shows them.
 
         :param for_: who reads it: ``"control"`` or ``"span"``
         """
         self._run("report", _options.arguments({"for": for_}), {**how, "output": folder})
 
-    def explore(self, file: Path, **how: Any) -> None:
+    def explore(self, file: Path, **how: Unpack[How]) -> None:
         """One page to be opened in a browser: move gains, delays and play, and see what follows."""
         self._run("explore", [], {**how, "output": file})
 
@@ -1047,8 +1059,46 @@ class Case:
         return dict(self._core.plant_matrices())
 
 
-def _restored(text: Optional[str], name: str, overrides: list[str]) -> Case:
-    return Case._of(_core.Case(text, name, overrides))
+def _restored(text: Optional[str], name: str, overrides: list[str], plant: Optional[Plant] = None) -> Case:
+    own = None if plant is None else plant._core
+    return Case._of(_core.Case(text, name, overrides, own), plant)
+
+
+def _made(text: Optional[str], name: str, tables: Mapping[str, Any], plant: Optional[Plant] = None) -> Any:
+    _require_tables(tables)
+    with speaking_python():
+        return _core.Case(text, name, _toml.overrides(tables), None if plant is None else plant._core)
+
+
+#: Of a case, beside those that the built-in one has.
+_FURTHER_TABLES = ("device", "site", "wind")
+
+
+def _require_tables(*given: Mapping[str, Any]) -> None:
+    """Throws ValueError for a table that no case has."""
+    names = {name.partition(".")[0] for tables in given for name in tables if isinstance(name, str)}
+    known = {*json.loads(_core.Case(None, "case", []).json()), *_FURTHER_TABLES} if names else set()
+    for name in sorted(names - known):
+        raise ValueError(f"{name}: a case has no such table{suggestion(name, known)}")
+
+
+def _refuse_unknown(how: Mapping[str, Any]) -> None:
+    """Throws TypeError for keywords that the method of a case that was called does not have."""
+    if not how:
+        return
+    frame, called = sys._getframe(1), ""
+    while frame is not None and not called:
+        name = frame.f_code.co_name
+        called = name if not name.startswith("_") and name in vars(Case) else ""
+        method, frame = frame.f_code, frame.f_back
+    if "controller" in how:
+        raise TypeError(
+            f"{called} takes no controller, simulate, spectrum and section do: it begins the loop again and again from "
+            "other states, and what a function of yours remembers cannot be set"
+        )
+    names = {*method.co_varnames[1 : method.co_argcount + method.co_kwonlyargcount], *How.__annotations__, "output"}
+    name = next(iter(how))
+    raise TypeError(f"{called} has no option {', '.join(how)}{suggestion(name, names)}")
 
 
 def _chart_options(over: tuple[Any, Any], radius: bool) -> list[tuple[str, str]]:

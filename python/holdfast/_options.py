@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-#: (min, max, count), a uniform array, or one number.
-Range = Any
+from ._typing import Range
 
 
 def finite_number(value: Any, name: str) -> float:
@@ -28,6 +27,15 @@ def number_text(value: Any, name: str) -> str:
     number = finite_number(value, name)
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     return str(int(value)) if whole else repr(number)
+
+
+def threads_of(threads: Any) -> int | None:
+    """None, or a number of threads, 0: all."""
+    if threads is None:
+        return None
+    if not isinstance(threads, (int, np.integer)) or isinstance(threads, bool) or not 0 <= threads <= 1024:
+        raise ValueError(f"threads = {threads!r}: admissible is a whole number, 0 (all) to 1024")
+    return int(threads)
 
 
 def axis_of(value: Range, name: str) -> tuple[float, float, int]:

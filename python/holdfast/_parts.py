@@ -31,7 +31,7 @@ _MOST_LOSSES = 3
 def fill_by(client: Any, case: Case, words: Sequence[str], how: dict[str, Any], resume: bool) -> Store:
     """The store that the workers have filled together."""
     if case._core.has_own_plant():
-        raise ValueError("client: a plant of your own cannot be handed to other processes")
+        raise ValueError("client: a sweep is of cables, not of a plant of your own")
     how = dict(how)
     progress = how.pop("progress", None)
     workers = _workers_of(client)

@@ -7,8 +7,8 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _core, _toml
-from ._case import Case
+from . import _core
+from ._case import Case, _made
 
 Port = Union[int, "np.ndarray", "list[float]", None]
 
@@ -126,11 +126,10 @@ class Plant:
         """A case on the plant: ``plant.case(control={"proportional_gain": -500, "sampling_period": 1e-3},
         backlash={"width": 5e-4})``. What is not given is that of the built-in case, but for the gains and
         the play, which are 0. [conductor], [absorber], [plant] and [initial] do not count here."""
-        begin = ["control.proportional_gain=0.0", "control.differential_gain=0.0", "backlash.width=0.0"]
-        words = begin + _toml.overrides(dict(values or {})) + _toml.overrides(tables)
         if "device" in tables or "device" in (values or {}):
             raise ValueError("device: the plant is one of your own, which has no place for it")
-        return Case._of(_core.Case(None, "case", words, self._core))
+        begin = {"control.proportional_gain": 0.0, "control.differential_gain": 0.0, "backlash.width": 0.0}
+        return Case._of(_made(None, "case", begin, self), self).with_(values, **tables)
 
     def eigenvalues(self) -> np.ndarray:
         """Those of A, (N,), 1/s."""
@@ -149,6 +148,37 @@ class Plant:
             inputs=["u", "F"],
             outputs=["displacement", "velocity", "relative_displacement"],
         )
+
+    def _arrays(self) -> tuple[np.ndarray, ...]:
+        return (
+            self.state_matrix,
+            self.command_input,
+            self.excitation_input,
+            self.displacement,
+            self.velocity,
+            self.relative_displacement,
+            self.initial_state,
+            self.displacement_lift,
+            self.velocity_lift,
+        )
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Plant):
+            return NotImplemented
+        return all(np.array_equal(one, another) for one, another in zip(self._arrays(), other._arrays()))
+
+    def __hash__(self) -> int:
+        return hash(tuple(array.tobytes() for array in self._arrays()))
+
+    def __copy__(self) -> Plant:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Plant:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        *others, of_displacement, of_velocity = self._arrays()
+        return Plant, (*others, (of_displacement, of_velocity))
 
     def __repr__(self) -> str:
         return f"<holdfast.Plant of order {self.order}>"
@@ -213,13 +243,14 @@ def _array(values: Any, dimensions: int, name: str) -> np.ndarray:
         array = np.asarray(values)
         if np.iscomplexobj(array):
             raise ValueError
-        array = np.ascontiguousarray(array, dtype=float)
+        array = np.array(array, dtype=float, order="C")  # its own: the plant never changes
     except (TypeError, ValueError):
         raise ValueError(f"{name}: admissible are real numbers") from None
     if array.ndim != dimensions or array.size == 0:
         raise ValueError(f"{name} has the shape {array.shape}; admissible: {dimensions} dimension(s), not empty")
     if not np.all(np.isfinite(array)):
         raise ValueError(f"{name} has entries that are not finite")
+    array.flags.writeable = False
     return array
 
 

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import errno
 import html
 import json
 import math
 import os
 import pathlib
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _options
+from ._typing import How, Path
 
-Path = Union[str, "os.PathLike[str]"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._table import Table
+
 
 
 class Store:
@@ -110,7 +116,7 @@ class Store:
 
         return xarray.open_zarr(self.path, **options)
 
-    def to_table(self, **how: Any) -> Any:
+    def to_table(self, **how: Unpack[How]) -> Table:
         """All cells in memory, as the :class:`Table` that the job gives without a store: words are texts, and
         ``plot()`` and ``to_pandas()`` are at hand. ``progress`` as of a job.
 
@@ -146,8 +152,11 @@ class Store:
 def open_store(path: Path) -> Store:
     """A store that was written before, or that grows.
 
+    :raises FileNotFoundError: nothing lies there
     :raises ValueError: what lies there is no store of holdfast's
     """
+    if not os.path.exists(path):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(path))
     return Store(path)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import html
+import io
 import json
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -10,7 +12,7 @@ from typing import Any
 import numpy as np
 
 
-class Table(Mapping):
+class Table(Mapping[str, "np.ndarray[Any, Any]"]):
     """A job's result: NumPy arrays by the name of their column.
 
     Over a grid of axes (a chart, a response, basins, a sweep) each column is an array with a
@@ -42,12 +44,14 @@ class Table(Mapping):
     def _take(self, name: str, unit: str, description: str, values: np.ndarray) -> None:
         if name == "stable":  # bytes of 0 and 1 need no copy
             values = values.view(bool) if values.dtype.itemsize == 1 else values.astype(bool)
+        elif values.dtype.kind == "i":
+            values = values.view(np.int64)  # some libraries know no other type of 64 bits
         self._columns[name] = values
         self._units[name] = unit
         self._descriptions[name] = description
 
     # -- a mapping -------------------------------------------------------------------------------
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> np.ndarray[Any, Any]:
         try:
             return self._columns[name]
         except KeyError:
@@ -127,11 +131,16 @@ class Table(Mapping):
 
     def to_xarray(self) -> Any:
         """An ``xarray.Dataset``: axes are coordinates (of other tables the first column, where it
-        rises), with the attributes ``units`` and ``long_name``; what made it in its attributes."""
+        rises), with the attributes ``units`` and ``long_name``; what made it in its attributes. A key of the
+        case is named with an underscore for its point, as in a file of netCDF and in a store:
+        ``backlash_width``."""
         import xarray
 
+        def named(name: str) -> str:
+            return name.replace(".", "_")
+
         index = None if self._axes else self._index()
-        dimensions = self._axes or (index or "row",)
+        dimensions = tuple(named(name) for name in self._axes or (index or "row",))
         coordinates = self._axes or ((index,) if index else ())
 
         def attributes(name: str) -> dict[str, str]:
@@ -139,11 +148,11 @@ class Table(Mapping):
 
         return xarray.Dataset(
             {
-                name: (dimensions, values, attributes(name))
+                named(name): (dimensions, values, attributes(name))
                 for name, values in self._columns.items()
                 if name not in coordinates
             },
-            {name: ((name,), self._columns[name], attributes(name)) for name in coordinates},
+            {named(name): ((named(name),), self._columns[name], attributes(name)) for name in coordinates},
             {"job": self._job, "holdfast": self._origin},
         )
 
@@ -186,6 +195,20 @@ class Table(Mapping):
             names = ", ".join(f"{name}={values[0]}" for name, values in self._columns.items())
         return f"<holdfast.Table {self._job}: {self._shape_text()}; {names}>"
 
+    def _picture(self) -> str:
+        """A chart or a curve over axes as an image of a page; nothing where it cannot be drawn."""
+        if not 1 <= len(self._axes) <= 2:
+            return ""
+        try:
+            from matplotlib.figure import Figure
+
+            figure, drawn = Figure(layout="constrained"), io.BytesIO()
+            self.plot(figure.subplots())
+            figure.savefig(drawn, format="png", dpi=80)
+        except (ImportError, ValueError):
+            return ""
+        return f'<br><img alt="{html.escape(repr(self))}" src="data:image/png;base64,{base64.b64encode(drawn.getvalue()).decode()}">'
+
     def _repr_html_(self) -> str:
         def cell(text: Any, tag: str = "td") -> str:
             return f"<{tag}>{html.escape(str(text))}</{tag}>"
@@ -197,7 +220,7 @@ class Table(Mapping):
             for row in range(min(self.rows, 10)):
                 body += "<tr>" + "".join(cell(values[row]) for values in columns.values()) + "</tr>"
         caption = html.escape(f"{self._job}: {self._shape_text()}")
-        return f"<table><caption>{caption}</caption><tr>{head}</tr>{body}</table>"
+        return f"<table><caption>{caption}</caption><tr>{head}</tr>{body}</table>{self._picture()}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._job, self._origin, self._axes, self._columns, self._units, self._descriptions)

@@ -39,7 +39,17 @@ void do_hosted(JobHost& host, const nb::object& watch, const Work& work) {
       [&] { tell_progress(host, watch); });
 }
 
-/// A controller in Python: slow, since every sample takes the interpreter's lock.
+/// Runs `work` under the host in this thread.
+template <class Work>
+void do_hosted_here(JobHost& host, const Work& work) {
+  do_here([&] {
+    const program::HostedHere here(host);
+    work();
+  });
+}
+
+/// A controller in Python: slow, since every sample takes the interpreter's lock. It looks after
+/// signals, for it is called in the thread that asked for the job.
 class PythonController {
  public:
   explicit PythonController(nb::object callable) : callable_(std::move(callable)) {}
@@ -52,6 +62,8 @@ class PythonController {
 
   double operator()(std::int64_t k, double t, double displacement, double velocity) const {
     const nb::gil_scoped_acquire held;
+    const CallsPython calls;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
     const nb::object force = callable_(k, t, displacement, velocity);
     const double value = PyFloat_AsDouble(force.ptr());
     if (value == -1.0 && PyErr_Occurred() != nullptr) throw nb::python_error();
@@ -68,8 +80,10 @@ class PythonController {
 using Compiled = double (*)(std::int64_t, double, double, double);
 using CompiledWithData = double (*)(std::int64_t, double, double, double, void*);
 
+bool is_compiled(const nb::object& controller) { return nb::isinstance<nb::tuple>(controller); }
+
 program::OwnForce controller_of(const nb::object& controller) {
-  if (nb::isinstance<nb::tuple>(controller)) {
+  if (is_compiled(controller)) {
     const auto address = nb::cast<std::uintptr_t>(controller[0]);
     if (address == 0) throw program::WrongInput("the controller's address is 0");
     if (controller[1].is_none()) return reinterpret_cast<Compiled>(address);
@@ -157,7 +171,11 @@ nb::tuple run_job(const CaseInMemory& the_case, std::vector<std::string> argumen
   host.source = the_case.source();
   attach_controller(*host.source, controller);
   attach_force(*host.source, force);
-  do_hosted(host, watch, [&] { program::do_job(arguments); });
+  const auto work = [&] { program::do_job(arguments); };
+  if (controller.is_none() || is_compiled(controller))
+    do_hosted(host, watch, work);
+  else
+    do_hosted_here(host, work);
   nb::list tables;
   for (ReceivedTable& table : host.tables) tables.append(dict_of(table));
   return nb::make_tuple(tables, nb::cast(host.warnings));
@@ -188,10 +206,7 @@ nb::tuple chart(const CaseInMemory& the_case, AxisTuple proportional, AxisTuple 
                         threads);
   };
   if (is_short(the_case, grid, radius)) {
-    do_shortly([&] {
-      const program::HostedHere here(host);
-      work();
-    });
+    do_hosted_here(host, work);
   } else {
     do_hosted(host, watch, work);
   }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "process/interrupt.hpp"
 
@@ -33,6 +34,16 @@ void refuse_forked_process() {
         "along: start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\"");
 }
 
+thread_local bool calls_python = false;
+
+void refuse_where_nobody_answers() {
+  refuse_forked_process();
+  if (calls_python)
+    throw std::runtime_error(
+        "a controller or progress callback calls holdfast again while holdfast waits for it: "
+        "compute before, or keep what it needs and compute after");
+}
+
 /// Takes the lock, or gives up with a signal's exception.
 void wait_for_turn(std::unique_lock<std::timed_mutex>& turn) {
   while (!turn.try_lock_for(between_looks)) {
@@ -43,8 +54,11 @@ void wait_for_turn(std::unique_lock<std::timed_mutex>& turn) {
 
 }  // namespace
 
-void do_shortly(const std::function<void()>& work) {
-  refuse_forked_process();
+CallsPython::CallsPython() : outer_(std::exchange(calls_python, true)) {}
+CallsPython::~CallsPython() { calls_python = outer_; }
+
+void do_here(const std::function<void()>& work) {
+  refuse_where_nobody_answers();
   const nb::gil_scoped_release released;
   std::unique_lock<std::timed_mutex> turn(working, std::defer_lock);
   wait_for_turn(turn);
@@ -52,7 +66,7 @@ void do_shortly(const std::function<void()>& work) {
 }
 
 void do_without_lock(const std::function<void()>& work, const std::function<void()>& watch) {
-  refuse_forked_process();
+  refuse_where_nobody_answers();
   std::exception_ptr fault;              // of the work
   std::optional<nb::python_error> stop;  // of a signal or of `watch`
   {
@@ -77,6 +91,7 @@ void do_without_lock(const std::function<void()>& work, const std::function<void
       lock.unlock();
       if (!stop) {
         const nb::gil_scoped_acquire held;
+        const CallsPython calls;
         try {
           if (PyErr_CheckSignals() != 0) throw nb::python_error();
           watch();

@@ -393,3 +393,126 @@ def test_environment_is_left_alone():
     before = signal.getsignal(signal.SIGINT)
     holdfast.Case().chart((-1000, 200, 3000), (-40, 20, 3000), radius=True)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def within(seconds, code):
+    """What a new interpreter prints that is ended where it takes longer."""
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=seconds
+    )
+    return done.stdout + done.stderr
+
+
+CALLED_AGAIN = {
+    "controller": "case.simulate(0.1, controller=lambda k, t, z, v: again())",
+    "progress": "case.chart((-1000, 200, 200000), (-40, 20, 2000), radius=True, progress=lambda *_: again())",
+}
+
+
+@pytest.mark.parametrize("question", CALLED_AGAIN.values(), ids=list(CALLED_AGAIN))
+@pytest.mark.parametrize("again", ["case.orbit()", "case.chart()", "case.chart((0, 1, 3), (0, 1, 3))"])
+def test_a_callback_that_calls_the_package(question, again):
+    code = f"""
+        import holdfast
+        case = holdfast.Case()
+        case.chart()
+        again = lambda: {again}
+        try:
+            {question}
+        except RuntimeError as fault:
+            print(fault)
+        print(case.orbit().period_samples)
+    """
+    told = within(20, code)
+    assert "calls holdfast again" in told and told.endswith("100\n"), told
+
+
+CALLBACKS_THAT_HANG = [
+    "case.simulate(1.0, controller=lambda k, t, z, v: __import__('time').sleep(1000.0))",
+    "case.simulate(1.0, controller=lambda k, t, z, v: [0.0 for _ in __import__('itertools').count() if False][0])",
+    "case.chart((-1000, 200, 200000), (-40, 20, 2000), radius=True, progress=lambda *_: __import__('time').sleep(1000.0))",
+    "case.simulate(1.0, excitation=lambda t: __import__('time').sleep(1000.0))",
+    "case.simulate(1e5, controller=lambda k, t, z, v: 0.0, progress=lambda *_: None)",
+]
+
+
+@pytest.mark.parametrize("question", CALLBACKS_THAT_HANG)
+def test_ctrl_c_in_a_callback(question):
+    assert interrupted(question) < 1.5
+
+
+def test_a_callback_that_waits_for_a_thread_that_computes():
+    question = (
+        "import threading; other = threading.Thread(target=case.orbit, daemon=True); "
+        "case.simulate(1.0, controller=lambda *_: (other.ident or other.start(), other.join(), 0.0)[-1])"
+    )
+    assert interrupted(question) < 1.5
+
+
+@pytest.mark.parametrize("threads", [-1, 2.5, True, "2", 1025])
+def test_threads(threads):
+    case = holdfast.Case()
+    asked = (case.chart, case.orbit, case.simulate, case.response, case.reduce, case.proved_chart,
+             lambda **how: case.sweep({"backlash.width": (0, 1e-3, 2)}, **how))  # fmt: skip
+    for ask in asked:
+        with pytest.raises(ValueError, match="threads = "):
+            ask(threads=threads)
+
+
+def test_errors_speak_python(tmp_path):
+    case = holdfast.Case()
+    asked = [
+        lambda: case.orbit(max_period=0),
+        lambda: case.simulate(-1.0),
+        lambda: case.with_({"control.sampling_period": -1.0}),
+        lambda: case.with_({"control.samplin_period": 1.0}),
+        lambda: holdfast.Case(control={"sampling_period": "soon"}),
+        lambda: case.sweep({"nothing.here": (0, 1, 2)}),
+        lambda: case.sweep({"backlash.width": (0, 1, 2)}, "no_metric"),
+        lambda: case.lyapunov(history=True, largest=True),
+        lambda: case.stable_intervals(p=1e6),
+        lambda: case.section(1.0, from_=2.0),
+        lambda: case.fit(tmp_path / "none.csv"),
+    ]
+    for ask in asked:
+        with pytest.raises((ValueError, RuntimeError, OSError)) as told:
+            ask()
+        assert "--" not in str(told.value), told.value
+    with pytest.raises(ValueError, match="max_period"):
+        case.orbit(max_period=0)
+    with pytest.raises(ValueError, match="control.sampling_period = -1.0"):
+        case.with_({"control.sampling_period": -1.0})
+
+
+def test_files_that_cannot_be_read_or_written(tmp_path):
+    case = holdfast.Case()
+    asked = [
+        lambda: case.fit(tmp_path / "none.csv"),
+        lambda: case.simulate(0.1, output=tmp_path / "none" / "motion.csv"),
+        lambda: case.with_(excitation={"record": str(tmp_path / "none.csv")}),
+        lambda: holdfast.open_store(tmp_path / "none.zarr"),
+        lambda: holdfast.Case(tmp_path / "none.toml"),
+    ]
+    for ask in asked:
+        with pytest.raises(OSError):
+            ask()
+
+
+def test_words_that_are_nearly_right():
+    case = holdfast.Case()
+    for ask, word in (
+        (lambda: case.lyapunov(durration=3), "did you mean duration"),
+        (lambda: case.chart(radii=True, thread=2), "thread"),
+        (lambda: case.simulate(swithing="exact"), "did you mean switching"),
+        (lambda: case.orbit_ends("backlash.width", (0, 1e-3), max_perod=3), "orbit_ends .*did you mean max_period"),
+        (lambda: case.verdict(ouput="a.csv"), "did you mean output"),
+    ):
+        with pytest.raises(TypeError, match=word):
+            ask()
+    for make in (
+        lambda: holdfast.Case(controll={"sampling_period": 1e-3}),
+        lambda: case.with_(controll={"sampling_period": 1e-3}),
+        lambda: holdfast.Case({"controll": {"sampling_period": 1e-3}}),
+    ):
+        with pytest.raises(ValueError, match="did you mean .?control"):
+            make()

@@ -132,3 +132,77 @@ def test_own_excitation():
     for bad in ((t, t[:-1]), (t[::-1], t), (t, np.full_like(t, np.nan)), 3.0):
         with pytest.raises(ValueError):
             case.simulate(1.0, excitation=bad)
+
+
+SIGNATURES = [
+    (ctypes.c_double, [ctypes.c_int64, ctypes.c_double, ctypes.c_double]),
+    (ctypes.c_double, [ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_int64]),
+    (ctypes.c_double, [ctypes.c_int32, ctypes.c_double, ctypes.c_double, ctypes.c_double]),
+    (ctypes.c_float, [ctypes.c_int64, ctypes.c_double, ctypes.c_double, ctypes.c_double]),
+    (ctypes.c_double, [ctypes.c_int64, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p]),
+    (ctypes.c_double, None),
+]
+
+
+@pytest.mark.parametrize("result, arguments", SIGNATURES, ids=[str(k) for k in range(len(SIGNATURES))])
+def test_functions_of_ctypes_of_another_signature(result, arguments):
+    law = ctypes.CDLL(None)["cos"]
+    law.restype, law.argtypes = result, arguments
+    with pytest.raises(TypeError, match=r"double \(int64_t k"):
+        holdfast.Case().simulate(0.1, controller=law)
+
+
+def test_functions_that_ctypes_wraps():
+    kinds = (ctypes.c_double, ctypes.c_int64, ctypes.c_double, ctypes.c_double, ctypes.c_double)
+    for wrap in (ctypes.CFUNCTYPE(*kinds), ctypes.PYFUNCTYPE(*kinds)):
+        with pytest.raises(TypeError, match="the function itself"):
+            holdfast.Case().simulate(0.1, controller=wrap(pd))
+
+
+def test_addresses_are_no_controllers():
+    class HasAddress:
+        address = 4096
+
+    for law in (4096, HasAddress(), ctypes.c_void_p(4096)):
+        with pytest.raises(TypeError, match="admissible"):
+            holdfast.Case().simulate(0.1, controller=law)
+
+
+@pytest.mark.parametrize(
+    "signature",
+    [
+        "float64(float64, float64, float64)",
+        "float64(int32, float64, float64, float64)",
+        "float64(float64, float64, float64, float64)",
+        "float32(int64, float64, float64, float64)",
+        "float64(int64, float64, float64, float64, float64)",
+    ],
+)
+def test_functions_of_numba_of_another_signature(signature):
+    numba = pytest.importorskip("numba")
+    names = ", ".join("abcde"[: signature.count(",") + 1])
+    law = numba.cfunc(signature)(eval(f"lambda {names}: 1.0"))
+    with pytest.raises(TypeError, match=r"double \(int64_t k"):
+        holdfast.Case().simulate(0.1, controller=law)
+
+
+def test_low_level_callables_of_another_signature():
+    scipy = pytest.importorskip("scipy")
+    numba = pytest.importorskip("numba")
+    case, data = holdfast.Case(), ctypes.cast((ctypes.c_double * 2)(P, D), ctypes.c_void_p)
+    right = numba.cfunc("float64(int64, float64, float64, float64)")(lambda k, t, z, v: P * z + D * v).ctypes
+    np.testing.assert_allclose(
+        case.simulate(0.5, controller=scipy.LowLevelCallable(right))["z1_m"],
+        case.simulate(0.5, controller=pd)["z1_m"], rtol=0, atol=1e-15,
+    )  # fmt: skip
+    of_one = numba.cfunc("float64(float64)")(lambda x: x).ctypes
+    for law in (scipy.LowLevelCallable(of_one), scipy.LowLevelCallable(of_one, data), scipy.LowLevelCallable(right, data)):
+        with pytest.raises(TypeError, match=r"double \(int64_t k"):
+            case.simulate(0.1, controller=law)
+
+
+def test_what_orbits_exponents_and_verdicts_do_not_take():
+    case = holdfast.Case()
+    for ask in (case.orbit, case.lyapunov, case.verdict):
+        with pytest.raises(TypeError, match="remembers"):
+            ask(controller=pd)

@@ -169,3 +169,80 @@ def test_the_packaged_program():
         [sys.executable, "-m", "holdfast", "simulate", "--duration", "x"], capture_output=True, text=True
     )
     assert done.returncode == 2 and done.stderr.startswith("holdfast: ")
+
+
+def own_plant(stiffness: float = 400.0) -> holdfast.Plant:
+    a = np.array([[0.0, 1.0], [-stiffness, -0.5]])
+    return holdfast.plant((a, np.array([0.0, 2.0]), np.array([1.0, 0.0])), initial_state=[0.01, 0.0])
+
+
+@pytest.mark.parametrize("kind", ["cable", "own"])
+def test_a_case_is_a_value(kind):
+    def made(gain: float) -> holdfast.Case:
+        if kind == "cable":
+            return holdfast.Case(control={"differential_gain": gain})
+        return own_plant().case(control={"differential_gain": gain})
+
+    case = made(-2.0)
+    assert case == made(-2.0) and hash(case) == hash(made(-2.0)) and case != made(-3.0) and case != 3
+    for again in (copy.copy(case), copy.deepcopy(case), pickle.loads(pickle.dumps(case)), case.with_()):
+        assert again == case and hash(again) == hash(case)
+        np.testing.assert_array_equal(again.simulate(0.2)["z1_m"], case.simulate(0.2)["z1_m"])
+    assert {case: 1}[made(-2.0)] == 1
+
+
+def test_cases_of_different_plants_differ():
+    assert own_plant().case() != own_plant(401.0).case() and own_plant() != own_plant(401.0)
+    assert own_plant().case() != holdfast.Case()
+    assert pickle.loads(pickle.dumps(own_plant())) == own_plant() == copy.deepcopy(own_plant())
+
+
+def test_a_plant_never_changes():
+    a = np.array([[0.0, 1.0], [-400.0, -0.5]])
+    plant = holdfast.plant((a, np.array([0.0, 2.0]), np.array([1.0, 0.0])))
+    a[1, 0] = 0.0
+    assert plant.state_matrix[1, 0] == -400.0
+    with pytest.raises(ValueError):
+        plant.state_matrix[1, 0] = 0.0
+
+
+def test_keys_of_a_case():
+    case = holdfast.Case(conductor={"name": "Drake", "span": 300.0, "sag": 6.0},
+                         device={"kind": "dashpot", "position": 1.5, "damping": 300.0})  # fmt: skip
+    assert "control" in case and "control.sampling_period" in case and "device.1.damping" in case
+    for key in ("controll", "control.nothing", "control.sampling_period.x", "device.0.damping", "device.2.damping", "", 3):
+        assert key not in case
+        with pytest.raises(KeyError):
+            case[key]
+    assert list(case) == list(case.to_dict()) and len(case) == len(list(case)) and all(name in case for name in case)
+
+
+def test_types_of_numbers(tmp_path):
+    case = holdfast.Case()
+    tables = [case.orbit(), case.simulate(0.1), case.chart(), case.sweep({"backlash.width": (0, 1e-3, 3)}, duration=1.0),
+              case.basins({"initial.z1": (-0.01, 0.01, 3), "initial.v1": (-0.1, 0.1, 3)})]  # fmt: skip
+    for table in tables:
+        for name, values in table.items():
+            assert values.dtype.kind == "U" or values.dtype.char in (np.dtype(t).char for t in (np.int64, np.float64, bool)), name
+    pytest.importorskip("xarray"), pytest.importorskip("zarr")
+    case.orbit().to_xarray().to_zarr(tmp_path / "orbit.zarr")
+
+
+def test_one_name_in_every_dataset(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("zarr"), pytest.importorskip("netCDF4")
+    axes, how = {"backlash.width": (0, 1e-3, 3), "control.sampling_period": (1e-3, 2e-3, 2)}, {"duration": 1.0}
+    table = holdfast.Case().sweep(axes, **how)
+    store = holdfast.Case().sweep(axes, store=tmp_path / "a.zarr", **how)
+    holdfast.Case().sweep(axes, output=tmp_path / "a.nc", **how)
+    with xarray.open_dataset(tmp_path / "a.nc") as file:
+        for data in (table.to_xarray(), store.to_xarray(), store.to_table().to_xarray(), file):
+            assert set(data.dims) == set(data.coords) == {"backlash_width", "control_sampling_period"}
+            np.testing.assert_array_equal(data["steady_peak"].values, table["steady_peak"])
+    assert table.axes == tuple(axes)
+
+
+def test_html_shows_the_chart(no_gui):
+    assert '<img alt="' in holdfast.Case().chart()._repr_html_()
+    assert "data:image/png;base64,iVBOR" in holdfast.Case().response((-600, 0, 5), (-20, 0, 5))._repr_html_()
+    assert "<img" not in holdfast.Case().simulate(0.1)._repr_html_() and not no_gui.get_fignums()
