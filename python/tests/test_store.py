@@ -353,7 +353,7 @@ def test_refusals(tmp_path, by_program):
         case().sweep(AXES, duration=6, store=by_program)
     (tmp_path / "full.zarr").mkdir()
     (tmp_path / "full.zarr" / "letter.txt").write_text("dear")
-    with pytest.raises(ValueError, match="something else is there"):
+    with pytest.raises(OSError, match="something else is there"):
         case().sweep(AXES, store=tmp_path / "full.zarr")
     with pytest.raises(OSError, match="missing.zarr"):
         holdfast.convert(tmp_path / "missing.zarr", tmp_path / "x.csv")
