@@ -168,6 +168,8 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& options)
   report_warning(
       short_average_warning(context.case_data, static_cast<double>(result.samples) * period),
       context.quiet);
+  table.note("averaged_from_s",
+             format_number(static_cast<double>(discard + result.settling) * period));
   for (int i = 0; i < (options.largest ? 1 : 5); ++i)
     table.row(i + 1, result.exponents[i], result.exponents[i] / period, result.standard_errors[i]);
   table.commit();

@@ -81,11 +81,13 @@ struct PeaksQuestion {
     const double duration = 2.0 / context.case_data.reduction.first_frequency;
     Table table(context, columns_of("peaks"));
     Progress progress(static_cast<std::uint64_t>(forces.count), "peaks", progress_wanted(context));
+    bool has_peak = false;
     for (std::int64_t k = 0; k < forces.count; ++k) {
       progress.advance();
       const double removed = forces.at(k);
       if (removed == 0.0) {
         table.row(0.0, 0.0, 0.0, std::nan(""));
+        has_peak = has_peak || forces.count == 1;
         continue;
       }
       const CableDecay of_cable = cable_decay(context.case_data, cable.question(removed, duration));
@@ -93,9 +95,14 @@ struct PeaksQuestion {
       const DecayRecord of_plant =
           plant_decay(plant_of(context.case_data), removed, cable.equal_displacement, of_cable);
       const double plant_peak = decay_measures(of_plant).first_peak;
+      has_peak = has_peak || std::isfinite(elements_peak) || std::isfinite(plant_peak);
       table.row(removed, elements_peak, plant_peak,
                 std::abs(plant_peak - elements_peak) / std::abs(elements_peak));
     }
+    if (!has_peak)
+      throw NoAnswer("no motion has its first opposite peak within " +
+                     format_number(cable.duration.value_or(duration)) +
+                     " s: give a longer --duration");
     table.commit();
   }
 };

@@ -119,9 +119,8 @@ void write(Table& table, const Question& q, const Sensitivities& answer, bool tu
   const auto relative = logarithmic(moved, {q.plant, q.sampling, q.gains}, answer.value);
   for (int k = 0; k < loop_parameters; ++k) {
     const char* key = name_in(parameter_keys, static_cast<LoopParameter>(k));
-    // Adding zero leaves no "-0" in the table.
     table.row(answer.name, answer.value, answer.unit, key, find_case_key(key)->unit,
-              moved.entries[k] + 0.0, relative.entries[k] + 0.0);
+              moved.entries[k], relative.entries[k]);
   }
 }
 
@@ -131,10 +130,10 @@ void write_of_modes(const JobContext& context, bool follows) {
   for (const CaseSensitivity& answer : case_sensitivities(context.case_data, follows)) {
     if (!std::isfinite(answer.value)) continue;
     for (const auto& [key, derivative] : answer.keys)
-      table.row(answer.name, answer.value, answer.unit, key, find_case_key(key)->unit,
-                derivative + 0.0,
-                derivative * case_value(context.case_data, key) / answer.value + 0.0);
+      table.row(answer.name, answer.value, answer.unit, key, find_case_key(key)->unit, derivative,
+                derivative * case_value(context.case_data, key) / answer.value);
   }
+  table.require_numbers();
   table.commit();
 }
 
@@ -154,6 +153,7 @@ struct SensitivityQuestion {
     Table table(context, columns_of("sensitivity"));
     for (const Sensitivities& answer : answers_of(question))
       write(table, question, answer, follows);
+    table.require_numbers();
     table.commit();
   }
 };

@@ -29,14 +29,20 @@ struct DeviationQuestion {
     Table table(context, columns_of("deviation"));
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples, "rows", "a shorter --duration leaves fewer");
-    double last = 0.0;
+    double last = 0.0, told_until = -1.0;
     CaseMotion first(context.case_data, {switching}), second = first;
     second.displace_conductor(offset);
     const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
       table.row(deviation.time, deviation.displacement, deviation.state);
       last = deviation.state;
+      if (deviation.is_above_rounding()) told_until = deviation.time;
     });
     require_completed(outcome, first.time());
+    if (told_until < 0.0)
+      throw NoAnswer(
+          "the neighbour is nearer to the motion than the rounding of their states: take a larger "
+          "--offset");
+    table.note("above_rounding_until_s", format_number(told_until));
     tell_of_end(context, end_of(first));
     const TrustedDigits trusted =
         with_rate(trusted_digits_of_deviation(context.case_data, switching, offset, samples),

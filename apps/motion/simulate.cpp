@@ -49,6 +49,7 @@ struct SimulateQuestion {
       table.commit();
       return;
     }
+    note_first_contact(context.case_data, table);
     const MotionChoice choice{switching, !no_control};
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
     auto digits = digits_beside(context.case_data, choice, kicked, from);
@@ -65,6 +66,15 @@ struct SimulateQuestion {
                  no_control ? digits->result()
                             : with_rate(digits->result(), context.case_data, switching, samples));
     table.commit();
+  }
+
+  /// On which side of its play the drive begins.
+  void note_first_contact(const Case& the_case, Table& table) const {
+    if (no_control || the_case.backlash.width == 0.0) return;
+    if (the_case.backlash.law == "none" || the_case.backlash.law == "dead_zone") return;
+    table.note("play_at_start",
+               "at neither end: the drive transmits from rest, the first motion of z2 - z1 puts "
+               "the play behind it, the first reversal crosses all of it");
   }
 
   /// Rows of the nonlinear cable.

@@ -1,4 +1,8 @@
 #include "holdfast/math/signal/spectrum.hpp"
+
+#include <cmath>
+#include <numeric>
+
 #include "case/model/loop_of_case.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "holdfast/motion/trajectory.hpp"
@@ -6,6 +10,7 @@
 #include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
 #include "jobs/motion/motion_run.hpp"
+#include "process/exit.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -68,6 +73,20 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
   return {record, with_rate(digits->result(), context.case_data, options.switching, samples)};
 }
 
+/// Of a record whose second half is not as large as its first.
+std::string unsettled_warning(const std::vector<double>& record) {
+  const auto middle = record.begin() + static_cast<std::ptrdiff_t>(record.size() / 2);
+  const auto root_mean_square = [](auto begin, auto end) {
+    return std::sqrt(std::inner_product(begin, end, begin, 0.0) / static_cast<double>(end - begin));
+  };
+  const double first = root_mean_square(record.begin(), middle);
+  const double second = root_mean_square(middle, record.end());
+  if (std::abs(second - first) <= 0.1 * first) return "";
+  return "the motion has not settled where --discard ends: the root mean square of z1 goes from " +
+         format_rounded(first) + " m in the first half of the record to " + format_rounded(second) +
+         " m in the second; take a longer --duration";
+}
+
 void SpectrumQuestion::run(const JobContext& context) const {
   Table table(context, columns_of("spectrum"));
   const auto weighting = window == "hann" ? SpectralWindow::hann : SpectralWindow::rectangular;
@@ -75,6 +94,7 @@ void SpectrumQuestion::run(const JobContext& context) const {
   const auto lines =
       amplitude_spectrum(record.displacement, context.case_data.control.sampling_period, weighting);
   for (const SpectralLine& line : lines) table.row(line.frequency, line.amplitude);
+  report_warning(unsettled_warning(record.displacement), context.quiet);
   tell_trust(context, table, record.trusted);
   table.commit();
 }

@@ -28,9 +28,10 @@ class ReceivedColumn {
   Kind kind() const { return kind_; }
   std::size_t rows() const { return kind_ == Kind::numbers ? numbers_.size() : whole_.size(); }
 
+  /// 0 without a sign.
   void put(double value) {
     if (kind_ == Kind::numbers)
-      numbers_.push_back(value);
+      numbers_.push_back(value + 0.0);
     else
       put_into_others(value);
   }

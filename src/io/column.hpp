@@ -10,6 +10,9 @@ struct Column {
   std::string unit;  // "" without dimension
   std::string description;
   std::string datatype = "double";  // of CSV on the Web: double, integer, boolean, string
+
+  /// Whether a cell may be no number: then the description says what that means.
+  bool may_be_nan() const { return description.find("nan") != std::string::npos; }
 };
 
 }  // namespace holdfast::program

@@ -23,6 +23,7 @@ struct JobContext {
   std::optional<std::filesystem::path> output;  // none or "-": standard output
   std::vector<std::string> doubts;              // what of the case is not plausible, a line each
   std::string plant_remark;                     // what is to be known of the reduced plant
+  std::vector<std::pair<std::string, std::string>> notes;  // of the numbers, for the metadata
   bool quiet = false;
   bool progress = false;  // even where standard error is no terminal
   bool yes = false;       // a table as large as it becomes is meant

@@ -403,6 +403,70 @@ TEST(Wind, GivesFrequencyAndAmplitude) {
   }
 }
 
+TEST(Jobs, ThatHaveNoNumberSaySo) {
+  for (const auto& [job, reason] :
+       {std::pair{"sensitivity --set control.measurement_filter=2.269e-86",
+                  "derivative has no number in "},
+        {"deviation --set initial.v2=3.5e58", "take a larger --offset"},
+        {"deviation --offset 1e-30 --set initial.z1=0.001", "take a larger --offset"}}) {
+    const Outcome outcome = run_holdfast(job);
+    EXPECT_EQ(outcome.exit_code, 1) << job << outcome.errors;
+    EXPECT_NE(outcome.errors.find(reason), std::string::npos) << outcome.errors;
+  }
+}
+
+TEST(Peaks, BeforeTheFirstOfThemAreNone) {
+  const Outcome outcome = run_holdfast("peaks --duration 0.05 --force 0.1:0.2:2");
+  EXPECT_EQ(outcome.exit_code, 1);
+  if (outcome.errors.find("SUNDIALS") == std::string::npos) {
+    EXPECT_NE(outcome.errors.find("give a longer --duration"), std::string::npos) << outcome.errors;
+  }
+}
+
+TEST(Jobs, WriteNoSignedZero) {
+  for (const char* job : {"simulate --duration 0", "simulate --duration 0.01 --no-control",
+                          "response --p -600:0:3 --d -20:0:3", "sensitivity"}) {
+    const Outcome outcome = run_holdfast(job);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    for (const char* zero : {",-0,", ",-0\r"})
+      EXPECT_EQ(outcome.output.find(zero), std::string::npos) << job;
+  }
+}
+
+TEST(Simulate, SaysOnWhichSideThePlayBegins) {
+  const TemporaryFolder folder;
+  const std::string table = (folder / "motion.csv").string();
+  const auto said_of = [&table](const std::string& options) {
+    EXPECT_EQ(run_holdfast("simulate --duration 0.01 --output '" + table + "'" + options).exit_code,
+              0);
+    return read_text(table + "-metadata.json").find("\"play_at_start\"") != std::string::npos;
+  };
+  EXPECT_TRUE(said_of(" --set backlash.law=play"));
+  EXPECT_TRUE(said_of(" --switching exact"));
+  EXPECT_FALSE(said_of(" --set backlash.law=dead_zone"));
+  EXPECT_FALSE(said_of(" --set backlash.width=0"));
+}
+
+TEST(Spectrum, OfAMotionThatHasNotSettledSaysSo) {
+  const std::string settled = "the motion has not settled";
+  EXPECT_EQ(run_holdfast("spectrum").errors.find(settled), std::string::npos);
+  const Outcome decaying = run_holdfast(
+      "spectrum --duration 3 --discard 0 --set excitation.amplitude=0 --set initial.z1=0.001 "
+      "--set backlash.width=0");
+  EXPECT_NE(decaying.errors.find(settled), std::string::npos) << decaying.errors;
+}
+
+TEST(Lyapunov, IsNotMisledByTheStartOfItsTangents) {
+  // ln rho = -4.8e-6 a sample.
+  for (const char* scope : {"", " --largest"}) {
+    const CsvTable exponents = table_of(
+        std::string("lyapunov --set backlash.width=0 --set control.differential_gain=5.579") +
+        scope);
+    EXPECT_NEAR(exponents.number(0, "per_sample"), -4.8e-6,
+                2.6 * exponents.number(0, "standard_error"));
+  }
+}
+
 TEST(Jobs, RefuseAnOutputWhoseNamePromisesAnotherFormat) {
   const TemporaryFolder folder;
   for (const char* name : {"chart.png", "chart.svg", "chart.pdf", "table.xlsx", "table.txt"}) {

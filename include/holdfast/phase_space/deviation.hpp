@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -12,6 +13,10 @@ struct Deviation {
   double time;          ///< s
   double displacement;  ///< z of the second motion's conductor minus that of the first (m)
   double state;         ///< Euclidean norm of the difference of the states, N × 1, SI numbers
+  double rounding;  ///< what rounding alone makes of that: 2⁻⁵² times the larger state's norm
+
+  /// Whether it tells anything.
+  bool is_above_rounding() const { return state > rounding; }
 };
 
 /// Runs two motions of the same loop side by side and shows their deviation at each sample.
@@ -31,7 +36,9 @@ TrajectoryOutcome run_deviation(Motion& first, Motion& second, std::int64_t samp
     const auto b = second.sense();
     const auto difference = (b.state - a.state).eval();
     if (!std::isfinite(difference.sum())) return TrajectoryOutcome::diverged;
-    observer(Deviation{a.time, first.readings().displacement(difference), difference.norm()});
+    const double rounding = 0x1.0p-52 * std::max<double>(a.state.norm(), b.state.norm());
+    observer(
+        Deviation{a.time, first.readings().displacement(difference), difference.norm(), rounding});
     first.advance();
     second.advance();
   }

@@ -63,6 +63,7 @@ Json origin(const JobContext& context) {
   if (has_own_plant(context.case_data))
     json["own_plant"] = {{"order", context.case_data.own->plant->order()}};
   json["case"] = case_to_json(context.case_data);
+  for (const auto& [name, text] : context.notes) json[name] = text;
   return json;
 }
 

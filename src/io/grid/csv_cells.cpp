@@ -20,10 +20,10 @@ std::vector<Column> columns_of(const GridLayout& layout) {
   return all;
 }
 
-/// Each with the comma behind it.
+/// Each with the comma behind it; 0 without a sign.
 void append_number(std::string& text, double value) {
   std::array<char, longest_number> digits;  // NOLINT: put_number fills it
-  text.append(digits.data(), put_number(digits.data(), value)) += ',';
+  text.append(digits.data(), put_number(digits.data(), value + 0.0)) += ',';
 }
 
 /// The texts of an axis' first values, each formed once; of a very long axis keeping them all would

@@ -39,7 +39,7 @@ std::string csv_cell(std::string_view text) {
 }
 
 CsvWriter::CsvWriter(OutputFile& output, const std::vector<Column>& columns)
-    : output_(output), width_(columns.size()) {
+    : output_(output), width_(columns.size()), nans_(columns.size()) {
   buffer_.reserve(buffer_size + 4096);
   for (const Column& column : columns) text_cell(column.name);
   end_line();
@@ -50,9 +50,10 @@ void CsvWriter::separate() {
 }
 
 void CsvWriter::text_cell(double value) {
+  if (std::isnan(value) && cells_in_row_ < width_) ++nans_[cells_in_row_];
   separate();
   std::array<char, longest_number> digits;  // NOLINT: put_number fills it
-  buffer_.append(digits.data(), put_number(digits.data(), value));
+  buffer_.append(digits.data(), put_number(digits.data(), value + 0.0));  // −0 + 0 = 0
 }
 
 void CsvWriter::text_cell(std::string_view text) {

@@ -19,7 +19,8 @@ namespace holdfast::program {
 std::string csv_cell(std::string_view text);
 
 /// Writes a table as CSV (RFC 4180: CRLF line ends, quotes where needed), the header row first.
-/// Numbers have the shortest digits that read back the same; `inf`, `-inf`, `nan`; booleans 0, 1.
+/// Numbers have the shortest digits that read back the same; `inf`, `-inf`, `nan`; 0 without a
+/// sign; booleans 0, 1.
 ///
 ///     writer.row(0.5, 12, "spring");
 ///     writer.cell(0.5); writer.cell(12); writer.end_row();   // where the width is not fixed
@@ -80,6 +81,8 @@ class CsvWriter {
   void flush();
 
   std::uint64_t rows() const { return rows_; }
+  /// How many cells of each column were no number, of those that became text here.
+  const std::vector<std::uint64_t>& nans() const { return nans_; }
 
  private:
   /// A cell as a column in memory takes it.
@@ -107,6 +110,7 @@ class CsvWriter {
 
   OutputFile& output_;
   std::size_t width_;
+  std::vector<std::uint64_t> nans_;
   std::size_t cells_in_row_ = 0;
   std::uint64_t rows_ = 0;
   std::string buffer_;

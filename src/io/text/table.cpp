@@ -1,5 +1,8 @@
 #include "io/text/table.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "host/job_host.hpp"
 #include "host/memory_cells.hpp"
 #include "io/file/metadata.hpp"
@@ -38,6 +41,22 @@ Table::Table(const JobContext& context, const std::vector<Column>& columns)
 
 void Table::expect(std::int64_t rows) {
   for (ReceivedColumn& column : received_) column.reserve(static_cast<std::size_t>(rows));
+}
+
+std::uint64_t Table::nans(std::size_t column) {
+  if (received_.empty()) return writer_.nans()[column];
+  const std::vector<double>& numbers = received_[column].numbers();
+  return static_cast<std::uint64_t>(std::count_if(numbers.begin(), numbers.end(),
+                                                  [](double value) { return std::isnan(value); }));
+}
+
+void Table::require_numbers() {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].may_be_nan() || nans(i) == 0) continue;
+    throw NoAnswer(columns_[i].name + " has no number in " + std::to_string(nans(i)) + " of " +
+                   std::to_string(writer_.rows()) +
+                   " rows: the values of the case are too far apart to compute it");
+  }
 }
 
 void Table::commit() {

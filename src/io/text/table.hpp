@@ -39,9 +39,20 @@ class Table {
   /// How many rows are to come, where that is known.
   void expect(std::int64_t rows);
 
+  /// What else the metadata say of the numbers.
+  void note(const std::string& name, const std::string& text) {
+    context_.notes.emplace_back(name, text);
+  }
+
+  /// Throws NoAnswer where a cell is no number in a column whose description does not say what
+  /// `nan` means there; call before commit().
+  void require_numbers();
+
   void commit();
 
  private:
+  std::uint64_t nans(std::size_t column);
+
   OutputFile output_;
   CsvWriter writer_;
   std::unique_ptr<OutputFile> metadata_;  // none for standard output
