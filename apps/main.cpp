@@ -1,6 +1,26 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
 #include "job.hpp"
 
+namespace {
+
+/// OpenBLAS, which other libraries bring along, has threads that ask for memory until they get it;
+/// where the address space is limited neither fork() nor exit() comes back from waiting for them.
+/// There the program begins again without these threads.
+void begin_without_threads_of_blas(char** arguments) {
+  struct rlimit most {};
+  const bool limited = getrlimit(RLIMIT_AS, &most) == 0 && most.rlim_cur != RLIM_INFINITY;
+  if (!limited || std::getenv("OPENBLAS_NUM_THREADS") != nullptr) return;
+  if (setenv("OPENBLAS_NUM_THREADS", "1", 0) == 0) execv("/proc/self/exe", arguments);
+}
+
+}  // namespace
+
 int main(int argument_count, char** arguments) {
+  begin_without_threads_of_blas(arguments);
   holdfast::program::install_signal_handlers();
   return holdfast::program::run_program(argument_count, arguments);
 }

@@ -1,4 +1,5 @@
 #include "cli/program.hpp"
+#include "cli/running_program.hpp"
 #include "support/testing.hpp"
 
 namespace holdfast::tests {
@@ -47,6 +48,38 @@ TEST(Netcdf, WithoutSpaceTheProgramSaysSoEndsInOrderAndLeavesNothing) {
 #endif
   EXPECT_EQ(folder.names(), std::vector<std::string>{"errors"});
 }
+
+#if defined(HOLDFAST_HAS_NETCDF) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+Ending ending_within(int kibibytes, const std::filesystem::path& folder) {
+  std::vector<std::string> words = words_of("stability --threads 1 --p -600:0:40 --d -10:10:40");
+  words.insert(words.end(), {"--output", (folder / "o.nc").string()});
+  return RunningProgram(words, "ulimit -v " + std::to_string(kibibytes))
+      .wait_at_most(std::chrono::seconds(20));
+}
+
+/// At every size of the address space below the least that is enough, which differs from machine to
+/// machine.
+TEST(Netcdf, WithoutMemoryTheProgramSaysSoEndsInOrderAndLeavesNothing) {
+  int enough = 1 << 20, too_little = 1 << 15;
+  while (enough - too_little > 1024) {
+    const TemporaryFolder folder;
+    const int middle = (enough + too_little) / 2;
+    (ending_within(middle, folder.path()).exit_code == 0 ? enough : too_little) = middle;
+  }
+  for (int less = 0; less < 24; ++less) {
+    const TemporaryFolder folder;
+    const Ending ending = ending_within(too_little - less * 1024, folder.path());
+    if (ending.exit_code == 0) continue;
+    SCOPED_TRACE(std::to_string(too_little - less * 1024) + " KiB");
+    EXPECT_EQ(ending.ended_by_signal, 0);
+    EXPECT_EQ(ending.exit_code, 1) << ending.errors;
+    EXPECT_EQ(std::count(ending.errors.begin(), ending.errors.end(), '\n'), 1) << ending.errors;
+    EXPECT_TRUE(folder.names().empty());
+  }
+}
+
+#endif
 
 }  // namespace
 }  // namespace holdfast::tests

@@ -6,8 +6,11 @@
 
 #ifdef HOLDFAST_HAS_NETCDF
 #include <dlfcn.h>
+#include <sys/mman.h>
 
+#include <cstddef>
 #include <cstdlib>
+#include <new>
 #endif
 
 namespace holdfast::program {
@@ -47,6 +50,16 @@ void* load() {
   return library;
 }
 
+/// HDF5 crashes where it is given no memory: the library is not called where less is left than any
+/// of its calls takes.
+void require_room() {
+  constexpr std::size_t room = std::size_t{16} << 20U;
+  void* const found = mmap(nullptr, room, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (found == MAP_FAILED) throw std::bad_alloc();
+  munmap(found, room);
+}
+
 void* netcdf_library() {
   static void* const library = load();
   return library;
@@ -58,6 +71,7 @@ void require_netcdf() { netcdf_library(); }
 
 void* netcdf_symbol(const char* name) {
   void* symbol = dlsym(netcdf_library(), name);
+  require_room();
   if (symbol == nullptr) refuse_to_load();
   return symbol;
 }
