@@ -1,9 +1,7 @@
 #include "sweep/sweep_plan.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -15,6 +13,7 @@
 #include "case/model/held_force.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
+#include "io/file/own_folder.hpp"
 #include "io/text/table.hpp"
 #include "io/text/text.hpp"
 #include "jobs/columns.hpp"
@@ -24,7 +23,6 @@
 #include "process/group/mpi_launch.hpp"
 #include "process/group/process_group.hpp"
 #include "process/interrupt.hpp"
-#include "process/system_words.hpp"
 #include "process/worker_threads.hpp"
 #include "store/stored_grid.hpp"
 #include "store/work_store.hpp"
@@ -46,25 +44,14 @@ bool has_named_output(const JobContext& context) {
 
 constexpr const char* passing_folder = "holdfast-sweep-";
 
-/// What was left by sweeps for one run alone that were killed: nobody goes on with them.
-void remove_left_work_stores() {
-  std::error_code error;
-  fs::directory_iterator entry(fs::temp_directory_path(error), error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (entry->path().filename().string().rfind(passing_folder, 0) == 0)
-      remove_left_work_store(entry->path());
-}
-
 /// The output itself, or the work store beside it, where an interrupted sweep is gone on with; else
 /// one for this run alone.
 fs::path store_folder(const JobContext& context, bool named) {
   if (is_store_name(context.output)) return *context.output;
   if (named) return fs::path(context.output->string() + ".zarr");
-  remove_left_work_stores();
-  std::string name = (fs::temp_directory_path() / passing_folder).string() + "XXXXXX";
-  if (mkdtemp(name.data()) == nullptr)
-    throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
-  return name;
+  // What was left by sweeps for one run alone that were killed: nobody goes on with them.
+  for (const fs::path& left : passing_folders(passing_folder)) remove_left_work_store(left);
+  return new_passing_folder(passing_folder);
 }
 
 /// The instruction set on which the last digits in a store depend; empty where there is none.

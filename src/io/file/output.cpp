@@ -190,7 +190,12 @@ void commit_together(OutputFile& file, OutputFile& companion) {
   const fs::path& before = companion.target();
   if (unlink(before.c_str()) != 0 && errno != ENOENT) companion.fail(errno);
   file.appear();
-  companion.appear();
+  try {
+    companion.appear();
+  } catch (...) {  // a table alone would have nothing to say what made it
+    unlink(file.target().c_str());
+    throw;
+  }
 }
 
 }  // namespace holdfast::program

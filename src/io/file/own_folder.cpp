@@ -5,9 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <cerrno>
+#include <cstdlib>
 #include <memory>
 #include <string_view>
+
+#include "process/errors.hpp"
+#include "process/system_words.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -68,6 +72,24 @@ void OwnFolder::remove_empty_file(const std::string& name) const {
 
 void OwnFolder::remove_empty_folder(const std::string& name) const {
   unlinkat(descriptor_.number(), name.c_str(), AT_REMOVEDIR);
+}
+
+std::filesystem::path new_passing_folder(const std::string& beginning) {
+  std::string name = (std::filesystem::temp_directory_path() / beginning).string() + "XXXXXX";
+  if (mkdtemp(name.data()) == nullptr)
+    throw OutputError("cannot make the folder " + name + ": " + system_words(errno));
+  return name;
+}
+
+std::vector<std::filesystem::path> passing_folders(const std::string& beginning) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> folders;
+  std::error_code error;
+  fs::directory_iterator entry(fs::temp_directory_path(error), error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().filename().string().rfind(beginning, 0) == 0)
+      folders.push_back(entry->path());
+  return folders;
 }
 
 }  // namespace holdfast::program

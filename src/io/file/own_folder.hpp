@@ -32,4 +32,11 @@ class OwnFolder {
   Descriptor descriptor_;
 };
 
+/// Makes a folder of that beginning in the temporary folder, of a name that nobody can foresee and
+/// into which no other user sees. Throws OutputError.
+std::filesystem::path new_passing_folder(const std::string& beginning);
+
+/// The folders there whose names begin so.
+std::vector<std::filesystem::path> passing_folders(const std::string& beginning);
+
 }  // namespace holdfast::program

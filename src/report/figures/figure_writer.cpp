@@ -1,5 +1,7 @@
 #include "report/figures/figure_writer.hpp"
 
+#include <unistd.h>
+
 #include <system_error>
 #include <utility>
 
@@ -59,12 +61,16 @@ void FigureWriter::write_table(const TableRequest& table) const {
   work_.run(arguments);
 }
 
-void make_folders(const fs::path& folder) {
-  for (const char* part : {"data", "pictures"}) {
+ReportFolders::ReportFolders(const fs::path& folder) {
+  for (const fs::path& made : {folder, folder / "data", folder / "pictures"}) {
     std::error_code failure;
-    fs::create_directories(folder / part, failure);
+    if (fs::create_directories(made, failure)) made_.push_back(made);
     if (failure) throw WrongInput("--output " + folder.string() + ": " + failure.message());
   }
+}
+
+ReportFolders::~ReportFolders() {
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) rmdir(made->c_str());
 }
 
 void write_page(const JobContext& context, OutputFile& file, const std::string& html) {

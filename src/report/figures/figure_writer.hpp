@@ -40,8 +40,21 @@ class FigureWriter {
   bool can_draw_;
 };
 
-/// Makes data/ and pictures/ in a report's folder. Throws WrongInput where it cannot.
-void make_folders(const std::filesystem::path& folder);
+/// The folder of a report, and data/ and pictures/ in it. Those that it has made go with it where
+/// nothing is in them, as a report leaves them that does not come to its end.
+class ReportFolders {
+ public:
+  /// Throws WrongInput where a folder cannot be made.
+  explicit ReportFolders(const std::filesystem::path& folder);
+  ~ReportFolders();
+  ReportFolders(const ReportFolders&) = delete;
+  ReportFolders& operator=(const ReportFolders&) = delete;
+  ReportFolders(ReportFolders&&) = delete;
+  ReportFolders& operator=(ReportFolders&&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;
+};
 
 /// Writes the page of a report and says where it lies, and what it lacks.
 void write_page(const JobContext& context, OutputFile& file, const std::string& html);

@@ -1,53 +1,93 @@
 #include "report/page/picture.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "case/axes/axis.hpp"
+#include "io/file/folder_lock.hpp"
 #include "io/file/input.hpp"
 #include "io/file/metadata.hpp"
 #include "io/file/output.hpp"
+#include "io/file/own_folder.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
 #include "process/group/mpi_launch.hpp"
-#include "process/system_words.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "report/figures/map_axis.hpp"
 #include "report/figures/table_panels.hpp"
 #include "report/span/span_figures.hpp"
+#include "store/work_store.hpp"
 
 namespace holdfast::program {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* passing_folder = "holdfast-picture-";
+constexpr std::array<const char*, 2> parts = {"data", "pictures"};
+
+/// Whether a table, a script or a picture, or what describes it, is called so.
+bool is_of_picture(const fs::path& name) {
+  const std::string ending = name.extension().string();
+  return ending == ".csv" || ending == ".json" || ending == ".gp" || ending == ".tmp" ||
+         is_picture_name(name);
+}
+
+/// Removes what pictures are made of from a folder, and the folder where nothing else is in it.
+void remove_passing(const fs::path& path) {
+  const OwnFolder folder(path);
+  for (const char* part : parts) {
+    const OwnFolder inner(folder, part);
+    if (!inner.is_open()) continue;
+    for (const std::string& name : inner.names()) {
+      if (is_of_picture(name)) inner.remove_file(name);
+      if (is_store_name(name)) remove_left_work_store(path / part / name);
+    }
+    folder.remove_empty_folder(part);
+  }
+  folder.remove_empty_file(FolderLock::file_name);
+  rmdir(path.c_str());
+}
+
+/// What is left of pictures whose program was killed.
+void remove_left_passing() {
+  for (const fs::path& left : passing_folders(passing_folder)) {
+    std::error_code ignored;
+    if (!OwnFolder(left).is_open() || !fs::exists(left / FolderLock::file_name, ignored)) continue;
+    try {
+      const FolderLock held(left);
+      remove_passing(left);
+    } catch (const Refusal&) {
+      // Another program has it.
+    }
+  }
+}
+
 /// Where tables lie that only a picture is made of.
 class PassingFolder {
  public:
-  PassingFolder() : path_((fs::temp_directory_path() / "holdfast-picture-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr)
-      throw OutputError("cannot make the folder " + path_ + ": " + system_words(errno));
-    for (const char* part : {"data", "pictures"}) fs::create_directory(fs::path(path_) / part);
+  PassingFolder() : path_(new_passing_folder(passing_folder)), lock_(path_) {
+    remove_left_passing();
+    for (const char* part : parts) fs::create_directory(path_ / part);
   }
-  ~PassingFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
+  ~PassingFolder() { remove_passing(path_); }
   PassingFolder(const PassingFolder&) = delete;
   PassingFolder& operator=(const PassingFolder&) = delete;
   PassingFolder(PassingFolder&&) = delete;
   PassingFolder& operator=(PassingFolder&&) = delete;
 
-  fs::path table(const std::string& name) const { return path() / "data" / (name + ".csv"); }
-  fs::path path() const { return path_; }
+  fs::path table(const std::string& name) const { return path_ / "data" / (name + ".csv"); }
+  const fs::path& path() const { return path_; }
 
  private:
-  std::string path_;
+  fs::path path_;
+  FolderLock lock_;
 };
 
 bool is_given(const PictureRequest& request, const std::string& option) {

@@ -68,7 +68,7 @@ void write_report(const JobContext& context, const Arguments& case_arguments,
   const fs::path folder = *context.output;
   // Refuses loops that are too stiff.
   const FigureWriter writer({folder, case_arguments, run, unit_of(context.case_data)});
-  make_folders(folder);
+  const ReportFolders folders(folder);
   OutputFile file(folder / "report.html");
   const std::vector<Figure> figures = figures_of(context.case_data, builtin);
 

@@ -45,7 +45,7 @@ void write_span_report(const JobContext& context, const std::vector<std::string>
                        const CommandRunner& run) {
   const fs::path folder = *context.output;
   const FigureWriter writer({folder, case_arguments, run});
-  make_folders(folder);
+  const ReportFolders folders(folder);
   OutputFile file(folder / "report.html");
   const std::vector<Figure> figures = span_figures(context.case_data);
   Progress progress(figures.size() + 1, "report", progress_wanted(context));
