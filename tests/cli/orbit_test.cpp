@@ -113,8 +113,8 @@ TEST(OrbitJob, ProvesTheRangeOfAnOrbit) {
   const double from = quantity(proof, "backlash_width_from");
   for (std::size_t row = 0; row < coarse.rows(); ++row) {
     const bool is_proved = coarse.text(row, "outcome") == "proved";
-    if (!is_proved) EXPECT_EQ(coarse.text(row, "outcome"), "not_shown");
-    if (is_proved) EXPECT_GE(coarse.number(row, "from"), from);
+    EXPECT_EQ(coarse.text(row, "outcome"), is_proved ? "proved" : "not_shown");
+    EXPECT_GE(coarse.number(row, "from"), is_proved ? from : 0.0);
   }
   EXPECT_LE(proved, along.number(1, "position") - along.number(0, "position") + 1e-12);
   EXPECT_GE(proved, along.number(1, "position") - along.number(0, "position") - 0.02);
