@@ -114,6 +114,8 @@ bool may_begin_store(const fs::path& folder, const StoreDescription& description
   return holds_nothing_but(folder, known);
 }
 
+std::size_t pieces(std::size_t count, std::size_t of) { return (count + of - 1) / of; }
+
 /// The root, from which they were made, has a checksum of its own.
 auto documents_but_root(const StoreDescription& store) {
   auto documents = store_documents(store);
@@ -381,8 +383,15 @@ std::optional<std::int64_t> StoreFolder::chunks_done_in(const fs::path& folder) 
 }
 
 std::int64_t StoreFolder::chunks_done() const {
+  // What lies there is counted: of how many chunks a root speaks is anybody's word.
+  std::error_code error;
+  const std::vector<std::size_t> chunks = chunks_along_axes();
+  const fs::path array = folder_ / cf_name(description_.columns.front().column.name);
   std::int64_t done = 0;
-  for (std::int64_t chunk = 0; chunk < grid().chunks(); ++chunk) done += has(chunk) ? 1 : 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(array, error))
+    if (is_chunk_name(entry.path().filename().string(), description_.format, chunks) &&
+        entry.is_regular_file(error))
+      ++done;
   return done;
 }
 
@@ -408,13 +417,18 @@ void StoreFolder::remove_array(const OwnFolder& folder, const std::string& name,
   folder.remove_empty_folder(name);
 }
 
+std::vector<std::size_t> StoreFolder::chunks_along_axes() const {
+  std::vector<std::size_t> chunks(grid().shape.size());
+  std::transform(grid().shape.begin(), grid().shape.end(), grid().chunk.begin(), chunks.begin(),
+                 pieces);
+  return chunks;
+}
+
 void StoreFolder::remove() const {
   const OwnFolder folder(folder_);
   if (!folder.is_open()) return;
-  const auto pieces = [](std::size_t count, std::size_t of) { return (count + of - 1) / of; };
+  const std::vector<std::size_t> chunks = chunks_along_axes();
   const std::vector<std::size_t>& shape = grid().shape;
-  std::vector<std::size_t> chunks(shape.size());
-  std::transform(shape.begin(), shape.end(), grid().chunk.begin(), chunks.begin(), pieces);
   const char* root = description_.format == 2 ? root_of_format_2 : root_of_format_3;
   folder.rename(root, removed_root);
   const std::vector<std::string> names = array_names(description_);

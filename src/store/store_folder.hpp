@@ -85,6 +85,7 @@ class StoreFolder {
   void mend(const Documents& documents) const;
   void require(const Documents& documents) const;
   void refuse_links() const;
+  std::vector<std::size_t> chunks_along_axes() const;
   bool gives(const std::string& name, const std::vector<std::size_t>& chunks) const;
   void remove_array(const OwnFolder& folder, const std::string& name,
                     const std::vector<std::size_t>& chunks) const;
