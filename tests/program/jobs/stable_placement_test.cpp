@@ -29,7 +29,7 @@ struct DrawnSpan {
     text.precision(17);
     text << "[conductor]\nmass_per_length = " << mass << "\nspan = " << length
          << "\ntension = " << tension << "\ndamping_ratio = " << damping
-         << "\narea = 4e-4\nyoungs_modulus = 7e10\n[absorber]\nmass = " << heavy
+         << "\narea = " << mass / 5000.0 << "\nyoungs_modulus = 1e11\n[absorber]\nmass = " << heavy
          << "\nposition = " << place
          << "\n[plant]\nmodel = \"string\"\nabsorber_stiffness = " << stiffness
          << "\nabsorber_damping = " << dashpot
