@@ -30,9 +30,8 @@ struct DrawnSpan {
     text << "[conductor]\nmass_per_length = " << mass << "\nspan = " << length
          << "\ntension = " << tension << "\ndamping_ratio = " << damping
          << "\narea = " << mass / 5000.0 << "\nyoungs_modulus = 1e11\n[absorber]\nmass = " << heavy
-         << "\nposition = " << place
-         << "\n[plant]\nmodel = \"string\"\nabsorber_stiffness = " << stiffness
-         << "\nabsorber_damping = " << dashpot
+         << "\nposition = " << place << "\n[plant]\nmodel = \"string\"\nabsorber_mass = " << heavy
+         << "\nabsorber_stiffness = " << stiffness << "\nabsorber_damping = " << dashpot
          << "\n[control]\nproportional_gain = 0\ndifferential_gain = 0\nsampling_period = "
          << period << "\nprocessing_delay = " << delay << "\n[backlash]\nwidth = 0\n";
     return text.str();
