@@ -6,6 +6,7 @@
 #include "case/case_file.hpp"
 #include "case/library/named_conductor.hpp"
 #include "case/plausibility/doubts.hpp"
+#include "holdfast/core/types.hpp"
 #include "process/errors.hpp"
 #include "program/case/case_text.hpp"
 #include "support/message_of.hpp"
@@ -19,8 +20,6 @@ using tests::from_text;
 using tests::holds;
 using tests::message_of;
 using tests::refusal;
-
-const double pi = std::acos(-1.0);
 
 /// A span on which a conductor hangs as it does on a line.
 std::string span_of(const LibraryConductor& one) {
@@ -79,9 +78,9 @@ TEST(ConductorLibrary, HasSixtyOrMoreOfDistinctNamesByKindAndAreaEachWithItsSour
 
 TEST(ConductorLibrary, EveryNumberIsOneOfAConductor) {
   for (const LibraryConductor& one : conductor_library()) {
-    const double circle = pi / 4.0 * one.diameter * one.diameter;
-    const double rod = one.youngs_modulus * one.area * one.area / (4.0 * pi);
-    const double wire = pi / 4.0 * one.outer_wire_diameter * one.outer_wire_diameter;
+    const double circle = pi<double> / 4.0 * one.diameter * one.diameter;
+    const double rod = one.youngs_modulus * one.area * one.area / (4.0 * pi<double>);
+    const double wire = pi<double> / 4.0 * one.outer_wire_diameter * one.outer_wire_diameter;
     const auto within = [&](double value, double lowest, double highest) {
       return value >= lowest && value <= highest;
     };
