@@ -19,14 +19,14 @@ using tests::message_of;
 using tests::refusal;
 
 /// A ground wire, of which a user of a taut string knows this.
-const std::string wire = "[conductor]\nmass_per_length = 0.4\nspan = 300\ntension = 6000\n";
+const std::string ground_wire = "[conductor]\nmass_per_length = 0.4\nspan = 300\ntension = 6000\n";
 const std::string whole_plant =
     "[plant]\nconductor_mass = 2\nconductor_stiffness = 19000\nconductor_damping = 0.1\n"
     "absorber_mass = 5\nabsorber_stiffness = 12000\nabsorber_damping = 30\n";
 
 TEST(OwnCase, HasNothingOfTheBuiltInOne) {
   for (const std::string& text :
-       {wire, whole_plant, std::string("[conductor]\nname = \"Drake\"\n"),
+       {ground_wire, whole_plant, std::string("[conductor]\nname = \"Drake\"\n"),
         std::string("[conductor]\nsag = 2\n"), std::string("[conductor]\ntension = \"3 kN\"\n")}) {
     const Case own = from_text(text);
     EXPECT_TRUE(own.stands_alone) << text;
@@ -39,9 +39,9 @@ TEST(OwnCase, HasNothingOfTheBuiltInOne) {
                             "control.sampling_period", "excitation.frequency"})
       EXPECT_TRUE(is_absent(own, *find_case_key(key))) << key << text;
   }
-  EXPECT_FALSE(has_active_absorber(from_text(wire + "[control]\nproportional_gain = -5\n")));
-  EXPECT_FALSE(has_active_absorber(from_text(wire)));
-  EXPECT_TRUE(has_active_absorber(from_text(wire + "[absorber]\nmass = 2\n")));
+  EXPECT_FALSE(has_active_absorber(from_text(ground_wire + "[control]\nproportional_gain = -5\n")));
+  EXPECT_FALSE(has_active_absorber(from_text(ground_wire)));
+  EXPECT_TRUE(has_active_absorber(from_text(ground_wire + "[absorber]\nmass = 2\n")));
 }
 
 TEST(OwnCase, IsNoneWhereTheFileDescribesNeitherCableNorPlant) {
@@ -57,7 +57,7 @@ TEST(OwnCase, IsNoneWhereTheFileDescribesNeitherCableNorPlant) {
 
 TEST(OwnCase, IsTheSameWhenItIsWrittenAndRead) {
   for (const std::string& text :
-       {wire, whole_plant, wire + "[absorber]\nmass = 2\n[control]\nsampling_period = 0.002\n"}) {
+       {ground_wire, whole_plant, ground_wire + "[absorber]\nmass = 2\n[control]\nsampling_period = 0.002\n"}) {
     const std::string written = case_to_toml(from_text(text));
     EXPECT_EQ(written.find("nan"), std::string::npos) << written;
     EXPECT_TRUE(from_text(written).stands_alone);
@@ -66,12 +66,12 @@ TEST(OwnCase, IsTheSameWhenItIsWrittenAndRead) {
 }
 
 TEST(OwnCase, OfATautStringIsRefusedByNoAreaThatNobodyGave) {
-  const TautString<double> string = string_of(from_text(wire));
+  const TautString<double> string = string_of(from_text(ground_wire));
   EXPECT_DOUBLE_EQ(string.wave_speed(), std::sqrt(6000 / 0.4));
-  const std::string asked = message_of<MissingKeys>([] { conductor_of(from_text(wire)); });
+  const std::string asked = message_of<MissingKeys>([] { conductor_of(from_text(ground_wire)); });
   EXPECT_TRUE(holds(asked, "conductor.area (m2), conductor.youngs_modulus (Pa)")) << asked;
   const std::string damping =
-      message_of<MissingKeys>([] { bare_damping_of(from_text(wire), 1.0); });
+      message_of<MissingKeys>([] { bare_damping_of(from_text(ground_wire), 1.0); });
   EXPECT_TRUE(holds(damping, "conductor.damping_ratio (a number)")) << damping;
   const std::string sag =
       message_of<MissingKeys>([] { string_of(from_text("[conductor]\nspan = 300\n")); });
@@ -149,7 +149,7 @@ TEST(Units, AreThoseOfEveryKeyOfANumber) {
 
 TEST(Units, StandInFilesListsAndDevices) {
   const Case the_case =
-      from_text(wire + "diameter = \"12.7 mm\"\nrayleigh_frequencies = [\"120 1/min\", 7]\n" +
+      from_text(ground_wire + "diameter = \"12.7 mm\"\nrayleigh_frequencies = [\"120 1/min\", 7]\n" +
                 "[site]\nspeeds = [\"18 km/h\", 7]\nhours = [\"10 d\", 20]\n" +
                 "[excitation]\nharmonics = [[\"2 kN\", 3, \"90 deg\"]]\n" +
                 "[[device]]\nkind = \"dashpot\"\nposition = \"10 ft\"\ndamping = \"1.2 kN s/m\"\n");
