@@ -292,10 +292,10 @@ TEST(SensitivityJob, ATunedGainIsCarriedAlong) {
 /// the help: all by the amplitude without control under the true force.
 TEST(MaxDelayJob, HelpsByTheReferenceOfResponseAndDesign) {
   const std::string free = " --set backlash.width=0 --quiet";
-  for (const char* f : {"10", "20"}) {
-    const std::string frequency = f;
+  {
+    const std::string frequency = "10";  // where no loss of stability comes first
     const CsvTable longest =
-        table_of("max-delay --frequency " + frequency + ":" + frequency + ":1");
+        table_of("max-delay --quiet --frequency " + frequency + ":" + frequency + ":1");
     const double period = longest.number(0, "max_sampling_period_s");
     const std::string p = longest.text(0, "proportional_gain"),
                       d = longest.text(0, "differential_gain");
