@@ -57,7 +57,8 @@ TEST(OwnCase, IsNoneWhereTheFileDescribesNeitherCableNorPlant) {
 
 TEST(OwnCase, IsTheSameWhenItIsWrittenAndRead) {
   for (const std::string& text :
-       {ground_wire, whole_plant, ground_wire + "[absorber]\nmass = 2\n[control]\nsampling_period = 0.002\n"}) {
+       {ground_wire, whole_plant,
+        ground_wire + "[absorber]\nmass = 2\n[control]\nsampling_period = 0.002\n"}) {
     const std::string written = case_to_toml(from_text(text));
     EXPECT_EQ(written.find("nan"), std::string::npos) << written;
     EXPECT_TRUE(from_text(written).stands_alone);
@@ -148,11 +149,11 @@ TEST(Units, AreThoseOfEveryKeyOfANumber) {
 }
 
 TEST(Units, StandInFilesListsAndDevices) {
-  const Case the_case =
-      from_text(ground_wire + "diameter = \"12.7 mm\"\nrayleigh_frequencies = [\"120 1/min\", 7]\n" +
-                "[site]\nspeeds = [\"18 km/h\", 7]\nhours = [\"10 d\", 20]\n" +
-                "[excitation]\nharmonics = [[\"2 kN\", 3, \"90 deg\"]]\n" +
-                "[[device]]\nkind = \"dashpot\"\nposition = \"10 ft\"\ndamping = \"1.2 kN s/m\"\n");
+  const Case the_case = from_text(
+      ground_wire + "diameter = \"12.7 mm\"\nrayleigh_frequencies = [\"120 1/min\", 7]\n" +
+      "[site]\nspeeds = [\"18 km/h\", 7]\nhours = [\"10 d\", 20]\n" +
+      "[excitation]\nharmonics = [[\"2 kN\", 3, \"90 deg\"]]\n" +
+      "[[device]]\nkind = \"dashpot\"\nposition = \"10 ft\"\ndamping = \"1.2 kN s/m\"\n");
   EXPECT_EQ(the_case.conductor.diameter, 0.0127);
   EXPECT_EQ(the_case.conductor.rayleigh_frequencies[0], 2.0);
   EXPECT_DOUBLE_EQ(the_case.site.speeds[0], 5.0);
