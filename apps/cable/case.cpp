@@ -150,7 +150,7 @@ void add_devices(Table& table, const Case& the_case) {
       const std::string name = device_key_text(k + 1, key->name);
       const auto given = the_case.places.find(name);
       table.row(name, device_value_text(*key, device), key->unit,
-                given == the_case.places.end() ? "built-in" : given->second,
+                given == the_case.places.end() ? "default" : given->second,
                 key->description + "; admissible: " + key->admissible());
     }
   }

@@ -56,7 +56,7 @@ TEST(Help, AWordThatIsNotExpectedIsGuessed) {
   expect_guess("simulate --switchng exact", "did you mean --switching?");
   expect_guess("margins mine.toml", "--case mine.toml");
   expect_guess("case mine.toml", "--check mine.toml");
-  expect_guess("simulate --set control.sampling_period=10ms", "such as 0.01");
+  expect_guess("simulate --set control.sampling_period=10kg", "no unit of it");
   expect_guess("lyap", "did you mean lyapunov?");  // by its beginning
   expect_guess("stabilty", "did you mean stability?");
 }

@@ -22,49 +22,17 @@ struct PlantPole {
 
 namespace detail {
 
-/// The receptance of a conductor by its modes, and its slope, many times over: without the checks
-/// for NaN that a division of std::complex makes.
-class QuickReceptance {
- public:
-  using Complex = std::complex<double>;
-
-  explicit QuickReceptance(const std::vector<PlaceMode<double>>& modes) {
-    for (const PlaceMode<double>& mode : modes)
-      terms_.push_back({mode.shape * mode.shape / mode.mass,
-                        2.0 * mode.damping_ratio * mode.angular_frequency,
-                        mode.angular_frequency * mode.angular_frequency});
+/// dH/ds of `receptance`.
+inline std::complex<double> receptance_slope(const std::vector<PlaceMode<double>>& modes,
+                                             const std::complex<double>& s) {
+  std::complex<double> sum(0);
+  for (const PlaceMode<double>& mode : modes) {
+    const double damping = 2.0 * mode.damping_ratio * mode.angular_frequency;
+    const std::complex<double> part = mode.divisor(s);
+    sum -= mode.shape * mode.shape * (2.0 * s + damping) / (mode.mass * part * part);
   }
-
-  /// H at s.
-  Complex at(const Complex& s) const {
-    Complex sum(0.0);
-    for (const Term& term : terms_) sum += term.inverse(s) * term.weight;
-    return sum;
-  }
-
-  /// dH/ds at s.
-  Complex slope(const Complex& s) const {
-    Complex sum(0.0);
-    for (const Term& term : terms_) {
-      const Complex inverse = term.inverse(s);
-      sum -= term.weight * (2.0 * s + term.damping) * inverse * inverse;
-    }
-    return sum;
-  }
-
- private:
-  struct Term {
-    double weight, damping, square;  // φ²/M, 2ζω, ω²
-
-    Complex inverse(const Complex& s) const {
-      const double x = s.real(), y = s.imag();
-      const double real = x * (x + damping) - y * y + square, imaginary = y * (2.0 * x + damping);
-      const double norm = real * real + imaginary * imaginary;
-      return {real / norm, -imaginary / norm};
-    }
-  };
-  std::vector<Term> terms_;
-};
+  return sum;
+}
 
 /// dK/ds of `passive_stiffness`, with N = m₂ s² (k₂ + c₂ s), Q = m₂ s² + c₂ s + k₂.
 inline std::complex<double> passive_slope(const Absorber<double>& absorber,
@@ -81,7 +49,7 @@ class PoleFinder {
   using Complex = std::complex<double>;
 
   PoleFinder(const std::vector<PlaceMode<double>>& modes, const Absorber<double>& absorber)
-      : modes_(modes), absorber_(absorber), receptance_(modes) {}
+      : modes_(modes), absorber_(absorber) {}
 
   /// s of one natural motion of a bare mode, and of its other one.
   struct BarePair {
@@ -158,8 +126,8 @@ class PoleFinder {
     Complex slope;
     bool settled = false;
     for (int turn = 0; turn < 20 && !settled; ++turn) {
-      const Complex bare = receptance_.at(s);
-      slope = passive_slope(absorber_, s) - receptance_.slope(s) / (bare * bare);
+      const Complex bare = receptance(modes_, s);
+      slope = passive_slope(absorber_, s) - receptance_slope(modes_, s) / (bare * bare);
       const Complex step = (1.0 / bare + passive_stiffness(absorber_, s)) / slope;
       s -= step;
       // Beside a mode that is nearly weak a step is small before the slope is right.
@@ -171,8 +139,9 @@ class PoleFinder {
   /// p′/p of the polynomial whose roots are the poles, p = Π (s − b_k) (1 + HK), b_k where the bare
   /// modes and the absorber on a fixed conductor move by themselves.
   Complex logarithmic_derivative(const std::vector<Complex>& bare_motions, const Complex& s) const {
-    const Complex h = receptance_.at(s), k = passive_stiffness(absorber_, s);
-    Complex sum = (receptance_.slope(s) * k + h * passive_slope(absorber_, s)) / (1.0 + h * k);
+    const Complex h = receptance(modes_, s), k = passive_stiffness(absorber_, s);
+    Complex sum =
+        (receptance_slope(modes_, s) * k + h * passive_slope(absorber_, s)) / (1.0 + h * k);
     for (const Complex& b : bare_motions) sum += 1.0 / (s - b);
     return sum;
   }
@@ -180,7 +149,9 @@ class PoleFinder {
   /// What begins at s, where the conductor alone or the absorber on a fixed one moves by itself.
   PlantPole from(const Complex& begin) const {
     const Complex s = root_from_pole(
-        [&](const Complex& at) { return -receptance_.at(at) * passive_stiffness(absorber_, at); },
+        [&](const Complex& at) {
+          return -receptance(modes_, at) * passive_stiffness(absorber_, at);
+        },
         begin);
     return near(s);
   }
@@ -188,7 +159,6 @@ class PoleFinder {
  private:
   const std::vector<PlaceMode<double>>& modes_;
   const Absorber<double>& absorber_;
-  QuickReceptance receptance_;
 };
 
 /// Whether these are all poles: as |s| → ∞ G_z goes as a/s², a the acceleration per newton of the

@@ -53,9 +53,11 @@ std::uint64_t Table::nans(std::size_t column) {
 void Table::require_numbers() {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].may_be_nan() || nans(i) == 0) continue;
-    throw NoAnswer(columns_[i].name + " has no number in " + std::to_string(nans(i)) + " of " +
-                   std::to_string(writer_.rows()) +
-                   " rows: the values of the case are too far apart to compute it");
+    const std::string said = columns_[i].name + " has no number in " + std::to_string(nans(i)) +
+                             " of " + std::to_string(writer_.rows()) +
+                             " rows: the values of the case are too far apart to compute it";
+    if (2 * nans(i) > writer_.rows()) throw NoAnswer(said);
+    report_warning(said, context_.quiet);
   }
 }
 

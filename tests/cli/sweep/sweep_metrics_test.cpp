@@ -189,7 +189,8 @@ TEST(SweepMetrics, FollowTheWindAndTheConductorThatThePlantIsMadeFrom) {
   write_text(folder / "cable.toml",
              "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
              "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\n"
-             "position = 0.64\n[wind]\nspeed = 1.0\ndiameter = 0.02\n"
+             "position = 0.64\n[reduction]\nfirst_frequency = 1.999\nsecond_frequency = "
+             "6.998\n[wind]\nspeed = 1.0\ndiameter = 0.02\n"
              "effective_length = 5.0\n[control]\nproportional_gain = \"tuned\"\n"
              "differential_gain = -13\nsampling_period = 0.001\n[backlash]\nwidth = 0.0005\n");
   const std::string common = "--case '" + (folder / "cable.toml").string() + "'";
@@ -206,7 +207,8 @@ TEST(SweepMetrics, OfAReducedPlantAreThoseOfTheCaseWithOneValueSet) {
   write_text(folder / "line.toml",
              "[conductor]\nmass_per_length = 0.043\nspan = 6.4\nsag = 0.29\narea = 5.5e-6\n"
              "youngs_modulus = 18e9\ndamping_ratio = 0.02\n[absorber]\nmass = 0.16\n"
-             "position = 0.64\n[control]\nproportional_gain = -557\n"
+             "position = 0.64\n[reduction]\nfirst_frequency = 1.999\nsecond_frequency = "
+             "6.998\n[control]\nproportional_gain = -557\n"
              "differential_gain = -13\nsampling_period = 0.001\n[backlash]\nwidth = 0.0005\n"
              "[excitation]\namplitude = 0.5\nfrequency = 10\n");
   const std::string common = "--case '" + (folder / "line.toml").string() + "'";

@@ -272,12 +272,12 @@ struct ConductorOverBand {
   /// middle, and of the absorber's own motion on a conductor that stands still.
   std::vector<std::complex<double>> uncontrolled_zeros() const {
     const auto& [modes, absorber, poles, hardware] = conductor;
-    const detail::QuickReceptance quick(modes);
     std::vector<std::complex<double>> found;
     for (std::size_t n = 0; n + 1 < modes.size(); ++n) {
       std::complex<double> s(0.0,
                              0.5 * (modes[n].angular_frequency + modes[n + 1].angular_frequency));
-      for (int step = 0; step < 30; ++step) s -= quick.at(s) / quick.slope(s);
+      for (int step = 0; step < 30; ++step)
+        s -= receptance(modes, s) / detail::receptance_slope(modes, s);
       if (std::isfinite(std::abs(s))) found.push_back(complex_expm1(s * sampling.period));
     }
     const double decay = absorber.damping / (2.0 * absorber.mass);
