@@ -462,7 +462,8 @@ TEST(Lyapunov, IsNotMisledByTheStartOfItsTangents) {
   // ln rho = -4.8e-6 a sample.
   for (const char* scope : {"", " --largest"}) {
     const CsvTable exponents = table_of(
-        std::string("lyapunov --set backlash.width=0 --set control.differential_gain=5.579") +
+        std::string(
+            "lyapunov --quiet --set backlash.width=0 --set control.differential_gain=5.579") +
         scope);
     EXPECT_NEAR(exponents.number(0, "per_sample"), -4.8e-6,
                 2.6 * exponents.number(0, "standard_error"));

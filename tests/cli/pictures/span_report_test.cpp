@@ -100,7 +100,7 @@ TEST(SpanReport, ItsAnswersHaveTheNumbersOfItsTables) {
   };
   expect_holds(page, {years("life", "value") + " years, by the laws from " +
                           years("life", "lowest") + " to " + years("life", "highest"),
-                      "without the devices " + years("life_bare", "value") + ", from " +
+                      "without the devices " + years("life_bare", "value") + ", by the laws from " +
                           years("life_bare", "lowest") + " to " + years("life_bare", "highest")});
   const auto rows = program::read_csv(report / "data/aeolian.csv");
   const auto amplitudes = rows.numbers("amplitude_m");
