@@ -85,7 +85,8 @@ TEST(StableGains, AreThoseOfTheRoots) {
   ModalRadius radius(the_case);
   int inside = 0;
   for (const double p : {-40000.0, -10000.0, 0.0, 5000.0})
-    for (const double d : {-200.0, -40.0, 30.0, 90.0}) {
+    // At P = 5000 D ends near -40, where the number of modes that are looked at decides.
+    for (const double d : {-200.0, -30.0, 30.0, 90.0}) {
       const bool is_stable = radius({p, d}) < 1.0;
       inside += is_stable ? 1 : 0;
       EXPECT_EQ(stable.is_stable({p, d}), is_stable) << p << " " << d;
