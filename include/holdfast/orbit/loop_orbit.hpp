@@ -81,8 +81,8 @@ struct OrbitResultOf {
                                ///< one of a family
   std::int64_t samples = 0;    ///< of the motion that was looked at
   int candidates = 0;          ///< periods that were solved for
-  /// Of `neutral`: the number, from 0, of the state by which the orbits of the family differ most, a
-  /// controller's where one of these is moved; they stand behind the plant's.
+  /// Of `neutral`: the number, from 0, of the state by which the orbits of the family differ most,
+  /// a controller's where one of these is moved; they stand behind the plant's.
   std::optional<std::int64_t> neutral_state = {};
 };
 
