@@ -229,6 +229,22 @@ void Job::require_plant(const JobContext& context) const {
     require_place_for_devices(context.case_data, context.job);
 }
 
+/// Settles and looks over what this job asks of the case.
+void Job::examine_for_this(JobContext& context, bool needs_plant) const {
+  const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
+  const bool controlled = no_control == nullptr || no_control->empty();
+  // Devices alone need neither absorber nor two masses.
+  const Case& the_case = context.case_data;
+  const bool has_loop =
+      has_active_absorber(the_case) ||
+      (the_case.devices.empty() && !the_case.stands_alone && !is_told("spans_too", false));
+  const bool asks_for_plant = needs_plant && is_told("needs_plant", true);
+  if (!asks_for_plant && is_told("absorber_alone", false) && has_active_absorber(the_case))
+    report_warning(settle_absorber(context.case_data), context.quiet);
+  examine(context, asks_for_plant && has_loop,
+          has_loop && controlled && is_told("needs_gains", false));
+}
+
 JobContext Job::context(const std::optional<std::string>& case_file, bool needs_plant) const {
   if (case_file && common_->case_file)
     throw WrongInput("--case " + *common_->case_file + ": the case is " + *case_file + " already");
@@ -251,18 +267,7 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   if (file) require_not_overwritten(*file, context.output);
   require_output(context);
   require_plant(context);
-  const CLI::Option* no_control = options_->get_option_no_throw("--no-control");
-  const bool controlled = no_control == nullptr || no_control->empty();
-  // Devices alone need neither absorber nor two masses.
-  const Case& the_case = context.case_data;
-  const bool has_loop =
-      has_active_absorber(the_case) ||
-      (the_case.devices.empty() && !the_case.stands_alone && !is_told("spans_too", false));
-  const bool asks_for_plant = needs_plant && is_told("needs_plant", true);
-  if (!asks_for_plant && is_told("absorber_alone", false) && has_active_absorber(the_case))
-    report_warning(settle_absorber(context.case_data), context.quiet);
-  examine(context, asks_for_plant && has_loop,
-          has_loop && controlled && is_told("needs_gains", false));
+  examine_for_this(context, needs_plant);
   context.options = given_options(*options_);
   context.progress = common_->progress;
   context.yes = common_->yes;

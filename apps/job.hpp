@@ -82,6 +82,7 @@ class Job {
 
   void require_output(const JobContext& context) const;
   void require_plant(const JobContext& context) const;
+  void examine_for_this(JobContext& context, bool needs_plant) const;
   void draw() const;
   CLI::Option* told(CLI::Option* option) const;
   bool is_told(const std::string& fact, bool otherwise) const;
