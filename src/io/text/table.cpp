@@ -56,7 +56,7 @@ void Table::require_numbers() {
     const std::string said = columns_[i].name + " has no number in " + std::to_string(nans(i)) +
                              " of " + std::to_string(writer_.rows()) +
                              " rows: the values of the case are too far apart to compute it";
-    if (2 * nans(i) > writer_.rows()) throw NoAnswer(said);
+    if (10 * nans(i) > writer_.rows()) throw NoAnswer(said);
     report_warning(said, context_.quiet);
   }
 }

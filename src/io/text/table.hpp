@@ -44,8 +44,8 @@ class Table {
     context_.notes.emplace_back(name, text);
   }
 
-  /// Throws NoAnswer where a cell is no number in a column whose description does not say what
-  /// `nan` means there; call before commit().
+  /// Warns where a cell is no number in a column whose description does not say what `nan` means
+  /// there, and throws NoAnswer where more than a tenth of them are; call before commit().
   void require_numbers();
 
   void commit();
