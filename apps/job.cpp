@@ -13,6 +13,7 @@
 #include "host/job_host.hpp"
 #include "io/file/input.hpp"
 #include "jobs/job_texts.hpp"
+#include "jobs/support.hpp"
 #include "process/group/mpi_launch.hpp"
 #include "process/worker_threads.hpp"
 #include "report/page/picture.hpp"
@@ -74,52 +75,6 @@ void doubt(JobContext& context, const std::vector<std::string>& texts) {
     report_warning(text, context.quiet);
     context.doubts.push_back(text);
   }
-}
-
-/// The names of the jobs of which a fact is told, for a message.
-std::string jobs_that(const std::string& fact) {
-  std::string names;
-  for (const auto& [name, told] : *job_texts()["jobs"].as_table())
-    if (told.as_table()->get(fact) != nullptr)
-      names += (names.empty() ? "" : ", ") + std::string(name.str());
-  return names;
-}
-
-/// Nothing is silently answered by two masses.
-void require_two_masses(const Case& the_case, const std::string& job) {
-  if (!is_modal(the_case)) return;
-  const auto place = the_case.places.find("plant.model");
-  throw WrongInput((place == the_case.places.end() ? "" : place->second + ": ") +
-                   modal_words(the_case) + ": " + job +
-                   " answers for two_masses under an ideal drive alone; those that answer on the "
-                   "conductor itself and for filters, lags and delays are " +
-                   jobs_that("any_plant"));
-}
-
-/// Nothing passes over a device without a word.
-void require_no_devices(const Case& the_case, const std::string& job) {
-  if (the_case.devices.empty()) return;
-  throw WrongInput(job +
-                   " knows the absorber alone, and the case has [[device]] beside it: take "
-                   "the devices away; jobs that count them are " +
-                   jobs_that("counts_devices"));
-}
-
-/// On two masses there is no place for a device.
-void require_place_for_devices(const Case& the_case, const std::string& job) {
-  if (the_case.devices.empty() || !is_two_masses(the_case)) return;
-  throw WrongInput(job +
-                   " of plant.model = \"two_masses\" has no place for [[device]]: add --set "
-                   "plant.model=string");
-}
-
-/// Nothing is answered by a conductor that is not in question.
-void require_no_own_plant(const Case& the_case, const std::string& job) {
-  if (has_own_plant(the_case))
-    throw WrongInput(job +
-                     " is about a conductor and its absorber, and the plant is one of your own; "
-                     "those that answer for it are " +
-                     jobs_that("own_plant"));
 }
 
 /// Settles the plant, and says what is to be known of it. A job that explains a case explains one
@@ -221,12 +176,19 @@ void Job::require_output(const JobContext& context) const {
     require_output_name(*common_->output, has_picture(context.job));
 }
 
-void Job::require_plant(const JobContext& context) const {
-  if (!is_told("own_plant", false)) require_no_own_plant(context.case_data, context.job);
-  if (!is_told("counts_devices", false)) require_no_devices(context.case_data, context.job);
-  if (!is_told("any_plant", false)) require_two_masses(context.case_data, context.job);
-  if (is_told("needs_string_for_devices", false))
-    require_place_for_devices(context.case_data, context.job);
+std::string Job::require_supported(const JobContext& context) const {
+  Asked asked{context.job, {}};
+  for (const CLI::Option* option : options_->get_options()) {
+    if (option->count() == 0) continue;
+    asked.options.push_back(option->get_name());
+    for (const std::string& value : option->results())
+      asked.options.push_back(option->get_name() + " " + value);
+  }
+  const Support support = support_of(context.case_data, asked);
+  if (support.refusal.empty()) return support.idealised;
+  const auto place = context.case_data.places.find("plant.model");
+  throw WrongInput((place == context.case_data.places.end() ? "" : place->second + ": ") +
+                   support.refusal);
 }
 
 /// Settles and looks over what this job asks of the case.
@@ -266,8 +228,9 @@ JobContext Job::context(const std::optional<std::string>& case_file, bool needs_
   if (common_->output) context.output = *common_->output;
   if (file) require_not_overwritten(*file, context.output);
   require_output(context);
-  require_plant(context);
+  const std::string idealised = require_supported(context);
   examine_for_this(context, needs_plant);
+  report_warning(idealised, context.quiet);
   context.options = given_options(*options_);
   context.progress = common_->progress;
   context.yes = common_->yes;

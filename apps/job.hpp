@@ -81,7 +81,8 @@ class Job {
   };
 
   void require_output(const JobContext& context) const;
-  void require_plant(const JobContext& context) const;
+  /// Refuses what texts/support.toml does. @return what it says that an answer leaves out
+  std::string require_supported(const JobContext& context) const;
   void examine_for_this(JobContext& context, bool needs_plant) const;
   void draw() const;
   CLI::Option* told(CLI::Option* option) const;

@@ -1,5 +1,5 @@
-// Lyapunov exponents of the sampled loop with backlash: blocks of contacts, one trajectory and many
-// at a time. Peer: Eigen's 5 × 5 product and Gram–Schmidt at every sample on a motion stepped
+// Lyapunov exponents of the sampled loop with backlash, by blocks of contacts.
+// Peer: Eigen's 5 × 5 product and Gram–Schmidt at every sample on a motion stepped
 // beside it. All sides alternate in one run; the medians and their ratios are printed.
 #include <cmath>
 #include <cstdint>
@@ -8,9 +8,13 @@
 #include <memory>
 #include <vector>
 
+#include "holdfast/chaos/block_spectrum.hpp"
+#include "holdfast/chaos/itinerary_blocks.hpp"
+#include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/control/loop_input.hpp"
+#include "holdfast/motion/ideal_loop.hpp"
+#include "holdfast/motion/sampled_motion.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/simd/lyapunov.hpp"
 #include "medians.hpp"
 #include "processor.hpp"
 
@@ -19,8 +23,6 @@ namespace {
 using namespace holdfast;
 
 constexpr std::int64_t samples = 200000;
-constexpr std::int64_t samples_of_many = 20000;
-constexpr std::size_t trajectories = 64;
 
 volatile double sink = 0.0;
 
@@ -54,14 +56,6 @@ class EveryStep {
   Vector<double, 5> sums_ = Vector<double, 5>::Zero();
   double steps_ = 0;
 };
-
-std::vector<Vector<double, 4>> states_of(std::size_t count) {
-  std::vector<Vector<double, 4>> states;
-  for (std::size_t k = 0; k < count; ++k)
-    states.push_back({0.001 * std::sin(1.0 + static_cast<double>(k)), 0.0,
-                      0.001 * std::cos(2.0 * static_cast<double>(k)), 0.0});
-  return states;
-}
 
 struct Sides {
   explicit Sides(const IdealLoop<double>& of)
@@ -135,17 +129,12 @@ struct Sides {
 
 void measure(double period, double delay_fraction) {
   const Sides sides(loop_of(period, delay_fraction));
-  const auto states = states_of(trajectories);
   const auto time = bench::medians(
       {[&] { sink = sides.every_step()[0]; }, [&] { sink = sides.every_step_on_contacts()[0]; },
        [&] { sink = sides.motion_alone(); }, [&] { sink = sides.by_blocks(LyapunovScope::all)[0]; },
        [&] { sink = sides.by_blocks_on_contacts()[0]; },
-       [&] { sink = sides.by_blocks(LyapunovScope::largest)[0]; },
-       [&] {
-         sink = simd::lyapunov_spectra(sides.loop, states, {samples_of_many}, 1)[0].exponents[0];
-       }});
+       [&] { sink = sides.by_blocks(LyapunovScope::largest)[0]; }});
   const auto per_sample = [](double seconds) { return seconds / samples * 1e9; };
-  const double many = time[6] / (samples_of_many * trajectories) * 1e9;
   const double error = (sides.every_step_on_contacts() - sides.by_blocks_on_contacts())
                            .head<4>()
                            .cwiseAbs()
@@ -161,8 +150,6 @@ void measure(double period, double delay_fraction) {
               time[1] / time[4]);
   std::printf("  words, largest exponent alone    %8.1f, ratio %8.1f\n", per_sample(time[5]),
               time[0] / time[5]);
-  std::printf("  words, %2zu trajectories on packs  %8.1f, ratio %8.1f\n", trajectories, many,
-              per_sample(time[0]) / many);
   std::printf("  largest difference of the finite exponents %.1e\n", error);
 }
 
@@ -170,8 +157,7 @@ void measure(double period, double delay_fraction) {
 
 int main() {
   if (!holdfast::bench::processor_suffices()) return 0;
-  std::printf("%zu lanes; medians of %d alternating repetitions\n",
-              Lanes<simd::Pack<double>>::count, bench::usual_repetitions);
+  std::printf("medians of %d alternating repetitions\n", bench::usual_repetitions);
   for (const double period : {0.001, 0.011}) {
     for (const double delay_fraction : {0.0, 0.5}) measure(period, delay_fraction);
   }

@@ -19,12 +19,12 @@ template LoopMargins loop_margins(const TwoMass<double>&, const Sampling<double>
 template StabilityMargins modal_stability_margins<double>(const std::vector<PlantPole>&,
                                                           const Sampling<double>&,
                                                           const PdGains<double>&,
-                                                          const MarginSearch&);
+                                                          const MarginSearch&, bool);
 template MarginEnd modal_margin_end<double>(const std::vector<PlantPole>&, const Sampling<double>&,
                                             const PdGains<double>&, double, double, bool);
 template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                 const Sampling<double>&, const PdGains<double>&,
-                                                const MarginSearch&);
+                                                const MarginSearch&, bool);
 
 }  // namespace holdfast
 

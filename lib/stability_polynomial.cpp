@@ -1,7 +1,6 @@
 // Explicit instantiations of stability/polynomial for double.
 
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
-#include "holdfast/stability/polynomial/loop_derivatives.hpp"
 #include "holdfast/stability/polynomial/loop_polynomial.hpp"
 
 namespace holdfast {
@@ -10,6 +9,5 @@ template AffinePolynomial<double, 4> characteristic_polynomial(const TwoMass<dou
 template AffinePolynomial<double, 5> characteristic_polynomial(const SampledLoop<double>&);
 template struct LoopPolynomial<double>;
 template LoopPolynomial<double> loop_polynomial(const SampledLoop<double>&);
-template LoopDerivative derivative_by_plant(const PlantDerivative&, const Sampling<double>&);
 
 }  // namespace holdfast

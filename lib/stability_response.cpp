@@ -5,14 +5,11 @@
 #include "holdfast/stability/response/modal_damping.hpp"
 #include "holdfast/stability/response/modal_response.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
-#include "holdfast/stability/response/moving_response.hpp"
 #include "holdfast/stability/response/response.hpp"
 
 namespace holdfast {
 
 template class SteadyResponse<double>;
-template class MovingResponse<SampledLoop<double>>;
-template class MovingResponse<LoopMap<double>>;
 template class LoopResponse<double>;
 template class ModalResponse<double>;
 template ModalResponse<double>::ModalResponse(const LinearPlant<double>&, const Sampling<double>&);

@@ -206,8 +206,6 @@ struct BasinsQuestion {
 
   void run(const JobContext& context) const {
     const Case& the_case = context.case_data;
-    refuse_on_modes(the_case, !map.empty(), "--map");
-    refuse_on_modes(the_case, along.has_value(), "--along");
     if (motions && map.empty()) throw WrongInput("--motions is of a map: give --map");
     if (!map.empty()) {
       const auto more = axes.empty() ? States{} : states_of(context, grid_of(axes));

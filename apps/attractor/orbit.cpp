@@ -291,25 +291,12 @@ void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
 }
 
 void OrbitQuestion::prove_switching_exactly(const JobContext& context) const {
-  const auto loop = exactly_switched_loop_of(context.case_data);
-  if (!loop)
-    throw WrongInput(
-        "--prove --switching exact goes with a moving gap or none (kollar, immediate, play), one "
-        "harmonic, an ideal computer and a force that comes within the sample only");
-  write_event_proof(context, *loop, largest_period);
+  write_event_proof(context, exactly_switched_loop_of(context.case_data).value(), largest_period);
 }
 
 void OrbitQuestion::run(const JobContext& context) const {
-  refuse_on_modes(context.case_data, !map.empty(), "--map");
   if (!map.empty()) return write_motion_borders(context, map, largest_period, switching);
-  const std::string option = prove ? "--prove" : "--follow";
-  refuse_on_modes(context.case_data, prove || follow, option);
   if (prove && !follow && switching == Switching::exact) return prove_switching_exactly(context);
-  if ((prove || follow) && !is_of_the_paper(context.case_data, switching))
-    throw WrongInput(
-        (prove && follow ? "--prove --follow" : option) +
-        " goes with --switching sampled, the paper's backlash, one harmonic and an ideal "
-        "computer only");
   if (prove) {
     follow ? write_proved_ranges(context, largest_period, *follow)
            : write_proof(context, largest_period);

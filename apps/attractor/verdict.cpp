@@ -73,20 +73,8 @@ struct VerdictQuestion {
     Table table(context, columns_of("verdict"));
     const Case& the_case = context.case_data;
     const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-    if (is_modal(the_case) && is_of_the_paper(the_case, switching)) {
-      const ModalLoop loop = modal_loop_of(the_case);
-      write(context, table, classify_motion(loop, modal_state_of(the_case), limits));
-      return;
-    }
-    if (is_modal(the_case)) {
-      report_warning(dense_work_warning(the_case, switching), context.quiet);
-      write(context, table,
-            classify_motion(smooth_conductor_loop_of(the_case, switching), modal_state_of(the_case),
-                            limits));
-      return;
-    }
-    const Vector<double, 4> state = initial_state_of(the_case);
-    with_loop_of(the_case, switching, [&](const auto& loop) {
+    report_warning(dense_work_warning(the_case, switching), context.quiet);
+    with_motion_of(the_case, switching, [&](const auto& loop, const auto& state) {
       write(context, table, classify_motion(loop, state, limits));
     });
   }

@@ -8,6 +8,7 @@
 #include "case/device/device_values.hpp"
 #include "case/library/named_conductor.hpp"
 #include "case/model/cable_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/needed.hpp"
@@ -78,13 +79,10 @@ void add_clock(Derivations& derived, const Case& the_case) {
 
 void add_stability(Derivations& derived, const Case& the_case) {
   const PdGains<double> gains = gains_of(the_case);
-  derived.emplace_back("spectral_radius", spectral_radius_of(the_case));
-  const auto stable = is_modal(the_case)
-                          ? circle_of(the_case).stable_gains(FreeGain::differential, gains)
-                          : stable_differential_gains(characteristic_polynomial(loop_of(the_case)),
-                                                      gains.proportional);
+  const LinearLoop loop(the_case);
+  derived.emplace_back("spectral_radius", loop.radius(gains));
   double lower = unknown, upper = unknown;
-  for (const auto& interval : stable) {
+  for (const auto& interval : loop.stable_gains(FreeGain::differential, gains)) {
     const bool nearest = interval.lower <= gains.differential || std::isnan(lower);
     if (nearest) lower = interval.lower;
     if (nearest) upper = interval.upper;

@@ -1,13 +1,11 @@
 #include "holdfast/stability/boundary/boundary.hpp"
 #include "case/axes/axis.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_features.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
-#include "holdfast/stability/boundary/circle_boundary.hpp"
-#include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/boundary/stable_regions.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
@@ -99,22 +97,16 @@ std::vector<GainPlane> answers(const Stable& stable, const FixedGains& fixed) {
   return result;
 }
 
-/// Of a modal case.
-std::vector<GainPlane> answers(const ResolvedCircle<double>& circle, const FixedGains& fixed) {
+/// By what has stable intervals.
+template <class Loop>
+std::vector<GainPlane> answers_by(const Loop& loop, const FixedGains& fixed) {
   return answers(
-      [&](FreeGain free, const PdGains<double>& gains) { return circle.stable_gains(free, gains); },
+      [&](FreeGain free, const PdGains<double>& gains) { return loop.stable_gains(free, gains); },
       fixed);
 }
 
 std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bool continuous) {
-  if (is_modal(the_case)) return answers(circle_of(the_case), fixed);
-  if (!continuous) {
-    // The crossings that `margins` has.
-    const auto map = loop_map(linear_plant(plant_of(the_case)), sampling_of(the_case));
-    return answers(
-        [&](FreeGain free, const PdGains<double>& gains) { return stable_gains(map, free, gains); },
-        fixed);
-  }
+  if (!continuous) return answers_by(LinearLoop(the_case), fixed);
   const auto polynomial = characteristic_polynomial(converted<Precise>(plant_of(the_case)));
   return answers(
       [&](FreeGain free, const PdGains<double>& gains) {
@@ -129,7 +121,7 @@ std::vector<GainPlane> answers(const Case& the_case, const FixedGains& fixed, bo
 std::string truncation_warning(const Case& the_case, const FixedGains& fixed,
                                const std::vector<GainPlane>& found) {
   const OtherModes other = other_modes_of(the_case);
-  const std::vector<GainPlane> others = answers(other.circle, fixed);
+  const std::vector<GainPlane> others = answers_by(other.circle, fixed);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto& here = found[i].intervals;
     const auto& there = others[i].intervals;
@@ -191,14 +183,12 @@ Values angle_words(bool continuous) {
 
 void write_boundary(const JobContext& context, const Interval<double>& gains, bool continuous) {
   const Case& the_case = context.case_data;
-  if (!is_modal(the_case))
+  if (has_closed_forms(the_case))
     report_warning(near_cusp_warning(precise_features(the_case, {gains, every_gain}, continuous)),
                    context.quiet);
-  const auto points = is_modal(the_case) ? stability_boundary(circle_of(the_case).response(), gains)
-                                         : with_polynomial<double>(
-                                               the_case, continuous, [&](const auto& polynomial) {
-                                                 return stability_boundary(polynomial, gains);
-                                               });
+  const auto points = continuous
+                          ? stability_boundary(characteristic_polynomial(plant_of(the_case)), gains)
+                          : LinearLoop(the_case).boundary(gains);
   Table table(context, columns_of("boundary", angle_words(continuous)));
   for (const auto& point : points) {
     table.row(name_in(curve_names, point.curve), point.angle, point.gains.proportional,
@@ -229,7 +219,7 @@ void write_stable_intervals(const JobContext& context, const FixedGains& fixed, 
   const std::vector<GainPlane> all = answers(context.case_data, fixed, continuous);
   Table table(context, columns_of("stable intervals"));
   report_refusals(all, context.quiet);
-  if (is_modal(context.case_data))
+  if (!is_two_masses(context.case_data))
     report_warning(truncation_warning(context.case_data, fixed, all), context.quiet);
   if (has_chosen_modes(context.case_data))
     report_warning(judge_warning(context.case_data, all), context.quiet);
@@ -272,9 +262,6 @@ struct BoundaryQuestion {
     const JobContext context = job.context();
     p = shown_gains(context, "--p", p);
     d = shown_gains(context, "--d", d);
-    refuse_on_modes(context.case_data, continuous, "--continuous");
-    refuse_on_modes(context.case_data, regions, "--regions");
-    refuse_on_modes(context.case_data, features, "--features");
     if (stable_interval) {
       write_stable_intervals(context, fixed_gains(job, context.case_data), continuous);
     } else if (regions) {

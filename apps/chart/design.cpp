@@ -1,7 +1,6 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
-#include "case/model/own/own_parts.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/two_mass.hpp"
@@ -9,7 +8,6 @@
 #include "holdfast/stability/design/minimum_amplitude.hpp"
 #include "holdfast/stability/design/minimum_radius.hpp"
 #include "holdfast/stability/design/minimum_radius_gains.hpp"
-#include "holdfast/stability/design/modal_design.hpp"
 #include "io/text/names.hpp"
 #include "job.hpp"
 #include "jobs/charts/row_blocks.hpp"
@@ -31,12 +29,6 @@ constexpr const char* ratios_shown = "ratios are to the true force's";
 struct Admissible {
   std::optional<double> largest_radius, margin;
 };
-
-/// What is asked of a D: to stay below a spectral radius, or else to have a margin.
-AmplitudeOptions options_of(const Case& the_case, const Admissible& admissible) {
-  return {sampling_of(the_case), force_hold_of(the_case), admissible.largest_radius.value_or(1.0),
-          admissible.margin.value_or(admissible.largest_radius ? 0.0 : usual_margin), true};
-}
 
 std::string no_gain_text(double proportional_gain, double largest_radius) {
   return "at P = " + format_rounded(proportional_gain) +
@@ -81,7 +73,7 @@ struct BestRow {
 std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions& options,
                                const Axis& axis, bool tuned, bool both) {
   const Case& the_case = context.case_data;
-  const BestForPlant best(the_case, options);
+  const LinearLoop loop(the_case);
   std::vector<BestRow> rows(static_cast<std::size_t>(axis.count));
   side_by_side(context, "design", axis.count, [&](std::int64_t i) {
     BestRow& row = rows[static_cast<std::size_t>(i)];
@@ -90,14 +82,14 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
                                             the_case.plant.absorber_mass, row.frequency)
                   : gains_of(the_case).proportional;
     if (both) {
-      const auto [p, quietest] = best.quietest_pair(row.frequency);
+      const auto [p, quietest] = loop.quietest_pair(options, row.frequency);
       row.p = p;
       row.quietest = quietest;
     } else {
-      row.quietest = best.quietest(row.frequency, row.p);
+      row.quietest = loop.quietest(options, row.frequency, row.p);
     }
-    row.fastest = best.fastest(row.p);
-    row.margins = gain_margins(the_case, {row.p, row.quietest.differential_gain});
+    row.fastest = loop.fastest(row.p);
+    row.margins = gain_margins(loop, {row.p, row.quietest.differential_gain});
   });
   return rows;
 }
@@ -107,7 +99,8 @@ std::vector<BestRow> best_rows(const JobContext& context, const AmplitudeOptions
 void write_best_gains(const JobContext& context, const std::optional<Axis>& frequencies,
                       const Admissible& admissible, bool both) {
   const Case& the_case = context.case_data;
-  const AmplitudeOptions options = options_of(the_case, admissible);
+  const AmplitudeOptions options =
+      amplitude_options_of(the_case, admissible.largest_radius, admissible.margin);
   const double own = excitation_of(the_case).frequency;
   const Axis axis = frequencies.value_or(Axis{own, own, 1});
   Table table(context, columns_of("best gains"));
@@ -138,12 +131,11 @@ void write_best_gains(const JobContext& context, const std::optional<Axis>& freq
 void write_band_gain(const JobContext& context, const Range& band, const Admissible& admissible) {
   const Case& the_case = context.case_data;
   const double p = gains_of(the_case).proportional;
-  const AmplitudeOptions options = options_of(the_case, admissible);
+  const AmplitudeOptions options =
+      amplitude_options_of(the_case, admissible.largest_radius, admissible.margin);
   const FrequencyBand frequencies{band.min, band.max};
-  const auto answer =
-      is_modal(the_case)
-          ? modal_minimax_amplitude(conductor_with_absorber_of(the_case), options, p, frequencies)
-          : minimax_amplitude(plant_of(the_case), options, p, frequencies);
+  const LinearLoop loop(the_case);
+  const auto answer = loop.quietest_over(options, p, frequencies);
   if (answer.outcome == MinimaxOutcome::none)
     throw NoAnswer(no_gain_text(p, options.largest_radius));
   report_warning(held_force_warning(the_case, options.sampling.period, band.max, ratios_shown),
@@ -152,7 +144,7 @@ void write_band_gain(const JobContext& context, const Range& band, const Admissi
     report_warning("the search has not closed: some D may have a worst ratio as small as " +
                        format_rounded(answer.lower_bound),
                    context.quiet);
-  const GainMargins margins = gain_margins(the_case, {p, answer.differential_gain});
+  const GainMargins margins = gain_margins(loop, {p, answer.differential_gain});
   warn_of_edge(margins.spectral_radius, options.sampling.period, context.quiet);
   Table table(context, columns_of("band gain"));
   table.row(band.min, band.max, p, answer.differential_gain, answer.worst_ratio,
@@ -161,14 +153,15 @@ void write_band_gain(const JobContext& context, const Range& band, const Admissi
   table.commit();
 }
 
-void write_best_pair(const JobContext& context) {
+/// The P and D of least spectral radius.
+void write_fastest_pair(const JobContext& context) {
   const auto answer = minimum_radius_gains(loop_of(context.case_data));
   if (answer.outcome == MinimumRadiusGainsOutcome::idle)
     report_warning("the gains do not move all roots; P is set to 0", context.quiet);
   if (answer.outcome == MinimumRadiusGainsOutcome::open)
     report_warning("the search has not closed: better gains may exist", context.quiet);
   Table table(context, columns_of("best pair"));
-  const GainMargins margins = gain_margins(context.case_data, answer.gains);
+  const GainMargins margins = gain_margins(LinearLoop(context.case_data), answer.gains);
   table.row(answer.gains.proportional, answer.gains.differential, answer.radius, answer.lower_bound,
             margins.gain_decibels, margins.phase_degrees, margins.delay);
   table.commit();
@@ -178,7 +171,7 @@ struct DesignQuestion {
   std::string frequency;
   std::string band;
   Admissible admissible;
-  bool both_gains = false;
+  bool both_gains = false, least_radius = false;
 
   void add_to(const Job& job) {
     job.add("--frequency", frequency);
@@ -186,21 +179,11 @@ struct DesignQuestion {
     job.add("--largest-radius", admissible.largest_radius);
     job.add("--margin", admissible.margin);
     job.add("--both-gains", both_gains);
-  }
-
-  void write_fastest_pair(const JobContext& context) const {
-    if (!frequency.empty() || admissible.largest_radius || admissible.margin)
-      throw WrongInput(
-          "--both-gains of two_masses under an ideal drive are those of least spectral radius: "
-          "--frequency, --largest-radius and --margin do not go with them");
-    write_best_pair(context);
+    job.add("--least-radius", least_radius);
   }
 
   void run(const JobContext& context) const {
-    refuse_for_own_plant(context.case_data, !frequency.empty(), "--frequency");
-    refuse_for_own_plant(context.case_data, !band.empty(), "--band");
-    refuse_for_own_plant(context.case_data, both_gains, "--both-gains");
-    if (both_gains && !is_modal(context.case_data)) return write_fastest_pair(context);
+    if (least_radius) return write_fastest_pair(context);
     if (!band.empty()) return write_band_gain(context, parse_range("--band", band), admissible);
     std::optional<Axis> frequencies;
     if (!frequency.empty()) frequencies = parse_axis("--frequency", frequency);

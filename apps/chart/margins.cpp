@@ -88,13 +88,12 @@ class MarginsTable {
 
 void MarginsQuestion::run(const JobContext& context) const {
   const Case& the_case = context.case_data;
-  if (prove) refuse_to_prove(the_case);
   require_absorber(the_case);
   const Sampling<double> sampling = sampling_of(the_case);
   const PdGains<double> gains = gains_of(the_case);
-  auto [margins, looked_everywhere] = prove ? CaseMargins{walked_margins_of(the_case, gains), false}
-                                            // the proof will look
-                                            : stability_margins_of(the_case, gains);
+  auto [margins, looked_everywhere] =
+      prove ? CaseMargins{LinearLoop(the_case).margins(gains), false}  // the proof will look
+            : stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
                    format_rounded(spectral_radius_of(the_case)));

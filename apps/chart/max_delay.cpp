@@ -2,10 +2,9 @@
 
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
-#include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/stability/design/proved_max_delay.hpp"
 #include "job.hpp"
 #include "jobs/charts/proved_poles.hpp"
@@ -32,58 +31,21 @@ struct MaxDelayQuestion {
     if (prove) {
       if (criterion != "stable")
         throw WrongInput("--prove is of stability alone: give --criterion stable");
-      refuse_to_prove(the_case);
       poles_ = proved_poles_of(the_case);
     }
-    if (is_modal(the_case)) {
-      const ConductorWithAbsorber conductor = conductor_with_absorber_of(the_case);
-      answer(context, conductor);
-      if (!prove)
-        report_warning(
-            "the period is walked by 3 %, with the plant of the case's own: a "
-            "stretch of instability narrower than a step is missed",
-            context.quiet);
-    } else {
-      answer(context, plant_of(the_case));
-    }
+    const LinearLoop loop(the_case);
+    answer(context, loop);
+    if (loop.walks() && !prove)
+      report_warning(
+          "the period is walked by 3 %, with the plant of the case's own: a "
+          "stretch of instability narrower than a step is missed",
+          context.quiet);
   }
 
  private:
-  static MaxDelay largest_period(const TwoMass<double>& plant, const MaxDelayOptions& question) {
-    return max_sampling_period(plant, question);
-  }
-  static MaxDelay largest_period(const ConductorWithAbsorber& plant,
-                                 const MaxDelayOptions& question) {
-    return modal_max_sampling_period(plant, question);
-  }
-
-  /// ρ − 1.
-  static double excess_of(const TwoMass<double>& plant, const Sampling<double>& sampling,
-                          const PdGains<double>& gains) {
-    return loop_polynomial(sampled_loop(plant, sampling)).excess(gains);
-  }
-  static double excess_of(const ConductorWithAbsorber& plant, const Sampling<double>& sampling,
-                          const PdGains<double>& gains) {
-    return loop_excess_or_turn(modal_response(plant, sampling), gains);
-  }
-
-  /// The D that stabilise, as doubles find them.
-  static std::vector<Interval<double>> stable_gains_of(const TwoMass<double>& plant,
-                                                       const MaxDelayOptions& question,
-                                                       double period) {
-    return feasible_differential_gains(plant, question, period);
-  }
-  static std::vector<Interval<double>> stable_gains_of(const ConductorWithAbsorber& plant,
-                                                       const MaxDelayOptions& question,
-                                                       double period) {
-    const ResolvedCircle<double> circle(modal_response(plant, question.sampling(period)));
-    return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
-  }
-
   /// The periods that are proved: from the shortest of the search to a little beyond what was found
   /// at most, or to a period of the excitation where that has no end.
-  template <class Plant>
-  Interval<double> proved_periods(const JobContext& context, const Plant& plant,
+  Interval<double> proved_periods(const JobContext& context, const LinearLoop& loop,
                                   const MaxDelayOptions& question, double found) const {
     const double shortest = std::min(question.shortest_period, 1e-3 / question.frequency);
     const double beyond = std::isfinite(found) ? 1.01 * found : 1.0 / question.frequency;
@@ -91,22 +53,21 @@ struct MaxDelayQuestion {
                           poles_, question.proportional_gain,
                           EnclosedSamplings::of_period(sampling_of(context.case_data)),
                           {shortest, std::max(shortest, beyond)},
-                          [&](double period) { return stable_gains_of(plant, question, period); },
+                          [&](double period) { return loop.stable_gains(question, period); },
                           [] { throw_if_interrupted(); })};
   }
 
-  template <class Plant>
-  void answer(const JobContext& context, const Plant& plant) {
+  void answer(const JobContext& context, const LinearLoop& loop) {
     const Axis axis = parse_axis("--frequency", frequency);
     Table table(context, columns_of(prove ? "proved max-delay" : "max-delay"));
-    for (const auto& [question, answer, proved] : answers_of(context, plant, axis)) {
+    for (const auto& [question, answer, proved] : answers_of(context, loop, axis)) {
       if (answer.outcome == MaxDelayOutcome::beyond_search)
         report_warning("at " + format_rounded(question.frequency) +
                            " Hz the search ended without a limit at a period of " +
                            format_rounded(answer.sampling_period) +
                            " s; longer ones are not judged",
                        context.quiet);
-      note(plant, question, answer, context);
+      note(loop, question, answer, context);
       const bool has_proof = proved.upper >= proved.lower;
       if (prove)
         table.row(question.frequency, question.proportional_gain, answer.sampling_period,
@@ -133,28 +94,26 @@ struct MaxDelayQuestion {
   };
 
   /// At all frequencies, side by side on the threads.
-  template <class Plant>
-  std::vector<Answered> answers_of(const JobContext& context, const Plant& plant,
+  std::vector<Answered> answers_of(const JobContext& context, const LinearLoop& loop,
                                    const Axis& axis) const {
     std::vector<Answered> all(static_cast<std::size_t>(axis.count));
     side_by_side(context, "max-delay", axis.count, [&](std::int64_t i) {
       Answered& here = all[static_cast<std::size_t>(i)];
       here.question = tuned_delay_question(context.case_data, axis.at(i));
       if (criterion == "stable") here.question.criterion = DelayCriterion::stable;
-      here.answer = largest_period(plant, here.question);
+      here.answer = loop.longest_period(here.question);
       if (prove)
-        here.proved = proved_periods(context, plant, here.question, here.answer.sampling_period);
+        here.proved = proved_periods(context, loop, here.question, here.answer.sampling_period);
     });
     return all;
   }
 
   /// Notes where D is a limit, and where the hold of the force decides what is attenuated.
-  template <class Plant>
-  void note(const Plant& plant, const MaxDelayOptions& question, const MaxDelay& answer,
+  void note(const LinearLoop& loop, const MaxDelayOptions& question, const MaxDelay& answer,
             const JobContext& context) {
     if (!(answer.sampling_period > 0.0 && std::isfinite(answer.sampling_period))) return;
     const PdGains<double> gains{question.proportional_gain, answer.differential_gain};
-    if (excess_of(plant, question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
+    if (loop.excess(question.sampling(answer.sampling_period), gains) > -1e-9) ++on_boundary_;
     if (question.criterion == DelayCriterion::attenuates && held_force_.empty())
       held_force_ = held_force_warning(context.case_data, answer.sampling_period,
                                        question.frequency, "what attenuates is below the true one");

@@ -1,6 +1,7 @@
 #include "case/axes/axis.hpp"
 #include "case/model/held_force.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/linear_loop.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "job.hpp"
 #include "jobs/charts/chart_rows.hpp"
 #include "report/figures/figure.hpp"
@@ -19,11 +20,7 @@ struct ResponseQuestion {
 
   void run(const JobContext& context) const {
     const HarmonicExcitation<double> excitation = excitation_of(context.case_data);
-    const double omega = excitation.angular_frequency();
-    const Case& the_case = context.case_data;
-    const auto response =
-        steady_response_of(the_case, sampling_of(the_case), force_hold_of(the_case), omega)
-            .relative_to(true_amplitude_of(the_case, omega));
+    const auto response = LinearLoop(context.case_data).response(excitation.frequency);
     report_warning(held_force_warning(context.case_data,
                                       "amplitudes are those of the force as it "
                                       "is held, ratios to the true force's"),

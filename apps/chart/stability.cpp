@@ -60,8 +60,6 @@ struct StabilityQuestion {
     job.add("--undecided", undecided);
   }
   void run(const JobContext& context) const {
-    refuse_on_modes(context.case_data, continuous, "--continuous");
-    refuse_on_modes(context.case_data, !axes.empty(), "--axis");
     if (undecided && !prove) throw WrongInput("--undecided is of a proved chart: give --prove");
     if (prove) return prove_gains(context);
     axes.empty() ? run_over_gains(context) : run_over_axes(context);

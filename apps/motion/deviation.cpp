@@ -24,7 +24,6 @@ struct DeviationQuestion {
     if (offset == 0.0)
       throw WrongInput(
           "--offset is 0: the neighbour would be the motion itself; the default is 1e-5 m");
-    require_displaceable(context.case_data, switching, "deviation");
     require_within_span("--offset", offset, context.case_data);
     Table table(context, columns_of("deviation"));
     const std::int64_t samples = samples_of(context.case_data, duration);

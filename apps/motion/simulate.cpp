@@ -34,7 +34,6 @@ struct SimulateQuestion {
 
   void run(const JobContext& context) const {
     const std::optional<Kick> kicked = parsed_kick();
-    if (kicked) require_displaceable(context.case_data, switching, "--kick");
     if (from > duration) throw WrongInput("--from lies after --duration: no row is left");
     if (kicked) require_within_span("--kick", kicked->displacement, context.case_data);
     if (kicked && kicked->time > duration) throw WrongInput("--kick acts after --duration");
@@ -79,9 +78,7 @@ struct SimulateQuestion {
 
   /// Rows of the nonlinear cable.
   void write_elements(const JobContext& context, Table& table, std::int64_t samples) const {
-    if (kick || switching == Switching::exact)
-      throw WrongInput(std::string("--plant elements does not go with ") +
-                       (kick ? "--kick" : "--switching exact"));
+    if (kick) throw WrongInput("--plant elements does not go with --kick");
     Progress progress(static_cast<std::uint64_t>(samples), "simulate, samples",
                       progress_wanted(context));
     const ElementsQuestion question{elements.value_or(200), !no_control, samples};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
@@ -15,12 +16,10 @@ namespace {
 
 /// Without play, of a stable loop.
 double controlled_amplitude(const Case& the_case, double frequency) {
-  const double omega = 2.0 * pi<double> * frequency;
-  const Sampling<double> sampling = sampling_of(the_case);
-  if (!(omega * sampling.period < pi<double>)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(2.0 * frequency * the_case.control.sampling_period < 1.0))
+    return std::numeric_limits<double>::quiet_NaN();
   return excitation_of(the_case).amplitude *
-         steady_response_of(the_case, sampling, force_hold_of(the_case), omega)
-             .amplitude_per_force(gains_of(the_case));
+         LinearLoop(the_case).response(frequency).amplitude_per_force(gains_of(the_case));
 }
 
 }  // namespace

@@ -114,7 +114,6 @@ SweepPlan::SweepPlan(const JobContext& context, const SweepOptions& options)
       layout_{sweep_axes(options.axes), {}} {
   for (const SweepMetric metric : metrics_) layout_.columns.push_back(metric_column(metric));
   require_room_for_best_gain(options_, layout_.axes);
-  refuse_on_modes(context_.case_data, options_.best_gain, "--best-gain");
   for (const GridAxis& axis : layout_.axes)
     require_in_force(context_.case_data, *find_case_key(axis.column.name));
   shaping_axes_ = axes_shaping_plant(context_.case_data, layout_.axes);

@@ -1,4 +1,5 @@
 #include "cli/program.hpp"
+#include "holdfast/core/types.hpp"
 #include "io/text/csv.hpp"
 #include "support/testing.hpp"
 
@@ -148,7 +149,7 @@ TEST(DesignJob, OneGainServesABand) {
 
 TEST(DesignJob, BothGainsAreBetterThanDAlone) {
   const std::string settings = " --set control.sampling_period=0.01 --set backlash.width=0";
-  const CsvTable pair = table_of("design --both-gains" + settings);
+  const CsvTable pair = table_of("design --least-radius" + settings);
   const CsvTable alone = table_of("design" + settings);
   const double radius = pair.number(0, "spectral_radius");
   EXPECT_LT(radius, alone.number(0, "least_radius"));
@@ -156,6 +157,13 @@ TEST(DesignJob, BothGainsAreBetterThanDAlone) {
                              pair.number(0, "differential_gain"), settings),
               radius, 1e-3)
       << "the cell's gains are rounded to six decimals";
+  // Of the modulus margin that D alone has, 2 sin(half its phase margin) or less.
+  const double margin =
+      2.0 * std::sin(0.5 * alone.number(0, "phase_margin_deg") * pi<double> / 180);
+  std::ostringstream question;
+  question << "design --quiet --both-gains --margin " << margin << settings;
+  const CsvTable quiet = table_of(question.str());
+  EXPECT_LT(quiet.number(0, "ratio_to_uncontrolled"), alone.number(0, "ratio_to_uncontrolled"));
 }
 
 /// On a conductor both gains keep a modulus margin: of 0.5, 6 dB and 29 degrees. Less of it leaves
@@ -207,10 +215,10 @@ TEST(DesignJob, EndsForEnormousGains) {
 
 TEST(DesignJob, RefusesWhatDoesNotGoTogether) {
   for (const std::string arguments :
-       {"--band 9:11 --frequency 9:11:2", "--both-gains --band 9:11", "--both-gains --margin 0.5",
-        "--both-gains --frequency 9:11:2", "--band 0:5", "--band 11:9", "--band 9",
-        "--largest-radius 0", "--largest-radius nan", "--largest-radius 1.1", "--margin 1",
-        "--margin -0.1", "--band 10:5000"}) {
+       {"--band 9:11 --frequency 9:11:2", "--both-gains --band 9:11", "--least-radius --margin 0.5",
+        "--least-radius --frequency 9:11:2", "--least-radius --both-gains", "--band 0:5",
+        "--band 11:9", "--band 9", "--largest-radius 0", "--largest-radius nan",
+        "--largest-radius 1.1", "--margin 1", "--margin -0.1", "--band 10:5000"}) {
     const Outcome outcome = run_holdfast("design " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.error_lines(), 1U) << arguments << '\n' << outcome.errors;

@@ -31,7 +31,8 @@ TEST(Jobs, ColumnsAreThoseOtherProgramsRead) {
             "frequency_min_Hz,frequency_max_Hz,proportional_gain,differential_gain,worst_ratio,"
             "worst_frequency_Hz,attenuation_dB,lower_bound,"
             "spectral_radius,gain_margin_dB,phase_margin_deg,delay_margin_s");
-  EXPECT_EQ(header_of("design --both-gains"),
+  EXPECT_EQ(header_of("design --both-gains"), header_of("design"));
+  EXPECT_EQ(header_of("design --least-radius"),
             "proportional_gain,differential_gain,spectral_radius,lower_bound,"
             "gain_margin_dB,phase_margin_deg,delay_margin_s");
   EXPECT_EQ(header_of("margins"),

@@ -14,20 +14,22 @@
 
 namespace holdfast {
 
-/// What makes the readings and the force of a loop late beside its computer: a measurement filter
-/// of first order and a drive that follows its command with a lag,
+/// What stands between plant and computer: a measurement filter of first order, a drive that
+/// follows its command with a lag, and whether there is a sensor of the velocity,
 ///
 ///     F(s) = ω_f/(s + ω_f),   D(s) = ω_d/(s + ω_d)  or  ω_d²/(s² + 2 ζ_d ω_d s + ω_d²)
 ///
-/// The computer reads F z and its rate; the conductor and the absorber feel D u.
+/// The computer reads ẑ = F z and its rate, or has (ẑ_j − ẑ_{j−1})/τ in place of that; the
+/// conductor and the absorber feel D u.
 struct LoopHardware {
   static constexpr double ideal = std::numeric_limits<double>::infinity();  ///< without a lag
 
   double measurement_filter = ideal;  ///< ω_f/2π (Hz), > 0
   double drive_bandwidth = ideal;     ///< ω_d/2π (Hz), > 0
   double drive_damping = ideal;       ///< ζ_d, > 0; infinity: a lag of first order
+  bool has_velocity_sensor = true;    ///< else D multiplies a backward difference of readings
 
-  /// Whether neither of them is there.
+  /// Whether neither filter nor lag is there.
   bool is_ideal() const { return measurement_filter == ideal && drive_bandwidth == ideal; }
 };
 
@@ -42,7 +44,8 @@ inline void validate(const LoopHardware& hardware) {
   require("drive damping", hardware.drive_damping, "");
 }
 
-/// The plant behind such hardware, as `with_drive_lag` and `with_measurement_filter` have it.
+/// The plant behind such filter and drive, as `with_drive_lag` and `with_measurement_filter` have
+/// it.
 /// @param plant     with an ideal drive
 /// @param hardware  up to three states more
 /// @throws InvalidParameter where the hardware is not admissible

@@ -28,7 +28,9 @@ inline std::complex<double> matched_impedance(const TautString<double>& string, 
 /// The gains with which the absorber under its computer absorbs a wave of one frequency whole:
 ///
 ///     Z_eff = (Z* − (M_c s² + K_p)/s)/T_a,   s = iω
-///     D = −Re(Z_eff/Λ),   P = ω Im(Z_eff/Λ),  Λ = F D e^{−s(δ + τ/2)} sinc(ωτ/2)
+///     −(D d + P/s) Λ = Z_eff,   Λ = F D e^{−s(δ + τ/2)} sinc(ωτ/2)
+///
+/// d being 1, or (1 − e^{−sτ})/(sτ) of a velocity by difference: two real equations.
 ///
 /// Whether the loop is stable with them, at all other frequencies, is another question.
 /// @param string             tension and mass
@@ -42,11 +44,12 @@ inline PdGains<double> perfect_absorption(const TautString<double>& string, doub
   const std::complex<double> wanted = (matched_impedance(string, distance, angular_frequency) -
                                        detail::passive_stiffness(device.absorber, s) / s) /
                                       detail::transmitted_share(device.absorber, s);
-  // Of D alone the drive has −Λ, of P alone −Λ/s.
-  const std::complex<double> late =
-      -drive_impedance(device.sampling, {0.0, 1.0}, device.hardware, s);
-  const std::complex<double> law = wanted / late;
-  return {angular_frequency * law.imag(), -law.real()};
+  const std::complex<double> by_p =
+      drive_impedance(device.sampling, {1.0, 0.0}, device.hardware, s);
+  const std::complex<double> by_d =
+      drive_impedance(device.sampling, {0.0, 1.0}, device.hardware, s);
+  const double area = (std::conj(by_p) * by_d).imag();
+  return {(std::conj(wanted) * by_d).imag() / area, (std::conj(by_p) * wanted).imag() / area};
 }
 
 }  // namespace holdfast

@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/needed.hpp"
-#include "holdfast/control/loop_map.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "io/text/text.hpp"
 
@@ -114,9 +113,7 @@ std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case) 
 }
 
 double spectral_radius_of(const Case& the_case) {
-  const PdGains<double> gains = gains_of(the_case);
-  if (!is_modal(the_case)) return spectral_radius(loop_of(the_case).engaged_map(gains));
-  return ModalRadius(the_case)(gains);
+  return LinearLoop(the_case).radius(gains_of(the_case));
 }
 
 double divergence_bound(const Case& the_case, double kick) {

@@ -9,13 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/control/loop_map.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/chart/circle_chart.hpp"
 #include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
 #include "jobs/charts/row_blocks.hpp"
 #include "jobs/columns.hpp"
@@ -179,26 +177,21 @@ ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet inst
   return {chart.slow.values.count, chart.fast.values.count, radius ? 1U : 0U, fill};
 }
 
-ChartRows modal_chart(const Case& the_case, const GainGrid& grid, bool radius) {
-  const auto circle = std::make_shared<const ResolvedCircle<double>>(circle_of(the_case));
-  std::optional<ModalRadius> largest_modulus;
-  if (radius) largest_modulus.emplace(the_case);
+ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
+                             InstructionSet instructions) {
+  if (has_closed_forms(the_case))
+    return sampled_chart(chart_over_gains(the_case, grid), radius, instructions);
+  const LinearLoop loop(the_case);
+  const auto stable = loop.stable_rows(grid.differential);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
-                        const ChartMemory& memory) mutable {
+                        const ChartMemory& memory) {
     for (std::int64_t row = 0; row < count; ++row) {
-      fill_stability_row(*circle, grid.proportional.at(first + row), grid.differential,
-                         memory.flags(offset + row));
+      stable(grid.proportional.at(first + row), memory.flags(offset + row));
       for (std::int64_t j = 0; radius && j < grid.differential.count && !interrupted(); ++j)
-        memory.numbers(0, offset + row)[j] = (*largest_modulus)(grid.at(first + row, j));
+        memory.numbers(0, offset + row)[j] = loop.radius(grid.at(first + row, j));
     }
   };
   return {grid.proportional.count, grid.differential.count, radius ? 1U : 0U, fill};
-}
-
-ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
-                             InstructionSet instructions) {
-  if (is_modal(the_case)) return modal_chart(the_case, grid, radius);
-  return sampled_chart(chart_over_gains(the_case, grid), radius, instructions);
 }
 
 ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, bool abscissa) {
@@ -219,26 +212,9 @@ ChartRows continuous_chart(const TwoMass<double>& plant, const GainGrid& grid, b
   return {grid.proportional.count, grid.differential.count, abscissa ? 1U : 0U, fill};
 }
 
-namespace {
-
-/// The flags of the stable cells of a row, on either kind of plant.
-std::function<void(double, std::uint8_t*)> stable_rows(const Case& the_case, const GainGrid& grid) {
-  if (is_modal(the_case)) {
-    const auto circle = std::make_shared<const ResolvedCircle<double>>(circle_of(the_case));
-    return [=](double p, std::uint8_t* flags) {
-      fill_stability_row(*circle, p, grid.differential, flags);
-    };
-  }
-  StabilityRows<5> rows(in_half_plane(characteristic_polynomial(loop_of(the_case))),
-                        grid.differential);
-  return [=](double p, std::uint8_t* flags) mutable { rows.fill(p, flags); };
-}
-
-}  // namespace
-
 ChartRows response_chart(const JobContext& context, const SteadyResponse<double>& response,
                          double force_amplitude, const GainGrid& grid) {
-  const auto stable = stable_rows(context.case_data, grid);
+  const auto stable = LinearLoop(context.case_data).stable_rows(grid.differential);
   const auto fill = [=](std::int64_t first, std::int64_t count, std::int64_t offset,
                         const ChartMemory& memory) {
     for (std::int64_t row = 0; row < count; ++row) {

@@ -55,15 +55,12 @@ void write_chart(const JobContext& context, const GridLayout& layout, const Char
 /// Interrupted, InvalidParameter.
 void fill_chart(const ChartRows& chart, const ChartMemory& memory, int threads);
 
-// The charts; one of a modal case holds on to the case.
+// The charts; one of a case holds on to it.
 
 /// Columns: stable and, with `radius`, the spectral radius of the sampled loop.
 ChartRows sampled_chart(const LoopChart& chart, bool radius, InstructionSet instructions);
 
-/// The same of a modal case.
-ChartRows modal_chart(const Case& the_case, const GainGrid& grid, bool radius);
-
-/// The same over P and D of either kind.
+/// The same over P and D of the loop of a case, whichever it is.
 ChartRows stability_chart_of(const Case& the_case, const GainGrid& grid, bool radius,
                              InstructionSet instructions);
 

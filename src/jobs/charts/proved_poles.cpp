@@ -1,12 +1,9 @@
 #include "jobs/charts/proved_poles.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <string>
 
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
-#include "case/model/own/own_parts.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "process/errors.hpp"
 
@@ -23,24 +20,13 @@ bool all_decay(const std::vector<EnclosedPole>& poles) {
                      [](const EnclosedPole& pole) { return pole.s.real().is_negative(); });
 }
 
-std::optional<std::string> why_not_proved(const Case& the_case) {
-  if (the_case.own != nullptr)
-    return "--prove is of the gains P and D, without a controller of one's own";
-  if (!has_ideal_computer(the_case))
-    return "--prove is of an ideal computer: leave control.velocity at \"measured\", and quanta, "
-           "largest force and jitter at 0";
-  if (is_infinite(the_case)) return "--prove: a string without ends drifts, which no gain damps";
-  if (!the_case.devices.empty())
-    return "--prove is of a conductor with the absorber alone, without [[devices]]";
-  return std::nullopt;
+/// As texts/support.toml has it of --prove.
+bool is_provable(const Case& the_case) {
+  return the_case.own == nullptr && has_ideal_computer(the_case) && !is_infinite(the_case) &&
+         the_case.devices.empty();
 }
 
 }  // namespace
-
-void refuse_to_prove(const Case& the_case) {
-  refuse_for_own_plant(the_case, true, "--prove");
-  if (const auto reason = why_not_proved(the_case)) throw WrongInput(*reason);
-}
 
 std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
   std::vector<EnclosedPole> poles = possible_poles_of(the_case);
@@ -56,7 +42,7 @@ std::vector<EnclosedPole> proved_poles_of(const Case& the_case) {
 }
 
 std::vector<EnclosedPole> poles_if_proved(const Case& the_case) {
-  if (why_not_proved(the_case)) return {};
+  if (!is_provable(the_case)) return {};
   std::vector<EnclosedPole> poles = possible_poles_of(the_case);
   return all_decay(poles) ? poles : std::vector<EnclosedPole>{};
 }

@@ -7,10 +7,6 @@
 
 namespace holdfast::program {
 
-/// Refuses a loop that is not the law u = P z + D ż of a measured velocity on two masses or on a
-/// conductor by its modes: of these proofs of stability are. Throws WrongInput.
-void refuse_to_prove(const Case& the_case);
-
 /// The poles of a case's plant, of two masses or of a conductor by its modes, each proved to
 /// decay. Throws NoAnswer where they are not apart or one may lie on the boundary.
 std::vector<EnclosedPole> proved_poles_of(const Case& the_case);

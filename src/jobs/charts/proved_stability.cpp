@@ -1,6 +1,6 @@
 #include "jobs/charts/proved_stability.hpp"
 
-#include "case/model/loop_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/chart/proved_modal_chart.hpp"
@@ -29,8 +29,7 @@ ProvedChart modal_chart_of(const Case& the_case, const GainGrid& grid, double un
 
 ProvedChart proved_stability_of(const Case& the_case, const GainGrid& grid, bool continuous,
                                 double undecided) {
-  refuse_to_prove(the_case);
-  if (is_modal(the_case)) return modal_chart_of(the_case, grid, undecided);
+  if (!has_closed_forms(the_case)) return modal_chart_of(the_case, grid, undecided);
   const TwoMass<double> plant = plant_of(the_case);
   if (continuous) return chart_by(gain_box_proof(plant), grid, undecided);
   return chart_by(gain_box_proof(plant, sampling_of(the_case)), grid, undecided);

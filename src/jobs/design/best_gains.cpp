@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "case/case_keys.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/stability/design/modal_design.hpp"
-#include "holdfast/stability/design/modal_max_delay.hpp"
 #include "holdfast/sweep/sweep_motion.hpp"
 #include "io/text/text.hpp"
 #include "jobs/design/gain_margins.hpp"
@@ -31,44 +30,19 @@ bool have_one_answer(const IdealLoop<double>& one, const IdealLoop<double>& othe
 
 AmplitudeOptions settling_within(double duration, const Sampling<double>& sampling,
                                  ForceHold hold) {
-  return {sampling, hold, std::exp(-10.0 * sampling.period / duration), usual_margin, true};
+  return {sampling, hold, std::exp(-10.0 * sampling.period / duration), usual_margin, true, true};
 }
 
 }  // namespace
 
-BestForPlant::BestForPlant(const Case& the_case, const AmplitudeOptions& options)
-    : case_(the_case), options_(options) {
-  if (is_modal(the_case)) {
-    modal_.emplace(modal_response(loop_poles_of(the_case), options.sampling));
-  } else {
-    loop_.emplace(sampled_loop(plant_of(the_case), options.sampling));
-  }
-}
-
-MinimumAmplitude BestForPlant::quietest(double frequency, double p) const {
-  if (loop_) return minimum_amplitude(plant_of(case_), options_, frequency, p);
-  return minimum_amplitude(*modal_, options_, frequency, p, modal_steady_response(frequency));
-}
-
-MinimumAmplitudeGains BestForPlant::quietest_pair(double frequency) const {
-  const auto& plant = case_.plant;
-  const double omega = 2.0 * pi<double> * frequency;
-  const double tuned =
-      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
-  const double stiffness = plant.absorber_stiffness + plant.absorber_mass * omega * omega;
-  return minimum_amplitude_gains(*modal_, options_, frequency,
-                                 {tuned - stiffness, tuned + stiffness},
-                                 modal_steady_response(frequency));
-}
-
-SteadyResponse<double> BestForPlant::modal_steady_response(double frequency) const {
-  const double omega = 2.0 * pi<double> * frequency;
-  return steady_response_of(case_, options_.sampling, options_.hold, omega)
-      .relative_to(true_amplitude_of(case_, omega));
-}
-
-MinimumRadius BestForPlant::fastest(double p) const {
-  return loop_ ? minimum_radius(*loop_, p) : minimum_radius(*modal_, p);
+AmplitudeOptions amplitude_options_of(const Case& the_case, std::optional<double> largest_radius,
+                                      std::optional<double> margin) {
+  return {sampling_of(the_case),
+          force_hold_of(the_case),
+          largest_radius.value_or(1.0),
+          margin.value_or(largest_radius ? 0.0 : usual_margin),
+          true,
+          is_two_masses(the_case)};
 }
 
 const MinimumAmplitude& BestGains::of(const IdealLoop<double>& loop) {
@@ -82,11 +56,12 @@ const MinimumAmplitude& BestGains::of(const IdealLoop<double>& loop) {
 }
 
 MinimumAmplitude BestGains::of(const Case& the_case) const {
-  AmplitudeOptions options =
-      settling_within(duration_, sampling_of(the_case), force_hold_of(the_case));
-  if (is_modal(the_case)) options.largest_radius = 1.0;
-  return BestForPlant(the_case, options)
-      .quietest(excitation_of(the_case).frequency, gains_of(the_case).proportional);
+  const AmplitudeOptions options =
+      is_two_masses(the_case)
+          ? settling_within(duration_, sampling_of(the_case), force_hold_of(the_case))
+          : amplitude_options_of(the_case);
+  return LinearLoop(the_case).quietest(options, excitation_of(the_case).frequency,
+                                       gains_of(the_case).proportional);
 }
 
 std::string play_warning(const Case& the_case, const PdGains<double>& gains, double ideal,
@@ -107,11 +82,6 @@ std::string play_warning(const Case& the_case, const PdGains<double>& gains, dou
          format_rounded(ideal) + " of the vibration, with the case's play of " +
          format_rounded(backlash.width) + " m " + format_rounded(left) + " in a motion of " +
          format_rounded(duration) + " s";
-}
-
-MaxDelay longest_period_of(const Case& the_case, const MaxDelayOptions& question) {
-  if (!is_modal(the_case)) return max_sampling_period(plant_of(the_case), question);
-  return modal_max_sampling_period(conductor_with_absorber_of(the_case), question);
 }
 
 MaxDelayOptions tuned_delay_question(const Case& the_case, double frequency) {

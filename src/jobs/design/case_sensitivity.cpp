@@ -6,10 +6,9 @@
 #include <limits>
 
 #include "case/case_keys.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "jobs/design/best_gains.hpp"
-#include "jobs/design/gain_margins.hpp"
 #include "process/errors.hpp"
 #include "process/interrupt.hpp"
 
@@ -22,58 +21,75 @@ struct Answered {
   const char* name;
   const char* unit;
 };
-constexpr std::array<Answered, 7> answered = {{{"spectral_radius", ""},
+constexpr std::array<Answered, 9> answered = {{{"spectral_radius", ""},
                                                {"stable_differential_gain_min", "N.s/m"},
                                                {"stable_differential_gain_max", "N.s/m"},
                                                {"least_radius", ""},
                                                {"least_radius_gain", "N.s/m"},
                                                {"least_amplitude_ratio", ""},
-                                               {"least_amplitude_gain", "N.s/m"}}};
+                                               {"least_amplitude_gain", "N.s/m"},
+                                               {"max_stable_period", "s"},
+                                               {"max_attenuating_period", "s"}}};
 using AnswerValues = std::array<double, answered.size()>;
+
+/// At the case's P; its δ/τ is kept.
+double longest_period(const Case& the_case, const LinearLoop& loop, DelayCriterion criterion) {
+  MaxDelayOptions question = tuned_delay_question(the_case, excitation_of(the_case).frequency);
+  question.proportional_gain = gains_of(the_case).proportional;
+  question.criterion = criterion;
+  const MaxDelay longest = loop.longest_period(question);
+  return longest.outcome == MaxDelayOutcome::found ? longest.sampling_period : unknown;
+}
 
 AnswerValues answers_of(const Case& the_case) {
   throw_if_interrupted();
   const PdGains<double> gains = gains_of(the_case);
+  const LinearLoop loop(the_case);
   AnswerValues values;
   values.fill(unknown);
-  values[0] = ModalRadius(the_case)(gains);
-  for (const auto& interval : circle_of(the_case).stable_gains(FreeGain::differential, gains))
+  values[0] = loop.radius(gains);
+  for (const auto& interval : loop.stable_gains(FreeGain::differential, gains))
     if (interval.contains(gains.differential)) {
       values[1] = interval.lower;
       values[2] = interval.upper;
     }
-  const AmplitudeOptions options{sampling_of(the_case), force_hold_of(the_case), 1.0, usual_margin,
-                                 true};
-  const BestForPlant best(the_case, options);
-  const MinimumRadius fastest = best.fastest(gains.proportional);
+  const MinimumRadius fastest = loop.fastest(gains.proportional);
   values[3] = fastest.radius;
   values[4] = fastest.differential_gain;
-  const MinimumAmplitude quietest =
-      best.quietest(excitation_of(the_case).frequency, gains.proportional);
+  const MinimumAmplitude quietest = loop.quietest(
+      amplitude_options_of(the_case), excitation_of(the_case).frequency, gains.proportional);
   values[5] = quietest.ratio_to_uncontrolled;
   values[6] = quietest.differential_gain;
+  if (loop.walks()) return values;
+  values[7] = longest_period(the_case, loop, DelayCriterion::stable);
+  values[8] = longest_period(the_case, loop, DelayCriterion::attenuates);
   return values;
 }
 
-/// The keys that the plant and the loop of a modal case depend on.
+/// The keys that the plant and the loop of a case depend on.
 std::vector<std::string> keys_of(const Case& the_case) {
-  std::vector<std::string> keys = {"control.proportional_gain", "control.differential_gain",
-                                   "control.sampling_period",   "control.processing_delay",
-                                   "plant.absorber_mass",       "plant.absorber_stiffness",
-                                   "plant.absorber_damping"};
+  const bool own = has_own_plant(the_case), masses = is_two_masses(the_case);
+  const bool conductor = !own && !masses, endless = is_infinite(the_case);
+  const bool tight = std::isfinite(the_case.conductor.tension);
+  std::vector<std::string> keys;
   const auto add = [&](bool counts, const char* key) {
     if (counts) keys.emplace_back(key);
   };
-  const bool masses = is_two_masses(the_case), endless = is_infinite(the_case);
-  const bool tight = std::isfinite(the_case.conductor.tension);
   add(masses, "plant.conductor_mass");
   add(masses, "plant.conductor_stiffness");
   add(masses, "plant.conductor_damping");
-  add(!masses, "absorber.clamp_mass");
-  add(!masses && !endless, "absorber.position");
-  add(!masses, "conductor.mass_per_length");
-  add(!masses, tight ? "conductor.tension" : "conductor.sag");
-  add(!masses && !endless, "conductor.damping_ratio");
+  add(!own, "plant.absorber_mass");
+  add(!own, "plant.absorber_stiffness");
+  add(!own, "plant.absorber_damping");
+  add(conductor, "absorber.clamp_mass");
+  add(conductor && !endless, "absorber.position");
+  add(conductor, "conductor.mass_per_length");
+  add(conductor, tight ? "conductor.tension" : "conductor.sag");
+  add(conductor && !endless, "conductor.damping_ratio");
+  add(true, "control.sampling_period");
+  add(true, "control.processing_delay");
+  add(true, "control.proportional_gain");
+  add(true, "control.differential_gain");
   add(std::isfinite(the_case.control.measurement_filter), "control.measurement_filter");
   add(std::isfinite(the_case.control.drive_bandwidth), "control.drive_bandwidth");
   add(std::isfinite(the_case.control.drive_bandwidth) &&
@@ -110,17 +126,22 @@ double unit_of(const Case& the_case, const std::string& key) {
 AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerValues& here,
                     bool follows) {
   constexpr double step = 1e-4, agreement = 0.01;
+  AnswerValues result;
+  if (follows && key == "control.proportional_gain") {
+    result.fill(0.0);
+    return result;
+  }
   const double value = case_value(the_case, key);
   double by = step * (value != 0.0 ? std::abs(value) : unit_of(the_case, key));
   const auto is_there = [&](double share) {
     try {
-      return is_modal(moved(the_case, key, value + share * by, follows));
+      const Case there = moved(the_case, key, value + share * by, follows);
+      return has_closed_forms(there) == has_closed_forms(the_case);
     } catch (const WrongInput&) {
       return false;
     }
   };
   const bool above = is_there(1.0), below = is_there(-1.0), one_sided = !(above && below);
-  AnswerValues result;
   result.fill(unknown);
   if (!above && !below) return result;
   if (!above) by = -by;
@@ -145,7 +166,6 @@ AnswerValues slopes(const Case& the_case, const std::string& key, const AnswerVa
 }  // namespace
 
 std::vector<CaseSensitivity> case_sensitivities(const Case& the_case, bool tuned) {
-  require_natural_motions(the_case);
   const AnswerValues here = answers_of(the_case);
   std::vector<CaseSensitivity> all;
   all.reserve(here.size());

@@ -13,15 +13,16 @@ struct KeySensitivity {
   double derivative;  ///< ∂answer/∂key, in their units; NaN: the answer has a corner there
 };
 
-/// One answer of a modal case, and how it moves.
+/// One answer, and how it moves.
 struct CaseSensitivity {
   std::string name, unit;
   double value;
   std::vector<KeySensitivity> keys;
 };
 
-/// How the answers of a modal case move with its keys: spectral radius, ends of the stable interval
-/// of D about its own, D of least radius, D of least amplitude with the usual margin.
+/// How the answers of a case move with its keys: spectral radius, ends of the stable interval of D
+/// about its own, D of least radius, D of least amplitude as `design` recommends it, and the
+/// largest sampling periods where these are not walked to.
 ///
 /// By differences of two steps, a part in 10⁴ and half of it, extrapolated (Richardson): of five
 /// digits and more, and NaN where the two disagree by more than a hundredth. Where a

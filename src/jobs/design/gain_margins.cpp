@@ -5,7 +5,6 @@
 
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/stability/margins/loop_margins.hpp"
 #include "holdfast/stability/margins/modal_margins.hpp"
 #include "jobs/charts/proved_poles.hpp"
 #include "process/errors.hpp"
@@ -61,30 +60,20 @@ bool look_everywhere(StabilityMargins& found, const Case& the_case, const PdGain
 
 }  // namespace
 
-GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains) {
+GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(gains.proportional) || !std::isfinite(gains.differential))
     return {none, none, none, none, false};
-  const Sampling<double> sampling = sampling_of(the_case);
-  const LoopMargins margins = is_modal(the_case)
-                                  ? modal_loop_margins(loop_poles_of(the_case), sampling, gains)
-                                  : loop_margins(plant_of(the_case), sampling, gains);
+  const LoopMargins margins = loop.whole_margins(gains);
   return {1.0 - margins.unit_circle, 20.0 * std::log10(margins.largest_factor),
           margins.phase * 180.0 / pi<double>, margins.delay.distance,
           margins.delay.outcome == MarginEndOutcome::beyond_search};
 }
 
-StabilityMargins walked_margins_of(const Case& the_case, const PdGains<double>& gains) {
-  const Sampling<double> sampling = sampling_of(the_case);
-  if (!is_modal(the_case)) return stability_margins(plant_of(the_case), sampling, gains);
-  MarginSearch search;
-  search.longest_period_ratio = 100.0;
-  return modal_stability_margins(loop_poles_of(the_case), sampling, gains, search);
-}
-
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains) {
-  StabilityMargins margins = walked_margins_of(the_case, gains);
-  const bool everywhere = !is_modal(the_case) || look_everywhere(margins, the_case, gains);
+  const LinearLoop loop(the_case);
+  StabilityMargins margins = loop.margins(gains);
+  const bool everywhere = !loop.walks() || look_everywhere(margins, the_case, gains);
   return {margins, everywhere};
 }
 
@@ -94,7 +83,7 @@ ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gai
                                               gains, found, {}, [] { throw_if_interrupted(); });
   if (proved.stability != ProvedStability::stable)
     throw NoAnswer("the loop is too near the boundary of stability to be proved stable");
-  if (is_modal(the_case)) put_right(found, proved, the_case, gains);
+  if (LinearLoop(the_case).walks()) put_right(found, proved, the_case, gains);
   return proved;
 }
 

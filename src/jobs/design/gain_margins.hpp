@@ -1,6 +1,6 @@
 #pragma once
 
-#include "case/case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/stability/margins/margins.hpp"
 #include "holdfast/stability/margins/proved_margins.hpp"
@@ -22,24 +22,21 @@ struct GainMargins {
 };
 
 /// @param gains  not finite: all is NaN
-GainMargins gain_margins(const Case& the_case, const PdGains<double>& gains);
+GainMargins gain_margins(const LinearLoop& loop, const PdGains<double>& gains);
 
 /// How far P, D, τ and δ of a case may go.
 struct CaseMargins {
   StabilityMargins margins;
-  /// Whether no instability between the value and the ends of τ and δ can have been passed over: of
-  /// a modal case these are walked in steps, which is then proved where that takes no longer than a
-  /// second or so.
+  /// Whether no instability between the value and the ends of τ and δ can have been passed over:
+  /// where these are walked in steps, that is then proved if it takes no longer than a second or
+  /// so.
   bool looked_everywhere;
 };
 
-/// As far as doubles find them; of a modal case the periods are walked, up to a hundred of its own.
-StabilityMargins walked_margins_of(const Case& the_case, const PdGains<double>& gains);
-
-/// The same, looked at everywhere where that is soon done.
+/// As far as doubles find them, looked at everywhere where that is soon done.
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
-/// The same as theorems, of a case that refuse_to_prove() takes. Throws what proved_poles_of does,
+/// The same as theorems, of a case of which it may be asked (texts/support.toml). Throws what proved_poles_of does,
 /// Interrupted, and NoAnswer where the loop is not proved to be stable.
 /// @param found  how far to look; its ends of τ and δ that the walk has passed over are put right
 ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,

@@ -112,13 +112,6 @@ double CaseMotion::time() const { return model_->time(); }
 CaseMotion::State CaseMotion::state() const { return model_->state(); }
 const SwitchCounts& CaseMotion::counts() const { return model_->counts(); }
 
-void require_displaceable(const Case& the_case, Switching switching, const std::string& option) {
-  if (!is_modal(the_case) || is_of_the_paper(the_case, switching)) return;
-  throw WrongInput(option + " goes with " + modal_words(the_case) +
-                   " in the paper's model alone: switching at samples, its law of the backlash, "
-                   "one harmonic, an ideal computer and drive");
-}
-
 namespace {
 
 void require_resolved(const SwitchCounts& counts, double time, bool quiet) {

@@ -49,10 +49,6 @@ class CaseMotion {
   std::unique_ptr<Model> model_;
 };
 
-/// Throws WrongInput where the conductor itself is to be displaced in its motion and the motion is
-/// not of the paper's model, of which alone a kick has a shape.
-void require_displaceable(const Case& the_case, Switching switching, const std::string& option);
-
 /// Where a motion has come to.
 struct MotionEnd {
   double time;          ///< s

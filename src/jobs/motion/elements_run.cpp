@@ -61,10 +61,6 @@ Eigen::VectorXd start_of(const Case& the_case, const CableElements& cable) {
 }
 
 void require_of_elements(const Case& the_case) {
-  if (!is_of_the_paper(the_case, Switching::sampled))
-    throw WrongInput(
-        "--plant elements goes with the paper's model of computer and belt alone: switching at "
-        "samples, its law of the backlash, one harmonic, an ideal computer");
   if (the_case.conductor.damping == "ratio")
     throw WrongInput(
         "--plant elements is damped by Rayleigh, not as conductor.damping = \"ratio\"");

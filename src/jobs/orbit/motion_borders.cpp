@@ -184,10 +184,6 @@ void write_motion_borders(const JobContext& context, const std::vector<std::stri
   if (is_of_the_paper(the_case, switching))
     return write_borders_of(context, keys, largest_period,
                             [](const Case& there) { return ideal_loop_of(there); });
-  if (switching == Switching::sampled)
-    throw WrongInput(
-        "--map goes with the paper's backlash, one harmonic and an ideal computer, or with "
-        "--switching exact");
   write_borders_of(context, keys, largest_period,
                    [&](const Case& there) { return implemented_loop_of(there, switching); });
 }

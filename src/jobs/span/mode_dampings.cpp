@@ -57,7 +57,8 @@ class LoopRoots {
       : gains_(gains_of(the_case)),
         period_(the_case.control.sampling_period),
         poles_(loop_poles_of(the_case)),
-        response_(modal_response(poles_, sampling_of(the_case))) {}
+        response_(modal_response(poles_, sampling_of(the_case))
+                      .with_sensor(hardware_of(the_case).has_velocity_sensor)) {}
 
   std::complex<double> from(const std::complex<double>& root) const {
     const auto nearest =
@@ -107,17 +108,15 @@ double ModeRow::damping() const { return -root.real() / std::abs(root); }
 std::vector<ModeRow> mode_rows_of(const Case& the_case, int count, bool controlled) {
   if (!the_case.devices.empty() || (the_case.stands_alone && !has_absorber(the_case)))
     return rows_of_span(the_case, count, controlled);
-  if (is_two_masses(the_case) || is_infinite(the_case))
-    throw WrongInput(
-        std::string("modal-damping is of the conductor's modes, and the case's plant ") +
-        (is_infinite(the_case) ? "has none" : "is two masses") + ": add --set plant.model=cable");
   return rows_of_plant(the_case, count, controlled);
 }
 
 std::string growth_text(const Case& the_case, const std::vector<ModeRow>& modes) {
   const bool is_judged = !the_case.devices.empty() || has_chosen_modes(the_case);
-  const int outside = (is_judged ? judged_loop_of(the_case).circle : circle_of(the_case))
-                          .roots_outside(gains_of(the_case));
+  const ResolvedCircle<double> circle =
+      is_judged ? judged_loop_of(the_case).circle
+                : ResolvedCircle<double>(command_response_of(the_case));
+  const int outside = circle.roots_outside(gains_of(the_case));
   int growing = 0;
   std::string names;
   for (std::size_t n = 0; n < modes.size(); ++n) {

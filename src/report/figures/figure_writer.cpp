@@ -62,10 +62,14 @@ void FigureWriter::write_table(const TableRequest& table) const {
 }
 
 ReportFolders::ReportFolders(const fs::path& folder) {
-  for (const fs::path& made : {folder, folder / "data", folder / "pictures"}) {
-    std::error_code failure;
-    if (fs::create_directories(made, failure)) made_.push_back(made);
-    if (failure) throw WrongInput("--output " + folder.string() + ": " + failure.message());
+  for (const fs::path& wanted : {folder / "data", folder / "pictures"}) {
+    fs::path made;
+    for (const fs::path& part : fs::absolute(wanted)) {
+      made /= part;
+      std::error_code failure;
+      if (fs::create_directory(made, failure)) made_.push_back(made);
+      if (failure) throw WrongInput("--output " + folder.string() + ": " + failure.message());
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "case/model/cable_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/interval.hpp"
 #include "holdfast/math/signal/decay_measures.hpp"
@@ -204,7 +205,7 @@ std::vector<Figure> figures_of_loop(const Case& the_case) {
   Values values = window_of_gains(the_case);
   values.emplace_back("greatest frequency", greatest_frequency(the_case));
   // On a conductor each period is walked to, with all roots at every step.
-  values.emplace_back("count of periods", is_modal(the_case) ? "20" : "115");
+  values.emplace_back("count of periods", has_closed_forms(the_case) ? "115" : "20");
   return listed_figures("loop", values);
 }
 
@@ -268,7 +269,8 @@ std::vector<Figure> figures_of(const Case& the_case, bool builtin) {
                   success_figures(the_case, true));
   if (is_two_masses(the_case)) {
     // The maps choose the D of two masses under an ideal drive for every cell.
-    const auto maps = is_modal(the_case) ? std::vector<Figure>{} : success_figures(the_case, false);
+    const auto maps =
+        has_closed_forms(the_case) ? success_figures(the_case, false) : std::vector<Figure>{};
     return joined(joined(figures_of_cable(the_case), figures_of_loop(the_case)), maps);
   }
   if (is_infinite(the_case)) return figures_of_loop(the_case);

@@ -7,6 +7,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/held_force.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/plausibility/doubts.hpp"
 #include "holdfast/control/gains.hpp"
@@ -157,7 +158,7 @@ std::string margins_text(const Case& the_case, const PdGains<double>& gains) {
 
 /// "; gain margin 9 dB, phase margin 15°, delay margin more than 10 ms, spectral radius 0.999".
 std::string gain_margins_text(const Case& the_case, const PdGains<double>& gains) {
-  const GainMargins margins = gain_margins(the_case, gains);
+  const GainMargins margins = gain_margins(LinearLoop(the_case), gains);
   const auto number = [](double value, const char* unit) {
     return std::isfinite(value) ? rounded(value, 3) + unit : std::string("without end");
   };
@@ -210,7 +211,7 @@ Answer which_gain(const Question& question) {
                          {"ratio", percent(best.ratio_to_uncontrolled)},
                          {"radius", format_number(largest_radius)},
                          {"margin", format_number(usual_margin)}};
-  const bool must_settle = !is_modal(the_case);
+  const bool must_settle = is_two_masses(the_case);
   Answer answer = asked(must_settle ? "gain" : "gain of modes", values);
   if (best.outcome == MinimumAmplitudeOutcome::none) {
     answer.answer = page_text(must_settle ? "no gain settles" : "no stable gain", values);
@@ -244,7 +245,7 @@ std::string own_period_text(const Case& the_case) {
 Answer how_slow(const Case& the_case) {
   const MaxDelayOptions question =
       tuned_delay_question(the_case, excitation_of(the_case).frequency);
-  const MaxDelay longest = longest_period_of(the_case, question);
+  const MaxDelay longest = LinearLoop(the_case).longest_period(question);
   Answer answer = asked("slow", {{"range", range_of(question.frequency)}});
   if (longest.sampling_period > 0.0 && std::isfinite(longest.sampling_period)) {
     const std::string held =

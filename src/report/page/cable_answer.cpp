@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
@@ -32,12 +33,10 @@ Case on_cable(const Case& the_case) {
 /// Of the vibration without control under the true force, without play; NaN where sampling does not
 /// show it.
 double share_left(const Case& the_case, const PdGains<double>& gains) {
-  const double omega = excitation_of(the_case).angular_frequency();
-  const Sampling<double> sampling = sampling_of(the_case);
-  if (!(omega * sampling.period < pi<double>)) return std::numeric_limits<double>::quiet_NaN();
-  return steady_response_of(the_case, sampling, force_hold_of(the_case), omega)
-      .relative_to(true_amplitude_of(the_case, omega))
-      .ratio_to_uncontrolled(gains);
+  const double frequency = excitation_of(the_case).frequency;
+  if (!(2.0 * frequency * sampling_of(the_case).period < 1.0))
+    return std::numeric_limits<double>::quiet_NaN();
+  return LinearLoop(the_case).response(frequency).ratio_to_uncontrolled(gains);
 }
 
 /// A clamp mass (kg) about which the case's gains become stable, to a percent: before the first of
@@ -150,7 +149,7 @@ std::string share_text(const Case& the_case, const Case& cable) {
 /// Gives the answer and what is to be added to its detail.
 void judge(const Case& the_case, const Case& cable, Answer& answer) {
   const PdGains<double> gains = gains_of(the_case);
-  const auto stable = circle_of(cable).stable_gains(FreeGain::differential, gains);
+  const auto stable = LinearLoop(cable).stable_gains(FreeGain::differential, gains);
   throw_if_interrupted();
   const Holding holding = holding_of(cable, stable);
   Values values = {{"D", gain_text(gains.differential)}};

@@ -124,18 +124,6 @@ MotionRow row_of(const std::string& place, const std::string& text, const KnownM
   return row;
 }
 
-/// Of a conductor by its modes.
-MotionRow modal_row_of(const std::string& place, const std::string& text, const Case& the_case) {
-  const OrbitLimits limits{OrbitLimits{}.largest_period, 0, throw_if_interrupted};
-  const auto row = [&](const auto& found) {
-    return row_of(place, text, found, the_case.control.sampling_period, "");
-  };
-  if (!is_of_the_paper(the_case, Switching::sampled))
-    return row(classify_motion(smooth_conductor_loop_of(the_case, Switching::sampled),
-                               modal_state_of(the_case), limits));
-  return row(classify_motion(modal_loop_of(the_case), modal_state_of(the_case), limits));
-}
-
 }  // namespace
 
 std::string loop_text(const Case& the_case) {
@@ -175,8 +163,13 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
 
 MotionRow motion_of_the_case(const Case& the_case) {
   const std::string text = loop_text(the_case) + ", from its initial state";
-  if (is_modal(the_case)) return modal_row_of("this case", text, the_case);
-  return row_of("this case", text, known_motion(the_case), "");
+  if (!is_modal(the_case) && is_of_the_paper(the_case, Switching::sampled))
+    return row_of("this case", text, known_motion(the_case), "");
+  const OrbitLimits limits{OrbitLimits{}.largest_period, 0, throw_if_interrupted};
+  return with_motion_of(the_case, Switching::sampled, [&](const auto& loop, const auto& state) {
+    return row_of("this case", text, classify_motion(loop, state, limits),
+                  the_case.control.sampling_period, "");
+  });
 }
 
 }  // namespace holdfast::program

@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
+#include "cli/running_program.hpp"
+#include "io/file/folder_lock.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot.hpp"
 #include "support/other_gnuplot.hpp"
@@ -193,6 +195,57 @@ TEST(Pictures, AreNotDrawnBySeveralProcesses) {
   unsetenv("PMI_RANK");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
   EXPECT_EQ(entries_of(folder.path()), 0U);
+}
+
+/// What a killed picture left goes with the next one; what somebody else has put there, and what a
+/// link points to, stays.
+TEST(Pictures, WhatAKilledOneLeftGoesAndAUsersFilesStay) {
+  if (!gnuplot_available()) GTEST_SKIP() << "no gnuplot";
+  const TemporaryFolder scratch, folder, elsewhere;
+  std::ofstream(elsewhere / "thesis.csv") << "years of work";
+  const auto leave = [&](const std::string& name) {
+    const fs::path left = scratch / name;
+    for (const char* part : {"data", "pictures"}) fs::create_directories(left / part);
+    std::ofstream(left / program::FolderLock::file_name);
+    std::ofstream(left / "data" / "a.csv") << "1";
+    std::ofstream(left / "pictures" / "a.gp") << "plot";
+    return left;
+  };
+  const fs::path left = leave("holdfast-picture-aaaaaa"), used = leave("holdfast-picture-bbbbbb");
+  std::ofstream(used / "data" / "chapter.txt") << "mine";
+  fs::create_symlink(elsewhere / "thesis.csv", used / "data" / "b.csv");
+  fs::create_directory_symlink(elsewhere.path(), scratch / "holdfast-picture-cccccc");
+  const Variable there("TMPDIR", scratch.path().string());
+  const Outcome outcome = draw("simulate --duration 0.1", folder / "a.svg");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_EQ(read_text(used / "data" / "chapter.txt"), "mine");
+  EXPECT_EQ(read_text(elsewhere / "thesis.csv"), "years of work");
+  EXPECT_EQ(entries_of(elsewhere.path()), 1U);
+}
+
+/// An interrupted report leaves no empty folders.
+TEST(Pictures, AnInterruptedReportLeavesNoEmptyFolders) {
+  const TemporaryFolder folder;
+  const fs::path report = folder / "deep" / "report";
+  RunningProgram running({"report", "--quiet", "--output", report.string()});
+  while (running.runs() && !fs::exists(report / "pictures"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait().exit_code, 130);
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    EXPECT_TRUE(!entry.is_directory() || !fs::is_empty(entry.path())) << entry.path();
+}
+
+/// A table whose metadata cannot appear does not either.
+TEST(Pictures, ATableWhoseMetadataCannotAppearIsNone) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "a.csv-metadata.json" / "full");
+  const Outcome outcome = run_holdfast("simulate --quiet --duration 0.01 --output '" +
+                                       (folder / "a.csv").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
+  EXPECT_EQ(outcome.error_lines(), 1U) << outcome.errors;
+  EXPECT_EQ(entries_of(folder.path()), 1U);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "jobs/span/placement/placed_device.hpp"
 
+#include "case/model/linear_loop.hpp"
 #include "case/model/modal/conductor_modes.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "case/model/span/span_loop.hpp"
 #include "case/model/span/span_of_case.hpp"
@@ -45,7 +45,7 @@ TEST(PlacedAbsorber, IsStableAndNoPairOfAGridWithItsMarginIsBetter) {
   // By the roots themselves, where the search went by the unit circle.
   Case on_string = placed.the_case;
   on_string.plant.model = "string";
-  EXPECT_LT(ModalRadius(on_string)(found), 1.0);
+  EXPECT_LT(LinearLoop(on_string).radius(found), 1.0);
 
   const StableGains stable(before, question.margin);
   EXPECT_TRUE(stable.admits(found));
@@ -82,12 +82,12 @@ TEST(StableGains, AreThoseOfTheRoots) {
   Case the_case = active_drake();
   the_case.plant.model = "string";
   const StableGains stable(the_case, 0.0);
-  ModalRadius radius(the_case);
+  const LinearLoop loop(the_case);
   int inside = 0;
   for (const double p : {-40000.0, -10000.0, 0.0, 5000.0})
     // At P = 5000 D ends near -40, where the number of modes that are looked at decides.
     for (const double d : {-200.0, -30.0, 30.0, 90.0}) {
-      const bool is_stable = radius({p, d}) < 1.0;
+      const bool is_stable = loop.radius({p, d}) < 1.0;
       inside += is_stable ? 1 : 0;
       EXPECT_EQ(stable.is_stable({p, d}), is_stable) << p << " " << d;
     }

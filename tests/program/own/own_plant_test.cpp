@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "case/case_source.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "jobs/motion/case_motion.hpp"
+#include "jobs/support.hpp"
 #include "process/errors.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
@@ -38,7 +40,7 @@ TEST(OwnPlant, AnswersAsTheTwoMassesThatItIs) {
   EXPECT_TRUE(is_modal(ours));
   EXPECT_FALSE(is_two_masses(ours));
   EXPECT_NEAR(spectral_radius_of(ours), spectral_radius_of(theirs), 1e-12);
-  const auto one = circle_of(ours).stable_gains(FreeGain::differential, gains_of(ours));
+  const auto one = LinearLoop(ours).stable_gains(FreeGain::differential, gains_of(ours));
   ASSERT_EQ(one.size(), 1u);
   const double omega = 2.0 * pi<double> * 10.0;
   EXPECT_NEAR(true_amplitude_of(ours, omega), true_amplitude_of(theirs, omega), 1e-15);
@@ -80,7 +82,10 @@ TEST(OwnPlant, RefusesWhatDoesNotCountBesideIt) {
     EXPECT_THROW(source.load(), WrongInput) << setting;
   }
   EXPECT_THROW(conductor_with_absorber_of(source_of(two_masses()).load()), WrongInput);
-  EXPECT_THROW(refuse_for_own_plant(source_of(two_masses()).load(), true, "--band"), WrongInput);
+  const Case ours = source_of(two_masses()).load();
+  EXPECT_NE(support_of(ours, {"design", {"--band"}}).refusal.find("a plant of your own"),
+            std::string::npos);
+  EXPECT_EQ(support_of(ours, {"design", {}}).refusal, "");
 }
 
 TEST(OwnController, DecidesInThePlaceOfTheGains) {

@@ -3,6 +3,9 @@
 #include "holdfast/stability/response/modal_response.hpp"
 
 #include "holdfast/cable/taut_string.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
+#include "holdfast/stability/response/loop_roots.hpp"
 #include "holdfast/stability/response/modal_steady_response.hpp"
 #include "support/lagging_plant.hpp"
 #include "support/testing.hpp"
@@ -83,6 +86,58 @@ TEST(ModalResponse, RefusesWhatIsNotAdmissible) {
   EXPECT_THROW((ModalResponse<double>(plant, {0.001, 2.0})), InvalidParameter);
   plant.released_matrix(0, 0) = NAN;
   EXPECT_THROW(ModalResponse<double>(plant, {0.001}), InvalidParameter);
+}
+
+/// A computer that has the velocity from its readings, against the map that remembers the reading
+/// before: transfer functions, roots on circles of two radii, steady amplitudes.
+TEST(VelocityByDifference, IsTheMapWithAReadingMore) {
+  const auto plant = through_ports(kollar2022_plant());
+  for (const Sampling<double> sampling :
+       {Sampling<double>{0.001}, Sampling<double>{0.01}, Sampling<double>{0.001, 0.0004},
+        Sampling<double>{0.002, 0.002}, Sampling<double>{0.004, 0.0097}}) {
+    const auto response = ModalResponse<double>(plant, sampling).with_sensor(false);
+    const auto map = with_velocity_by_difference(loop_map(plant, sampling));
+    const LoopResponse<double> elimination(map);
+    for (int i = 1; i < 100; ++i) {
+      const double angle = 3.141592653589793 * i / 100.0;
+      const auto found = response.at_angle(angle), expected = elimination.at_angle(angle);
+      EXPECT_LT(std::abs(found.velocity - expected.velocity), 1e-8 * std::abs(expected.velocity));
+      EXPECT_LT(std::abs(found.displacement - expected.displacement),
+                1e-8 * std::abs(expected.displacement));
+    }
+    for (const PdGains<double> gains : {PdGains<double>{-557.0, -4.0}, PdGains<double>{-900.0, 3.0},
+                                        PdGains<double>{50.0, 0.0}}) {
+      const auto radius = [&](const Matrix<double, Eigen::Dynamic>& closed) {
+        return closed.eigenvalues().cwiseAbs().maxCoeff();
+      };
+      const double expected = radius(map.closed_map(gains));
+      EXPECT_NEAR(std::abs(largest_loop_root(response, gains)), expected, 1e-9);
+      EXPECT_NEAR(1.25 * std::abs(largest_loop_root(*response.at_radius(0.25), gains)), expected,
+                  1e-9);
+      const auto roots = loop_roots(response, gains);
+      const auto values = map.closed_map(gains).eigenvalues().eval();
+      double least = 0.0;
+      for (const auto& root : roots)
+        least = std::max(least, (values.array() - root).abs().minCoeff());
+      EXPECT_LT(least, 1e-6);  // roots next to 0 are not told better by eigenvalues
+      const int outside = static_cast<int>((values.cwiseAbs().array() > 1.0).count());
+      EXPECT_EQ(ResolvedCircle<double>(response).roots_outside(gains), outside);
+    }
+    for (const double omega : {21.0, 62.8}) {
+      const auto input = harmonic_input(plant, loop_map(plant, sampling), ForceHold::exact, omega);
+      HarmonicInput<double, Eigen::Dynamic> wider{Vector<double, Eigen::Dynamic>::Zero(map.size()),
+                                                  Vector<double, Eigen::Dynamic>::Zero(map.size())};
+      wider.cosine.head(map.size() - 1) = input.cosine;
+      wider.sine.head(map.size() - 1) = input.sine;
+      const SteadyResponse<double> expected(map, wider, omega);
+      const auto found = steady_response(plant, sampling, ForceHold::exact, omega)
+                             .with_velocity_by_difference(omega * sampling.period, sampling.period);
+      for (const PdGains<double> gains :
+           {PdGains<double>{-557.0, -4.0}, PdGains<double>{90.0, 2.0}})
+        EXPECT_NEAR(found.amplitude_per_force(gains), expected.amplitude_per_force(gains),
+                    1e-9 * expected.amplitude_per_force(gains));
+    }
+  }
 }
 
 }  // namespace

@@ -40,12 +40,14 @@ struct AmplitudeOptions {
   /// 0 … < 1; what of the way from the boundary of stability to the D of minimum radius a D must
   /// keep away from it, measured along D and in the rate of decay, −ln ρ. 0 admits the boundary
   /// itself as a limit; 1/2 is what the program recommends by. Of a ModalResponse it is measured
-  /// about the D of largest modulus margin, and in that (modal_design.hpp).
+  /// about the D of largest modulus margin, and in that (modal_design.hpp), unless by_decay.
   double margin = 0.0;
   /// Whether ratios are relative to the plant without control under the true force
   /// (`true_amplitude_per_force`); else to the same with the force held as with control, as in
   /// Kollár 2022, Fig. 5.
   bool relative_to_true_force = false;
+  /// Of a ModalResponse: whether its margin too is about the D of minimum radius, as of two masses.
+  bool by_decay = false;
 };
 
 /// The D of least steady amplitude at one frequency and one P.
@@ -71,13 +73,12 @@ inline void validate(const AmplitudeOptions& options) {
 ///     ρ(D) < ρ_min^m  and  D = D* + (1 − m)(D_s − D*),  D_s stable
 ///
 /// about the D* of minimum radius, which is always among them where any D stabilises.
-/// @param loop               of `sampled_loop` or `loop_map`
+/// @param loop               of `sampled_loop` or `loop_map`, or a ModalResponse
 /// @param proportional_gain  P (N/m), finite
 /// @param options            within their ranges, which are not checked here
 template <class Loop>
-std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
-                                                            double proportional_gain,
-                                                            const AmplitudeOptions& options) {
+std::vector<Interval<double>> gains_that_decay(const Loop& loop, double proportional_gain,
+                                               const AmplitudeOptions& options) {
   const auto within = [&](double radius) {
     return differential_gains_within_radius(loop, proportional_gain, radius);
   };
@@ -91,6 +92,18 @@ std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
       away.push_back({from + share * (stable.lower - from), from + share * (stable.upper - from)});
   const double radius = std::exp(options.margin * std::log1p(-fastest.margin));
   return intersection(away, within(std::min(radius, options.largest_radius)));
+}
+
+/// The same, which are those of `minimum_amplitude`; of a ModalResponse another overload has more
+/// to choose from.
+/// @param loop               of `sampled_loop` or `loop_map`
+/// @param proportional_gain  as above
+/// @param options            as above
+template <class Loop>
+std::vector<Interval<double>> admissible_differential_gains(const Loop& loop,
+                                                            double proportional_gain,
+                                                            const AmplitudeOptions& options) {
+  return gains_that_decay(loop, proportional_gain, options);
 }
 
 namespace detail {

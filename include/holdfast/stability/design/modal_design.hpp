@@ -209,9 +209,8 @@ template <class Scalar>
 std::vector<Interval<Scalar>> admissible_differential_gains(const ModalResponse<Scalar>& response,
                                                             double proportional_gain,
                                                             const AmplitudeOptions& options) {
-  if (!(options.margin > 0.0))
-    return differential_gains_within_radius(response, proportional_gain,
-                                            Scalar(options.largest_radius));
+  if (options.by_decay || !(options.margin > 0.0))
+    return gains_that_decay(response, proportional_gain, options);
   const detail::ModulusLevels<Scalar> levels(ResolvedCircle<Scalar>(response), proportional_gain);
   const auto best = levels.largest();
   if (!(best.modulus > Scalar(0))) return {};

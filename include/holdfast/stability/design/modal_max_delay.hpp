@@ -51,7 +51,8 @@ class ModalDelayWalk {
 
   DelayOffer<double> offer_at(double period) const {
     const auto sampling = options_.sampling(period);
-    const ResolvedCircle<Scalar> circle(modal_response<Scalar>(poles_, sampling));
+    const ResolvedCircle<Scalar> circle(
+        modal_response<Scalar>(poles_, sampling).with_sensor(plant_.hardware.has_velocity_sensor));
     DelayOffer<double> offer{
         circle.stable_gains(FreeGain::differential, {options_.proportional_gain, 0.0}), {}};
     if (options_.criterion == DelayCriterion::attenuates && !offer.stable.empty())

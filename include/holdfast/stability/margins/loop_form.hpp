@@ -49,6 +49,34 @@ LoopMap<Scalar> at_radius(LoopMap<Scalar> map, const detail::Undeduced<Scalar>& 
   return map;
 }
 
+/// The loop whose D multiplies the backward difference (z_j − z_{j−1})/τ of the readings: one state
+/// more, the reading before.
+/// @param map  with a measured velocity, of any order
+template <class Scalar>
+LoopMap<Scalar> with_velocity_by_difference(const LoopMap<Scalar>& map) {
+  const Eigen::Index n = map.size();
+  LoopMap<Scalar> other = map;
+  const auto wider = [n](const auto& row) {
+    RowVector<Scalar, Eigen::Dynamic> result = RowVector<Scalar, Eigen::Dynamic>::Zero(n + 1);
+    result.head(n) = row;
+    return result;
+  };
+  other.open_map = Matrix<Scalar, Eigen::Dynamic>::Zero(n + 1, n + 1);
+  other.open_map.topLeftCorner(n, n) = map.open_map;
+  other.open_map.bottomLeftCorner(1, n) = map.displacement;
+  other.increment = Matrix<Scalar, Eigen::Dynamic>::Zero(n + 1, n + 1);
+  other.increment.topLeftCorner(n, n) = map.increment;
+  other.increment.bottomLeftCorner(1, n) = map.displacement;
+  other.increment(n, n) = Scalar(-1);
+  other.command = wider(map.command.transpose()).transpose();
+  other.excitation = wider(map.excitation.transpose()).transpose();
+  other.displacement = wider(map.displacement);
+  other.conductor = wider(map.conductor);
+  other.velocity = other.displacement / map.sampling.period;
+  other.velocity[n] = -Scalar(1) / map.sampling.period;
+  return other;
+}
+
 /// The open intervals of D (N s/m) at which every root of a loop of any order has |λ| < radius;
 /// radius 1 gives `stable_gains`.
 /// @param map                of `loop_map`

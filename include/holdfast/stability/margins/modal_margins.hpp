@@ -28,11 +28,12 @@ class ModalMargins {
   using Response = ModalResponse<Scalar>;
 
   ModalMargins(const std::vector<PlantPole>& poles, const Sampling<Scalar>& sampling,
-               const PdGains<Scalar>& gains)
+               const PdGains<Scalar>& gains, bool has_velocity_sensor)
       : poles_(poles),
         sampling_(sampling),
         gains_(gains),
-        response_(modal_response<Scalar>(poles, sampling)),
+        has_velocity_sensor_(has_velocity_sensor),
+        response_(response_at(sampling)),
         reserve_(-loop_excess_or_turn(response_, gains_)) {}
 
   bool is_stable() const { return reserve_ > Scalar(0); }
@@ -50,12 +51,7 @@ class ModalMargins {
 
   /// Of a common factor of both gains, about 1.
   Interval<Scalar> factors() const {
-    std::vector<typename Response::Residue> residues;
-    residues.reserve(poles_.size());
-    for (const PlantPole& pole : poles_)
-      residues.push_back({pole.s, pole.residue,
-                          (gains_.proportional + gains_.differential * pole.s) * pole.residue});
-    const ResolvedCircle<Scalar> circle(Response(residues, sampling_));
+    const ResolvedCircle<Scalar> circle(loop_response());
     for (const Interval<Scalar>& interval : circle.stable_gains(FreeGain::differential, {}))
       if (interval.contains(Scalar(1))) return interval;
     return {Scalar(1), Scalar(1)};
@@ -88,10 +84,7 @@ class ModalMargins {
   template <class SamplingAt, class Next>
   MarginEnd walk(Scalar value, Scalar limit, const SamplingAt& sampling_at,
                  const Next& next) const {
-    const auto response_at = [&](const Scalar& x) {
-      return modal_response<Scalar>(poles_, sampling_at(x));
-    };
-    const auto excess = [&](const Scalar& x) { return excess_of(response_at(x)); };
+    const auto excess = [&](const Scalar& x) { return excess_of(response_at(sampling_at(x))); };
     Scalar inside = value;
     while (inside != limit) {
       const Scalar beyond =
@@ -107,7 +100,8 @@ class ModalMargins {
       const bool down = beyond < inside;
       const Scalar edge = down ? crossing.upper : crossing.lower;
       const Scalar outside = down ? crossing.lower : crossing.upper;
-      return boundary_at(response_at(outside), gains_, edge, value, sampling_at(edge).period);
+      return boundary_at(response_at(sampling_at(outside)), gains_, edge, value,
+                         sampling_at(edge).period);
     }
     return beyond_search(inside, value);
   }
@@ -147,6 +141,22 @@ class ModalMargins {
   }
 
  private:
+  Response response_at(const Sampling<Scalar>& sampling) const {
+    return modal_response<Scalar>(poles_, sampling).with_sensor(has_velocity_sensor_);
+  }
+
+  /// Whose G_v is P G_z + D G_v of the loop.
+  Response loop_response() const {
+    const Scalar p = gains_.proportional, d = gains_.differential;
+    if (!has_velocity_sensor_)
+      return response_.with_velocity_from_displacement({p, d / sampling_.period});
+    std::vector<typename Response::Residue> residues;
+    residues.reserve(poles_.size());
+    for (const PlantPole& pole : poles_)
+      residues.push_back({pole.s, pole.residue, (p + d * pole.s) * pole.residue});
+    return {residues, sampling_};
+  }
+
   Sampling<Scalar> with_period(Scalar period) const {
     return {period, sampling_.processing_delay / sampling_.period * period};
   }
@@ -190,6 +200,7 @@ class ModalMargins {
   const std::vector<PlantPole>& poles_;
   Sampling<Scalar> sampling_;
   PdGains<Scalar> gains_;
+  bool has_velocity_sensor_;
   Response response_;
   Scalar reserve_;
 };
@@ -208,15 +219,17 @@ class ModalMargins {
 /// @param sampling  τ (s) > 0, δ (s) ≥ 0
 /// @param gains     P (N/m) and D (N s/m), finite
 /// @param search    its ratios bound the walks, τ downwards too
+/// @param has_velocity_sensor  else D multiplies the backward difference of the readings
 /// @throws InvalidParameter outside these ranges
 template <class Scalar = double>
 StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
                                          const Sampling<detail::Undeduced<Scalar>>& sampling,
                                          const PdGains<detail::Undeduced<Scalar>>& gains,
-                                         const MarginSearch& search = {}) {
+                                         const MarginSearch& search = {},
+                                         bool has_velocity_sensor = true) {
   validate(gains);
   validate(search);
-  const detail::ModalMargins<Scalar> margins(poles, sampling, gains);
+  const detail::ModalMargins<Scalar> margins(poles, sampling, gains, has_velocity_sensor);
   const TwoSidedMargin by_d = margins.of_gain(FreeGain::differential);
   const TwoSidedMargin by_p = margins.of_gain(FreeGain::proportional);
   const bool stable = margins.is_stable() && by_d.below.outcome != MarginEndOutcome::undefined &&
@@ -238,14 +251,15 @@ StabilityMargins modal_stability_margins(const std::vector<PlantPole>& poles,
 /// @param gains      as above
 /// @param inside     the former (s)
 /// @param outside    the latter (s)
-/// @param of_period  of τ; else of δ
+/// @param of_period  of τ; else of δ; the velocity is measured
 template <class Scalar = double>
 MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
                            const Sampling<detail::Undeduced<Scalar>>& sampling,
                            const PdGains<detail::Undeduced<Scalar>>& gains,
                            detail::Undeduced<Scalar> inside, detail::Undeduced<Scalar> outside,
                            bool of_period) {
-  return detail::ModalMargins<Scalar>(poles, sampling, gains).between(inside, outside, of_period);
+  return detail::ModalMargins<Scalar>(poles, sampling, gains, true)
+      .between(inside, outside, of_period);
 }
 
 /// The margins of such a loop as a whole, δ walked as above.
@@ -254,16 +268,17 @@ MarginEnd modal_margin_end(const std::vector<PlantPole>& poles,
 /// @param sampling  as above
 /// @param gains     as above
 /// @param search    as above
+/// @param has_velocity_sensor  as above
 /// @throws InvalidParameter as above
 template <class Scalar = double>
 LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
                                const Sampling<detail::Undeduced<Scalar>>& sampling,
                                const PdGains<detail::Undeduced<Scalar>>& gains,
-                               const MarginSearch& search = {}) {
+                               const MarginSearch& search = {}, bool has_velocity_sensor = true) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   validate(gains);
   validate(search);
-  const detail::ModalMargins<Scalar> margins(poles, sampling, gains);
+  const detail::ModalMargins<Scalar> margins(poles, sampling, gains, has_velocity_sensor);
   if (!margins.is_stable())
     return {MarginOutcome::not_stable, margins.reserve(), none, none, none, {}};
   const Interval<Scalar> factors = margins.factors();
@@ -276,13 +291,14 @@ LoopMargins modal_loop_margins(const std::vector<PlantPole>& poles,
 extern template StabilityMargins modal_stability_margins<double>(const std::vector<PlantPole>&,
                                                                  const Sampling<double>&,
                                                                  const PdGains<double>&,
-                                                                 const MarginSearch&);
+                                                                 const MarginSearch&, bool);
 extern template MarginEnd modal_margin_end<double>(const std::vector<PlantPole>&,
                                                    const Sampling<double>&, const PdGains<double>&,
                                                    double, double, bool);
 extern template LoopMargins modal_loop_margins<double>(const std::vector<PlantPole>&,
                                                        const Sampling<double>&,
-                                                       const PdGains<double>&, const MarginSearch&);
+                                                       const PdGains<double>&, const MarginSearch&,
+                                                       bool);
 #endif
 
 }  // namespace holdfast

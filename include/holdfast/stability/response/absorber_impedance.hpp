@@ -15,7 +15,8 @@ namespace holdfast {
 ///
 ///     Z_eff = −(D + P/s) F(s) D(s) e^{−s(δ + τ/2)} sinh(sτ/2)/(sτ/2)
 ///
-/// with the lags F of the measurement filter and D of the drive; sinh(sτ/2)/(sτ/2) = sinc(ωτ/2) at
+/// with the lags F of the measurement filter and D of the drive, (1 − e^{−sτ})/(sτ) beside D where
+/// the velocity is a difference of readings; sinh(sτ/2)/(sτ/2) = sinc(ωτ/2) at
 /// s = iω. What the hold sends out besides has frequencies ω + 2πk/τ; where the conductor answers
 /// there, only the sampled loop (`ModalResponse`) is exact (unchecked).
 /// @param sampling  τ and δ
@@ -30,7 +31,10 @@ inline std::complex<double> drive_impedance(const Sampling<double>& sampling,
   const std::complex<double> late =
       std::sinh(half) / half * std::exp(-s * (sampling.processing_delay + sampling.period / 2.0));
   const detail::HardwarePoles lags(hardware);
-  return -(gains.differential + gains.proportional / s) * late *
+  const std::complex<double> seen = hardware.has_velocity_sensor
+                                        ? std::complex<double>(1.0)
+                                        : std::sinh(half) / half * std::exp(-half);
+  return -(gains.differential * seen + gains.proportional / s) * late *
          detail::HardwarePoles::lag(lags.drive, s) * detail::HardwarePoles::lag(lags.filter, s);
 }
 

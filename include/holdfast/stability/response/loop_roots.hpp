@@ -23,13 +23,17 @@ template <class Scalar>
 class RootIteration {
  public:
   using Complex = std::complex<Scalar>;
-  using Parts = std::vector<typename ModalResponse<Scalar>::LoopPart>;
+  using Parts = typename ModalResponse<Scalar>::LoopParts;
 
-  /// @param parts  of p(λ) = 1 − λ^{1−k} Σ (a + b/λ)/(λ − e)
+  /// @param loop   of p(λ) = 1 − λ^{1−k} w(λ) Σ (a + b/λ)/(λ − e)
   /// @param power  k − 1
   /// @param extra  roots beyond those of the poles: the order of the pole at λ = 0
-  RootIteration(Parts parts, int power, int extra)
-      : parts_(std::move(parts)), power_(power), distances_(parts_.size()) {
+  RootIteration(Parts loop, int power, int extra)
+      : parts_(std::move(loop.parts)),
+        weight_(loop.weight),
+        radius_(loop.radius),
+        power_(power),
+        distances_(parts_.size()) {
     // Off the axis of symmetry, on which a pair could not leave the real line.
     const Complex turned = std::polar(Scalar(1), Scalar(0.1));
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -76,16 +80,27 @@ class RootIteration {
 
   static Complex inverse(const Complex& z) { return std::conj(z) / std::norm(z); }
 
+  /// w and its derivative at λ = 1 + μ, 1/λ being `back`.
+  struct WeightThere {
+    Complex value, slope;
+  };
+  WeightThere weight_at(const Complex& mu, const Complex& back) const {
+    const Complex change = ((radius_ - Scalar(1)) / radius_ + mu) * back;  // 1 − 1/(rλ)
+    return {weight_.constant + weight_.change * change, weight_.change / radius_ * back * back};
+  }
+
   Local local(std::size_t i, const Complex& distance) const {
     const Complex mu = parts_[i].increment + distance, back = inverse(Complex(1) + mu);
     Complex before(1);  // λ^{1−k}
     for (int j = 0; j < power_; ++j) before *= back;
-    // With their slopes: λ^{1−k} (a + b/λ) of the own part and of the sum of the others.
+    const WeightThere weight = weight_at(mu, back);
+    // With their slopes: λ^{1−k} w (a + b/λ) of the own part and of the sum of the others.
     const auto delayed = [&](const Complex& a, const Complex& b) {
-      return before * (a + b * back);
+      return before * weight.value * (a + b * back);
     };
     const auto delayed_slope = [&](const Complex& a, const Complex& b) {
-      return -before * back * (Scalar(power_) * a + Scalar(power_ + 1) * b * back);
+      return before * (weight.slope * (a + b * back) -
+                       weight.value * back * (Scalar(power_) * a + Scalar(power_ + 1) * b * back));
     };
     Complex sum_a(0), sum_b(0), slope_a(0), slope_b(0);
     for (std::size_t j = 0; j < parts_.size(); ++j) {
@@ -144,8 +159,10 @@ class RootIteration {
       sum += a + b;
       slope -= (a + b) * away + b * back;
     }
-    const Complex value = Complex(1) - before * sum;
-    const Complex value_slope = before * (Scalar(power_) * back * sum - slope);
+    const WeightThere weight = weight_at(mu, back);
+    const Complex value = Complex(1) - before * weight.value * sum;
+    const Complex value_slope =
+        before * (weight.value * (Scalar(power_) * back * sum - slope) - weight.slope * sum);
     const Complex step = value / (value_slope + value * divided_out(parts_.size() + j, root));
     return take(root, step, root);
   }
@@ -158,14 +175,15 @@ class RootIteration {
     return std::abs(step) <= tolerance_ * std::abs(unknown) + floor_;
   }
 
-  /// Σ z = Σ e + Σ a, or Σ e where a command waits for a sample or longer.
+  /// Σ z = Σ e + w(∞) Σ a, or Σ e where a command waits for a sample or longer.
   bool has_their_sum() const {
+    const Scalar weight = weight_.constant + weight_.change;
     Complex sum(0);
     Scalar size(0);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       sum += distances_[i];
       size += std::abs(distances_[i]);
-      if (power_ == 0) sum -= parts_[i].present;
+      if (power_ == 0) sum -= weight * parts_[i].present;
     }
     for (const Complex& root : extras_) {
       sum += root;
@@ -174,7 +192,9 @@ class RootIteration {
     return std::abs(sum) <= Scalar(1e-9) * size + Scalar(1e-14) * Scalar(parts_.size());
   }
 
-  Parts parts_;
+  std::vector<typename ModalResponse<Scalar>::LoopPart> parts_;
+  typename ModalResponse<Scalar>::Weight weight_;
+  Scalar radius_;
   int power_;
   Scalar tolerance_{1e-14}, floor_{1e-17};
   std::vector<Complex> distances_, extras_;
@@ -184,7 +204,8 @@ class RootIteration {
 
 /// The roots λ of the loop 1 = P G_z(λ) + D G_v(λ), all of them: as many as the plant has states
 /// and commands are on their way. Some 10 to 30 sweeps of N² operations, where the eigenvalues of
-/// the loop's map take N³.
+/// the loop's map take N³. A velocity by difference adds the memory of one reading, and a root;
+/// with D = 0 that root is 0 and not among them.
 /// @param response  of the plant by its poles
 /// @param gains     P and D
 /// @return nothing where they do not settle or their sum is not that of the polynomial: where roots
@@ -193,11 +214,13 @@ template <class Scalar>
 std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& response,
                                              const PdGains<Scalar>& gains) {
   using Complex = std::complex<Scalar>;
-  typename detail::RootIteration<Scalar>::Parts parts;
+  auto loop = response.loop_parts(gains);
+  const auto all = std::exchange(loop.parts, {});
+  auto& parts = loop.parts;
   // What has died out within a sample has one pole together, λ = 0, and else roots there.
   typename ModalResponse<Scalar>::LoopPart dead{Complex(-1), Complex(0), Complex(0)};
   std::size_t of_dead = 0;
-  for (const auto& part : response.loop_parts(gains)) {
+  for (const auto& part : all) {
     if (std::abs(Complex(1) + part.increment) > Scalar(1e-14)) {
       parts.push_back(part);
       continue;
@@ -207,10 +230,11 @@ std::vector<std::complex<Scalar>> loop_roots(const ModalResponse<Scalar>& respon
     dead.past += part.past;
   }
   const int power = response.held_commands() - 1;
-  const int extra = power + (response.is_late_within_sample() ? 1 : 0);
+  const int extra = power + (response.is_late_within_sample() ? 1 : 0) +
+                    (loop.weight.change != Scalar(0) ? 1 : 0);
   if (of_dead > 0) parts.push_back(dead);
   if (parts.empty() || power > 19) return {};
-  detail::RootIteration<Scalar> iteration(std::move(parts), power, extra);
+  detail::RootIteration<Scalar> iteration(std::move(loop), power, extra);
   if (!iteration.settle()) return {};
   auto roots = iteration.roots();
   for (; of_dead > 1; --of_dead) roots.emplace_back(0);

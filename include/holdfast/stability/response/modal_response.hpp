@@ -57,7 +57,7 @@ class ModalResponse {
 
   /// G_z and G_v at λ = 1 + μ, given by μ so that nothing is lost where sampling is fast.
   CommandResponse<Scalar> at_distance_from_one(const Complex& mu) const {
-    if (dense_) return dense_->at_distance_from_one(mu);
+    if (dense_) return weighted(dense_->at_distance_from_one(mu), mu);
     Sums sums;
     for (const Pole& pole : poles_) sums.add(pole, mu);
     return finished(sums, mu);
@@ -78,6 +78,7 @@ class ModalResponse {
     if (dense_) return std::nullopt;
     ModalResponse scaled = *this;
     const Scalar radius = Scalar(1) + offset;
+    scaled.radius_ = radius * radius_;
     Scalar factor(1);
     for (int k = 0; k < commands_; ++k) factor /= radius;
     scaled.unstable_ = 0;
@@ -92,6 +93,28 @@ class ModalResponse {
       scaled.unstable_ += outside ? 1 : 0;
     }
     return scaled;
+  }
+
+  /// What D multiplies as a filter of the displacements that are read: G_v = w(λ) G_z,
+  /// w(λ) = constant + change (1 − 1/λ).
+  struct Weight {
+    Scalar constant;  ///< of the reading; 1/s, or N/m where it stands for both gains
+    Scalar change;    ///< of its change within a sample
+  };
+
+  /// The response of a computer that has no sensor of the velocity.
+  /// @param weight  of the readings
+  ModalResponse with_velocity_from_displacement(const Weight& weight) const {
+    ModalResponse other = *this;
+    other.weight_ = weight;
+    return other;
+  }
+
+  /// The response where D multiplies the backward difference of the readings,
+  /// G_v = (1 − 1/λ) G_z/τ, unless there is a sensor of the velocity.
+  ModalResponse with_sensor(bool of_velocity) const {
+    if (of_velocity) return *this;
+    return with_velocity_from_displacement({Scalar(0), Scalar(1) / period_});
   }
 
   /// e^{s_k τ} − 1 of the plant's eigenvalues.
@@ -111,15 +134,28 @@ class ModalResponse {
     Complex past;       ///< P and D times b_k
   };
 
-  /// The parts of all poles; nothing where LoopResponse gives the values.
-  std::vector<LoopPart> loop_parts(const PdGains<Scalar>& gains) const {
-    std::vector<LoopPart> parts;
-    if (dense_) return parts;
-    const Scalar p = gains.proportional, d = gains.differential;
+  /// P G_z + D G_v = λ^{1−k} w(λ) Σ (present + past/λ)/(λ − 1 − increment).
+  struct LoopParts {
+    std::vector<LoopPart> parts;  ///< of all poles; none where LoopResponse gives the values
+    Weight weight{Scalar(1), Scalar(0)};  ///< w, common to all
+    Scalar radius{1};  ///< r, λ being that of the loop divided by it: w(rλ) above
+  };
+
+  /// The loop as a sum over its poles.
+  LoopParts loop_parts(const PdGains<Scalar>& gains) const {
+    LoopParts loop;
+    if (dense_) return loop;
+    Scalar p = gains.proportional, d = gains.differential;
+    if (weight_) {
+      loop.weight = {p + d * weight_->constant, d * weight_->change};
+      loop.radius = radius_;
+      p = Scalar(1);
+      d = Scalar(0);
+    }
     for (const Pole& pole : poles_)
-      parts.push_back({pole.increment, p * pole.displacement + d * pole.velocity,
-                       p * pole.past_displacement + d * pole.past_velocity});
-    return parts;
+      loop.parts.push_back({pole.increment, p * pole.displacement + d * pole.velocity,
+                            p * pole.past_displacement + d * pole.past_velocity});
+    return loop;
   }
 
   /// Whether a command comes between two samples.
@@ -158,6 +194,14 @@ class ModalResponse {
       g.displacement /= lambda;
       g.velocity /= lambda;
     }
+    return weighted(g, mu);
+  }
+
+  CommandResponse<Scalar> weighted(CommandResponse<Scalar> g, const Complex& mu) const {
+    if (!weight_) return g;
+    const Complex lambda = radius_ * (Complex(1) + mu);
+    const Complex away = (radius_ - Scalar(1)) + radius_ * mu;  // λ − 1
+    g.velocity = (weight_->constant + weight_->change * away / lambda) * g.displacement;
     return g;
   }
 
@@ -194,7 +238,9 @@ class ModalResponse {
   std::vector<Pole> poles_;
   std::optional<LoopResponse<Scalar>> dense_;  // where the sums are not to be trusted
   int commands_ = 1, unstable_ = 0;
-  Scalar period_, late_{0};  // τ and δ′
+  Scalar period_, late_{0};       // τ and δ′
+  std::optional<Weight> weight_;  // nothing where the velocity is measured
+  Scalar radius_{1};              // r of G(rλ)
 };
 
 /// A response about one place, where many of its values are wanted: the poles nearest to it one by
@@ -227,7 +273,7 @@ class ModalResponse<Scalar>::Nearby {
 
   /// G_z and G_v at μ.
   CommandResponse<Scalar> at(const Complex& mu) const {
-    if (response_.dense_) return response_.dense_->at_distance_from_one(mu);
+    if (response_.dense_) return response_.at_distance_from_one(mu);
     Sums sums = far_.back();
     for (std::size_t j = far_.size() - 1; j-- > 0;) {
       const Complex way = mu - centre_;
@@ -305,8 +351,10 @@ template <class Scalar = double>
 ModalResponse<Scalar> modal_response(const ConductorWithAbsorber& conductor,
                                      const Sampling<detail::Undeduced<Scalar>>& sampling) {
   const auto poles = with_hardware(conductor.poles, conductor.hardware);
-  if (poles.empty() || conductor.poles.empty()) return {linear_plant<Scalar>(conductor), sampling};
-  return modal_response<Scalar>(poles, sampling);
+  const auto response = poles.empty() || conductor.poles.empty()
+                            ? ModalResponse<Scalar>(linear_plant<Scalar>(conductor), sampling)
+                            : modal_response<Scalar>(poles, sampling);
+  return response.with_sensor(conductor.hardware.has_velocity_sensor);
 }
 
 /// The same, whose poles are found here.

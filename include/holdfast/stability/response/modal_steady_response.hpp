@@ -44,6 +44,12 @@ SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
   using Complex = std::complex<double>;
   require_positive("angular frequency", angular_frequency, "rad/s");
   validate(conductor.hardware);
+  if (!conductor.hardware.has_velocity_sensor) {
+    ConductorWithAbsorber measured = conductor;
+    measured.hardware.has_velocity_sensor = true;
+    return steady_response<Scalar>(measured, sampling, hold, angular_frequency)
+        .with_velocity_by_difference(angular_frequency * sampling.period, sampling.period);
+  }
   if (with_hardware(conductor.poles, conductor.hardware).empty())
     return steady_response(linear_plant<Scalar>(conductor), sampling, hold, angular_frequency);
   const Complex turn = circle_increment(angular_frequency * sampling.period);

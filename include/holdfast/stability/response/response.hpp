@@ -11,11 +11,12 @@
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/interval_sets.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/complex_exponential.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
 #include "holdfast/plant/linear_plant.hpp"
 #include "holdfast/plant/ports.hpp"
 #include "holdfast/plant/two_mass.hpp"
-#include "holdfast/stability/response/moving_response.hpp"
+#include "holdfast/stability/response/loop_phasors.hpp"
 
 namespace holdfast {
 
@@ -71,7 +72,7 @@ class SteadyResponse {
   template <class Loop, int States>
   SteadyResponse(const Loop& loop, const HarmonicInput<Scalar, States>& input,
                  const Scalar& angular_frequency)
-      : SteadyResponse(MovingResponse<Loop>(loop, input, angular_frequency).phasors()) {
+      : SteadyResponse(loop_phasors(loop, input, angular_frequency)) {
     require_positive("angular frequency", static_cast<double>(angular_frequency), "rad/s");
   }
 
@@ -102,6 +103,19 @@ class SteadyResponse {
     response.reference_ = amplitude_per_force;
     response.squared_reference_ = amplitude_per_force * amplitude_per_force;
     return response;
+  }
+
+  /// The response of a computer that has the velocity from the displacements that it reads: its D
+  /// multiplies (ẑ_j − ẑ_{j−1})/τ.
+  /// @param angle   ωτ (rad)
+  /// @param period  τ (s), > 0
+  SteadyResponse with_velocity_by_difference(const Scalar& angle, const Scalar& period) const {
+    const Complex turn = circle_increment(angle);
+    const Complex rate = turn / ((Complex(1) + turn) * period);
+    LoopPhasors<Scalar> phasors = phasors_;
+    phasors.control_velocity = rate * phasors.control_displacement;
+    phasors.force_velocity = rate * phasors.force_displacement;
+    return SteadyResponse(phasors).relative_to(reference_);
   }
 
   /// Amplitude relative to no control; below 1 the control attenuates.

@@ -9,7 +9,6 @@
 #include "case/model/span/span_loop.hpp"
 #include "case/needed.hpp"
 #include "holdfast/control/late_controller.hpp"
-#include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/plant/loop_hardware.hpp"
 #include "holdfast/plant/modal_plant.hpp"
 #include "holdfast/stability/response/loop_roots.hpp"
@@ -43,7 +42,8 @@ Absorber<double> absorber_of(const Case& the_case) {
 
 LoopHardware hardware_of(const Case& the_case) {
   const auto& control = the_case.control;
-  return {control.measurement_filter, control.drive_bandwidth, control.drive_damping};
+  return {control.measurement_filter, control.drive_bandwidth, control.drive_damping,
+          control.velocity == "measured"};
 }
 
 namespace {
@@ -87,7 +87,8 @@ std::vector<PlantPole> without_drift(const Case& the_case, std::vector<PlantPole
 }
 
 ModalResponse<double> response_of_own_plant(const Case& the_case) {
-  return {modal_plant_of(the_case), sampling_of(the_case)};
+  return ModalResponse<double>(modal_plant_of(the_case), sampling_of(the_case))
+      .with_sensor(hardware_of(the_case).has_velocity_sensor);
 }
 
 ModalResponse<double> response_of(const Case& the_case, const ConductorModes& modes) {
@@ -97,11 +98,6 @@ ModalResponse<double> response_of(const Case& the_case, const ConductorModes& mo
   auto response = modal_response(conductor, sampling_of(the_case));
   throw_if_interrupted();
   return response;
-}
-
-ModalResponse<double> response_of(const Case& the_case) {
-  return has_own_plant(the_case) ? response_of_own_plant(the_case)
-                                 : response_of(the_case, conductor_modes_of(the_case));
 }
 
 /// The controller of the loop: P and D with their limits and delays, or one of the user's own.
@@ -117,7 +113,8 @@ auto with_law_of(const Case& the_case, bool controlled, const Visit& visit) {
 }  // namespace
 
 ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case) {
-  refuse_for_own_plant(the_case, true, "this");
+  if (has_own_plant(the_case))
+    throw WrongInput("this is of conductor and absorber, not of a plant of your own");
   ConductorWithAbsorber conductor = conductor_by(the_case, conductor_modes_of(the_case));
   if (conductor.poles.empty())
     throw NoAnswer(
@@ -142,24 +139,13 @@ LinearPlant<double> modal_plant_of(const Case& the_case) {
       place_modes_of(the_case), absorber_of(the_case), {}, hardware_of(the_case)});
 }
 
-ResolvedCircle<double> circle_of(const Case& the_case) {
-  return ResolvedCircle<double>(response_of(the_case));
-}
-
-ModalRadius::ModalRadius(const Case& the_case)
-    : case_(the_case), response_(response_of(the_case)) {}
-
-double ModalRadius::operator()(const PdGains<double>& gains) {
-  const std::complex<double> root = largest_loop_root(response_, gains);
-  if (std::abs(root) > 0.0) return std::abs(root);
-  const double excess = loop_excess_or_turn(response_, gains);
-  if (std::isfinite(excess)) return 1.0 + excess;
-  if (!map_) map_ = loop_map(modal_plant_of(case_), sampling_of(case_));
-  return spectral_radius(map_->closed_map(gains));
+ModalResponse<double> command_response_of(const Case& the_case) {
+  return has_own_plant(the_case) ? response_of_own_plant(the_case)
+                                 : response_of(the_case, conductor_modes_of(the_case));
 }
 
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains) {
-  return largest_loop_root(response_of(the_case), gains);
+  return largest_loop_root(command_response_of(the_case), gains);
 }
 
 bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
@@ -175,7 +161,8 @@ bool is_stable_with_clamp(const Case& the_case, double clamp_mass) {
 }
 
 OtherModes other_modes_of(const Case& the_case) {
-  if (has_own_plant(the_case)) return {circle_of(the_case), "with all modes"};
+  if (has_own_plant(the_case))
+    return {ResolvedCircle<double>(command_response_of(the_case)), "with all modes"};
   const auto circle_by = [&](const ConductorModes& modes) {
     return ResolvedCircle<double>(response_of(the_case, modes));
   };
@@ -215,10 +202,15 @@ std::string judged_otherwise(const Case& the_case) {
 
 SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<double>& sampling,
                                           ForceHold hold, double angular_frequency) {
-  if (!is_modal(the_case))
-    return steady_response(plant_of(the_case), sampling, hold, angular_frequency);
-  if (has_own_plant(the_case))
-    return steady_response(modal_plant_of(the_case), sampling, hold, angular_frequency);
+  const auto of_plant = [&](const auto& plant) {
+    const auto response = steady_response(plant, sampling, hold, angular_frequency);
+    return hardware_of(the_case).has_velocity_sensor
+               ? response
+               : response.with_velocity_by_difference(angular_frequency * sampling.period,
+                                                      sampling.period);
+  };
+  if (!is_modal(the_case)) return of_plant(plant_of(the_case));
+  if (has_own_plant(the_case)) return of_plant(modal_plant_of(the_case));
   return steady_response(conductor_by(the_case, conductor_modes_of(the_case)), sampling, hold,
                          angular_frequency);
 }
@@ -298,12 +290,6 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector
   state.head(conductor.size()) = conductor;
   state.segment(conductor.size() + drive, filter).setConstant(read);
   return state;
-}
-
-void refuse_on_modes(const Case& the_case, bool given, const std::string& option) {
-  if (given && is_modal(the_case))
-    throw WrongInput(option + " is of two_masses under an ideal drive alone, not with " +
-                     modal_words(the_case));
 }
 
 }  // namespace holdfast::program

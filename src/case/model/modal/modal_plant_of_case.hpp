@@ -10,7 +10,6 @@
 #include "case/model/modal/conductor_modes.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/controlled_plant.hpp"
-#include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/modal_motion.hpp"
@@ -42,20 +41,8 @@ ConductorWithAbsorber conductor_with_absorber_of(const Case& the_case);
 /// The poles from the command to the readings, those of filter and drive too. Throws as above.
 std::vector<PlantPole> loop_poles_of(const Case& the_case);
 
-/// Its loop on the unit circle.
-ResolvedCircle<double> circle_of(const Case& the_case);
-
-/// The largest modulus of the roots of a modal case's loop, for one pair of gains after another.
-class ModalRadius {
- public:
-  explicit ModalRadius(const Case& the_case);
-  double operator()(const PdGains<double>& gains);
-
- private:
-  const Case& case_;
-  ModalResponse<double> response_;
-  std::optional<LoopMap<double>> map_;  // once the roots were not found without it
-};
+/// The readings by the command, of any case, as a sum over those poles. Throws as above.
+ModalResponse<double> command_response_of(const Case& the_case);
 
 /// The root of a modal case's loop of largest modulus; NaN where the roots were not found.
 std::complex<double> largest_root_of(const Case& the_case, const PdGains<double>& gains);
@@ -130,7 +117,20 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
 /// The same that begins with other z1, v1, z2, v2.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
 
-/// Throws WrongInput where an option of the two masses alone is given for a modal case.
-void refuse_on_modes(const Case& the_case, bool given, const std::string& option);
+/// Calls `visit` with the loop whose motion the case's is, and the state that it begins from: of two
+/// masses or of a conductor by its modes, each in the paper's model where that is all there is to
+/// the case, else with all that the case says of it. Throws as the functions above.
+template <class Visit>
+auto with_motion_of(const Case& the_case, Switching switching, const Visit& visit) {
+  const bool of_paper = is_of_the_paper(the_case, switching);
+  if (is_modal(the_case)) {
+    const auto state = modal_state_of(the_case);
+    return of_paper ? visit(modal_loop_of(the_case), state)
+                    : visit(smooth_conductor_loop_of(the_case, switching), state);
+  }
+  const Vector<double, 4> state = initial_state_of(the_case);
+  return of_paper ? visit(ideal_loop_of(the_case), state)
+                  : visit(implemented_loop_of(the_case, switching), state);
+}
 
 }  // namespace holdfast::program

@@ -51,11 +51,6 @@ void require_consistent(const Case& the_case) {
   if (the_case.own->controller) require_consistent_controller(the_case);
 }
 
-void refuse_for_own_plant(const Case& the_case, bool given, const std::string& option) {
-  if (given && has_own_plant(the_case))
-    throw WrongInput(option + " is of conductor and absorber, not of a plant of your own");
-}
-
 OwnLaw own_law_of(const Case& the_case, bool controlled) {
   const double period = the_case.control.jitter > 0.0 ? 0.0 : the_case.control.sampling_period;
   return {controlled ? the_case.own->controller : OwnForce{}, period};

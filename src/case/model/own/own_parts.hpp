@@ -29,9 +29,6 @@ struct OwnParts {
 /// of, or would contradict.
 void require_consistent(const Case& the_case);
 
-/// Throws WrongInput where an option asks for what a plant of the user's own does not have.
-void refuse_for_own_plant(const Case& the_case, bool given, const std::string& option);
-
 /// OwnForce as a controller of the library (control/controlled_plant.hpp); its memory are the
 /// number and the instant of the sample.
 struct OwnLaw {

@@ -1,0 +1,174 @@
+#include "case/model/linear_loop.hpp"
+
+#include <cmath>
+#include <mutex>
+
+#include "case/model/held_force.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
+#include "holdfast/control/loop_map.hpp"
+#include "holdfast/math/linalg/spectral_radius.hpp"
+#include "holdfast/plant/linear_plant.hpp"
+#include "holdfast/stability/boundary/boundary.hpp"
+#include "holdfast/stability/boundary/circle_boundary.hpp"
+#include "holdfast/stability/boundary/circle_crossings.hpp"
+#include "holdfast/stability/boundary/resolved_circle.hpp"
+#include "holdfast/stability/boundary/stable_intervals.hpp"
+#include "holdfast/stability/chart/circle_chart.hpp"
+#include "holdfast/stability/design/modal_design.hpp"
+#include "holdfast/stability/design/modal_max_delay.hpp"
+#include "holdfast/stability/margins/loop_form.hpp"
+#include "holdfast/stability/margins/modal_margins.hpp"
+#include "holdfast/stability/polynomial/characteristic_polynomial.hpp"
+#include "holdfast/stability/polynomial/loop_polynomial.hpp"
+#include "process/errors.hpp"
+
+namespace holdfast::program {
+
+bool has_closed_forms(const Case& the_case) {
+  return !is_modal(the_case) && the_case.control.velocity == "measured";
+}
+
+/// The loop as a sum over its poles, with what of it is asked for, made once.
+struct LinearLoop::ByPoles {
+  explicit ByPoles(const Case& the_case) : response(command_response_of(the_case)) {}
+
+  const ResolvedCircle<double>& circle() const {
+    const std::lock_guard lock(guard_);
+    if (!circle_) circle_.emplace(response);
+    return *circle_;
+  }
+  const ConductorWithAbsorber& conductor(const Case& the_case) const {
+    const std::lock_guard lock(guard_);
+    if (!conductor_) conductor_ = conductor_with_absorber_of(the_case);
+    return *conductor_;
+  }
+  const LoopMap<double>& map(const Case& the_case) const {
+    const std::lock_guard lock(guard_);
+    if (!map_) {
+      map_ = loop_map(modal_plant_of(the_case), sampling_of(the_case));
+      if (!hardware_of(the_case).has_velocity_sensor) map_ = with_velocity_by_difference(*map_);
+    }
+    return *map_;
+  }
+
+  ModalResponse<double> response;
+
+ private:
+  mutable std::mutex guard_;
+  mutable std::optional<ResolvedCircle<double>> circle_;
+  mutable std::optional<ConductorWithAbsorber> conductor_;
+  mutable std::optional<LoopMap<double>> map_;  // once the roots were not found without it
+};
+
+LinearLoop::LinearLoop(const Case& the_case) : case_(the_case) {
+  if (has_closed_forms(the_case))
+    closed_ = loop_of(the_case);
+  else
+    by_poles_ = std::make_shared<const ByPoles>(the_case);
+}
+
+LinearLoop::~LinearLoop() = default;
+
+std::vector<Interval<double>> LinearLoop::stable_gains(FreeGain free,
+                                                       const PdGains<double>& gains) const {
+  if (!closed_) return by_poles_->circle().stable_gains(free, gains);
+  // The crossings that `margins` has.
+  return holdfast::stable_gains(loop_map(linear_plant(plant_of(case_)), closed_->sampling), free,
+                                gains);
+}
+
+std::function<void(double, std::uint8_t*)> LinearLoop::stable_rows(const Axis& differential) const {
+  if (!closed_)
+    return [=, loop = by_poles_](double p, std::uint8_t* flags) {
+      fill_stability_row(loop->circle(), p, differential, flags);
+    };
+  StabilityRows<5> rows(in_half_plane(characteristic_polynomial(*closed_)), differential);
+  return [=](double p, std::uint8_t* flags) mutable { rows.fill(p, flags); };
+}
+
+double LinearLoop::radius(const PdGains<double>& gains) const {
+  if (closed_) return spectral_radius(closed_->engaged_map(gains));
+  const std::complex<double> root = largest_loop_root(by_poles_->response, gains);
+  if (std::abs(root) > 0.0) return std::abs(root);
+  const double excess = loop_excess_or_turn(by_poles_->response, gains);
+  if (std::isfinite(excess)) return 1.0 + excess;
+  return spectral_radius(by_poles_->map(case_).closed_map(gains));
+}
+
+std::vector<BoundaryPoint<double>> LinearLoop::boundary(
+    const Interval<double>& proportional) const {
+  return closed_ ? stability_boundary(characteristic_polynomial(*closed_), proportional)
+                 : stability_boundary(by_poles_->response, proportional);
+}
+
+SteadyResponse<double> LinearLoop::response(double frequency) const {
+  const double omega = 2.0 * pi<double> * frequency;
+  return steady_response_of(case_, sampling_of(case_), force_hold_of(case_), omega)
+      .relative_to(true_amplitude_of(case_, omega));
+}
+
+MinimumAmplitude LinearLoop::quietest(const AmplitudeOptions& options, double frequency,
+                                      double p) const {
+  if (closed_) return minimum_amplitude(plant_of(case_), options, frequency, p);
+  return minimum_amplitude(by_poles_->response, options, frequency, p, response(frequency));
+}
+
+MinimumAmplitudeGains LinearLoop::quietest_pair(const AmplitudeOptions& options,
+                                                double frequency) const {
+  const auto& plant = case_.plant;
+  const double omega = 2.0 * pi<double> * frequency;
+  const double tuned =
+      tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
+  const double stiffness = plant.absorber_stiffness + plant.absorber_mass * omega * omega;
+  const Interval<double> range{tuned - stiffness, tuned + stiffness};
+  return minimum_amplitude_gains(closed_ ? command_response_of(case_) : by_poles_->response,
+                                 options, frequency, range, response(frequency));
+}
+
+MinimaxAmplitude LinearLoop::quietest_over(const AmplitudeOptions& options, double p,
+                                           const FrequencyBand& band) const {
+  return closed_ ? minimax_amplitude(plant_of(case_), options, p, band)
+                 : modal_minimax_amplitude(by_poles_->conductor(case_), options, p, band);
+}
+
+MinimumRadius LinearLoop::fastest(double p) const {
+  return closed_ ? minimum_radius(*closed_, p) : minimum_radius(by_poles_->response, p);
+}
+
+MaxDelay LinearLoop::longest_period(const MaxDelayOptions& question) const {
+  return closed_ ? max_sampling_period(plant_of(case_), question)
+                 : modal_max_sampling_period(by_poles_->conductor(case_), question);
+}
+
+std::vector<Interval<double>> LinearLoop::stable_gains(const MaxDelayOptions& question,
+                                                       double period) const {
+  if (closed_) return feasible_differential_gains(plant_of(case_), question, period);
+  const ResolvedCircle<double> circle(
+      modal_response(by_poles_->conductor(case_), question.sampling(period)));
+  return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
+}
+
+double LinearLoop::excess(const Sampling<double>& sampling, const PdGains<double>& gains) const {
+  if (closed_) return loop_polynomial(sampled_loop(plant_of(case_), sampling)).excess(gains);
+  return loop_excess_or_turn(modal_response(by_poles_->conductor(case_), sampling), gains);
+}
+
+StabilityMargins LinearLoop::margins(const PdGains<double>& gains) const {
+  const Sampling<double> sampling = sampling_of(case_);
+  if (closed_) return stability_margins(plant_of(case_), sampling, gains);
+  MarginSearch search;
+  search.longest_period_ratio = 100.0;
+  return modal_stability_margins(loop_poles_of(case_), sampling, gains, search,
+                                 hardware_of(case_).has_velocity_sensor);
+}
+
+LoopMargins LinearLoop::whole_margins(const PdGains<double>& gains) const {
+  const Sampling<double> sampling = sampling_of(case_);
+  if (closed_) return loop_margins(plant_of(case_), sampling, gains);
+  return modal_loop_margins(loop_poles_of(case_), sampling, gains, {},
+                            hardware_of(case_).has_velocity_sensor);
+}
+
+}  // namespace holdfast::program

@@ -1,0 +1,352 @@
+#include "jobs/support.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "case/model/own/own_parts.hpp"
+#include "io/text/compiled_texts.hpp"
+
+namespace holdfast::program {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words words_of(const toml::node_view<const toml::node>& node) {
+  Words words;
+  if (const toml::array* all = node.as_array())
+    for (const toml::node& word : *all) words.push_back(text_of(word));
+  return words;
+}
+
+Words split(const std::string& text) {
+  Words words;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t end = std::min(text.find(' ', from), text.size());
+    words.push_back(text.substr(from, end - from));
+    from = end + 1;
+  }
+  return words;
+}
+
+/// A feature by the name that the rules have for it.
+struct Feature {
+  std::string name;
+  bool (*is_of)(const Case& the_case);
+};
+
+bool has_law(const Case& the_case, const char* law) {
+  return the_case.backlash.law == law && the_case.backlash.width > 0.0;
+}
+
+const std::vector<Feature>& features() {
+  static const std::vector<Feature> all = {
+      // A span without an absorber has none, whatever plant.model says by itself.
+      {"two_masses",
+       [](const Case& of) { return is_two_masses(of) && !(of.stands_alone && !has_absorber(of)); }},
+      {"string", [](const Case& of) { return of.plant.model == "string" && !has_own_plant(of); }},
+      {"cable", [](const Case& of) { return is_cable(of) && !has_own_plant(of); }},
+      {"infinite_string", [](const Case& of) { return is_infinite(of) && !has_own_plant(of); }},
+      {"devices", [](const Case& of) { return !of.devices.empty() && !is_two_masses(of); }},
+      {"devices_on_two_masses",
+       [](const Case& of) { return !of.devices.empty() && is_two_masses(of); }},
+      {"own_plant", has_own_plant},
+      {"own_controller", [](const Case& of) { return of.own != nullptr && of.own->controller; }},
+      {"filter", [](const Case& of) { return std::isfinite(of.control.measurement_filter); }},
+      {"lag", [](const Case& of) { return std::isfinite(of.control.drive_bandwidth); }},
+      {"late",
+       [](const Case& of) { return of.control.processing_delay > of.control.sampling_period; }},
+      {"difference", [](const Case& of) { return of.control.velocity == "difference"; }},
+      {"quantum",
+       [](const Case& of) {
+         return of.control.displacement_quantum > 0.0 ||
+                (of.control.velocity_quantum > 0.0 && of.control.velocity == "measured");
+       }},
+      {"largest_force", [](const Case& of) { return std::isfinite(of.control.largest_force); }},
+      {"jitter", [](const Case& of) { return of.control.jitter > 0.0; }},
+      {"harmonics",
+       [](const Case& of) {
+         return !of.excitation.harmonics.empty() || of.excitation.noise_rms > 0.0;
+       }},
+      {"record", [](const Case& of) { return !of.excitation.record.empty(); }},
+      {"immediate", [](const Case& of) { return has_law(of, "immediate"); }},
+      {"play", [](const Case& of) { return has_law(of, "play"); }},
+      {"dead_zone", [](const Case& of) { return has_law(of, "dead_zone"); }}};
+  return all;
+}
+
+/// All of them, with the one that is an option.
+Words feature_names() {
+  Words names;
+  for (const Feature& feature : features()) names.push_back(feature.name);
+  names.emplace_back("exact");
+  return names;
+}
+
+/// Whether a feature is of the plant, which a conductor cannot have beside its own.
+bool is_of_plant(const std::string& name) {
+  const Words plants = {"two_masses",      "string",  "cable",
+                        "infinite_string", "devices", "devices_on_two_masses",
+                        "own_plant"};
+  return std::find(plants.begin(), plants.end(), name) != plants.end();
+}
+
+struct Rule {
+  Words asked, unless, of, also, but;
+  std::string refuses, idealises;
+};
+
+struct Table {
+  toml::table texts;
+  std::vector<Rule> rules;
+};
+
+const Table& table() {
+  static const Table all = [] {
+    Table read{toml::parse(support_texts), {}};
+    for (const toml::node& node : *read.texts["rules"].as_array()) {
+      const toml::node_view<const toml::node> rule(node);
+      read.rules.push_back({words_of(rule["asked"]), words_of(rule["unless"]), words_of(rule["of"]),
+                            words_of(rule["and"]), words_of(rule["but"]),
+                            rule["refuses"].value_or(std::string()),
+                            rule["idealises"].value_or(std::string())});
+    }
+    return read;
+  }();
+  return all;
+}
+
+std::string words_of_feature(const std::string& name) {
+  return text_of(table().texts["features"][name]["words"]);
+}
+
+bool any_asked(const Words& questions, const Asked& asked) {
+  return std::any_of(questions.begin(), questions.end(),
+                     [&](const std::string& words) { return asked.has(words); });
+}
+
+/// The first of some features that a case has; empty where it has none.
+std::string first_of(const Words& wanted, const Words& there) {
+  for (const std::string& name : there)
+    if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) return name;
+  return "";
+}
+
+/// What of the question makes a rule hold.
+std::string asked_words(const Rule& rule, const Asked& asked) {
+  for (const std::string& words : rule.asked)
+    if (asked.has(words)) return words;
+  return asked.job;
+}
+
+/// The jobs of the table of which no rule refuses a feature.
+std::string jobs_that_answer(const std::string& feature) {
+  std::map<std::string, bool> answers;
+  for (const SupportCell& cell : support_cells())
+    if (cell.feature == feature) {
+      const std::string job = split(cell.question)[0];
+      const auto known = answers.try_emplace(job, false).first;
+      known->second = known->second || cell.support.refusal.empty();
+    }
+  std::string names;
+  for (const auto& [job, does] : answers)
+    if (does) names += (names.empty() ? "" : ", ") + job;
+  return names;
+}
+
+Support support_of(const Words& there, const Asked& asked) {
+  Support support;
+  for (const Rule& rule : table().rules) {
+    if (!any_asked(rule.asked, asked) || any_asked(rule.unless, asked)) continue;
+    const std::string feature = first_of(rule.of, there);
+    const std::string other = rule.also.empty() ? feature : first_of(rule.also, there);
+    if (feature.empty() || other.empty() || !first_of(rule.but, there).empty()) continue;
+    const std::string with =
+        words_of_feature(feature) + (rule.also.empty() ? "" : " and " + words_of_feature(other));
+    support.reason = rule.refuses.empty() ? rule.idealises : rule.refuses;
+    if (!rule.refuses.empty()) {
+      support.refusal =
+          asked_words(rule, asked) + " does not answer with " + with + ": " + rule.refuses;
+      return support;
+    }
+    Words names;
+    for (const std::string& name : there)
+      if (std::find(rule.of.begin(), rule.of.end(), name) != rule.of.end())
+        names.push_back(words_of_feature(name));
+    for (const std::string& name : names)
+      support.idealised += (support.idealised.empty() ? "" : "; ") + name + ": " + asked.job +
+                           " is computed " + rule.idealises;
+  }
+  return support;
+}
+
+}  // namespace
+
+bool Asked::has(const std::string& words) const {
+  const Words all = split(words);
+  if (all.empty() || (all[0][0] != '-' && all[0] != job)) return false;
+  std::size_t k = all[0][0] == '-' ? 0 : 1;
+  for (; k < all.size(); ++k) {
+    // A word after an option that begins with no dash is its value.
+    std::string wanted = all[k];
+    if (k + 1 < all.size() && all[k + 1][0] != '-') wanted += " " + all[++k];
+    if (std::find(options.begin(), options.end(), wanted) == options.end()) return false;
+  }
+  return true;
+}
+
+Support support_of(const Case& the_case, const Asked& asked) {
+  Words there;
+  for (const Feature& feature : features())
+    if (feature.is_of(the_case)) there.push_back(feature.name);
+  if (asked.has("--switching exact")) there.emplace_back("exact");
+  Support support = support_of(there, asked);
+  // Whose job as a whole does not answer asks which do.
+  if (support.refusal.rfind(asked.job + " does not answer", 0) != 0) return support;
+  for (const std::string& name : there)
+    if (is_of_plant(name) &&
+        support.refusal.find("with " + words_of_feature(name) + ":") != std::string::npos)
+      support.refusal += "; jobs that do are " + jobs_that_answer(words_of_feature(name));
+  return support;
+}
+
+namespace {
+
+/// A question of the table as it would come from a command line.
+Asked asked_of(const std::string& question) {
+  const Words words = split(question);
+  Asked asked{words[0], {}};
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    if (words[k].rfind("--", 0) != 0) continue;
+    asked.options.push_back(words[k]);
+    if (k + 1 < words.size() && words[k + 1].rfind("--", 0) != 0)
+      asked.options.push_back(words[k] + " " + words[k + 1]);
+  }
+  return asked;
+}
+
+SupportCell cell_of(const std::string& question, const std::string& name, bool on_conductor) {
+  const auto& features = table().texts["features"];
+  Words there = {name}, settings = words_of(features[name]["set"]);
+  if (on_conductor || name == "devices") there.insert(there.begin(), "string");
+  if (!on_conductor && (!is_of_plant(name) || name == "devices_on_two_masses"))
+    there.insert(there.begin(), "two_masses");
+  if (on_conductor) {
+    const Words conductor = words_of(features["string"]["set"]);
+    settings.insert(settings.end(), conductor.begin(), conductor.end());
+  }
+  SupportCell cell{question, words_of_feature(name), on_conductor, settings, true, {}};
+  const auto option = features[name]["option"].value<std::string>();
+  if (option) cell.question += " " + *option;
+  cell.can_be_asked = option || !words_of(features[name]["set"]).empty();
+  cell.support = support_of(there, asked_of(cell.question));
+  return cell;
+}
+
+/// The options of a question that rules speak of, each once: "orbit --map".
+std::string without_numbers(const std::string& question) {
+  const Words words = split(question);
+  std::string kept = words[0];
+  for (const std::string& option : asked_of(question).options) {
+    const auto speaks = [&](const Rule& rule) {
+      return std::any_of(rule.asked.begin(), rule.asked.end(), [&](const std::string& of) {
+        return of.rfind(words[0] + " ", 0) == 0 &&
+               (of + " ").find(" " + option + " ") != std::string::npos;
+      });
+    };
+    const auto& rules = table().rules;
+    const bool is_told = option.find_first_of("0123456789:") == std::string::npos &&
+                         (std::any_of(rules.begin(), rules.end(), speaks) ||
+                          option == "--stable-interval" || option == "--largest");
+    if (is_told && kept.find(option) == std::string::npos) kept += " " + option;
+  }
+  return kept;
+}
+
+/// A text that the page tells once, by its number.
+class Footnotes {
+ public:
+  std::string of(const Support& support) {
+    const std::string word = support.refusal.empty() ? "yes" : "no";
+    if (support.reason.empty()) return word;
+    const auto known = std::find(texts_.begin(), texts_.end(), support.reason);
+    const auto number = known - texts_.begin() + 1;
+    if (known == texts_.end()) texts_.push_back(support.reason);
+    return word + " " + std::to_string(number);
+  }
+  std::string list() const {
+    std::string all;
+    for (std::size_t k = 0; k < texts_.size(); ++k)
+      all += std::to_string(k + 1) + ". " + texts_[k] + "\n";
+    return all;
+  }
+
+ private:
+  Words texts_;
+};
+
+}  // namespace
+
+std::vector<SupportCell> support_cells() {
+  std::vector<SupportCell> cells;
+  for (const toml::node& node : *table().texts["asked"].as_array()) {
+    const toml::node_view<const toml::node> group(node);
+    const bool is_tried = !text_of(group["title"]).empty();
+    for (const std::string& question : words_of(group["questions"]))
+      for (const bool on_conductor : {false, true})
+        for (const std::string& name : feature_names()) {
+          const bool is_option = name == "exact";
+          if (is_option && (!group["switching"].value_or(false) ||
+                            question.find("--switching") != std::string::npos))
+            continue;
+          if (on_conductor && is_of_plant(name)) continue;
+          cells.push_back(cell_of(question, name, on_conductor));
+          cells.back().can_be_asked = cells.back().can_be_asked && is_tried;
+        }
+  }
+  return cells;
+}
+
+std::string support_page() {
+  const std::vector<SupportCell> cells = support_cells();
+  Footnotes reasons;
+  std::string page = text_of(table().texts["page"]["head"]);
+  const Words names = feature_names();
+  page += "\n";
+  for (std::size_t k = 0; k < names.size(); ++k)
+    page += std::to_string(k + 1) + ". " + words_of_feature(names[k]) + "\n";
+  for (const toml::node& node : *table().texts["asked"].as_array()) {
+    const toml::node_view<const toml::node> group(node);
+    const std::string title = text_of(group["title"]);
+    if (title.empty()) continue;
+    for (const bool on_conductor : {false, true}) {
+      Words shown;
+      for (const std::string& name : names)
+        if (!on_conductor || !is_of_plant(name)) shown.push_back(name);
+      std::string header = "| asked |", line = "|---|";
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        if (std::find(shown.begin(), shown.end(), names[k]) == shown.end()) continue;
+        header += " " + std::to_string(k + 1) + " |";
+        line += "---|";
+      }
+      page += "\n## " + title + (on_conductor ? ", on a conductor by its modes" : "") + "\n\n" +
+              header + "\n" + line + "\n";
+      for (const std::string& question : words_of(group["questions"])) {
+        page += "| `" + without_numbers(question) + "` |";
+        for (const std::string& name : shown) {
+          const auto cell = std::find_if(cells.begin(), cells.end(), [&](const SupportCell& one) {
+            return one.question.rfind(question, 0) == 0 && one.on_conductor == on_conductor &&
+                   one.feature == words_of_feature(name) &&
+                   one.question.size() <= question.size() + (name == "exact" ? 18 : 0);
+          });
+          page += cell == cells.end() ? "  |" : " " + reasons.of(cell->support) + " |";
+        }
+        page += "\n";
+      }
+    }
+  }
+  return page + "\n## Why\n\n" + reasons.list();
+}
+
+}  // namespace holdfast::program

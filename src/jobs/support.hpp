@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+
+namespace holdfast::program {
+
+/// What is asked of a case: a job with the options that it was given, "--prove", and each with its
+/// value too, "--switching exact".
+struct Asked {
+  std::string job;
+  std::vector<std::string> options;
+
+  /// Whether all words of "margins --prove" are asked: the job first, then options.
+  bool has(const std::string& words) const;
+};
+
+/// What texts/support.toml says of a question about a case.
+struct Support {
+  std::string refusal;    ///< why it is not answered; empty where it is
+  std::string idealised;  ///< what the answer leaves out, a sentence each; empty: nothing
+  std::string reason;     ///< of either, without what it is of
+};
+
+/// @param the_case  of which no plant need be settled
+Support support_of(const Case& the_case, const Asked& asked);
+
+/// A question of the table about a case with one of its features.
+struct SupportCell {
+  std::string question;               ///< with small numbers: "margins --prove"
+  std::string feature;                ///< in words
+  bool on_conductor;                  ///< on plant.model = "string", else on two masses
+  std::vector<std::string> settings;  ///< "KEY=VALUE" that give it the feature
+  bool can_be_asked;                  ///< whether a command line can
+  Support support;
+};
+
+/// All of them, a question's together, the features in one order.
+std::vector<SupportCell> support_cells();
+
+/// docs/support.md.
+std::string support_page();
+
+}  // namespace holdfast::program
