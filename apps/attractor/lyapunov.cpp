@@ -81,8 +81,9 @@ void require_bearable_modes(const Case& the_case, const LyapunovQuestion& option
   constexpr double bearable = 20.0;
   if (!options.largest &&
       the_case.control.processing_delay >= bearable * the_case.control.sampling_period)
-    throw WrongInput("with so many commands on their way the largest exponent alone is computed: "
-                     "add --largest");
+    throw WrongInput(
+        "with so many commands on their way the largest exponent alone is computed: "
+        "add --largest");
   report_warning(dense_work_warning(the_case, options.switching), quiet);
 }
 
