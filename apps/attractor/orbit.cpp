@@ -57,17 +57,8 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
   const std::string& law = context.case_data.backlash.law;
   const bool at_samples =
       options.switching == Switching::sampled && (law == "immediate" || law == "play");
-  if (is_modal(context.case_data) && is_of_the_paper(context.case_data, options.switching))
-    return visit(
-        certified_orbit(context, modal_loop_of(context.case_data), options.largest_period));
-  if (is_modal(context.case_data)) {
-    report_warning(dense_work_warning(context.case_data, options.switching), context.quiet);
-    EventOrbit orbit = certified_orbit_of_modes(context, options.switching, options.largest_period);
-    if (at_samples) forget_margins(orbit);
-    visit(orbit);
-    return;
-  }
-  with_loop_of(context.case_data, options.switching, [&](const auto& loop) {
+  report_warning(dense_work_warning(context.case_data, options.switching), context.quiet);
+  with_motion_of(context.case_data, options.switching, [&](const auto& loop, const auto&) {
     auto orbit = certified_orbit(context, loop, options.largest_period);
     if (at_samples) forget_margins(orbit);
     visit(orbit);

@@ -36,9 +36,7 @@ struct Feature {
   bool (*is_of)(const Case& the_case);
 };
 
-bool has_law(const Case& the_case, const char* law) {
-  return the_case.backlash.law == law && the_case.backlash.width > 0.0;
-}
+bool has_law(const Case& the_case, const char* law) { return the_case.backlash.law == law; }
 
 const std::vector<Feature>& features() {
   static const std::vector<Feature> all = {

@@ -31,7 +31,7 @@ bool can_be_tried(const SupportCell& cell) {
 /// HOLDFAST_SUPPORT_SHARE=1.
 TEST(Support, EveryCellDoesWhatTheTableSays) {
   const char* told = std::getenv("HOLDFAST_SUPPORT_SHARE");
-  const std::size_t share = told != nullptr ? std::strtoul(told, nullptr, 10) : 13;
+  const std::size_t share = told != nullptr ? std::strtoul(told, nullptr, 10) : 31;
   const auto cells = program::support_cells();
   std::size_t tried = 0;
   for (std::size_t k = 0; k < cells.size(); ++k) {

@@ -142,10 +142,10 @@ PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
   return orbit;
 }
 
-EventOrbit certified_orbit_of_modes(const JobContext& context, Switching switching,
-                                    std::int64_t largest_period) {
-  const auto motion = event_motion(smooth_conductor_loop_of(context.case_data, switching),
-                                   modal_state_of(context.case_data));
+EventOrbit certified_orbit(const JobContext& context,
+                           const ImplementedLoopOf<ControlledPlant>& loop,
+                           std::int64_t largest_period) {
+  const auto motion = event_motion(loop, modal_state_of(context.case_data));
   return as_seen(*certified_result_of(context, motion, largest_period).orbit, motion.readings());
 }
 

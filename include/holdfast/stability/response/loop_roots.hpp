@@ -85,6 +85,7 @@ class RootIteration {
     Complex value, slope;
   };
   WeightThere weight_at(const Complex& mu, const Complex& back) const {
+    if (weight_.change == Scalar(0)) return {weight_.constant, Complex(0)};
     const Complex change = ((radius_ - Scalar(1)) / radius_ + mu) * back;  // 1 − 1/(rλ)
     return {weight_.constant + weight_.change * change, weight_.change / radius_ * back * back};
   }
@@ -96,11 +97,11 @@ class RootIteration {
     const WeightThere weight = weight_at(mu, back);
     // With their slopes: λ^{1−k} w (a + b/λ) of the own part and of the sum of the others.
     const auto delayed = [&](const Complex& a, const Complex& b) {
-      return before * weight.value * (a + b * back);
+      return weight.value * (before * (a + b * back));
     };
     const auto delayed_slope = [&](const Complex& a, const Complex& b) {
-      return before * (weight.slope * (a + b * back) -
-                       weight.value * back * (Scalar(power_) * a + Scalar(power_ + 1) * b * back));
+      const Complex bare = -before * back * (Scalar(power_) * a + Scalar(power_ + 1) * b * back);
+      return weight.value * bare + weight.slope * (before * (a + b * back));
     };
     Complex sum_a(0), sum_b(0), slope_a(0), slope_b(0);
     for (std::size_t j = 0; j < parts_.size(); ++j) {
@@ -160,9 +161,9 @@ class RootIteration {
       slope -= (a + b) * away + b * back;
     }
     const WeightThere weight = weight_at(mu, back);
-    const Complex value = Complex(1) - before * weight.value * sum;
-    const Complex value_slope =
-        before * (weight.value * (Scalar(power_) * back * sum - slope) - weight.slope * sum);
+    const Complex value = Complex(1) - weight.value * (before * sum);
+    const Complex value_slope = weight.value * (before * (Scalar(power_) * back * sum - slope)) -
+                                weight.slope * (before * sum);
     const Complex step = value / (value_slope + value * divided_out(parts_.size() + j, root));
     return take(root, step, root);
   }
