@@ -36,8 +36,8 @@ struct CaseMargins {
 /// As far as doubles find them, looked at everywhere where that is soon done.
 CaseMargins stability_margins_of(const Case& the_case, const PdGains<double>& gains);
 
-/// The same as theorems, of a case of which it may be asked (texts/support.toml). Throws what proved_poles_of does,
-/// Interrupted, and NoAnswer where the loop is not proved to be stable.
+/// The same as theorems, of a case of which it may be asked (texts/support.toml). Throws what
+/// proved_poles_of does, Interrupted, and NoAnswer where the loop is not proved to be stable.
 /// @param found  how far to look; its ends of τ and δ that the walk has passed over are put right
 ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gains,
                                 StabilityMargins& found);

@@ -12,9 +12,9 @@
 
 namespace holdfast::program {
 
-/// The periodic orbit that the motion of the loop, one of `with_motion_of`, comes to from the case's
-/// initial state; on a conductor by its modes with the ten largest of its multipliers, and in the
-/// model that switches between the samples as conductor and absorber show it. Warns where a
+/// The periodic orbit that the motion of the loop, one of `with_motion_of`, comes to from the
+/// case's initial state; on a conductor by its modes with the ten largest of its multipliers, and
+/// in the model that switches between the samples as conductor and absorber show it. Warns where a
 /// switching surface is near. Throws NoAnswer, saying why, where there is none, or none with a
 /// certificate.
 /// @param largest_period  samples

@@ -117,9 +117,9 @@ Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
 /// The same that begins with other z1, v1, z2, v2.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
 
-/// Calls `visit` with the loop whose motion the case's is, and the state that it begins from: of two
-/// masses or of a conductor by its modes, each in the paper's model where that is all there is to
-/// the case, else with all that the case says of it. Throws as the functions above.
+/// Calls `visit` with the loop whose motion the case's is, and the state that it begins from: of
+/// two masses or of a conductor by its modes, each in the paper's model where that is all there is
+/// to the case, else with all that the case says of it. Throws as the functions above.
 template <class Visit>
 auto with_motion_of(const Case& the_case, Switching switching, const Visit& visit) {
   const bool of_paper = is_of_the_paper(the_case, switching);
