@@ -77,6 +77,11 @@ struct ModalDampingQuestion {
       const bool counts = std::abs(promised) > 0.01 * mode.bare + 1e-9;
       not_light += counts && !(std::abs(added - promised) < 0.5 * std::abs(promised)) ? 1 : 0;
     }
+    if (number < count && number > 0)
+      report_warning("the conductor tells " + std::to_string(number) + " modes apart, not " +
+                         std::to_string(count) + ": plant.modes = " + std::to_string(count) +
+                         " asks for as many",
+                     quiet);
     if (not_light > 0)
       report_warning("damping_ratio_first_order is the law of light devices; to " +
                          std::to_string(not_light) +

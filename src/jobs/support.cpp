@@ -67,7 +67,8 @@ const std::vector<Feature>& features() {
        [](const Case& of) {
          return !of.excitation.harmonics.empty() || of.excitation.noise_rms > 0.0;
        }},
-      {"record", [](const Case& of) { return !of.excitation.record.empty(); }},
+      {"record",
+       [](const Case& of) { return of.force_record != nullptr || !of.excitation.record.empty(); }},
       {"immediate", [](const Case& of) { return has_law(of, "immediate"); }},
       {"play", [](const Case& of) { return has_law(of, "play"); }},
       {"dead_zone", [](const Case& of) { return has_law(of, "dead_zone"); }}};

@@ -205,6 +205,38 @@ TEST(BuiltLoop, LeastRadiusIsLeastAndKnown) {
   }
 }
 
+/// Nor where no D stabilises, and D = 0, from which the search begins, lies on the circle of its
+/// own radius.
+TEST(BuiltLoop, LeastRadiusIsLeastWhereNoDStabilises) {
+  for (const std::string settings :
+       {" --set control.sampling_period=0.02 --set control.processing_delay=0.008"
+        " --set control.velocity=difference",
+        " --set control.sampling_period=0.02 --set control.processing_delay=0.046"
+        " --set control.velocity=difference",
+        " --set control.sampling_period=0.015 --set control.processing_delay=0.03"}) {
+    const CsvTable design = table_of("design --quiet" + settings);
+    const CsvTable chart = table_of("stability --radius --quiet --d -8:8:81 --p -557" + settings);
+    double smallest = 2.0;
+    for (std::size_t row = 0; row < chart.rows(); ++row)
+      smallest = std::min(smallest, chart.number(row, "spectral_radius"));
+    EXPECT_GT(smallest, 1.0) << settings;
+    EXPECT_LE(design.number(0, "least_radius"), smallest + 1e-6) << settings;
+    const CsvTable there = table_of("stability --radius --quiet --p -557 --d " +
+                                    design.text(0, "least_radius_gain") + settings);
+    EXPECT_NEAR(there.number(0, "spectral_radius"), design.number(0, "least_radius"), 1e-5)
+        << settings;
+  }
+}
+
+/// Where natural motions coincide a design is no answer, and not the answer that nothing is stable.
+TEST(BuiltLoop, CoincidingMotionsAreSaid) {
+  for (const std::string settings :
+       {" --set control.velocity=difference", " --set control.processing_delay=0.0013"})
+    for (const std::string job : {"design", "design --both-gains", "sensitivity", "margins"})
+      expect_refused(job + " --quiet --set plant.absorber_damping=4.4083842309856545" + settings,
+                     {"coincide"}, 1);
+}
+
 TEST(BuiltLoop, MarginsOfManyCommandsHaveTheirFrequencies) {
   const CsvTable margins = table_of(
       "margins --quiet --set control.processing_delay=0.0305 --set control.proportional_gain=0"

@@ -15,7 +15,8 @@ namespace holdfast {
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param angular_frequency  ω (rad/s), > 0
-/// @throws InvalidParameter where the place is a node of that frequency
+/// @throws InvalidParameter where the place is a node of that frequency, or the samples do not show
+///         it
 inline std::complex<double> matched_impedance(const TautString<double>& string, double distance,
                                               double angular_frequency) {
   const double phase = angular_frequency * distance / string.wave_speed();
@@ -36,7 +37,7 @@ inline std::complex<double> matched_impedance(const TautString<double>& string, 
 /// @param string             tension and mass
 /// @param distance           a (m) from the support, > 0; sin ka ≠ 0
 /// @param device             its gains do not count
-/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ
+/// @param angular_frequency  ω (rad/s), > 0, no multiple of 2π/τ, of a difference of π/τ
 /// @throws InvalidParameter where the place is a node of that frequency
 inline PdGains<double> perfect_absorption(const TautString<double>& string, double distance,
                                           const ActiveAbsorber& device, double angular_frequency) {
@@ -49,6 +50,9 @@ inline PdGains<double> perfect_absorption(const TautString<double>& string, doub
   const std::complex<double> by_d =
       drive_impedance(device.sampling, {0.0, 1.0}, device.hardware, s);
   const double area = (std::conj(by_p) * by_d).imag();
+  if (!(std::abs(area) > 1e-9 * std::abs(by_p) * std::abs(by_d)))
+    throw InvalidParameter("angular frequency", angular_frequency, "rad/s",
+                           "such that readings and hold show it: no multiple of pi/tau");
   return {(std::conj(wanted) * by_d).imag() / area, (std::conj(by_p) * wanted).imag() / area};
 }
 

@@ -109,14 +109,22 @@ SteadyResponse<double> LinearLoop::response(double frequency) const {
       .relative_to(true_amplitude_of(case_, omega));
 }
 
+void LinearLoop::require_poles() const {
+  if (closed_ || by_poles_->response.at_radius(0.0)) return;
+  loop_poles_of(case_);  // says which motions coincide
+  throw NoAnswer("natural motions of the loop coincide too nearly to be told apart");
+}
+
 MinimumAmplitude LinearLoop::quietest(const AmplitudeOptions& options, double frequency,
                                       double p) const {
   if (closed_) return minimum_amplitude(plant_of(case_), options, frequency, p);
+  require_poles();
   return minimum_amplitude(by_poles_->response, options, frequency, p, response(frequency));
 }
 
 MinimumAmplitudeGains LinearLoop::quietest_pair(const AmplitudeOptions& options,
                                                 double frequency) const {
+  require_poles();
   const auto& plant = case_.plant;
   const double omega = 2.0 * pi<double> * frequency;
   const double tuned =
@@ -134,6 +142,7 @@ MinimaxAmplitude LinearLoop::quietest_over(const AmplitudeOptions& options, doub
 }
 
 MinimumRadius LinearLoop::fastest(double p) const {
+  require_poles();
   return closed_ ? minimum_radius(*closed_, p) : minimum_radius(by_poles_->response, p);
 }
 

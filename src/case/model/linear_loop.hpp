@@ -34,7 +34,8 @@ namespace holdfast::program {
 /// threads.
 class LinearLoop {
  public:
-  /// Throws MissingKeys, and NoAnswer where natural motions cannot be told apart.
+  /// Throws MissingKeys. Best gains, margins and longest periods throw NoAnswer where natural
+  /// motions cannot be told apart.
   /// @param the_case  must outlive this
   explicit LinearLoop(const Case& the_case);
   explicit LinearLoop(Case&&) = delete;
@@ -79,6 +80,9 @@ class LinearLoop {
 
  private:
   struct ByPoles;
+
+  /// Throws NoAnswer where the loop has no sum over its poles.
+  void require_poles() const;
 
   const Case& case_;
   std::optional<SampledLoop<double>> closed_;

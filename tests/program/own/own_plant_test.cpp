@@ -10,6 +10,7 @@
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/gains.hpp"
+#include "holdfast/excitation/recorded_force.hpp"
 #include "holdfast/plant/natural_modes.hpp"
 #include "jobs/motion/case_motion.hpp"
 #include "jobs/support.hpp"
@@ -86,6 +87,16 @@ TEST(OwnPlant, RefusesWhatDoesNotCountBesideIt) {
   EXPECT_NE(support_of(ours, {"design", {"--band"}}).refusal.find("a plant of your own"),
             std::string::npos);
   EXPECT_EQ(support_of(ours, {"design", {}}).refusal, "");
+}
+
+/// A force in memory is a recorded one without a file.
+TEST(OwnForce, IsARecordedForce) {
+  Case the_case = CaseSource{}.load();
+  const Asked elements{"simulate", {"--plant", "--plant elements"}};
+  EXPECT_EQ(support_of(the_case, elements).refusal, "");
+  the_case.force_record = std::make_shared<const RecordedForce>(
+      std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 1.0}, RecordInterpolation::linear);
+  EXPECT_NE(support_of(the_case, elements).refusal.find("a recorded force"), std::string::npos);
 }
 
 TEST(OwnController, DecidesInThePlaceOfTheGains) {

@@ -108,12 +108,11 @@ class MinimumRadiusSearch {
   bool begin(double level) {
     lower_ = -loop_.centre;
     upper_ = level;
-    // The start may be the minimum itself: its own open level set is then empty.
+    // The start may be the minimum itself, whose own open level set is empty. It is no bound from
+    // below: at its own level the start lies on the boundary, where round-off decides.
     double raise = tolerance();
-    for (int k = 0; k < most_raises_ && (intervals_ = within(upper_)).empty(); ++k, raise *= 4.0) {
-      lower_ = upper_;
+    for (int k = 0; k < most_raises_ && (intervals_ = within(upper_)).empty(); ++k, raise *= 4.0)
       upper_ += raise;
-    }
     probe_ = closing_step();
     return !intervals_.empty();
   }
