@@ -285,6 +285,43 @@ class Footnotes {
   Words texts_;
 };
 
+/// The features beside which a question is asked, of two masses or of a conductor.
+Words features_asked(bool on_conductor) {
+  Words asked;
+  for (const std::string& name : feature_names())
+    if (!on_conductor || !is_of_plant(name)) asked.push_back(name);
+  return asked;
+}
+
+/// Whether a question knows the option that one of the features is.
+bool knows(const toml::node_view<const toml::node>& group, const std::string& question,
+           const std::string& name) {
+  return name != "exact" ||
+         (group["switching"].value_or(false) && question.find("--switching") == std::string::npos);
+}
+
+/// A table of the page.
+std::string table_of(const toml::node_view<const toml::node>& group, bool on_conductor,
+                     Footnotes& reasons) {
+  const Words all = feature_names(), shown = features_asked(on_conductor);
+  std::string text = "| asked |", line = "|---|";
+  for (const std::string& name : shown) {
+    const auto number = std::find(all.begin(), all.end(), name) - all.begin() + 1;
+    text += " " + std::to_string(number) + " |";
+    line += "---|";
+  }
+  text += "\n" + line + "\n";
+  for (const std::string& question : words_of(group["questions"])) {
+    text += "| `" + without_numbers(question) + "` |";
+    for (const std::string& name : shown)
+      text += knows(group, question, name)
+                  ? " " + reasons.of(cell_of(question, name, on_conductor).support) + " |"
+                  : "  |";
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<SupportCell> support_cells() {
@@ -294,12 +331,8 @@ std::vector<SupportCell> support_cells() {
     const bool is_tried = !text_of(group["title"]).empty();
     for (const std::string& question : words_of(group["questions"]))
       for (const bool on_conductor : {false, true})
-        for (const std::string& name : feature_names()) {
-          const bool is_option = name == "exact";
-          if (is_option && (!group["switching"].value_or(false) ||
-                            question.find("--switching") != std::string::npos))
-            continue;
-          if (on_conductor && is_of_plant(name)) continue;
+        for (const std::string& name : features_asked(on_conductor)) {
+          if (!knows(group, question, name)) continue;
           cells.push_back(cell_of(question, name, on_conductor));
           cells.back().can_be_asked = cells.back().can_be_asked && is_tried;
         }
@@ -308,42 +341,18 @@ std::vector<SupportCell> support_cells() {
 }
 
 std::string support_page() {
-  const std::vector<SupportCell> cells = support_cells();
   Footnotes reasons;
-  std::string page = text_of(table().texts["page"]["head"]);
+  std::string page = text_of(table().texts["page"]["head"]) + "\n";
   const Words names = feature_names();
-  page += "\n";
   for (std::size_t k = 0; k < names.size(); ++k)
     page += std::to_string(k + 1) + ". " + words_of_feature(names[k]) + "\n";
   for (const toml::node& node : *table().texts["asked"].as_array()) {
     const toml::node_view<const toml::node> group(node);
     const std::string title = text_of(group["title"]);
     if (title.empty()) continue;
-    for (const bool on_conductor : {false, true}) {
-      Words shown;
-      for (const std::string& name : names)
-        if (!on_conductor || !is_of_plant(name)) shown.push_back(name);
-      std::string header = "| asked |", line = "|---|";
-      for (std::size_t k = 0; k < names.size(); ++k) {
-        if (std::find(shown.begin(), shown.end(), names[k]) == shown.end()) continue;
-        header += " " + std::to_string(k + 1) + " |";
-        line += "---|";
-      }
+    for (const bool on_conductor : {false, true})
       page += "\n## " + title + (on_conductor ? ", on a conductor by its modes" : "") + "\n\n" +
-              header + "\n" + line + "\n";
-      for (const std::string& question : words_of(group["questions"])) {
-        page += "| `" + without_numbers(question) + "` |";
-        for (const std::string& name : shown) {
-          const auto cell = std::find_if(cells.begin(), cells.end(), [&](const SupportCell& one) {
-            return one.question.rfind(question, 0) == 0 && one.on_conductor == on_conductor &&
-                   one.feature == words_of_feature(name) &&
-                   one.question.size() <= question.size() + (name == "exact" ? 18 : 0);
-          });
-          page += cell == cells.end() ? "  |" : " " + reasons.of(cell->support) + " |";
-        }
-        page += "\n";
-      }
-    }
+              table_of(group, on_conductor, reasons);
   }
   return page + "\n## Why\n\n" + reasons.list();
 }

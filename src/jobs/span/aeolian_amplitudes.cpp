@@ -12,8 +12,8 @@ namespace holdfast::program {
 namespace {
 
 /// Of a loop that grows.
-constexpr Vibration none{{std::numeric_limits<double>::quiet_NaN(), BalanceRange::within},
-                         std::numeric_limits<double>::quiet_NaN()};
+constexpr Vibration no_vibration{{std::numeric_limits<double>::quiet_NaN(), BalanceRange::within},
+                                 std::numeric_limits<double>::quiet_NaN()};
 
 TautString<double> string_in_wind(const Case& the_case) {
   require_diameter(the_case, "the vibration in the wind");
@@ -82,7 +82,7 @@ std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
     for (const LossLaw& loss : losses_) {
       const Vibration bare = vibration(wind, loss, frequency, {support, support});
       rows.push_back({frequency, speed_of(frequency), std::string(wind.name), loss.name, bare,
-                      grows_          ? none
+                      grows_          ? no_vibration
                       : has_devices() ? vibration(wind, loss, frequency, damped)
                                       : bare});
     }
@@ -90,7 +90,7 @@ std::vector<AeolianRow> AeolianBalance::rows(double frequency) const {
 }
 
 Vibration AeolianBalance::largest(double frequency) const {
-  if (grows_) return none;
+  if (grows_) return no_vibration;
   const std::array<EndResponse, 2> ends = ends_at(2.0 * pi<double> * frequency);
   std::optional<Vibration> largest;
   for (const WindPowerLaw& wind : wind_power_laws)

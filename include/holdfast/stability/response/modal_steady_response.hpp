@@ -26,32 +26,15 @@ inline double true_amplitude_per_force(const std::vector<PlaceMode<double>>& mod
   return std::abs(place_response(receptance(modes, s), absorber, s).to_force);
 }
 
-/// The steady response of the loop of a conductor by its modes, the force acting at the absorber's
-/// place: as `steady_response` of `linear_plant`, in N operations.
-/// @param conductor          with all its poles, or none; the plant is asked where there are none
-/// or
-///                           one of them is the hardware's
-/// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
-/// @param hold               how the excitation enters a sample
-/// @param angular_frequency  ω (rad/s), > 0
-/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
-/// called
-/// @throws InvalidParameter outside these ranges
-template <class Scalar = double>
-SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
-                                       const Sampling<double>& sampling, ForceHold hold,
-                                       double angular_frequency) {
+namespace detail {
+
+/// `steady_response` of a conductor where all poles are there and the velocity is measured
+/// (unchecked).
+template <class Scalar>
+SteadyResponse<Scalar> steady_response_by_poles(const ConductorWithAbsorber& conductor,
+                                                const Sampling<double>& sampling, ForceHold hold,
+                                                double angular_frequency) {
   using Complex = std::complex<double>;
-  require_positive("angular frequency", angular_frequency, "rad/s");
-  validate(conductor.hardware);
-  if (!conductor.hardware.has_velocity_sensor) {
-    ConductorWithAbsorber measured = conductor;
-    measured.hardware.has_velocity_sensor = true;
-    return steady_response<Scalar>(measured, sampling, hold, angular_frequency)
-        .with_velocity_by_difference(angular_frequency * sampling.period, sampling.period);
-  }
-  if (with_hardware(conductor.poles, conductor.hardware).empty())
-    return steady_response(linear_plant<Scalar>(conductor), sampling, hold, angular_frequency);
   const Complex turn = circle_increment(angular_frequency * sampling.period);
   const detail::HardwarePoles lags(conductor.hardware);
   const auto answer = [&](const std::vector<PlantPole>& poles, const Sampling<Scalar>& at) {
@@ -81,6 +64,35 @@ SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
   }
   return SteadyResponse<double>({read.displacement, read.velocity, read_force.displacement,
                                  read_force.velocity, place.displacement, force.displacement});
+}
+
+}  // namespace detail
+
+/// The steady response of the loop of a conductor by its modes, the force acting at the absorber's
+/// place: as `steady_response` of `linear_plant`, in N operations.
+/// @param conductor          with all its poles, or none; the plant is asked where there are none,
+///                           or one of them is the hardware's
+/// @param sampling           τ (s) > 0, δ (s) 0 … 1000 τ
+/// @param hold               how the excitation enters a sample
+/// @param angular_frequency  ω (rad/s), > 0
+/// @tparam Scalar            double; a parameter so that nothing is compiled where this is not
+/// called
+/// @throws InvalidParameter outside these ranges
+template <class Scalar = double>
+SteadyResponse<Scalar> steady_response(const ConductorWithAbsorber& conductor,
+                                       const Sampling<double>& sampling, ForceHold hold,
+                                       double angular_frequency) {
+  require_positive("angular frequency", angular_frequency, "rad/s");
+  validate(conductor.hardware);
+  if (!conductor.hardware.has_velocity_sensor) {
+    ConductorWithAbsorber measured = conductor;
+    measured.hardware.has_velocity_sensor = true;
+    return steady_response<Scalar>(measured, sampling, hold, angular_frequency)
+        .with_velocity_by_difference(angular_frequency * sampling.period, sampling.period);
+  }
+  if (with_hardware(conductor.poles, conductor.hardware).empty())
+    return steady_response(linear_plant<Scalar>(conductor), sampling, hold, angular_frequency);
+  return detail::steady_response_by_poles<Scalar>(conductor, sampling, hold, angular_frequency);
 }
 
 /// The same, whose poles are found here.
