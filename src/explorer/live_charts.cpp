@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "case/model/linear_loop.hpp"
-#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/core/types.hpp"
@@ -15,11 +14,11 @@ namespace holdfast::program {
 namespace {
 
 /// Without play, of a stable loop.
-double controlled_amplitude(const Case& the_case, double frequency) {
+double controlled_amplitude(const Case& the_case, const LinearLoop& loop, double frequency) {
   if (!(2.0 * frequency * the_case.control.sampling_period < 1.0))
     return std::numeric_limits<double>::quiet_NaN();
   return excitation_of(the_case).amplitude *
-         LinearLoop(the_case).response(frequency).amplitude_per_force(gains_of(the_case));
+         loop.response(frequency).amplitude_per_force(gains_of(the_case));
 }
 
 }  // namespace
@@ -33,10 +32,11 @@ std::vector<std::uint8_t> stable_cells(const Case& the_case, const GainGrid& gri
 }
 
 Amplitudes amplitudes_over(const Case& the_case, const Axis& frequencies) {
-  Amplitudes amplitudes{spectral_radius_of(the_case) < 1.0, {}};
+  const LinearLoop loop(the_case);
+  Amplitudes amplitudes{loop.radius(gains_of(the_case)) < 1.0, {}};
   for (std::int64_t k = 0; k < frequencies.count; ++k) {
     const double frequency = frequencies.at(k);
-    const double controlled = amplitudes.stable ? controlled_amplitude(the_case, frequency)
+    const double controlled = amplitudes.stable ? controlled_amplitude(the_case, loop, frequency)
                                                 : std::numeric_limits<double>::quiet_NaN();
     amplitudes.at.push_back({frequency, controlled,
                              excitation_of(the_case).amplitude *

@@ -6,6 +6,7 @@
 
 #include "case/model/own/own_parts.hpp"
 #include "io/text/compiled_texts.hpp"
+#include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -19,15 +20,9 @@ Words words_of(const toml::node_view<const toml::node>& node) {
   return words;
 }
 
-Words split(const std::string& text) {
-  Words words;
-  std::size_t from = 0;
-  while (from < text.size()) {
-    const std::size_t end = std::min(text.find(' ', from), text.size());
-    words.push_back(text.substr(from, end - from));
-    from = end + 1;
-  }
-  return words;
+Words words_in(const std::string& text) {
+  const auto parts = split(text, ' ');
+  return {parts.begin(), parts.end()};
 }
 
 /// A feature by the name that the rules have for it.
@@ -144,7 +139,7 @@ std::string jobs_that_answer(const std::string& feature) {
   std::map<std::string, bool> answers;
   for (const SupportCell& cell : support_cells())
     if (cell.feature == feature) {
-      const std::string job = split(cell.question)[0];
+      const std::string job = words_in(cell.question)[0];
       const auto known = answers.try_emplace(job, false).first;
       known->second = known->second || cell.support.refusal.empty();
     }
@@ -169,13 +164,10 @@ Support support_of(const Words& there, const Asked& asked) {
           asked_words(rule, asked) + " does not answer with " + with + ": " + rule.refuses;
       return support;
     }
-    Words names;
     for (const std::string& name : there)
       if (std::find(rule.of.begin(), rule.of.end(), name) != rule.of.end())
-        names.push_back(words_of_feature(name));
-    for (const std::string& name : names)
-      support.idealised += (support.idealised.empty() ? "" : "; ") + name + ": " + asked.job +
-                           " is computed " + rule.idealises;
+        support.idealised += (support.idealised.empty() ? "" : "; ") + words_of_feature(name) +
+                             ": " + asked.job + " is computed " + rule.idealises;
   }
   return support;
 }
@@ -183,7 +175,7 @@ Support support_of(const Words& there, const Asked& asked) {
 }  // namespace
 
 bool Asked::has(const std::string& words) const {
-  const Words all = split(words);
+  const Words all = words_in(words);
   if (all.empty() || (all[0][0] != '-' && all[0] != job)) return false;
   std::size_t k = all[0][0] == '-' ? 0 : 1;
   for (; k < all.size(); ++k) {
@@ -214,7 +206,7 @@ namespace {
 
 /// A question of the table as it would come from a command line.
 Asked asked_of(const std::string& question) {
-  const Words words = split(question);
+  const Words words = words_in(question);
   Asked asked{words[0], {}};
   for (std::size_t k = 1; k < words.size(); ++k) {
     if (words[k].rfind("--", 0) != 0) continue;
@@ -245,7 +237,7 @@ SupportCell cell_of(const std::string& question, const std::string& name, bool o
 
 /// The options of a question that rules speak of, each once: "orbit --map".
 std::string without_numbers(const std::string& question) {
-  const Words words = split(question);
+  const Words words = words_in(question);
   std::string kept = words[0];
   for (const std::string& option : asked_of(question).options) {
     const auto speaks = [&](const Rule& rule) {

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <mutex>
 
-#include "case/model/held_force.hpp"
-#include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/control/loop_map.hpp"
@@ -14,7 +12,6 @@
 #include "holdfast/stability/boundary/circle_boundary.hpp"
 #include "holdfast/stability/boundary/circle_crossings.hpp"
 #include "holdfast/stability/boundary/resolved_circle.hpp"
-#include "holdfast/stability/boundary/stable_intervals.hpp"
 #include "holdfast/stability/chart/circle_chart.hpp"
 #include "holdfast/stability/design/modal_design.hpp"
 #include "holdfast/stability/design/modal_max_delay.hpp"
@@ -30,43 +27,47 @@ bool has_closed_forms(const Case& the_case) {
   return !is_modal(the_case) && the_case.control.velocity == "measured";
 }
 
-/// The loop as a sum over its poles, with what of it is asked for, made once.
+/// The loop as a sum over its poles, each part of it made when it is first asked for.
 struct LinearLoop::ByPoles {
-  explicit ByPoles(const Case& the_case) : response(command_response_of(the_case)) {}
+  explicit ByPoles(const Case& of) : case_(of) {}
 
+  const ModalResponse<double>& response() const {
+    return kept(response_, [this] { return command_response_of(case_); });
+  }
   const ResolvedCircle<double>& circle() const {
-    const std::lock_guard lock(guard_);
-    if (!circle_) circle_.emplace(response);
-    return *circle_;
+    const ModalResponse<double>& of = response();
+    return kept(circle_, [&of] { return ResolvedCircle<double>(of); });
   }
-  const ConductorWithAbsorber& conductor(const Case& the_case) const {
-    const std::lock_guard lock(guard_);
-    if (!conductor_) conductor_ = conductor_with_absorber_of(the_case);
-    return *conductor_;
+  const ConductorWithAbsorber& conductor() const {
+    return kept(conductor_, [this] { return conductor_with_absorber_of(case_); });
   }
-  const LoopMap<double>& map(const Case& the_case) const {
-    const std::lock_guard lock(guard_);
-    if (!map_) {
-      map_ = loop_map(modal_plant_of(the_case), sampling_of(the_case));
-      if (!hardware_of(the_case).has_velocity_sensor) map_ = with_velocity_by_difference(*map_);
-    }
-    return *map_;
+  const LoopMap<double>& map() const {
+    return kept(map_, [this] {
+      const auto measured = loop_map(modal_plant_of(case_), sampling_of(case_));
+      return hardware_of(case_).has_velocity_sensor ? measured
+                                                    : with_velocity_by_difference(measured);
+    });
   }
-
-  ModalResponse<double> response;
 
  private:
+  template <class Part, class Make>
+  const Part& kept(std::optional<Part>& part, const Make& make) const {
+    const std::lock_guard lock(guard_);
+    if (!part) part.emplace(make());
+    return *part;
+  }
+
+  const Case& case_;
   mutable std::mutex guard_;
+  mutable std::optional<ModalResponse<double>> response_;
   mutable std::optional<ResolvedCircle<double>> circle_;
   mutable std::optional<ConductorWithAbsorber> conductor_;
   mutable std::optional<LoopMap<double>> map_;  // once the roots were not found without it
 };
 
-LinearLoop::LinearLoop(const Case& the_case) : case_(the_case) {
-  if (has_closed_forms(the_case))
-    closed_ = loop_of(the_case);
-  else
-    by_poles_ = std::make_shared<const ByPoles>(the_case);
+LinearLoop::LinearLoop(const Case& the_case)
+    : case_(the_case), by_poles_(std::make_shared<const ByPoles>(the_case)) {
+  if (has_closed_forms(the_case)) closed_ = loop_of(the_case);
 }
 
 LinearLoop::~LinearLoop() = default;
@@ -80,9 +81,9 @@ std::vector<Interval<double>> LinearLoop::stable_gains(FreeGain free,
 }
 
 std::function<void(double, std::uint8_t*)> LinearLoop::stable_rows(const Axis& differential) const {
-  if (!closed_)
-    return [=, loop = by_poles_](double p, std::uint8_t* flags) {
-      fill_stability_row(loop->circle(), p, differential, flags);
+  if (!closed_)  // the circle is made before threads ask for it
+    return [=, kept = by_poles_, &circle = by_poles_->circle()](double p, std::uint8_t* flags) {
+      fill_stability_row(circle, p, differential, flags);
     };
   StabilityRows<5> rows(in_half_plane(characteristic_polynomial(*closed_)), differential);
   return [=](double p, std::uint8_t* flags) mutable { rows.fill(p, flags); };
@@ -90,17 +91,17 @@ std::function<void(double, std::uint8_t*)> LinearLoop::stable_rows(const Axis& d
 
 double LinearLoop::radius(const PdGains<double>& gains) const {
   if (closed_) return spectral_radius(closed_->engaged_map(gains));
-  const std::complex<double> root = largest_loop_root(by_poles_->response, gains);
+  const std::complex<double> root = largest_loop_root(by_poles_->response(), gains);
   if (std::abs(root) > 0.0) return std::abs(root);
-  const double excess = loop_excess_or_turn(by_poles_->response, gains);
+  const double excess = loop_excess_or_turn(by_poles_->response(), gains);
   if (std::isfinite(excess)) return 1.0 + excess;
-  return spectral_radius(by_poles_->map(case_).closed_map(gains));
+  return spectral_radius(by_poles_->map().closed_map(gains));
 }
 
 std::vector<BoundaryPoint<double>> LinearLoop::boundary(
     const Interval<double>& proportional) const {
   return closed_ ? stability_boundary(characteristic_polynomial(*closed_), proportional)
-                 : stability_boundary(by_poles_->response, proportional);
+                 : stability_boundary(by_poles_->response(), proportional);
 }
 
 SteadyResponse<double> LinearLoop::response(double frequency) const {
@@ -110,7 +111,7 @@ SteadyResponse<double> LinearLoop::response(double frequency) const {
 }
 
 void LinearLoop::require_poles() const {
-  if (closed_ || by_poles_->response.at_radius(0.0)) return;
+  if (closed_ || by_poles_->response().at_radius(0.0)) return;
   loop_poles_of(case_);  // says which motions coincide
   throw NoAnswer("natural motions of the loop coincide too nearly to be told apart");
 }
@@ -119,7 +120,7 @@ MinimumAmplitude LinearLoop::quietest(const AmplitudeOptions& options, double fr
                                       double p) const {
   if (closed_) return minimum_amplitude(plant_of(case_), options, frequency, p);
   require_poles();
-  return minimum_amplitude(by_poles_->response, options, frequency, p, response(frequency));
+  return minimum_amplitude(by_poles_->response(), options, frequency, p, response(frequency));
 }
 
 MinimumAmplitudeGains LinearLoop::quietest_pair(const AmplitudeOptions& options,
@@ -131,37 +132,37 @@ MinimumAmplitudeGains LinearLoop::quietest_pair(const AmplitudeOptions& options,
       tuned_proportional_gain(plant.absorber_stiffness, plant.absorber_mass, frequency);
   const double stiffness = plant.absorber_stiffness + plant.absorber_mass * omega * omega;
   const Interval<double> range{tuned - stiffness, tuned + stiffness};
-  return minimum_amplitude_gains(closed_ ? command_response_of(case_) : by_poles_->response,
-                                 options, frequency, range, response(frequency));
+  return minimum_amplitude_gains(by_poles_->response(), options, frequency, range,
+                                 response(frequency));
 }
 
 MinimaxAmplitude LinearLoop::quietest_over(const AmplitudeOptions& options, double p,
                                            const FrequencyBand& band) const {
   return closed_ ? minimax_amplitude(plant_of(case_), options, p, band)
-                 : modal_minimax_amplitude(by_poles_->conductor(case_), options, p, band);
+                 : modal_minimax_amplitude(by_poles_->conductor(), options, p, band);
 }
 
 MinimumRadius LinearLoop::fastest(double p) const {
   require_poles();
-  return closed_ ? minimum_radius(*closed_, p) : minimum_radius(by_poles_->response, p);
+  return closed_ ? minimum_radius(*closed_, p) : minimum_radius(by_poles_->response(), p);
 }
 
 MaxDelay LinearLoop::longest_period(const MaxDelayOptions& question) const {
   return closed_ ? max_sampling_period(plant_of(case_), question)
-                 : modal_max_sampling_period(by_poles_->conductor(case_), question);
+                 : modal_max_sampling_period(by_poles_->conductor(), question);
 }
 
 std::vector<Interval<double>> LinearLoop::stable_gains(const MaxDelayOptions& question,
                                                        double period) const {
   if (closed_) return feasible_differential_gains(plant_of(case_), question, period);
   const ResolvedCircle<double> circle(
-      modal_response(by_poles_->conductor(case_), question.sampling(period)));
+      modal_response(by_poles_->conductor(), question.sampling(period)));
   return circle.stable_gains(FreeGain::differential, {question.proportional_gain, 0.0});
 }
 
 double LinearLoop::excess(const Sampling<double>& sampling, const PdGains<double>& gains) const {
   if (closed_) return loop_polynomial(sampled_loop(plant_of(case_), sampling)).excess(gains);
-  return loop_excess_or_turn(modal_response(by_poles_->conductor(case_), sampling), gains);
+  return loop_excess_or_turn(modal_response(by_poles_->conductor(), sampling), gains);
 }
 
 StabilityMargins LinearLoop::margins(const PdGains<double>& gains) const {

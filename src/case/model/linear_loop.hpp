@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "case/case.hpp"
@@ -12,7 +11,6 @@
 #include "holdfast/control/sampled_loop.hpp"
 #include "holdfast/core/axis.hpp"
 #include "holdfast/core/interval.hpp"
-#include "holdfast/plant/two_mass.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/design/max_delay.hpp"
 #include "holdfast/stability/design/minimax_amplitude.hpp"
@@ -75,7 +73,7 @@ class LinearLoop {
 
   /// How far D, P, τ and δ may go; by poles τ and δ are walked, τ up to a hundred times its own.
   StabilityMargins margins(const PdGains<double>& gains) const;
-  /// What the loop as a whole can bear.
+  /// Gain, phase and delay that the loop as a whole can bear.
   LoopMargins whole_margins(const PdGains<double>& gains) const;
 
  private:
@@ -86,7 +84,7 @@ class LinearLoop {
 
   const Case& case_;
   std::optional<SampledLoop<double>> closed_;
-  std::shared_ptr<const ByPoles> by_poles_;  // where there are no closed forms
+  std::shared_ptr<const ByPoles> by_poles_;
 };
 
 /// Whether the linear loop is of order 4 + 1, of which there are closed forms: two masses, the

@@ -83,7 +83,7 @@ ProvedMargins proved_margins_of(const Case& the_case, const PdGains<double>& gai
                                               gains, found, {}, [] { throw_if_interrupted(); });
   if (proved.stability != ProvedStability::stable)
     throw NoAnswer("the loop is too near the boundary of stability to be proved stable");
-  if (LinearLoop(the_case).walks()) put_right(found, proved, the_case, gains);
+  if (!has_closed_forms(the_case)) put_right(found, proved, the_case, gains);
   return proved;
 }
 
