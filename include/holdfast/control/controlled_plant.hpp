@@ -135,17 +135,18 @@ class OwnController {
   template <class Law>
   void take(const Law& law) {
     value_ = [law](const Column& at, double elapsed) {
-      Vector<double, Law::states> state = at.tail(at.size() - 2);
+      Vector<double, Law::states> state = at.template bottomRows<Law::states>(at.size() - 2);
       Column result(at.size() - 1);
       result[0] = law.command({at[0], at[1], elapsed}, state);
-      result.tail(at.size() - 2) = state;
+      result.template bottomRows<Law::states>(at.size() - 2) = state;
       return result;
     };
     at_ = largest_ = Column::Zero(detail::memory_size(law) + 2);
     if constexpr (detail::HasDerivative<Law>::value) {
       derivative_ = [law](const Column& at, double elapsed) -> Derivative {
-        return law.derivative({at[0], at[1], elapsed},
-                              Vector<double, Law::states>(at.tail(at.size() - 2)));
+        return law.derivative(
+            {at[0], at[1], elapsed},
+            Vector<double, Law::states>(at.template bottomRows<Law::states>(at.size() - 2)));
       };
     }
   }
