@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +16,7 @@
 #include "holdfast/chaos/zero_one_test.hpp"
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 #include "holdfast/math/signal/spectrum.hpp"
 #include "holdfast/math/signal/spectrum_lines.hpp"
 
@@ -73,8 +73,8 @@ class LeadingExponent {
 
   /// Turns the basis by one map of the transient; call before the first push.
   void settle(const Matrix<double, Size>& tangent) {
-    const Matrix<double, Size> stretched = tangent * basis_;
-    basis_ = Eigen::HouseholderQR<Matrix<double, Size>>(stretched).householderQ();
+    Matrix<double, Size> stretched = tangent * basis_;
+    basis_ = orthogonal_factor(stretched);
   }
 
   /// Takes in one map.

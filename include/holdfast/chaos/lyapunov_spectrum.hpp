@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 #include "holdfast/math/stats/batch_sums.hpp"
 #include "holdfast/math/stats/settled_means.hpp"
 
@@ -119,13 +119,12 @@ int LyapunovSpectrum<Scalar, Size>::rank_of(const Matrix<Scalar, Size>& tangent)
 
 template <class Scalar, int Size>
 void LyapunovSpectrum<Scalar, Size>::push(const Matrix<Scalar, Size>& tangent, int rank) {
-  const Matrix<Scalar, Size> stretched = tangent * state_.basis;
-  const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
-  state_.basis = qr.householderQ();
+  Matrix<Scalar, Size> upper = tangent * state_.basis;
+  state_.basis = orthogonal_factor(upper);
   state_.finite = std::min(state_.finite, rank);
   Vector<Scalar, Size> logarithms = Vector<Scalar, Size>::Zero(tangent.rows());
   for (int i = 0; i < state_.finite; ++i) {
-    const Scalar stretch = std::abs(qr.matrixQR()(i, i));
+    const Scalar stretch = std::abs(upper(i, i));
     if (stretch == Scalar(0)) {
       state_.finite = i;
       break;

@@ -144,9 +144,9 @@ class OwnController {
     at_ = largest_ = Column::Zero(detail::memory_size(law) + 2);
     if constexpr (detail::HasDerivative<Law>::value) {
       derivative_ = [law](const Column& at, double elapsed) -> Derivative {
-        return law.derivative(
-            {at[0], at[1], elapsed},
-            Vector<double, Law::states>(at.template bottomRows<Law::states>(at.size() - 2)));
+        const Vector<double, Law::states> state =
+            at.template bottomRows<Law::states>(at.size() - 2);
+        return law.derivative({at[0], at[1], elapsed}, state);
       };
     }
   }

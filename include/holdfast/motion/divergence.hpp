@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "holdfast/excitation/multi_harmonic_force.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/motion/implemented_loop.hpp"
 #include "holdfast/motion/modal/natural_motions.hpp"
 #include "holdfast/plant/modal_plant.hpp"
@@ -16,12 +16,15 @@ namespace holdfast {
 namespace detail {
 
 /// Scale of the static deflection (m) under a force (N): the largest entry of A⁻¹ c F, or of c F
-/// where A has no inverse.
+/// where A has no inverse. States that stand still between the samples bend by nothing.
 template <class Plant>
 double static_deflection(const Plant& plant, double force) {
-  const auto& input = plant.excitation_input();
-  const double bend = plant.state_matrix().partialPivLu().solve(input).cwiseAbs().maxCoeff();
-  return force * (std::isfinite(bend) ? bend : input.cwiseAbs().maxCoeff());
+  const auto input = plant.excitation_input();
+  auto matrix = plant.state_matrix();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    if (matrix.row(i).cwiseAbs().maxCoeff() == 0.0) matrix(i, i) = 1.0;
+  const auto bend = eliminated(matrix, input);
+  return force * (bend.allFinite() ? bend : input).cwiseAbs().maxCoeff();
 }
 
 }  // namespace detail

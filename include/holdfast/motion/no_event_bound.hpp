@@ -74,7 +74,4 @@ class NoEventBoundOf {
   double by_state_, by_command_, by_force_;
 };
 
-/// That of the two masses.
-using NoEventBound = NoEventBoundOf<EnergyNorm, 4>;
-
 }  // namespace holdfast

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
 
@@ -91,8 +91,7 @@ CyclicSystem<Scalar, Size>::CyclicSystem(const std::vector<Matrix<Scalar, Size>>
     outer.setZero();
     outer.template topLeftCorner<Size, Size>(n, n) = first;
     outer.template bottomRightCorner<Size, Size>(n, n) = identity;
-    const Eigen::HouseholderQR<Matrix<Scalar, twice, Size>> qr(inner);
-    outer.applyOnTheLeft(qr.householderQ().adjoint());
+    reflect_to_triangle(inner, outer);
     first = outer.template bottomLeftCorner<Size, Size>(n, n);
     last_ = outer.template bottomRightCorner<Size, Size>(n, n);
   }

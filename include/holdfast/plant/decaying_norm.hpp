@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 
 namespace holdfast {
 
@@ -47,7 +47,8 @@ class DecayingNorm {
   static Matrix<double, States> solution_of(const Matrix<double, States>& a,
                                             const Matrix<double, States>& identity) {
     const double shift = a.cwiseAbs().rowwise().sum().maxCoeff();
-    const Matrix<double, States> inverse = (shift * identity - a).inverse();
+    const Matrix<double, States> inverse =
+        eliminated(Matrix<double, States>(shift * identity - a), identity);
     Matrix<double, States> power = inverse * (shift * identity + a);
     Matrix<double, States> sum = 2.0 * shift * inverse.transpose() * inverse;
     for (int doubling = 0; doubling < 40 && power.allFinite(); ++doubling) {

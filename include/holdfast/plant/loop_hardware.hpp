@@ -28,9 +28,6 @@ struct LoopHardware {
   double drive_bandwidth = ideal;     ///< ω_d/2π (Hz), > 0
   double drive_damping = ideal;       ///< ζ_d, > 0; infinity: a lag of first order
   bool has_velocity_sensor = true;    ///< else D multiplies a backward difference of readings
-
-  /// Whether neither filter nor lag is there.
-  bool is_ideal() const { return measurement_filter == ideal && drive_bandwidth == ideal; }
 };
 
 /// Refuses hardware outside the ranges that its members state.

@@ -217,24 +217,6 @@ inline void separate(std::vector<PlantPole>& poles, const std::vector<std::compl
 
 }  // namespace detail
 
-/// The poles of a conductor by its modes alone, 2N of them, from a force at the place to z: of each
-/// mode the natural motion with Im s > 0, of an overdamped one the slower, and then its other one.
-/// None where a mode is damped critically.
-/// @throws InvalidParameter where the modes are not admissible
-inline std::vector<PlantPole> conductor_poles(const std::vector<PlaceMode<double>>& modes) {
-  validate(modes, {1.0, 0.0, 0.0});
-  std::vector<PlantPole> poles;
-  poles.reserve(2 * modes.size());
-  for (const PlaceMode<double>& mode : modes) {
-    const auto [s, partner] = detail::PoleFinder::bare(mode);
-    if (s == partner) return {};
-    const std::complex<double> residue = mode.shape * mode.shape / (mode.mass * (s - partner));
-    poles.push_back({s, residue});
-    poles.push_back({partner, -residue});
-  }
-  return poles;
-}
-
 /// The poles of a conductor by its modes with the absorber, all 2N + 2 of them, by following each
 /// from where it is without the other (`root_from_pole`): first the one of each mode with Im s > 0,
 /// of an overdamped one the slower, in order, then the other ones and the absorber's two. Where two

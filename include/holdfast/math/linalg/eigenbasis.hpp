@@ -8,6 +8,7 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
 
@@ -106,9 +107,9 @@ EigenBasis<Scalar>::EigenBasis(const Matrix<Scalar, Eigen::Dynamic>& matrix) {
   factors_ = similar.factors;
   const Scalar scale =
       std::max(similar.balanced.cwiseAbs().maxCoeff(), std::numeric_limits<Scalar>::min());
-  const Eigen::HessenbergDecomposition<Square> hessenberg(Square(similar.balanced / scale));
+  const HessenbergForm<Square> hessenberg(similar.balanced / scale);
   Eigen::RealSchur<Square> schur(matrix.rows());
-  schur.computeFromHessenberg(hessenberg.matrixH(), hessenberg.matrixQ(), true);
+  schur.computeFromHessenberg(hessenberg.form, hessenberg.basis, true);
   converged_ = schur.info() == Eigen::Success;
   triangle_ = (schur.matrixT() * scale).template cast<Complex>();
   basis_ = schur.matrixU().template cast<Complex>();

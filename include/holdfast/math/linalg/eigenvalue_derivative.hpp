@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <limits>
 
 #include "holdfast/core/errors.hpp"
 #include "holdfast/core/types.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 
 namespace holdfast {
 
@@ -30,7 +30,8 @@ std::complex<Scalar> eigenvalue_derivative(const Matrix<Scalar, Eigen::Dynamic>&
   Matrix<Complex, Eigen::Dynamic> shifted = -matrix.template cast<Complex>();
   shifted.diagonal().array() +=
       value * (Scalar(1) + std::sqrt(std::numeric_limits<Scalar>::epsilon()));
-  const Matrix<Complex, Eigen::Dynamic> resolvent = shifted.partialPivLu().inverse();
+  const Matrix<Complex, Eigen::Dynamic> resolvent = eliminated(
+      shifted, Matrix<Complex, Eigen::Dynamic>(shifted.Identity(shifted.rows(), shifted.cols())));
   return resolvent.transpose().cwiseProduct(rate.template cast<Complex>()).sum() /
          resolvent.trace();
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,7 +10,9 @@
 
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/linalg/moving_number.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
 
@@ -33,10 +34,9 @@ Matrix<std::complex<Scalar>, Eigen::Dynamic> triangular_basis(
   using Square = Matrix<Scalar, Eigen::Dynamic>;
   using Complex = std::complex<Scalar>;
   const Eigen::Index n = matrix.rows();
-  const Eigen::HessenbergDecomposition<Square> hessenberg(matrix);
+  const HessenbergForm<Square> hessenberg(matrix);
   Eigen::RealSchur<Square> schur(n);
-  const Square turned = hessenberg.matrixQ();
-  schur.computeFromHessenberg(hessenberg.matrixH(), turned, true);
+  schur.computeFromHessenberg(hessenberg.form, hessenberg.basis, true);
   const Square& form = schur.matrixT();
   Matrix<Complex, Eigen::Dynamic> basis = schur.matrixU().template cast<Complex>();
   for (Eigen::Index i = 0; i + 1 < n; ++i) {
@@ -165,7 +165,7 @@ class MovingSpectrum {
       remainder_.setConstant(std::numeric_limits<Scalar>::infinity());
       return;
     }
-    off_ = (identity - off_).partialPivLu().solve(off_).cwiseAbs().eval();
+    off_ = eliminated(Bound(identity - off_), off_).cwiseAbs();
     Bound all = remainder_;
     for (const Form& term : terms_) all += term.cwiseAbs();
     remainder_ += off_ * all;
@@ -289,7 +289,7 @@ class MovingSpectrum {
       if (!(reserve > 0.0)) return;
       reserve_(i, i) = reserve;
     }
-    const Eigen::VectorXd v = reserve_.partialPivLu().solve(Eigen::VectorXd::Ones(n));
+    const Eigen::VectorXd v = eliminated(reserve_, Eigen::VectorXd(Eigen::VectorXd::Ones(n)));
     inside_ = v.allFinite() && v.minCoeff() > 0.0 && (reserve_ * v).minCoeff() > 0.5;
   }
 
@@ -344,7 +344,7 @@ std::vector<MovingNumber> MovingSpectrum<Scalar>::responses(const MovingNumber& 
               std::abs(from_one.terms[l]) * beyond[order() - l];
   const Bound unit = Bound::Identity(size(), size()) - turned_;
   missed = unit.template triangularView<Eigen::UnitLower>().solve(missed);
-  missed = reserve_.partialPivLu().solve(missed).cwiseAbs();
+  missed = eliminated(reserve_, missed).cwiseAbs();
   missed += turned_ * missed;
   std::vector<MovingNumber> result;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {

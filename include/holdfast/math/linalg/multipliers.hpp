@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,6 +11,7 @@
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/eigenvalues.hpp"
 #include "holdfast/math/linalg/gram_schmidt.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
 
@@ -72,7 +72,7 @@ Matrix<Scalar, Size> generic_basis(int order) {
   for (int i = 0; i < order; ++i)
     for (int j = 0; j < order; ++j)
       dense(i, j) = Scalar(std::cos(1.0 + 3.0 * i + 7.0 * j + 1.3 * i * j));
-  return Eigen::HouseholderQR<Matrix<Scalar, Size>>(dense).householderQ();
+  return orthogonal_factor(dense);
 }
 
 /// Some columns in no special position, orthonormal.
@@ -94,10 +94,8 @@ ScaledTriangle<Scalar, Size> turn_basis(const std::vector<Matrix<Scalar, Size>>&
                                         Matrix<Scalar, Size>& basis) {
   ScaledTriangle<Scalar, Size> triangle(basis.rows());
   for (const Matrix<Scalar, Size>& map : maps) {
-    const Matrix<Scalar, Size> stretched = map * basis;
-    const Eigen::HouseholderQR<Matrix<Scalar, Size>> qr(stretched);
-    basis = qr.householderQ();
-    const Matrix<Scalar, Size> upper = qr.matrixQR().template triangularView<Eigen::Upper>();
+    Matrix<Scalar, Size> upper = map * basis;
+    basis = orthogonal_factor(upper);
     triangle.multiply_from_left(upper, map.norm());
   }
   return triangle;

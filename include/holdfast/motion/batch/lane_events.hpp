@@ -28,7 +28,7 @@ namespace holdfast {
 /// far above that.
 /// @param begin  g_0, in any unit
 /// @param end    g_1, in the same unit
-/// @param drop   d > 0, as NoEventBound bounds it; of d = 0 the answer is no
+/// @param drop   d > 0, as NoEventBoundOf bounds it; of d = 0 the answer is no
 template <class Scalar>
 Mask<Scalar> stays_above_zero(const Scalar& begin, const Scalar& end, const Scalar& drop) {
   using std::abs;

@@ -44,7 +44,7 @@ struct LaneGuard {
   }
 };
 
-/// SubintervalStep of all lanes over a part of the period, and NoEventBound's drop over it.
+/// SubintervalStep of all lanes over a part of the period, and NoEventBoundOf's drop over it.
 template <class Scalar>
 struct LaneStep {
   using Numbers = LaneNumbers<Scalar>;                       ///< a number of every lane

@@ -30,19 +30,6 @@ inline double turbulent_share(double intensity) {
   return 1.0 / std::hypot(1.0, intensity / lock_in);
 }
 
-/// The share of time during which a wind's speed is within a range about its mean, speeds normal:
-/// erf(w/(√2 I)). An assumption, not a measurement: a wind that gives its whole power within the
-/// range of lock-in and none outside. With w = 0.1 it agrees with `turbulent_share` within 0.09 for
-/// every I up to 0.3.
-/// @param intensity   I, 0 … 1
-/// @param half_width  w, half the range over the mean speed, > 0
-/// @throws InvalidParameter outside these ranges
-inline double lock_in_share(double intensity, double half_width) {
-  require_within("turbulence intensity", intensity, "", 0.0, 1.0);
-  require_positive("half width of the range of lock-in", half_width, "");
-  return intensity > 0.0 ? std::erf(half_width / (std::sqrt(2.0) * intensity)) : 1.0;
-}
-
 /// The law of a wind in turbulence, its power lowered by `turbulent_share`.
 /// @throws InvalidParameter for an intensity outside 0 … 1
 inline WindPowerLaw in_turbulence(WindPowerLaw law, double intensity) {

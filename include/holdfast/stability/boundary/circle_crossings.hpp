@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,6 +11,7 @@
 #include "holdfast/core/interval.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/balancing.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/stability/boundary/boundary_point.hpp"
 #include "holdfast/stability/boundary/stable_intervals.hpp"
@@ -76,7 +76,7 @@ std::vector<Scalar> angles_on_circle(const Matrix<Scalar, Eigen::Dynamic>& m,
                                      const Matrix<Scalar, Eigen::Dynamic>& l, Scalar spread) {
   using Square = Matrix<Scalar, Eigen::Dynamic>;
   const Scalar a = (Scalar(1) - spread) / (Scalar(1) + spread);
-  const Square turned = (l - a * m).partialPivLu().solve(m - a * l);
+  const Square turned = eliminated(Square(l - a * m), Square(m - a * l));
   std::vector<Scalar> angles;
   for (const std::complex<Scalar>& w : balanced_eigenvalues<Scalar, Eigen::Dynamic>(turned)) {
     if (w.imag() > Scalar(0) && std::abs(std::abs(w) - Scalar(1)) < Scalar(1e-4))

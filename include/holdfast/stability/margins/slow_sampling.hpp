@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 #include "holdfast/control/gains.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/eigenvalue_derivative.hpp"
+#include "holdfast/math/linalg/elimination.hpp"
 #include "holdfast/math/linalg/resolvent.hpp"
 #include "holdfast/math/linalg/spectral_radius.hpp"
 #include "holdfast/math/poly/polynomial.hpp"
@@ -105,7 +105,7 @@ class SlowSamplingBound {
         if (std::abs(poles[i] - poles[k]) < 1e-3 * std::abs(poles[i])) decay_.back() = 0.0;
       }
     }
-    static_gain_ = std::abs(feedback.dot(a.partialPivLu().solve(b)));
+    static_gain_ = std::abs(feedback.dot(eliminated(a, b)));
   }
 
   /// The decay of a pole, 0 where it is undamped but for round-off.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -8,6 +8,7 @@
 #include "holdfast/control/loop_map.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/math/linalg/complex_exponential.hpp"
+#include "holdfast/math/linalg/reflections.hpp"
 
 namespace holdfast {
 
@@ -52,10 +53,9 @@ class LoopResponse {
 
 template <class Scalar>
 LoopResponse<Scalar>::LoopResponse(const LoopMap<Scalar>& map) {
-  using Square = Matrix<Scalar, Eigen::Dynamic>;
-  const Eigen::HessenbergDecomposition<Square> reduced(map.increment);
-  const Square q = reduced.matrixQ();
-  hessenberg_ = reduced.matrixH();
+  const HessenbergForm<Matrix<Scalar, Eigen::Dynamic>> reduced(map.increment);
+  const auto& q = reduced.basis;
+  hessenberg_ = reduced.form;
   command_ = q.transpose() * map.command;
   displacement_ = map.displacement * q;
   velocity_ = map.velocity * q;
