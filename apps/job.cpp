@@ -61,13 +61,6 @@ CLI::Validator range_of(const toml::array& ends) {
   return number_from(*ends[0].value<double>(), *ends[1].value<double>());
 }
 
-std::vector<std::string> words_of(const toml::array* texts) {
-  std::vector<std::string> words;
-  if (texts != nullptr)
-    for (const toml::node& text : *texts) words.push_back(text_of(text));
-  return words;
-}
-
 /// Warns of what is not plausible, and keeps it for a page of answers.
 void doubt(JobContext& context, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {

@@ -8,6 +8,7 @@
 #include "case/model/loop_of_case.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/math/stats/share_error.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -165,22 +166,34 @@ void require_attractors(const std::optional<Rational>& ratio, std::int64_t large
   }
 }
 
-/// Deals tiles of states out to threads.
-auto tiles_on(const JobContext& context) {
-  return [&context](std::size_t count, std::size_t tile, const auto& job) {
-    parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
-                  context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
-                    throw_if_interrupted();
-                    job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
-                  });
-  };
-}
-
 /// Moves states on in packs.
 auto travel_of(const JobContext& context) {
   return [&context](const auto& motion) {
     return TravelOnPacks(pack_kernels(context.instructions).travel(motion));
   };
+}
+
+using States = std::vector<Vector<double, 4>>;
+
+auto basins_of(const SampledMasses& moving, const JobContext& context, const States& states,
+               const OrbitLimits& limits) {
+  return find_basins_by(travel_of(context), moving.loop, states, limits, tiles_on(context));
+}
+auto basins_of(const SampledModes& moving, const JobContext& context, const States& states,
+               const OrbitLimits& limits) {
+  return find_basins(moving.loop, states, limits, tiles_on(context));
+}
+auto basins_of(const BuiltMasses& moving, const JobContext& context, const States& states,
+               const OrbitLimits& limits) {
+  const auto tiles = tiles_on(context);
+  if (!has_event_pack(moving.loop)) return find_basins(moving.loop, states, limits, tiles);
+  return find_basins_by(pack_kernels(context.instructions).approaches, moving.loop, states, limits,
+                        tiles);
+}
+auto basins_of(const BuiltPlant& moving, const JobContext& context, const States& states,
+               const OrbitLimits& limits) {
+  const auto begin = [&](const auto& seen) { return modal_state_of(context.case_data, seen); };
+  return find_basins(moving.loop, states, limits, tiles_on(context), begin);
 }
 
 /// Which attractor every initial state of a grid comes to: its number from 1 on in the order of the
@@ -214,38 +227,17 @@ struct BasinsQuestion {
     const StateGrid grid = grid_of(axes);
     const States states = states_of(context, grid);
     if (along) return follow(context, states);
-    const OrbitLimits limits = search_limits();
-    const auto tiles = tiles_on(context);
-    const auto write = [&](const auto& found) {
-      fractions ? write_fractions(context, found) : write_states(context, grid, found);
-    };
-    const bool of_paper = is_of_the_paper(the_case, switching);
-    if (is_modal(the_case) && of_paper) {
-      const ModalLoop loop = modal_loop_of(the_case);
-      require_attractors(forcing_ratio(loop), largest_period);
-      write(find_basins(loop, states, limits, tiles));
-    } else if (is_modal(the_case)) {
-      report_warning(dense_work_warning(the_case, switching), context.quiet);
-      const auto loop = smooth_conductor_loop_of(the_case, switching);
-      require_attractors(forcing_ratio(loop.digital), largest_period);
-      const auto begin = [&](const auto& state) { return modal_state_of(the_case, state); };
-      write(find_basins(loop, states, limits, tiles, begin));
-    } else if (of_paper) {
-      const IdealLoop<double> loop = ideal_loop_of(the_case);
-      require_attractors(forcing_ratio(loop), largest_period);
-      write(find_basins_by(travel_of(context), loop, states, limits, tiles));
-    } else {
-      const ImplementedLoop loop = implemented_loop_of(the_case, switching);
-      require_attractors(forcing_ratio(loop.digital), largest_period);
-      if (!has_event_pack(loop)) return write(find_basins(loop, states, limits, tiles));
-      write(find_basins_by(pack_kernels(context.instructions).approaches, loop, states, limits,
-                           tiles));
-    }
+    report_warning(dense_work_warning(the_case, switching), context.quiet);
+    std::visit(
+        [&](const auto& moving) {
+          require_attractors(forcing_ratio(clock_of(moving)), largest_period);
+          const auto found = basins_of(moving, context, states, search_limits());
+          fractions ? write_fractions(context, found) : write_states(context, grid, found);
+        },
+        smooth_loop_of(the_case, switching));
   }
 
  private:
-  using States = std::vector<Vector<double, 4>>;
-
   static States states_of(const JobContext& context, const StateGrid& grid) {
     for (const KeyAxis& axis : {grid.slow, grid.fast}) require_admissible_ends(axis, context);
     return grid.states(context.case_data);
@@ -289,7 +281,6 @@ void BasinsQuestion::follow(const JobContext& context,
     throw WrongInput("--along " + *along + ": " + format_number(all) + " motions are more than " +
                      format_number(most_states));
   Table table(context, columns_of("followed basins", {{"key", axis.key}}));
-  const auto tiles = tiles_on(context);
   const auto each_value = [&](auto continuation, const auto& find) {
     for (std::int64_t k = 0; k < axis.axis.count; ++k) {
       const double value = axis.axis.at(k);
@@ -302,14 +293,13 @@ void BasinsQuestion::follow(const JobContext& context,
   if (is_of_the_paper(context.case_data, switching)) {
     each_value(AttractorContinuation<PeriodicOrbit>(states, largest_orbit_distance),
                [&](const Case& there, const auto& starts) {
-                 return find_basins_by(travel_of(context), ideal_loop_of(there), starts,
-                                       search_limits(), tiles);
+                 return basins_of(sampled_masses_of(there), context, starts, search_limits());
                });
   } else {
     each_value(AttractorContinuation<EventOrbit>(states, largest_orbit_distance),
                [&](const Case& there, const auto& starts) {
-                 return find_basins(implemented_loop_of(there, switching), starts, search_limits(),
-                                    tiles);
+                 return basins_of(std::get<BuiltMasses>(built_loop_of(there, {switching})), context,
+                                  starts, search_limits());
                });
   }
   table.commit();

@@ -1,6 +1,6 @@
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/event_lyapunov.hpp"
 #include "holdfast/chaos/lyapunov_run.hpp"
 #include "holdfast/chaos/modal_lyapunov.hpp"
@@ -47,8 +47,9 @@ std::int64_t steps_of(const JobContext& context, const LyapunovQuestion& options
 }
 
 /// Along the motion's itinerary, whose tangents are those of the options.
-LyapunovResult exponents_of(SampledMotion<double> motion, const JobContext& context,
+LyapunovResult exponents_of(const SampledMasses& moving, const JobContext& context,
                             const LyapunovQuestion& options, const LyapunovRun& run) {
+  auto motion = motion_of(moving);
   const auto blocks = std::make_shared<const ItineraryBlocks>(
       tangent_loop_of(context.case_data, options), gains_of(context.case_data));
   const LyapunovResult result = run_lyapunov(motion, blocks, run, throw_if_interrupted);
@@ -57,9 +58,10 @@ LyapunovResult exponents_of(SampledMotion<double> motion, const JobContext& cont
 }
 
 /// Of any loop, with the saltation at its switches.
-template <class Contact>
-LyapunovResult exponents_of(EventMotion<Contact> motion, const JobContext& context,
+template <class Moving>
+LyapunovResult exponents_of(const Moving& moving, const JobContext& context,
                             const LyapunovQuestion&, const LyapunovRun& run) {
+  auto motion = motion_of(moving);
   const LyapunovResult result = run_event_lyapunov(motion, run, throw_if_interrupted);
   if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(motion.time());
   tell_of_end(context, end_of(motion));
@@ -67,17 +69,18 @@ LyapunovResult exponents_of(EventMotion<Contact> motion, const JobContext& conte
 }
 
 /// Of a conductor by its modes.
-LyapunovResult exponents_of(const ModalMotion& motion, const JobContext& context,
-                            const LyapunovQuestion&, const LyapunovRun& run) {
-  ModalLyapunov lyapunov(modal_loop_of(context.case_data), motion);
+LyapunovResult exponents_of(const SampledModes& moving, const JobContext&, const LyapunovQuestion&,
+                            const LyapunovRun& run) {
+  ModalLyapunov lyapunov(moving.loop, motion_of(moving));
   const LyapunovResult result = run_lyapunov(lyapunov, run, throw_if_interrupted);
   if (result.outcome == LyapunovOutcome::diverged) refuse_diverging(lyapunov.time());
   return result;
 }
 
 /// Of hundreds of states all exponents would cost days where they are not those of natural motions.
-void require_bearable_modes(const Case& the_case, const LyapunovQuestion& options, bool quiet) {
-  if (!is_modal(the_case) || is_of_the_paper(the_case, options.switching)) return;
+void require_bearable_modes(const Case& the_case, const MovingLoop& moving,
+                            const LyapunovQuestion& options, bool quiet) {
+  if (!std::holds_alternative<BuiltPlant>(moving)) return;
   constexpr double bearable = 20.0;
   if (!options.largest &&
       the_case.control.processing_delay >= bearable * the_case.control.sampling_period)
@@ -94,8 +97,9 @@ void write_history_row(Table& table, double time, const Vector<double, 5>& expon
   table.writer().end_row();
 }
 
-void write_history(SampledMotion<double> motion, const JobContext& context,
+void write_history(const SampledMasses& moving, const JobContext& context,
                    const LyapunovQuestion& options, std::int64_t steps, Table& table) {
+  auto motion = motion_of(moving);
   const double period = context.case_data.control.sampling_period;
   LyapunovObserver observer(tangent_loop_of(context.case_data, options),
                             gains_of(context.case_data));
@@ -104,9 +108,9 @@ void write_history(SampledMotion<double> motion, const JobContext& context,
   });
 }
 
-void write_history(const ModalMotion& motion, const JobContext& context, const LyapunovQuestion&,
+void write_history(const SampledModes& moving, const JobContext&, const LyapunovQuestion&,
                    std::int64_t steps, Table& table) {
-  ModalLyapunov lyapunov(modal_loop_of(context.case_data), motion);
+  ModalLyapunov lyapunov(moving.loop, motion_of(moving));
   for (std::int64_t step = 0; step < steps; ++step) {
     look_for_interrupt(step);
     run_to_completion(lyapunov, 1, {});
@@ -114,9 +118,10 @@ void write_history(const ModalMotion& motion, const JobContext& context, const L
   }
 }
 
-template <class Contact>
-void write_history(EventMotion<Contact> motion, const JobContext& context, const LyapunovQuestion&,
+template <class Moving>
+void write_history(const Moving& moving, const JobContext& context, const LyapunovQuestion&,
                    std::int64_t steps, Table& table) {
+  auto motion = motion_of(moving);
   EventLyapunov lyapunov(motion);
   for (std::int64_t step = 0; step < steps; ++step) {
     look_for_interrupt(step);
@@ -126,21 +131,9 @@ void write_history(EventMotion<Contact> motion, const JobContext& context, const
   tell_of_end(context, end_of(motion));
 }
 
-/// Calls `visit` with a motion of the case that has tangents.
-template <class Visit>
-auto with_smooth_motion_of(const Case& the_case, Switching switching, const Visit& visit) {
-  const bool of_paper = is_of_the_paper(the_case, switching);
-  if (is_modal(the_case)) {
-    if (of_paper) return visit(modal_motion_of(the_case, true));
-    return visit(
-        event_motion(smooth_conductor_loop_of(the_case, switching), modal_state_of(the_case)));
-  }
-  if (of_paper) return visit(motion_of(the_case));
-  return visit(event_motion(implemented_loop_of(the_case, switching), initial_state_of(the_case)));
-}
-
 /// One row for each exponent: per sample, per second, standard error.
-void write_exponents(const JobContext& context, const LyapunovQuestion& options) {
+void write_exponents(const JobContext& context, const MovingLoop& moving,
+                     const LyapunovQuestion& options) {
   const double period = context.case_data.control.sampling_period;
   const std::int64_t steps = steps_of(context, options);
   const std::int64_t discard = samples_within(options.discard, period) - 1;
@@ -148,9 +141,8 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& options)
   Table table(context, columns_of("exponents"));
   const auto scope = options.largest ? LyapunovScope::largest : LyapunovScope::all;
   const LyapunovRun run{steps - discard, discard, options.standard_error, scope};
-  const LyapunovResult result = with_smooth_motion_of(
-      context.case_data, options.switching,
-      [&](const auto& motion) { return exponents_of(motion, context, options, run); });
+  const LyapunovResult result =
+      std::visit([&](const auto& one) { return exponents_of(one, context, options, run); }, moving);
   if (options.standard_error > 0.0 && result.outcome == LyapunovOutcome::sample_limit)
     report_warning("--standard-error was not reached within --duration", context.quiet);
   report_warning(open_sign_warning(result), context.quiet);
@@ -166,18 +158,19 @@ void write_exponents(const JobContext& context, const LyapunovQuestion& options)
 }
 
 /// The exponents after every sample.
-void write_exponent_history(const JobContext& context, const LyapunovQuestion& options) {
+void write_exponent_history(const JobContext& context, const MovingLoop& moving,
+                            const LyapunovQuestion& options) {
   const std::int64_t steps = steps_of(context, options);
   Table table(context, columns_of("exponent history"));
-  with_smooth_motion_of(context.case_data, options.switching, [&](const auto& motion) {
-    write_history(motion, context, options, steps, table);
-  });
+  std::visit([&](const auto& one) { write_history(one, context, options, steps, table); }, moving);
   table.commit();
 }
 
 void LyapunovQuestion::run(const JobContext& context) const {
-  require_bearable_modes(context.case_data, *this, context.quiet);
-  history ? write_exponent_history(context, *this) : write_exponents(context, *this);
+  const MovingLoop moving = smooth_loop_of(context.case_data, switching);
+  require_bearable_modes(context.case_data, moving, *this, context.quiet);
+  history ? write_exponent_history(context, moving, *this)
+          : write_exponents(context, moving, *this);
 }
 
 }  // namespace

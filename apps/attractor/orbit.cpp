@@ -4,8 +4,8 @@
 
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/math/linalg/multipliers.hpp"
 #include "holdfast/orbit/orbit_continuation.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -58,11 +58,12 @@ void with_orbit(const JobContext& context, const OrbitQuestion& options, const V
   const bool at_samples =
       options.switching == Switching::sampled && (law == "immediate" || law == "play");
   report_warning(dense_work_warning(context.case_data, options.switching), context.quiet);
-  with_motion_of(context.case_data, options.switching, [&](const auto& loop, const auto&) {
-    auto orbit = certified_orbit(context, loop, options.largest_period);
+  const auto certify = [&](const auto& moving) {
+    auto orbit = certified_orbit(context, moving, options.largest_period);
     if (at_samples) forget_margins(orbit);
-    visit(orbit);
-  });
+    visit(moving, orbit);
+  };
+  std::visit(certify, smooth_loop_of(context.case_data, options.switching));
 }
 
 double border_distance(const PeriodicOrbit& orbit) { return orbit.borders.displacement.distance; }
@@ -71,7 +72,7 @@ double border_distance(const EventOrbit& orbit) { return orbit.margins.border_di
 
 void write_orbit(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, columns_of("orbit"));
-  with_orbit(context, options, [&](const auto& orbit) {
+  with_orbit(context, options, [&](const auto&, const auto& orbit) {
     table.row(orbit.period_samples(), orbit.period(), orbit.forcing_periods(),
               orbit.largest_multiplier(), orbit.closure_error, border_distance(orbit),
               orbit.engaged_fraction());
@@ -121,16 +122,19 @@ void write_radii(Table& table, const CaptureRadii& radii) {
 
 /// Distances to the switching surfaces, radius of attraction, multipliers, and of the two masses
 /// the same orbit in extended precision.
-void write_quantities(Table& table, const JobContext& context, const PeriodicOrbit& orbit) {
+void write_distances(Table& table, const PeriodicOrbit& orbit) {
   write_size(table, orbit, orbit.amplitude());
   write_border(table, "gap_distance", orbit.borders.displacement, "m", orbit.sampling_period);
   write_border(table, "reversal_distance", orbit.borders.velocity, "m/s", orbit.sampling_period);
-  if (is_modal(context.case_data)) {
-    write_radii(table, capture_radii_of(modal_loop_of(context.case_data), orbit));
-    write_multipliers(table, orbit);
-    return;
-  }
-  const OrbitCertificate certificate = certificate_of(ideal_loop_of(context.case_data), orbit);
+}
+void write_quantities(Table& table, const SampledModes& moving, const PeriodicOrbit& orbit) {
+  write_distances(table, orbit);
+  write_radii(table, capture_radii_of(moving.loop, orbit));
+  write_multipliers(table, orbit);
+}
+void write_quantities(Table& table, const SampledMasses& moving, const PeriodicOrbit& orbit) {
+  write_distances(table, orbit);
+  const OrbitCertificate certificate = certificate_of(moving.loop, orbit);
   write_radii(table, certificate.radii);
   write_multipliers(table, orbit);
   const OrbitVerification& wide = certificate.verification;
@@ -141,7 +145,8 @@ void write_quantities(Table& table, const JobContext& context, const PeriodicOrb
 }
 
 /// Margins, shares and numbers of the modes, multipliers with the saltation at the switches.
-void write_quantities(Table& table, const JobContext&, const EventOrbit& orbit) {
+template <class Built>
+void write_quantities(Table& table, const Built&, const EventOrbit& orbit) {
   write_size(table, orbit, orbit.largest_displacement);
   const SwitchingMargins& margins = orbit.margins;
   table.row("gap_distance", margins.border_distance, "m");
@@ -160,7 +165,9 @@ void write_quantities(Table& table, const JobContext&, const EventOrbit& orbit) 
 /// The whole certificate, one quantity a row.
 void write_certificate(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, columns_of("certificate"));
-  with_orbit(context, options, [&](const auto& orbit) { write_quantities(table, context, orbit); });
+  with_orbit(context, options, [&](const auto& moving, const auto& orbit) {
+    write_quantities(table, moving, orbit);
+  });
   table.commit();
 }
 
@@ -176,7 +183,7 @@ MotionRow sample_of(const EventOrbit& orbit, std::size_t j) {
 /// The orbit's samples, with the columns of `simulate`: one period and the sample that closes it.
 void write_orbit_trace(const JobContext& context, const OrbitQuestion& options) {
   Table table(context, motion_columns(options.switching));
-  with_orbit(context, options, [&](const auto& orbit) {
+  with_orbit(context, options, [&](const auto&, const auto& orbit) {
     for (std::size_t k = 0; k <= orbit.states.size(); ++k) {
       MotionRow row = sample_of(orbit, k % orbit.states.size());
       row.time = static_cast<double>(k) * orbit.sampling_period;
@@ -199,7 +206,7 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
   const double value = followed_value(context.case_data, "--follow", axis, key, range, false);
   Table table(context, columns_of("branch ends"));
   const PeriodicOrbit orbit =
-      certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
+      certified_orbit(context, sampled_masses_of(context.case_data), largest_period);
   const auto path = [&, name = key](double position) {
     return ideal_loop_of(case_with(context.case_data, name, position));
   };
@@ -218,7 +225,7 @@ void write_branch_ends(const JobContext& context, std::int64_t largest_period,
 void write_proof(const JobContext& context, std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const PeriodicOrbit orbit =
-      certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
+      certified_orbit(context, sampled_masses_of(context.case_data), largest_period);
   const OrbitProof proof = proved_orbit_of(context.case_data, orbit);
   const bool reverses = proof.nearest.surface == SwitchingSurface::reversal;
   table.row("period_samples", static_cast<double>(orbit.period_samples()), "");
@@ -240,7 +247,8 @@ void write_event_proof(const JobContext& context, const IdealLoop<double>& loop,
                        std::int64_t largest_period) {
   Table table(context, columns_of("certificate"));
   const auto found = certified_event_orbit(
-      context, implemented_loop_of(context.case_data, Switching::exact), largest_period);
+      context, std::get<BuiltMasses>(built_loop_of(context.case_data, {Switching::exact})),
+      largest_period);
   const EventOrbitProof proof = proved_orbit_of(loop, found);
   const ContactTest& nearest = proof.nearest;
   const bool there = nearest.sample >= 0;
@@ -269,7 +277,7 @@ void write_proved_ranges(const JobContext& context, std::int64_t largest_period,
   followed_value(context.case_data, "--follow", axis, key, range, false);
   Table table(context, columns_of("proved ranges"));
   const PeriodicOrbit orbit =
-      certified_orbit(context, ideal_loop_of(context.case_data), largest_period);
+      certified_orbit(context, sampled_masses_of(context.case_data), largest_period);
   for (const auto& [from, to, proof] : proved_orbit_along(context.case_data, orbit, key, range)) {
     const bool decides = proof.nearest.sample >= 0;
     const bool proved = proof.outcome == OrbitProofOutcome::proved;

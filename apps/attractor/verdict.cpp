@@ -1,8 +1,7 @@
 #include <limits>
 
-#include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/modal_classification.hpp"
 #include "holdfast/chaos/motion_classification.hpp"
 #include "holdfast/orbit/orbit_search.hpp"
@@ -74,9 +73,10 @@ struct VerdictQuestion {
     const Case& the_case = context.case_data;
     const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
     report_warning(dense_work_warning(the_case, switching), context.quiet);
-    with_motion_of(the_case, switching, [&](const auto& loop, const auto& state) {
-      write(context, table, classify_motion(loop, state, limits));
-    });
+    const auto classify = [&](const auto& moving) {
+      write(context, table, classify_motion(moving.loop, moving.state, limits));
+    };
+    std::visit(classify, smooth_loop_of(the_case, switching));
   }
 };
 

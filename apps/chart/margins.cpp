@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "case/model/loop_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "holdfast/stability/margins/margins.hpp"
@@ -96,7 +96,7 @@ void MarginsQuestion::run(const JobContext& context) const {
             : stability_margins_of(the_case, gains);
   if (margins.outcome == MarginOutcome::not_stable)
     throw NoAnswer("the loop is not stable, so it has no margins: its spectral radius is " +
-                   format_rounded(spectral_radius_of(the_case)));
+                   format_rounded(LinearLoop(the_case).radius(gains_of(the_case))));
   if (const std::string otherwise = judged_otherwise(the_case); !otherwise.empty())
     throw NoAnswer(otherwise + ": it has no margins");
   std::optional<ProvedMargins> proved;

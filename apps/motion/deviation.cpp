@@ -1,5 +1,6 @@
 #include "holdfast/phase_space/deviation.hpp"
 #include "case/case_keys.hpp"
+#include "case/model/moving_loop.hpp"
 #include "job.hpp"
 #include "jobs/motion/case_motion.hpp"
 #include "jobs/motion/motion_digits.hpp"
@@ -53,15 +54,15 @@ struct DeviationQuestion {
 
   /// Neighbours that have not come together in the duration: why, by the orbits they come to.
   void tell_why_apart(const JobContext& context, double last, const TrustedDigits& trusted) const {
-    if (is_modal(context.case_data) || !is_of_the_paper(context.case_data, switching)) return;
-    const Vector<double, 4> first = initial_state_of(context.case_data);
-    Vector<double, 4> second = first;
+    const MovingLoop moving = moving_loop_of(context.case_data, {switching});
+    const auto* first = std::get_if<SampledMasses>(&moving);
+    if (first == nullptr) return;
+    Vector<double, 4> second = first->state;
     second[0] += offset;
-    report_warning("after " + format_rounded(duration) + " s the motions are still " +
-                       format_rounded(last) +
-                       " apart: " + apart_text(ideal_loop_of(context.case_data), first, second) +
-                       rate_text(trusted),
-                   context.quiet);
+    report_warning(
+        "after " + format_rounded(duration) + " s the motions are still " + format_rounded(last) +
+            " apart: " + apart_text(first->loop, first->state, second) + rate_text(trusted),
+        context.quiet);
   }
 };
 

@@ -1,8 +1,8 @@
 #include "case/axes/axis.hpp"
 #include "case/case_keys.hpp"
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/phase_space/orbit_diagram.hpp"
 #include "job.hpp"
 
@@ -49,19 +49,23 @@ struct DiagramQuestion {
                          " another loop is meant than without; a diagram is of one of them");
     }
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
-    const auto diagram_of = [&](const auto& loop_of, const auto& state_of) {
-      return run_orbit_diagram([&](double value) { return loop_of(case_at(value)); }, values,
-                               [&](double value) { return state_of(case_at(value)); }, options,
+    const auto diagram_of = [&](const auto& moving_at) {
+      return run_orbit_diagram([&](double value) { return moving_at(value).loop; }, values,
+                               [&](double value) { return moving_at(value).state; }, options,
                                write);
     };
-    const auto modal_state = [](const Case& there) { return modal_state_of(there); };
-    const auto built = [&](const Case& there) { return implemented_loop_of(there, switching); };
-    const auto built_conductor = [&](const Case& there) {
-      return conductor_loop_of(there, {switching, true});
-    };
-    return !modal     ? diagram_of(built, initial_state_of)
-           : of_paper ? diagram_of(modal_loop_of, modal_state)
-                      : diagram_of(built_conductor, modal_state);
+    if (modal && of_paper)
+      return diagram_of([&](double value) {
+        return std::get<SampledModes>(moving_loop_of(case_at(value), {switching}));
+      });
+    return std::visit(
+        [&](const auto& first) {
+          using Moving = std::decay_t<decltype(first)>;
+          return diagram_of([&](double value) {
+            return std::get<Moving>(built_loop_of(case_at(value), {switching}));
+          });
+        },
+        built_loop_of(case_at(values.front()), {switching}));
   }
 
   void run(const JobContext& context) const {

@@ -1,7 +1,6 @@
 #include "holdfast/phase_space/section.hpp"
-#include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/modal/modes_warning.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/motion/instant.hpp"
 #include "job.hpp"
 #include "jobs/motion/case_motion.hpp"
@@ -39,14 +38,9 @@ struct SectionQuestion {
       require_completed(run_section(motion, samples - before, write), motion.time());
       tell_of_end(context, end_of(motion));
     };
-    if (is_modal(context.case_data)) {
-      report_warning(dense_work_warning(context.case_data, Switching::exact), context.quiet);
-      run_of(event_motion(conductor_loop_of(context.case_data, {switching, true}),
-                          modal_state_of(context.case_data)));
-    } else {
-      run_of(event_motion(implemented_loop_of(context.case_data, switching),
-                          initial_state_of(context.case_data)));
-    }
+    report_warning(dense_work_warning(context.case_data, Switching::exact), context.quiet);
+    std::visit([&](const auto& built) { run_of(motion_of(built)); },
+               built_loop_of(context.case_data, {switching}));
     tell_trust(context, table,
                with_rate(trusted_digits_of_motion(context.case_data, switching, samples, from),
                          context.case_data, switching, samples));

@@ -11,6 +11,13 @@ const toml::table& job_texts() {
   return parsed;
 }
 
+std::vector<std::string> words_of(const toml::array* texts) {
+  std::vector<std::string> words;
+  if (texts != nullptr)
+    for (const toml::node& text : *texts) words.push_back(text_of(text));
+  return words;
+}
+
 std::vector<CellColumn> cell_columns_of(const std::string& table, const Values& values) {
   std::vector<CellColumn> columns;
   for (const toml::node& node : *job_texts()["columns"][table].as_array()) {

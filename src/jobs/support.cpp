@@ -5,8 +5,8 @@
 #include <map>
 
 #include "case/model/own/own_parts.hpp"
-#include "io/text/compiled_texts.hpp"
 #include "io/text/text.hpp"
+#include "jobs/job_texts.hpp"
 
 namespace holdfast::program {
 namespace {
@@ -14,10 +14,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 Words words_of(const toml::node_view<const toml::node>& node) {
-  Words words;
-  if (const toml::array* all = node.as_array())
-    for (const toml::node& word : *all) words.push_back(text_of(word));
-  return words;
+  return program::words_of(node.as_array());
 }
 
 Words words_in(const std::string& text) {
@@ -160,8 +157,9 @@ Support support_of(const Words& there, const Asked& asked) {
         words_of_feature(feature) + (rule.also.empty() ? "" : " and " + words_of_feature(other));
     support.reason = rule.refuses.empty() ? rule.idealises : rule.refuses;
     if (!rule.refuses.empty()) {
-      support.refusal =
-          asked_words(rule, asked) + " does not answer with " + with + ": " + rule.refuses;
+      const std::string question = asked_words(rule, asked);
+      support.refusal = question + " does not answer with " + with + ": " + rule.refuses;
+      if (question == asked.job && rule.also.empty()) support.refused_by = feature;
       return support;
     }
     for (const std::string& name : there)
@@ -194,11 +192,9 @@ Support support_of(const Case& the_case, const Asked& asked) {
   if (asked.has("--switching exact")) there.emplace_back("exact");
   Support support = support_of(there, asked);
   // Whose job as a whole does not answer asks which do.
-  if (support.refusal.rfind(asked.job + " does not answer", 0) != 0) return support;
-  for (const std::string& name : there)
-    if (is_of_plant(name) &&
-        support.refusal.find("with " + words_of_feature(name) + ":") != std::string::npos)
-      support.refusal += "; jobs that do are " + jobs_that_answer(words_of_feature(name));
+  if (is_of_plant(support.refused_by))
+    support.refusal +=
+        "; jobs that do are " + jobs_that_answer(words_of_feature(support.refused_by));
   return support;
 }
 

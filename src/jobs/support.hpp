@@ -19,9 +19,10 @@ struct Asked {
 
 /// What texts/support.toml says of a question about a case.
 struct Support {
-  std::string refusal;    ///< why it is not answered; empty where it is
-  std::string idealised;  ///< what the answer leaves out, a sentence each; empty: nothing
-  std::string reason;     ///< of either, without what it is of
+  std::string refusal;     ///< why it is not answered; empty where it is
+  std::string idealised;   ///< what the answer leaves out, a sentence each; empty: nothing
+  std::string reason;      ///< of either, without what it is of
+  std::string refused_by;  ///< what alone the job as a whole refuses, by its name in the rules
 };
 
 /// @param the_case  of which no plant need be settled

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
+#include "case/model/linear_loop.hpp"
+#include "case/model/loop_of_case.hpp"
+#include "case/model/moving_loop.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "io/text/text.hpp"
 #include "jobs/design/best_gains.hpp"
@@ -25,29 +28,6 @@ CellOutcome outcome_of(MinimumAmplitudeOutcome outcome) {
   return CellOutcome::computed;
 }
 
-/// The poles and their residues, by which two conductors with their absorbers are told apart.
-std::vector<double> poles_of(const CellMotion& motion) {
-  std::vector<double> places;
-  if (!motion.conductor) return places;
-  places.reserve(4 * motion.conductor->poles.size());
-  for (const PlantPole& pole : motion.conductor->poles) {
-    places.push_back(pole.s.real());
-    places.push_back(pole.s.imag());
-    places.push_back(pole.residue.real());
-    places.push_back(pole.residue.imag());
-  }
-  return places;
-}
-
-/// What two motions without control must have in common to be one, to be compared.
-auto all_numbers_of(const CellMotion& motion) {
-  const IdealLoop<double>& loop = motion.of_paper.loop;
-  const Vector<double, 4>& state = motion.of_paper.initial_state;
-  return std::tuple(numbers_of(loop.plant), loop.sampling.period, loop.excitation.amplitude,
-                    loop.excitation.frequency, loop.hold, state[0], state[1], state[2], state[3],
-                    poles_of(motion));
-}
-
 /// The admissible ones of some cells in a run as motions, and what is found of each.
 class SweepCells {
  public:
@@ -62,8 +42,7 @@ class SweepCells {
 
   void compute() {
     find_motions();
-    if (plan_.wants(SweepMetric::ratio_to_uncontrolled) || plan_.wants(SweepMetric::attenuates))
-      find_uncontrolled_peaks();
+    if (needs_uncontrolled()) find_uncontrolled_peaks();
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       CellResult& result = results_[cells_[k]];
       if (result.outcome == CellOutcome::computed) find_attractor(motions_[k], result);
@@ -87,12 +66,13 @@ class SweepCells {
  private:
   void add(std::size_t place, std::int64_t cell, BestGains& gains) {
     try {
-      const Case the_case = plan_.case_of(cell);
-      CellMotion motion =
+      Case the_case = plan_.case_of(cell);
+      if (plan_.options().best_gain && !take_best_gain(place, the_case, gains)) return;
+      MovingLoop motion =
           cell_motion(the_case, plan_.options().switching, plan_.options().duration);
-      if (plan_.options().best_gain && !take_best_gain(place, motion, gains)) return;
-      results_[place].differential_gain = motion.of_paper.loop.gains.differential;
-      motions_.push_back(motion);
+      if (needs_uncontrolled()) add_uncontrolled(the_case, cell);
+      motions_.push_back(std::move(motion));
+      results_[place].differential_gain = gains_of(the_case).differential;
       cells_.push_back(place);
     } catch (const Refusal& fault) {
       note(fault.what());
@@ -101,11 +81,34 @@ class SweepCells {
     }
   }
 
+  bool needs_uncontrolled() const {
+    return plan_.wants(SweepMetric::ratio_to_uncontrolled) || plan_.wants(SweepMetric::attenuates);
+  }
+
+  /// Of each distinct motion without control once: many cells share theirs.
+  void add_uncontrolled(const Case& the_case, std::int64_t cell) {
+    std::vector<double> values;  // of the axes that it depends on
+    for (std::size_t k = 0; k < plan_.layout().axes.size(); ++k) {
+      const std::string& key = plan_.layout().axes[k].column.name;
+      const bool is_of_control = key.rfind("backlash.", 0) == 0 || key.rfind("control.", 0) == 0;
+      if (!is_of_control || key == "control.sampling_period")
+        values.push_back(plan_.axis_value(k, cell));
+    }
+    if (known_.find(values) == known_.end()) {
+      uncontrolled_.push_back(motion_without_control(the_case, plan_.options().duration));
+      known_[values] = uncontrolled_.size() - 1;
+    }
+    number_of_.push_back(known_[values]);
+  }
+
   /// False where there is no best gain, with the outcome that says why.
-  bool take_best_gain(std::size_t place, CellMotion& motion, BestGains& gains) {
-    const IdealLoop<double>& loop = motion.of_paper.loop;
+  bool take_best_gain(std::size_t place, Case& the_case, BestGains& gains) {
+    if (!has_closed_forms(the_case))
+      throw WrongInput("--best-gain is of the two masses under an ideal drive alone");
+    const IdealLoop<double> loop = ideal_loop_of(the_case);
+    validate(loop);
     const MinimumAmplitude& best = gains.of(loop);
-    set_differential_gain(motion, best.differential_gain);
+    the_case.control.differential_gain = best.differential_gain;
     const CellOutcome outcome = outcome_of(best.outcome);
     if (has_motion(outcome)) return true;
     results_[place].outcome = outcome;
@@ -132,26 +135,14 @@ class SweepCells {
     }
   }
 
-  /// Of each distinct motion without control once: many cells share theirs.
   void find_uncontrolled_peaks() {
-    std::vector<CellMotion> distinct;
-    std::map<decltype(all_numbers_of(motions_[0])), std::size_t> known;
-    std::vector<std::size_t> number_of(motions_.size());
-    for (std::size_t k = 0; k < motions_.size(); ++k) {
-      const CellMotion motion = without_control(motions_[k], plan_.options().duration);
-      const auto [entry, added] = motion.built
-                                      ? std::pair(known.end(), true)
-                                      : known.try_emplace(all_numbers_of(motion), distinct.size());
-      number_of[k] = added ? distinct.size() : entry->second;
-      if (added) distinct.push_back(motion);
-    }
     const std::vector<MotionMetrics> metrics =
-        metrics_of(distinct, plan_.options().duration, plan_.context().instructions);
+        metrics_of(uncontrolled_, plan_.options().duration, plan_.context().instructions);
     for (std::size_t k = 0; k < motions_.size(); ++k)
-      results_[cells_[k]].uncontrolled_peak = metrics[number_of[k]].steady_peak;
+      results_[cells_[k]].uncontrolled_peak = metrics[number_of_[k]].steady_peak;
   }
 
-  void find_attractor(const CellMotion& motion, CellResult& result) const {
+  void find_attractor(const MovingLoop& motion, CellResult& result) const {
     if (plan_.wants(SweepMetric::largest_exponent))
       result.largest_exponent = largest_exponent_of(motion, plan_.options().duration);
     const OrbitLimits limits{plan_.options().largest_period, 0, throw_if_interrupted};
@@ -169,8 +160,12 @@ class SweepCells {
 
   const SweepPlan& plan_;
   std::vector<CellResult> results_;
-  std::vector<CellMotion> motions_;  // of the admissible cells
+  std::vector<MovingLoop> motions_;  // of the admissible cells
   std::vector<std::size_t> cells_;   // their places in the run
+  // Motions without control, by the values that tell them apart, and which of them a cell's is.
+  std::vector<MovingLoop> uncontrolled_;
+  std::map<std::vector<double>, std::size_t> known_;
+  std::vector<std::size_t> number_of_;
   std::string first_fault_;
 };
 

@@ -58,6 +58,8 @@ class SweepPlan {
   /// The case of a cell. Throws WrongInput, or NoAnswer where its plant cannot be reduced. Any
   /// thread may ask.
   Case case_of(std::int64_t cell) const;
+  /// Its value on an axis.
+  double axis_value(std::size_t axis, std::int64_t cell) const;
 
   /// Samples of the motions of all cells, those without control not counted; cells that are not
   /// admissible count as none. To a few digits where the sampling periods are more than a million.
@@ -73,7 +75,6 @@ class SweepPlan {
   double counted_samples() const;
   double chosen_chunk_cells() const;
   StorePlan store_plan() const;
-  double axis_value(std::size_t axis, std::int64_t cell) const;
 
   JobContext context_;
   SweepOptions options_;

@@ -13,16 +13,9 @@ struct ClassifiedCase {
   double sampling_period, width, displacement;
 };
 
-IdealLoop<double> classified_ideal_loop(double sampling_period, double width) {
-  test::KollarCase which;
-  which.sampling_period = sampling_period;
-  which.width = width;
-  return which.ideal_loop();
-}
-
 ImplementedLoop classified_implemented_loop(double sampling_period, double width,
                                             Switching switching = Switching::exact) {
-  ImplementedLoop loop = implemented_loop(classified_ideal_loop(sampling_period, width));
+  ImplementedLoop loop = implemented_loop(test::kollar_loop(sampling_period, width));
   loop.switching = switching;
   return loop;
 }
@@ -71,7 +64,7 @@ TEST(MotionClassification, OfSampledSwitchingIsThatOfTheModelOfThePaper) {
                                       {0.003, 0.002, 1e-5},
                                       {0.01, 0.0, 0.0}}) {
     const Vector<double, 4> start(which.displacement, 0.0, 0.0, 0.0);
-    const auto loop = classified_ideal_loop(which.sampling_period, which.width);
+    const auto loop = test::kollar_loop(which.sampling_period, which.width);
     const SampledClassification paper = classify_motion(loop, start);
     const EventClassification found = classify_motion(implemented_loop(loop), start);
     EXPECT_EQ(found.classification.kind, AttractorType::periodic);
@@ -106,7 +99,7 @@ TEST(MotionClassification, OfExactSwitchingIsPeriodicByCertificate) {
 }
 
 TEST(MotionClassification, TheIrregularMotionOfThePaperIsPeriodic) {
-  const SampledClassification found = classified_from_rest(classified_ideal_loop(0.011, 0.002));
+  const SampledClassification found = classified_from_rest(test::kollar_loop(0.011, 0.002));
   EXPECT_EQ(found.classification.kind, AttractorType::periodic);
   EXPECT_EQ(found.classification.period, 2100);
   EXPECT_TRUE(found.indicators.certified_period.has_value());
@@ -125,7 +118,7 @@ TEST(MotionClassification, WithoutBacklashBothSwitchingsFollowTheForcing) {
 }
 
 TEST(MotionClassification, ADelayOfAWholePeriodDiverges) {
-  IdealLoop<double> paper = classified_ideal_loop(0.011, 0.002);
+  IdealLoop<double> paper = test::kollar_loop(0.011, 0.002);
   paper.sampling.processing_delay = 0.011;
   EXPECT_EQ(classified_from_rest(paper).classification.kind, AttractorType::diverges);
   // With exact switching the stick phases of any backlash would hold the motion.
@@ -151,7 +144,7 @@ TEST(MotionClassification, IncommensurateHarmonicsOfAStableLinearLoopAreQuasiPer
 
 TEST(MotionClassification, UnderAnIncommensurateForcingThePapersLoopIsNeverPeriodicByCertificate) {
   for (const double width : {0.0, 0.002}) {
-    IdealLoop<double> loop = classified_ideal_loop(0.011, width);
+    IdealLoop<double> loop = test::kollar_loop(0.011, width);
     loop.excitation.frequency = 9.8765432101;
     const SampledClassification found = classified_from_rest(loop);
     EXPECT_EQ(found.search.outcome, OrbitOutcome::incommensurate);

@@ -8,20 +8,12 @@
 namespace holdfast {
 namespace {
 
-IdealLoop<double> loop_with_gap(double period, double fraction) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.processing_delay = fraction * period;
-  which.width = 0.002;
-  return which.ideal_loop();
-}
-
 const Vector<double, 4> some_state(0.003, -0.05, 0.001, 0.2);
 
 TEST(IdealLoop, ThePeriodicMotionIsTheHarmonicOne) {
   for (const double period : {0.001, 0.01}) {
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-      IdealLoop<double> loop = loop_with_gap(period, 0.25);
+      IdealLoop<double> loop = test::kollar_loop(period, 0.002, 0.25);
       loop.hold = hold;
       const Rational ratio = forcing_ratio(loop).value();
       auto periodic = periodically_forced_motion(loop, ratio, some_state);
@@ -55,7 +47,7 @@ TEST(IdealLoop, TheHarmonicMotionIsTheOneOfItsParts) {
 }
 
 TEST(MotionMemory, AMotionGoesOnFromItToTheLastBit) {
-  const IdealLoop<double> loop = loop_with_gap(0.01, 0.4);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002, 0.4);
   const Rational ratio = forcing_ratio(loop).value();
   ASSERT_EQ(ratio.denominator, 10);
   auto motion = periodically_forced_motion(loop, ratio, some_state);
@@ -96,7 +88,7 @@ TEST(BacklashMemory, ADriveGoesOnFromItToTheLastBit) {
 }
 
 TEST(ForcingRatio, IsWhatTheDecimalsMean) {
-  IdealLoop<double> loop = loop_with_gap(0.011, 0.0);
+  IdealLoop<double> loop = test::kollar_loop(0.011, 0.002, 0.0);
   const Rational ratio = forcing_ratio(loop).value();
   EXPECT_EQ(ratio.numerator, 11);
   EXPECT_EQ(ratio.denominator, 100);
@@ -110,7 +102,7 @@ TEST(ForcingRatio, IsWhatTheDecimalsMean) {
 }
 
 TEST(IdealLoop, IsFoundAgainInTheLoopThatIsBuilt) {
-  const IdealLoop<double> loop = loop_with_gap(0.003, 0.0005);
+  const IdealLoop<double> loop = test::kollar_loop(0.003, 0.002, 0.0005);
   const auto found = ideal_loop(implemented_loop(loop));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->sampling.period, loop.sampling.period);
@@ -122,7 +114,7 @@ TEST(IdealLoop, IsFoundAgainInTheLoopThatIsBuilt) {
 }
 
 TEST(IdealLoop, SaysNothingOfWhatThePaperDoesNotHave) {
-  const ImplementedLoop plain = implemented_loop(loop_with_gap(0.003, 0.0005));
+  const ImplementedLoop plain = implemented_loop(test::kollar_loop(0.003, 0.002, 0.0005));
   ImplementedLoop loop = plain;
   loop.switching = Switching::exact;
   EXPECT_FALSE(ideal_loop(loop));
@@ -149,7 +141,7 @@ TEST(IdealLoop, SaysNothingOfWhatThePaperDoesNotHave) {
 }
 
 TEST(IdealLoop, ConvertedThereAndBackIsTheSame) {
-  IdealLoop<double> loop = loop_with_gap(0.003, 0.3);
+  IdealLoop<double> loop = test::kollar_loop(0.003, 0.002, 0.3);
   loop.hold = ForceHold::exact;
   const auto back = converted<double>(converted<long double>(loop));
   EXPECT_EQ(back.plant.state_matrix(), loop.plant.state_matrix());
@@ -164,7 +156,7 @@ TEST(IdealLoop, ConvertedThereAndBackIsTheSame) {
 }
 
 TEST(IdealLoop, EveryPartIsValidated) {
-  const IdealLoop<double> loop = loop_with_gap(0.003, 0.3);
+  const IdealLoop<double> loop = test::kollar_loop(0.003, 0.002, 0.3);
   EXPECT_NO_THROW(validate(loop));
   const auto refused = [&loop](auto&& spoil) {
     IdealLoop<double> spoiled = loop;

@@ -67,6 +67,8 @@ std::vector<double> finely_scanned(const WatchedFlow& flow) {
   return values;
 }
 
+using NoEventBound = NoEventBoundOf<EnergyNorm, 4>;
+
 NoEventBound bound_of(const WatchedFlow& flow) {
   const double omega = flow.harmonic.angular_frequency(), force = flow.harmonic.amplitude;
   return {flow.dynamics, flow.plant, flow.guard, {force, omega * force, omega * omega * force}};

@@ -7,17 +7,9 @@
 namespace holdfast {
 namespace {
 
-IdealLoop<double> delayed_loop(double period, double fraction) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.processing_delay = fraction * period;
-  which.width = 0.002;
-  return which.ideal_loop();
-}
-
 TEST(ItineraryMaps, StepTheMotionItself) {
   for (const double fraction : {0.0, 0.4, 1.0}) {
-    const IdealLoop<double> loop = delayed_loop(0.003, fraction);
+    const IdealLoop<double> loop = test::kollar_loop(0.003, 0.002, fraction);
     const Rational ratio = forcing_ratio(loop).value();
     const ItineraryMaps<double> maps(loop, ratio);
     ASSERT_EQ(maps.samples_of_forcing(), 100U);
@@ -41,7 +33,7 @@ TEST(ItineraryMaps, StepTheMotionItself) {
 TEST(MapsOfBlocks, TogetherAreTheWholeSequence) {
   test::Random random(810);
   for (const double period : {0.001, 0.01, 0.05}) {
-    const IdealLoop<double> loop = delayed_loop(period, 0.3);
+    const IdealLoop<double> loop = test::kollar_loop(period, 0.002, 0.3);
     const ItineraryMaps<double> maps(loop, forcing_ratio(loop).value());
     Itinerary itinerary;
     for (int j = 0; j < 300; ++j) itinerary.push_back(random.unit() < 0.5 ? 1 : 0);
@@ -60,7 +52,7 @@ TEST(MapsOfBlocks, TogetherAreTheWholeSequence) {
 }
 
 TEST(MapsOfBlocks, OfAGrowingLoopStayShort) {
-  IdealLoop<double> loop = delayed_loop(0.05, 0.0);
+  IdealLoop<double> loop = test::kollar_loop(0.05, 0.002, 0.0);
   loop.gains = {-5000.0, -200.0};
   const ItineraryMaps<double> maps(loop, forcing_ratio(loop).value());
   const Itinerary itinerary(64, 1);

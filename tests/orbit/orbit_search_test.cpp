@@ -7,19 +7,12 @@
 namespace holdfast {
 namespace {
 
-IdealLoop<double> searched_loop(double period, double width) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  return which.ideal_loop();
-}
-
 OrbitResult search_from_rest(const IdealLoop<double>& loop, const OrbitLimits& limits = {}) {
   return find_periodic_orbit(loop, Vector<double, 4>::Zero(), limits);
 }
 
 TEST(OrbitSearch, WithoutBacklashTheOrbitHasThePeriodOfTheForcing) {
-  const OrbitResult found = search_from_rest(searched_loop(0.011, 0.0));
+  const OrbitResult found = search_from_rest(test::kollar_loop(0.011, 0.0));
   ASSERT_EQ(found.outcome, OrbitOutcome::certified);
   EXPECT_EQ(found.orbit->period_samples(), 100);
   EXPECT_EQ(found.orbit->forcing_periods(), 11);
@@ -28,11 +21,11 @@ TEST(OrbitSearch, WithoutBacklashTheOrbitHasThePeriodOfTheForcing) {
 
 TEST(OrbitSearch, AWideGapIsNeverLeft) {
   for (const double width : {0.0028, 0.004, 0.1}) {
-    const OrbitResult found = search_from_rest(searched_loop(0.001, width));
+    const OrbitResult found = search_from_rest(test::kollar_loop(0.001, width));
     ASSERT_EQ(found.outcome, OrbitOutcome::certified) << width;
     EXPECT_EQ(found.orbit->period_samples(), 100);
     EXPECT_EQ(found.orbit->engaged_fraction(), 0.0);
-    IdealLoop<double> uncontrolled = searched_loop(0.001, 0.0);
+    IdealLoop<double> uncontrolled = test::kollar_loop(0.001, 0.0);
     uncontrolled.gains = {0.0, 0.0};
     const OrbitResult free = search_from_rest(uncontrolled);
     EXPECT_NEAR(found.orbit->amplitude(), free.orbit.value().amplitude(), 1e-12);
@@ -40,7 +33,7 @@ TEST(OrbitSearch, AWideGapIsNeverLeft) {
 }
 
 TEST(OrbitSearch, FrequenciesWithoutACommonPeriodAreSaidToBe) {
-  IdealLoop<double> loop = searched_loop(0.011, 0.002);
+  IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
   loop.excitation.frequency = 10.0 * std::sqrt(0.5);
   const OrbitResult found = search_from_rest(loop);
   EXPECT_EQ(found.outcome, OrbitOutcome::incommensurate);
@@ -51,7 +44,7 @@ TEST(OrbitSearch, FrequenciesWithoutACommonPeriodAreSaidToBe) {
 TEST(OrbitSearch, ANearReturnFarFromAnOrbitIsNoCertificate) {
   // A free mode almost commensurate with the common period returns within 10⁻³ while the deviation
   // is large; much later the motion leaves the gap and diverges.
-  IdealLoop<double> loop = searched_loop(0.001, 0.01078);
+  IdealLoop<double> loop = test::kollar_loop(0.001, 0.01078);
   loop.plant.conductor_stiffness = 50.3638;
   loop.plant.conductor_damping = 1e-4;
   loop.plant.absorber_damping = 1e-4;
@@ -61,7 +54,7 @@ TEST(OrbitSearch, ANearReturnFarFromAnOrbitIsNoCertificate) {
 }
 
 TEST(OrbitSearch, AMultiplierOfModulusOneNeitherAttractsNorRepels) {
-  IdealLoop<double> loop = searched_loop(0.001, 0.0);
+  IdealLoop<double> loop = test::kollar_loop(0.001, 0.0);
   loop.plant.conductor_stiffness = 50.3638;
   loop.plant.conductor_damping = 0.0;
   loop.plant.absorber_damping = 0.0;
@@ -70,14 +63,14 @@ TEST(OrbitSearch, AMultiplierOfModulusOneNeitherAttractsNorRepels) {
 }
 
 TEST(OrbitSearch, ACommonPeriodAboveTheLargestIsNotLookedFor) {
-  const IdealLoop<double> loop = searched_loop(0.011, 0.0);
+  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.0);
   EXPECT_EQ(search_from_rest(loop, {99, 60000}).outcome, OrbitOutcome::none_found);
   EXPECT_EQ(search_from_rest(loop, {100, 60000}).outcome, OrbitOutcome::certified);
 }
 
 TEST(OrbitSearch, AGrowingMotionDiverges) {
   for (const double width : {0.0, 0.002}) {
-    IdealLoop<double> loop = searched_loop(0.011, width);
+    IdealLoop<double> loop = test::kollar_loop(0.011, width);
     loop.sampling.processing_delay = loop.sampling.period;
     const OrbitResult found = search_from_rest(loop, {10000, 0});
     EXPECT_EQ(found.outcome, OrbitOutcome::diverges) << width;
@@ -86,7 +79,7 @@ TEST(OrbitSearch, AGrowingMotionDiverges) {
 }
 
 TEST(OrbitSearch, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
-  IdealLoop<double> loop = searched_loop(0.001, 0.002);
+  IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
   loop.excitation.amplitude = 0.0;
   const OrbitResult found = search_from_rest(loop, {1000, 0});
   ASSERT_EQ(found.outcome, OrbitOutcome::on_surface);
@@ -95,7 +88,7 @@ TEST(OrbitSearch, RestWithoutExcitationTouchesTheSurfaceOfReversal) {
 }
 
 TEST(OrbitSearch, AFreeVibrationEndsAtRestInItsGap) {
-  IdealLoop<double> loop = searched_loop(0.001, 0.002);
+  IdealLoop<double> loop = test::kollar_loop(0.001, 0.002);
   loop.excitation.amplitude = 0.0;
   const OrbitResult found =
       find_periodic_orbit(loop, Vector<double, 4>(0.0002, 0.0, 0.0, 0.01), {20000, 0});
@@ -107,7 +100,7 @@ TEST(OrbitSearch, AFreeVibrationEndsAtRestInItsGap) {
 
 TEST(OrbitSearch, ALimitBelowThePeriodFindsNone) {
   // 2100 samples are needed.
-  const IdealLoop<double> loop = searched_loop(0.011, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
   const OrbitResult found = search_from_rest(loop, {2000, 0});
   EXPECT_NE(found.outcome, OrbitOutcome::certified);
   EXPECT_LE(found.samples, 16000);
@@ -115,7 +108,7 @@ TEST(OrbitSearch, ALimitBelowThePeriodFindsNone) {
 }
 
 TEST(OrbitSearch, LooksAtNoMoreSamplesThanAllowed) {
-  const IdealLoop<double> loop = searched_loop(0.011, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
   for (const std::int64_t most : {1, 99, 100, 1234}) {
     const OrbitResult found = search_from_rest(loop, {1000, most});
     EXPECT_EQ(found.outcome, OrbitOutcome::none_found) << most;
@@ -124,7 +117,7 @@ TEST(OrbitSearch, LooksAtNoMoreSamplesThanAllowed) {
 }
 
 TEST(OrbitSearch, ACertifiedOrbitHasItsShortestPeriod) {
-  for (const auto& loop : {searched_loop(0.001, 0.002), searched_loop(0.01, 0.001)}) {
+  for (const auto& loop : {test::kollar_loop(0.001, 0.002), test::kollar_loop(0.01, 0.001)}) {
     const PeriodicOrbit orbit = search_from_rest(loop).orbit.value();
     const auto samples = orbit.states.size();
     const auto step = static_cast<std::size_t>(orbit.ratio.denominator);
@@ -137,7 +130,7 @@ TEST(OrbitSearch, ACertifiedOrbitHasItsShortestPeriod) {
 }
 
 TEST(OrbitSearch, EveryStateOfACertifiedOrbitLeadsToIt) {
-  const IdealLoop<double> loop = searched_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   test::Random random(841);
   for (int trial = 0; trial < 40; ++trial) {
     const Vector<double, 4> start = 0.05 * random.matrix<Vector<double, 4>>();
@@ -155,7 +148,7 @@ TEST(OrbitSearch, EveryStateOfACertifiedOrbitLeadsToIt) {
 }
 
 TEST(OrbitSearch, WhatIsOutOfRangeIsRefused) {
-  const IdealLoop<double> loop = searched_loop(0.011, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
   EXPECT_THROW(search_from_rest(loop, {0, 0}), InvalidParameter);
   EXPECT_THROW(search_from_rest(loop, {100'000'001, 0}), InvalidParameter);
   EXPECT_THROW(search_from_rest(loop, {100, -1}), InvalidParameter);

@@ -10,18 +10,11 @@
 namespace holdfast {
 namespace {
 
-IdealLoop<double> orbit_loop(double period, double width, double delay_fraction = 0.0) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  which.processing_delay = delay_fraction * period;
-  return which.ideal_loop();
-}
-
 std::vector<IdealLoop<double>> orbit_loops() {
-  return {orbit_loop(0.001, 0.0005), orbit_loop(0.001, 0.002),     orbit_loop(0.01, 0.002),
-          orbit_loop(0.011, 0.002),  orbit_loop(0.01, 0.001),      orbit_loop(0.01, 0.002, 0.5),
-          orbit_loop(0.001, 0.003),  orbit_loop(0.005, 0.001, 0.3)};
+  return {test::kollar_loop(0.001, 0.0005), test::kollar_loop(0.001, 0.002),
+          test::kollar_loop(0.01, 0.002),   test::kollar_loop(0.011, 0.002),
+          test::kollar_loop(0.01, 0.001),   test::kollar_loop(0.01, 0.002, 0.5),
+          test::kollar_loop(0.001, 0.003),  test::kollar_loop(0.005, 0.001, 0.3)};
 }
 
 PeriodicOrbit orbit_from_rest(const IdealLoop<double>& loop) {
@@ -83,8 +76,8 @@ TEST(PeriodicOrbit, ClosesUponItself) {
 }
 
 TEST(PeriodicOrbit, MultipliersAreThoseOfTheReturnMapByFiniteDifferences) {
-  for (const auto& loop : {orbit_loop(0.001, 0.0005), orbit_loop(0.01, 0.002),
-                           orbit_loop(0.01, 0.002, 0.5), orbit_loop(0.001, 0.002)}) {
+  for (const auto& loop : {test::kollar_loop(0.001, 0.0005), test::kollar_loop(0.01, 0.002),
+                           test::kollar_loop(0.01, 0.002, 0.5), test::kollar_loop(0.001, 0.002)}) {
     const PeriodicOrbit orbit = orbit_from_rest(loop);
     const auto after_period = [&](const Vector<double, 5>& deviation) {
       auto motion = motion_on(loop, orbit);
@@ -138,7 +131,7 @@ TEST(PeriodicOrbit, TheLogarithmsOfMultipliersPerSampleAreTheLyapunovExponents) 
 TEST(PeriodicOrbit, OfSlowSamplingHasAllItsMultipliers) {
   // Without backlash they are the powers of the loop's eigenvalues, however small.
   for (const double period : {0.01, 0.05, 0.1, 0.2, 0.3}) {
-    IdealLoop<double> loop = orbit_loop(period, 0.0);
+    IdealLoop<double> loop = test::kollar_loop(period, 0.0);
     loop.gains = {-20.0, -0.5};
     loop.excitation.frequency = 7.0;
     const PeriodicOrbit orbit = orbit_from_rest(loop);
@@ -156,7 +149,7 @@ TEST(PeriodicOrbit, OfSlowSamplingHasAllItsMultipliers) {
 TEST(PeriodicOrbit, OfTheLinearLoopIsItsSteadyResponse) {
   for (const double period : {0.001, 0.004, 0.01}) {
     for (const ForceHold hold : {ForceHold::sampled, ForceHold::exact}) {
-      IdealLoop<double> loop = orbit_loop(period, 0.0, 0.3);
+      IdealLoop<double> loop = test::kollar_loop(period, 0.0, 0.3);
       loop.hold = hold;
       const PeriodicOrbit orbit = orbit_from_rest(loop);
       EXPECT_EQ(orbit.period_samples(), orbit.ratio.denominator);
@@ -201,7 +194,7 @@ TEST(PeriodicOrbit, ItsBordersAreWhereItsOwnDecisionsLie) {
 }
 
 TEST(OrbitOfItinerary, AForeignSequenceIsNotVerified) {
-  const IdealLoop<double> loop = orbit_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const PeriodicOrbit orbit = orbit_from_rest(loop);
   const ItineraryMaps<double> maps(loop, orbit.ratio);
   const Backlash<double> law(loop.backlash_width, orbit.memory);
@@ -221,7 +214,7 @@ TEST(OrbitOfItinerary, AForeignSequenceIsNotVerified) {
 
 TEST(OrbitOfItinerary, AnUndampedConductorAtResonanceHasNone) {
   // Uncontrolled and undamped, with a natural period of exactly ten samples: e^{iωτN} = 1.
-  IdealLoop<double> loop = orbit_loop(0.01, 0.0);
+  IdealLoop<double> loop = test::kollar_loop(0.01, 0.0);
   loop.gains = {0.0, 0.0};
   const double omega = 2.0 * pi<double> * 10.0;
   // A pair of masses of which one mode is at ω.
@@ -240,7 +233,7 @@ TEST(OrbitOfItinerary, AnUndampedConductorAtResonanceHasNone) {
 
 TEST(OrbitVerification, ACertificateStandsInLongDouble) {
   for (const double width : {0.0, 0.001, 0.002, 0.003}) {
-    const IdealLoop<double> loop = orbit_loop(0.01, width, 0.2);
+    const IdealLoop<double> loop = test::kollar_loop(0.01, width, 0.2);
     const OrbitResult found = find_periodic_orbit(loop, Vector<double, 4>::Zero(), {20000, 0});
     ASSERT_EQ(found.outcome, OrbitOutcome::certified) << width;
     const OrbitVerification verification = verify_orbit<long double>(loop, *found.orbit);
@@ -257,7 +250,7 @@ TEST(OrbitVerification, ACertificateStandsInLongDouble) {
 }
 
 TEST(OrbitVerification, SeesThatAnOrbitIsAnotherLoops) {
-  const IdealLoop<double> loop = orbit_loop(0.01, 0.002, 0.2);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002, 0.2);
   PeriodicOrbit orbit =
       find_periodic_orbit(loop, Vector<double, 4>::Zero(), {20000, 0}).orbit.value();
   IdealLoop<double> other = loop;

@@ -10,21 +10,13 @@ namespace {
 
 using AttractionMemory = MotionMemory<double, BacklashMemory<double>>;
 
-IdealLoop<double> attraction_loop(double period, double width, double delay_fraction = 0.0) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  which.processing_delay = delay_fraction * period;
-  return which.ideal_loop();
-}
-
 std::vector<IdealLoop<double>> attraction_loops() {
-  return {attraction_loop(0.001, 0.0005),    attraction_loop(0.001, 0.002),
-          attraction_loop(0.01, 0.002),      attraction_loop(0.011, 0.002),
-          attraction_loop(0.003, 0.002),     attraction_loop(0.001, 0.003),
-          attraction_loop(0.01, 0.002, 0.5), attraction_loop(0.01, 0.001),
-          attraction_loop(0.012, 0.001),     attraction_loop(0.005, 0.001, 0.3),
-          attraction_loop(0.02, 0.004),      attraction_loop(0.015, 0.001)};
+  return {test::kollar_loop(0.001, 0.0005),    test::kollar_loop(0.001, 0.002),
+          test::kollar_loop(0.01, 0.002),      test::kollar_loop(0.011, 0.002),
+          test::kollar_loop(0.003, 0.002),     test::kollar_loop(0.001, 0.003),
+          test::kollar_loop(0.01, 0.002, 0.5), test::kollar_loop(0.01, 0.001),
+          test::kollar_loop(0.012, 0.001),     test::kollar_loop(0.005, 0.001, 0.3),
+          test::kollar_loop(0.02, 0.004),      test::kollar_loop(0.015, 0.001)};
 }
 
 PeriodicOrbit certified_orbit(const IdealLoop<double>& loop) {
@@ -176,7 +168,7 @@ TEST(RegionOfAttraction, AMotionOutsideTheLargestBallMayLeaveTheContacts) {
 }
 
 TEST(RegionOfAttraction, AnotherSideOrDirectionOfTheDriveIsNotAttracted) {
-  const IdealLoop<double> loop = attraction_loop(0.01, 0.002);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.002);
   const auto weights = deviation_weights(loop);
   for (const AttractionBall& point : attraction_balls(loop, certified_orbit(loop))) {
     AttractionMemory motion = deviating(point, weights, Vector<double, 6>::Zero(), 0.0);
@@ -193,7 +185,7 @@ TEST(RegionOfAttraction, AnotherSideOrDirectionOfTheDriveIsNotAttracted) {
 }
 
 TEST(RegionOfAttraction, AnOrbitThatStaysInsideDoesSoInAnyGapThatHoldsIt) {
-  const IdealLoop<double> loop = attraction_loop(0.001, 0.003);
+  const IdealLoop<double> loop = test::kollar_loop(0.001, 0.003);
   const auto weights = deviation_weights(loop);
   const PeriodicOrbit orbit = certified_orbit(loop);
   for (AttractionBall point : attraction_balls(loop, orbit)) {
@@ -214,7 +206,7 @@ TEST(RegionOfAttraction, AnOrbitThatStaysInsideDoesSoInAnyGapThatHoldsIt) {
 }
 
 TEST(RegionOfAttraction, WithoutBacklashEveryMotionOfAStableLoopIsAttracted) {
-  const IdealLoop<double> loop = attraction_loop(0.01, 0.0);
+  const IdealLoop<double> loop = test::kollar_loop(0.01, 0.0);
   const PeriodicOrbit orbit = certified_orbit(loop);
   const auto points = attraction_balls(loop, orbit);
   ASSERT_FALSE(points.empty());

@@ -7,13 +7,6 @@
 namespace holdfast {
 namespace {
 
-IdealLoop<double> attractor_set_loop(double period, double width) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  return which.ideal_loop();
-}
-
 PeriodicOrbit attractor_set_orbit(const IdealLoop<double>& loop, double displacement = 0.0) {
   const OrbitResult found = find_periodic_orbit(loop, {displacement, 0.0, 0.0, 0.0}, {20000, 0});
   EXPECT_EQ(found.outcome, OrbitOutcome::certified);
@@ -55,7 +48,7 @@ PeriodicOrbit mirrored(const IdealLoop<double>& loop, const PeriodicOrbit& orbit
 }
 
 TEST(AttractorSet, ACopyBegunLaterIsTheSameOrbit) {
-  for (const auto& loop : {attractor_set_loop(0.011, 0.002), attractor_set_loop(0.003, 0.002)}) {
+  for (const auto& loop : {test::kollar_loop(0.011, 0.002), test::kollar_loop(0.003, 0.002)}) {
     const PeriodicOrbit orbit = attractor_set_orbit(loop);
     const auto common_periods = orbit.period_samples() / orbit.ratio.denominator;
     AttractorSet attractor_set(loop);
@@ -71,7 +64,7 @@ TEST(AttractorSet, ACopyBegunLaterIsTheSameOrbit) {
 }
 
 TEST(AttractorSet, ACopyThatIsNotOneIsSeen) {
-  const auto loop = attractor_set_loop(0.011, 0.002);
+  const auto loop = test::kollar_loop(0.011, 0.002);
   const PeriodicOrbit orbit = attractor_set_orbit(loop);
   PeriodicOrbit other = begun_later(orbit, 3, loop);
   other.states[500][0] += 1e-6;
@@ -79,7 +72,7 @@ TEST(AttractorSet, ACopyThatIsNotOneIsSeen) {
 }
 
 TEST(AttractorSet, DifferentOrbitsStayApart) {
-  const auto loop = attractor_set_loop(0.003, 0.002);
+  const auto loop = test::kollar_loop(0.003, 0.002);
   const PeriodicOrbit first = attractor_set_orbit(loop), second = attractor_set_orbit(loop, 1e-5);
   EXPECT_FALSE(is_phase_shifted_copy(first, second));
   EXPECT_FALSE(is_mirror_image(first, second));
@@ -91,8 +84,8 @@ TEST(AttractorSet, DifferentOrbitsStayApart) {
 
 TEST(AttractorSet, TheMirrorImageIsAMotionOfTheLoopAndKnownAsOne) {
   // Of the first loop's orbit the mirror image is another orbit, of the others' the same.
-  for (const auto& loop : {attractor_set_loop(0.003, 0.002), attractor_set_loop(0.001, 0.002),
-                           attractor_set_loop(0.01, 0.002), attractor_set_loop(0.01, 0.001)}) {
+  for (const auto& loop : {test::kollar_loop(0.003, 0.002), test::kollar_loop(0.001, 0.002),
+                           test::kollar_loop(0.01, 0.002), test::kollar_loop(0.01, 0.001)}) {
     const PeriodicOrbit orbit = attractor_set_orbit(loop), image = mirrored(loop, orbit);
     EXPECT_EQ(image.period_samples(), orbit.period_samples());
     EXPECT_TRUE(is_mirror_image(orbit, image)) << loop.sampling.period;
@@ -104,7 +97,7 @@ TEST(AttractorSet, TheMirrorImageIsAMotionOfTheLoopAndKnownAsOne) {
 }
 
 TEST(AttractorSet, AttractsWhatLiesInOneOfItsBalls) {
-  const auto loop = attractor_set_loop(0.003, 0.002);
+  const auto loop = test::kollar_loop(0.003, 0.002);
   AttractorSet attractor_set(loop);
   const PeriodicOrbit orbits[] = {attractor_set_orbit(loop), attractor_set_orbit(loop, 1e-5)};
   for (const auto& orbit : orbits) attractor_set.add(orbit);

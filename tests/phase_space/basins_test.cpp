@@ -17,14 +17,6 @@ constexpr auto one_after_the_other = [](std::size_t count, std::size_t tile, con
     job(first, std::min(tile, count - first));
 };
 
-IdealLoop<double> basin_loop(double period, double width, double delay_fraction = 0.0) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  which.processing_delay = delay_fraction * period;
-  return which.ideal_loop();
-}
-
 std::vector<Vector<double, 4>> basin_states(std::size_t count) {
   return test::random_states(871, count);
 }
@@ -39,7 +31,7 @@ struct AloneFound {
 struct PaperModel {
   using Orbit = PeriodicOrbit;
   static IdealLoop<double> loop(double period, double width, double delay_fraction = 0.0) {
-    return basin_loop(period, width, delay_fraction);
+    return test::kollar_loop(period, width, delay_fraction);
   }
   template <class Tiles>
   static BasinMap basins(const IdealLoop<double>& loop,
@@ -60,7 +52,7 @@ template <Switching switching>
 struct EventModel {
   using Orbit = EventOrbit;
   static ImplementedLoop loop(double period, double width, double delay_fraction = 0.0) {
-    ImplementedLoop loop = implemented_loop(basin_loop(period, width, delay_fraction));
+    ImplementedLoop loop = implemented_loop(test::kollar_loop(period, width, delay_fraction));
     loop.switching = switching;
     return loop;
   }
@@ -94,7 +86,7 @@ struct ControlledModel {
   using Loop = ImplementedLoopOf<ControlledPlant>;
   using Orbit = EventOrbitOf<Eigen::Dynamic>;
   static Loop loop(double period, double width, double delay_fraction = 0.0) {
-    const ImplementedLoop of = implemented_loop(basin_loop(period, width, delay_fraction));
+    const ImplementedLoop of = implemented_loop(test::kollar_loop(period, width, delay_fraction));
     Loop own{with_controller(of.plant, of.digital.gains), of.digital, of.backlash, of.switching};
     own.digital.gains = {0.0, 0.0};
     return own;
@@ -117,7 +109,7 @@ struct ControlledModel {
 struct ModalModel {
   using Orbit = PeriodicOrbit;
   static ModalLoop loop(double period, double width, double delay_fraction = 0.0) {
-    const IdealLoop<double> of = basin_loop(period, width, delay_fraction);
+    const IdealLoop<double> of = test::kollar_loop(period, width, delay_fraction);
     const TwoMass<double>& plant = of.plant;
     const double omega = std::sqrt(plant.conductor_stiffness / plant.conductor_mass);
     return {{{omega, plant.conductor_damping / (2.0 * omega * plant.conductor_mass), 1.0,
@@ -274,7 +266,7 @@ BasinMap paper_basins(const IdealLoop<double>& loop, const std::vector<Vector<do
 
 TEST(BasinMap, FractionsAndErrorsAreThoseOfTheCounts) {
   const auto states = basin_states(200);
-  const BasinMap map = paper_basins(basin_loop(0.003, 0.002), states);
+  const BasinMap map = paper_basins(test::kollar_loop(0.003, 0.002), states);
   EXPECT_GE(map.attractors.size(), 2U);
   std::size_t counted = 0;
   int highest = -1;
@@ -312,7 +304,7 @@ TEST(BasinMap, FractionsAndErrorsAreThoseOfTheCounts) {
 template <class Model>
 void expect_the_basins_of_the_paper(double tolerance) {
   const auto states = basin_states(60);
-  const BasinMap paper = paper_basins(basin_loop(0.003, 0.002), states);
+  const BasinMap paper = paper_basins(test::kollar_loop(0.003, 0.002), states);
   const auto map =
       Model::basins(Model::loop(0.003, 0.002), states, basin_limits, one_after_the_other);
   ASSERT_GE(paper.attractors.size(), 2U);
@@ -341,7 +333,7 @@ TEST(BasinMap, OfOneModeIsThatOfItsTwoMasses) { expect_the_basins_of_the_paper<M
 
 TEST(BasinMap, SaysWhatIsNotFoundInTime) {
   // One common period is no time for motions of 2100 samples.
-  const BasinMap map = paper_basins(basin_loop(0.011, 0.002), basin_states(40), {100, 100});
+  const BasinMap map = paper_basins(test::kollar_loop(0.011, 0.002), basin_states(40), {100, 100});
   int none_found = 0;
   for (const BasinLabel& label : map.labels) {
     if (label.outcome == OrbitOutcome::none_found) {
@@ -354,7 +346,7 @@ TEST(BasinMap, SaysWhatIsNotFoundInTime) {
     EXPECT_EQ(map.attractors.at(number).orbit.period_samples(), 100);
   }
   EXPECT_GE(none_found, 8) << "those that are searched first";
-  const auto built = implemented_loop(basin_loop(0.011, 0.002));
+  const auto built = implemented_loop(test::kollar_loop(0.011, 0.002));
   for (const BasinLabel& label :
        find_basins(built, basin_states(12), {100, 200}, one_after_the_other).labels) {
     EXPECT_NE(label.outcome, OrbitOutcome::certified) << "200 samples are too few to come anywhere";

@@ -9,14 +9,6 @@
 namespace holdfast {
 namespace {
 
-IdealLoop<double> batch_loop(double delay_fraction = 0.0) {
-  test::KollarCase which;
-  which.sampling_period = 0.01;
-  which.width = 0.002;
-  which.processing_delay = delay_fraction * which.sampling_period;
-  return which.ideal_loop();
-}
-
 MotionBatch<double> batch_of(const IdealLoop<double>& loop) {
   return MotionBatch<double>(periodically_forced_motion(loop, forcing_ratio(loop).value(),
                                                         Vector<double, 4>::Zero().eval()));
@@ -31,7 +23,7 @@ std::vector<ActiveTrajectory> random_motions(std::size_t count) {
 }
 
 TEST(MotionBatch, WithoutOrbitsMovesEveryMotionAsIfAlone) {
-  const auto loop = batch_loop(0.3);
+  const auto loop = test::kollar_loop(0.01, 0.002, 0.3);
   const Rational ratio = forcing_ratio(loop).value();
   auto motions = random_motions(7);
   const auto starts = motions;
@@ -58,7 +50,7 @@ TEST(MotionBatch, WithoutOrbitsMovesEveryMotionAsIfAlone) {
 }
 
 TEST(MotionBatch, MarksAttractedMotions) {
-  const auto loop = batch_loop();
+  const auto loop = test::kollar_loop(0.01, 0.002);
   AttractorSet attractor_set(loop);
   attractor_set.add(find_periodic_orbit(loop, Vector<double, 4>::Zero(), {3000, 0}).orbit.value());
   auto motions = random_motions(50);
@@ -73,7 +65,7 @@ TEST(MotionBatch, MarksAttractedMotions) {
 }
 
 TEST(MotionBatch, MarksDivergedMotions) {
-  const auto loop = batch_loop(1.0);
+  const auto loop = test::kollar_loop(0.01, 0.002, 1.0);
   IdealLoop<double> growing = loop;
   growing.gains.differential *= 3.0;
   auto motions = random_motions(5);

@@ -9,13 +9,6 @@ namespace {
 
 using MotionPack = simd::Pack<double>;
 
-IdealLoop<double> packed_loop(double period, double width) {
-  test::KollarCase which;
-  which.sampling_period = period;
-  which.width = width;
-  return which.ideal_loop();
-}
-
 std::vector<Vector<double, 4>> packed_states(std::size_t count) {
   return test::random_states(881, count);
 }
@@ -41,8 +34,8 @@ TEST(PackedBasins, AreThoseOfOneLaneOnAnyNumberOfThreads) {
   };
   const auto states = packed_states(200);
   const OrbitLimits limits{20000, 0};
-  for (const auto& loop :
-       {packed_loop(0.003, 0.002), packed_loop(0.01, 0.002), packed_loop(0.01, 0.0)}) {
+  for (const auto& loop : {test::kollar_loop(0.003, 0.002), test::kollar_loop(0.01, 0.002),
+                           test::kollar_loop(0.01, 0.0)}) {
     const BasinMap scalar = find_basins<double>(loop, states, limits, one_after_the_other);
     const BasinMap alone = simd::find_basins(loop, states, limits, 1);
     const BasinMap together = simd::find_basins(loop, states, limits, 2);
@@ -52,7 +45,7 @@ TEST(PackedBasins, AreThoseOfOneLaneOnAnyNumberOfThreads) {
 }
 
 TEST(PackedBasins, OfAGrowingLoopAreEmpty) {
-  IdealLoop<double> loop = packed_loop(0.011, 0.002);
+  IdealLoop<double> loop = test::kollar_loop(0.011, 0.002);
   loop.sampling.processing_delay = loop.sampling.period;
   const BasinMap map = simd::find_basins(loop, packed_states(50), {1000, 0}, 2);
   EXPECT_TRUE(map.attractors.empty());

@@ -43,6 +43,15 @@ struct KollarCase {
   }
 };
 
+/// Its loop with another period (s), width (m) and δ/τ.
+inline IdealLoop<double> kollar_loop(double period, double width, double delay_fraction = 0.0) {
+  KollarCase which;
+  which.sampling_period = period;
+  which.width = width;
+  which.processing_delay = delay_fraction * period;
+  return which.ideal_loop();
+}
+
 /// Every sample of a case from rest to `duration` (s).
 template <class Law = Backlash<double>>
 std::vector<MotionSample<double>> record(const KollarCase& which, double duration,

@@ -5,21 +5,13 @@
 #include "case/model/cable_of_case.hpp"
 #include "case/model/linear_loop.hpp"
 #include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/moving_loop.hpp"
 #include "case/needed.hpp"
 #include "holdfast/excitation/band_limited_noise.hpp"
-#include "holdfast/motion/divergence.hpp"
 #include "io/text/text.hpp"
 
 namespace holdfast::program {
 namespace {
-
-ControllerLimits limits_of(const Case& the_case) {
-  const auto& control = the_case.control;
-  return {
-      control.displacement_quantum, control.velocity_quantum,
-      control.velocity == "difference" ? VelocitySensing::difference : VelocitySensing::measured,
-      control.largest_force};
-}
 
 ContactLaw law_of(const std::string& word) {
   if (word == "immediate") return ContactLaw::immediate;
@@ -46,6 +38,14 @@ MultiHarmonicForce force_of(const Case& the_case) {
 
 }  // namespace
 
+ControllerLimits controller_limits_of(const Case& the_case) {
+  const auto& control = the_case.control;
+  return {
+      control.displacement_quantum, control.velocity_quantum,
+      control.velocity == "difference" ? VelocitySensing::difference : VelocitySensing::measured,
+      control.largest_force};
+}
+
 IdealLoop<double> ideal_loop_of(const Case& the_case) {
   const double width = the_case.backlash.law == "none" ? 0.0 : the_case.backlash.width;
   return {plant_of(the_case),
@@ -71,12 +71,8 @@ void require_loop_keys(const Case& the_case) {
   motion_excitation_of(the_case);
 }
 
-SampledMotion<double> motion_of(const Case& the_case) {
-  return harmonically_forced_motion(ideal_loop_of(the_case), initial_state_of(the_case));
-}
-
 bool has_ideal_computer(const Case& the_case) {
-  return is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0;
+  return is_ideal(controller_limits_of(the_case)) && the_case.control.jitter == 0.0;
 }
 
 bool is_of_the_paper(const Case& the_case, Switching switching) {
@@ -96,7 +92,7 @@ ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching) {
   return {
       plant_of(the_case),
       {sampling_of(the_case), gains_of(the_case), force_of(the_case), force_hold_of(the_case),
-       limits_of(the_case), jitter},
+       controller_limits_of(the_case), jitter},
       {law_of(backlash.law), backlash.width, backlash.contact_stiffness, backlash.contact_damping},
       switching};
 }
@@ -112,19 +108,10 @@ std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case) 
   return ideal_loop(loop);
 }
 
-double spectral_radius_of(const Case& the_case) {
-  return LinearLoop(the_case).radius(gains_of(the_case));
-}
-
 double divergence_bound(const Case& the_case, double kick) {
-  if (is_modal(the_case) && is_of_the_paper(the_case, Switching::sampled))
-    return holdfast::divergence_bound(modal_loop_of(the_case), modal_state_of(the_case));
-  if (is_modal(the_case))
-    return holdfast::divergence_bound(conductor_loop_of(the_case, {Switching::sampled, true}),
-                                      modal_state_of(the_case));
-  Vector<double, 4> state = initial_state_of(the_case);
-  state[0] = std::abs(state[0]) + std::abs(kick);
-  return holdfast::divergence_bound(implemented_loop_of(the_case, Switching::sampled), state);
+  Case kicked = the_case;
+  kicked.initial.z1 = std::abs(kicked.initial.z1) + std::abs(kick);
+  return divergence_bound(moving_loop_of(kicked, {}));
 }
 
 std::string divergence_warning(const Case& the_case, bool controlled, double kick, double time,
@@ -135,9 +122,8 @@ std::string divergence_warning(const Case& the_case, bool controlled, double kic
     return grown + ", which no bounded motion of this loop reaches";
   const bool has_play =
       law_of(the_case.backlash.law) != ContactLaw::none && the_case.backlash.width > 0.0;
-  const bool is_ideal_loop = is_ideal(limits_of(the_case)) && the_case.control.jitter == 0.0;
-  if (!controlled || has_play || !is_ideal_loop || size == 0.0) return "";
-  const double radius = spectral_radius_of(the_case);
+  if (!controlled || has_play || !has_ideal_computer(the_case) || size == 0.0) return "";
+  const double radius = LinearLoop(the_case).radius(gains_of(the_case));
   if (!(radius > 1.0 + 1e-9)) return "";
   return grown + ", and nothing bounds it: the largest root of the loop has the modulus " +
          format_number(std::round(radius * 1e9) / 1e9);

@@ -28,6 +28,9 @@ Loop uncontrolled(Loop loop) {
   return loop;
 }
 
+/// Quanta, differences and limits of the computer.
+ControllerLimits controller_limits_of(const Case& the_case);
+
 /// Whether the computer reads and commands without quanta, differences, limits and jitter.
 bool has_ideal_computer(const Case& the_case);
 
@@ -44,9 +47,6 @@ std::optional<IdealLoop<double>> exactly_switched_loop_of(const Case& the_case);
 /// job that computes for long asks first.
 void require_loop_keys(const Case& the_case);
 
-/// The motion of the paper's model from the case's initial state.
-SampledMotion<double> motion_of(const Case& the_case);
-
 /// The loop with all that the case says of it.
 ImplementedLoop implemented_loop_of(const Case& the_case, Switching switching);
 
@@ -57,9 +57,6 @@ ImplementedLoopOf<Plant> uncontrolled(ImplementedLoopOf<Plant> loop) {
   loop.backlash = {ContactLaw::none};
   return loop;
 }
-
-/// The largest modulus of a root of the loop, which is stable where it is below 1; on any plant.
-double spectral_radius_of(const Case& the_case);
 
 /// A size (m, m/s) that no bounded motion of the case reaches, from its initial state or displaced
 /// by `kick`, m, on its way.
@@ -72,13 +69,5 @@ double divergence_bound(const Case& the_case, double kick);
 /// @param size        that it has reached at `time` (s), m and m/s
 std::string divergence_warning(const Case& the_case, bool controlled, double kick, double time,
                                double size);
-
-/// Calls `visit` with the loop: in the paper's model where that is all there is to the case, else
-/// with all that the case says of it.
-template <class Visit>
-auto with_loop_of(const Case& the_case, Switching switching, const Visit& visit) {
-  if (is_of_the_paper(the_case, switching)) return visit(ideal_loop_of(the_case));
-  return visit(implemented_loop_of(the_case, switching));
-}
 
 }  // namespace holdfast::program

@@ -42,4 +42,15 @@ void side_by_side(const JobContext& context, const std::string& job, std::int64_
   throw_if_interrupted();
 }
 
+/// Deals tiles of states or cells out to threads, `for_tiles` of the library.
+inline auto tiles_on(const JobContext& context) {
+  return [&context](std::size_t count, std::size_t tile, const auto& job) {
+    parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
+                  context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
+                    throw_if_interrupted();
+                    job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
+                  });
+  };
+}
+
 }  // namespace holdfast::program

@@ -74,8 +74,9 @@ std::string play_warning(const Case& the_case, const PdGains<double>& gains, dou
   const Case there = case_with(case_with(the_case, "control.proportional_gain", gains.proportional),
                                "control.differential_gain", gains.differential);
   require_bearable(2.0 * duration / the_case.control.sampling_period);
-  const CellMotion motion = cell_motion(there, Switching::sampled, duration);
-  const auto metrics = metrics_of({motion, without_control(motion, duration)}, duration, set);
+  const auto metrics = metrics_of(
+      {cell_motion(there, Switching::sampled, duration), motion_without_control(there, duration)},
+      duration, set);
   const double left = metrics[0].steady_peak / metrics[1].steady_peak;
   if (left <= noticeable * ideal) return "";
   return "without play D = " + format_rounded(gains.differential) + " N s/m leaves " +

@@ -1,10 +1,5 @@
 #include "jobs/motion/case_motion.hpp"
 
-#include <type_traits>
-
-#include "case/model/modal/modal_plant_of_case.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/motion/modal/modal_motion.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "io/text/text.hpp"
 #include "process/errors.hpp"
@@ -36,81 +31,47 @@ ContactMode mode_of(const MotionSample<double>& sample) {
 
 }  // namespace
 
-struct CaseMotion::Model {
-  Model() = default;
-  Model& operator=(const Model&) = delete;
-  virtual ~Model() = default;
-  virtual std::unique_ptr<Model> copy() const = 0;
-  virtual EventSample sense() = 0;
-  virtual void advance() = 0;
-  virtual void displace_conductor(double by) = 0;
-  virtual std::int64_t index() const = 0;
-  virtual double time() const = 0;
-  virtual State state() const = 0;
-  virtual const SwitchCounts& counts() const = 0;
+CaseMotion::CaseMotion(const Case& the_case, const MotionChoice& choice)
+    : motion_(std::visit([](const auto& moving) { return decltype(motion_)(motion_of(moving)); },
+                         moving_loop_of(the_case, choice))) {}
 
- protected:
-  Model(const Model&) = default;
-};
-
-template <class Motion>
-struct CaseMotion::ModelOf final : Model {
-  explicit ModelOf(const Motion& given) : motion(given) {}
-  std::unique_ptr<Model> copy() const override { return std::make_unique<ModelOf>(*this); }
-
-  EventSample sense() override {
-    const auto taken = motion.sense();
-    EventSample sample;
-    sample.index = taken.index;
-    sample.time = taken.time;
-    sample.state = state();
-    sample.control_force = taken.control_force;
-    sample.engaged = taken.engaged;
-    sample.mode = mode_of(taken);
-    return sample;
-  }
-  void advance() override { motion.advance(); }
-  void displace_conductor(double by) override { motion.displace_conductor(by); }
-  std::int64_t index() const override { return motion.index(); }
-  double time() const override { return motion.time(); }
-  State state() const override { return motion.readings().both_sides(motion.state()); }
-  const SwitchCounts& counts() const override { return counts_of(motion); }
-
-  Motion motion;
-};
-
-CaseMotion::CaseMotion(const Case& the_case, const MotionChoice& choice) {
-  const auto take = [&](const auto& motion) {
-    model_ = std::make_unique<ModelOf<std::decay_t<decltype(motion)>>>(motion);
-  };
-  const bool of_paper = is_of_the_paper(the_case, choice.switching);
-  if (is_modal(the_case)) {
-    if (of_paper)
-      take(modal_motion_of(the_case, choice.controlled));
-    else
-      take(event_motion(conductor_loop_of(the_case, choice), modal_state_of(the_case)));
-    return;
-  }
-  const State state = initial_state_of(the_case);
-  if (of_paper) {
-    const IdealLoop<double> loop = ideal_loop_of(the_case);
-    take(harmonically_forced_motion(choice.controlled ? loop : uncontrolled(loop), state));
-    return;
-  }
-  const ImplementedLoop loop = implemented_loop_of(the_case, choice.switching);
-  take(event_motion(choice.controlled ? loop : uncontrolled(loop), state));
+EventSample CaseMotion::sense() {
+  EventSample sample;
+  std::visit(
+      [&](auto& motion) {
+        const auto taken = motion.sense();
+        sample.index = taken.index;
+        sample.time = taken.time;
+        sample.control_force = taken.control_force;
+        sample.engaged = taken.engaged;
+        sample.mode = mode_of(taken);
+      },
+      motion_);
+  sample.state = state();
+  return sample;
 }
 
-CaseMotion::CaseMotion(const CaseMotion& other) : model_(other.model_->copy()) {}
-CaseMotion::~CaseMotion() = default;
-
-EventSample CaseMotion::sense() { return model_->sense(); }
-void CaseMotion::advance() { model_->advance(); }
-void CaseMotion::displace_conductor(double by) { model_->displace_conductor(by); }
-std::int64_t CaseMotion::index() const { return model_->index(); }
-double CaseMotion::time() const { return model_->time(); }
-CaseMotion::State CaseMotion::state() const { return model_->state(); }
-const SwitchCounts& CaseMotion::counts() const { return model_->counts(); }
+void CaseMotion::advance() {
+  std::visit([](auto& motion) { motion.advance(); }, motion_);
+}
+void CaseMotion::displace_conductor(double by) {
+  std::visit([&](auto& motion) { motion.displace_conductor(by); }, motion_);
+}
+std::int64_t CaseMotion::index() const {
+  return std::visit([](const auto& motion) -> std::int64_t { return motion.index(); }, motion_);
+}
+double CaseMotion::time() const {
+  return std::visit([](const auto& motion) { return motion.time(); }, motion_);
+}
+CaseMotion::State CaseMotion::state() const {
+  return std::visit(
+      [](const auto& motion) -> State { return motion.readings().both_sides(motion.state()); },
+      motion_);
+}
+const SwitchCounts& CaseMotion::counts() const {
+  return std::visit([](const auto& motion) -> const SwitchCounts& { return counts_of(motion); },
+                    motion_);
+}
 
 namespace {
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
+#include <variant>
 
 #include "case/case.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/core/types.hpp"
 #include "holdfast/motion/event_motion.hpp"
 #include "holdfast/plant/port_readings.hpp"
@@ -14,20 +14,15 @@
 
 namespace holdfast::program {
 
-/// The motion of a case from its initial state, by whichever of the library's motions follows it:
-/// the map of a sampling period where the case is of the paper's model, of two masses or of a
-/// conductor by its modes, else the event-driven motion. What it shows are conductor and absorber
-/// at their place: states are [z1, v1, z2, v2]. It is a motion as is_motion_v has it; the
-/// library's own is compiled once, behind it, and a sample costs two calls more.
+/// The motion of a case from its initial state, by whichever of the library's motions follows it.
+/// What it shows are conductor and absorber at their place: states are [z1, v1, z2, v2]. It is a
+/// motion as is_motion_v has it; the library's own are compiled once, behind it.
 class CaseMotion {
  public:
   using State = Vector<double, 4>;  ///< [z1, v1, z2, v2] (m, m/s, m, m/s)
 
   /// Throws WrongInput, NoAnswer or InvalidParameter where there is no such motion.
   CaseMotion(const Case& the_case, const MotionChoice& choice);
-  CaseMotion(const CaseMotion& other);
-  CaseMotion& operator=(const CaseMotion&) = delete;
-  ~CaseMotion();
 
   EventSample sense();
   void advance();
@@ -42,11 +37,9 @@ class CaseMotion {
   const SwitchCounts& counts() const;
 
  private:
-  struct Model;
-  template <class Motion>
-  struct ModelOf;
-
-  std::unique_ptr<Model> model_;
+  std::variant<SampledMotion<double>, EventMotion<>, ModalMotion,
+               EventMotion<DriveContact<ControlledPlant>>>
+      motion_;
 };
 
 /// Where a motion has come to.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
@@ -134,12 +134,12 @@ EventSample RoundedMotion::sense() {
 
 std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
                                           const std::optional<Kick>& kick, double from) {
-  if (is_modal(the_case)) return std::nullopt;
-  if (!is_of_the_paper(the_case, choice.switching))
+  const MovingLoop moving = moving_loop_of(the_case, choice);
+  if (const auto* masses = std::get_if<SampledMasses>(&moving))
+    return MotionDigits(masses->loop, masses->state, kick, from);
+  if (std::holds_alternative<BuiltMasses>(moving))
     return MotionDigits(CaseMotion(the_case, choice), kick, from);
-  const IdealLoop<double> loop = ideal_loop_of(the_case);
-  return MotionDigits(choice.controlled ? loop : uncontrolled(loop), initial_state_of(the_case),
-                      kick, from);
+  return std::nullopt;
 }
 
 TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
@@ -153,10 +153,10 @@ TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching
 
 TrustedDigits with_rate(TrustedDigits trusted, const Case& the_case, Switching switching,
                         std::int64_t samples) {
-  if (!is_worth_telling(trusted) || is_modal(the_case)) return trusted;
+  if (!is_worth_telling(trusted)) return trusted;
   const double period = the_case.control.sampling_period;
   const std::int64_t steps = std::min(samples, most_compared_samples) - 1;
-  const CellMotion motion = cell_motion(the_case, switching, static_cast<double>(steps) * period);
+  const MovingLoop motion = cell_motion(the_case, switching, static_cast<double>(steps) * period);
   const auto found = run_largest_exponent(motion, steps);
   if (found && std::isfinite(found->exponents[0]) && std::isfinite(found->standard_errors[0]))
     trusted.rate = {found->exponents[0] / period, found->standard_errors[0] / period};
@@ -165,9 +165,11 @@ TrustedDigits with_rate(TrustedDigits trusted, const Case& the_case, Switching s
 
 TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
                                           std::int64_t samples) {
-  if (is_modal(the_case) || !is_of_the_paper(the_case, switching)) return {};
-  auto first = motion_of(the_case), second = first;
-  auto wide_first = wide_motion(ideal_loop_of(the_case), initial_state_of(the_case));
+  const MovingLoop moving = moving_loop_of(the_case, {switching});
+  const auto* masses = std::get_if<SampledMasses>(&moving);
+  if (masses == nullptr) return {};
+  auto first = motion_of(*masses), second = first;
+  auto wide_first = wide_motion(masses->loop, masses->state);
   auto wide_second = wide_first;
   second.displace_conductor(offset);
   wide_second.displace_conductor(offset);

@@ -4,16 +4,11 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 
-#include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/core/rational.hpp"
-#include "holdfast/orbit/event/event_orbit_search.hpp"
 #include "holdfast/orbit/modal/modal_attraction.hpp"
 #include "holdfast/orbit/modal/modal_itinerary_maps.hpp"
-#include "holdfast/orbit/modal/modal_orbit_search.hpp"
-#include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/region_of_attraction.hpp"
 #include "holdfast/plant/plant_poles.hpp"
 #include "io/text/names.hpp"
@@ -57,16 +52,19 @@ std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t lar
        {"longest", std::to_string(largest_period)}});
 }
 
-template <class Result>
-Result certified_result(Result found, const Ratio& ratio, const OrbitLimits& limits, bool quiet) {
-  if (found.outcome != OrbitOutcome::certified)
-    throw NoAnswer(reason_for(found, ratio, limits.largest_period));
-  report_warning(near_border_warning(found.orbit->border_share()), quiet);
+/// What a motion comes to, where that is certified.
+template <class Moving>
+auto certified_result(const JobContext& context, const Moving& moving,
+                      std::int64_t largest_period) {
+  auto found = orbit_of(moving, {largest_period, 0, throw_if_interrupted});
+  if (found.outcome != OrbitOutcome::certified) {
+    const auto& clock = clock_of(moving);
+    const double frequency = motion_excitation_of(context.case_data).frequency;
+    const Ratio ratio{forcing_ratio(clock), frequency * clock.sampling.period};
+    throw NoAnswer(reason_for(found, ratio, largest_period));
+  }
+  report_warning(near_border_warning(found.orbit->border_share()), context.quiet);
   return found;
-}
-template <class Result>
-auto certified(Result found, const Ratio& ratio, const OrbitLimits& limits, bool quiet) {
-  return std::move(*certified_result(std::move(found), ratio, limits, quiet).orbit);
 }
 
 /// The ten largest of the multipliers of a plant of any order.
@@ -98,55 +96,35 @@ EventOrbit as_seen(const EventOrbitOf<Eigen::Dynamic>& orbit, const Readings& re
   return seen;
 }
 
-/// What an event-driven motion comes to.
-template <class Motion>
-auto certified_result_of(const JobContext& context, const Motion& motion,
-                         std::int64_t largest_period) {
-  const DigitalLoop& digital = motion.loop();
-  const Ratio ratio{forcing_ratio(digital),
-                    digital.force.harmonics.front().frequency * digital.sampling.period};
-  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  return certified_result(find_event_orbit(motion, limits), ratio, limits, context.quiet);
-}
-
 }  // namespace
 
-PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>& loop,
+PeriodicOrbit certified_orbit(const JobContext& context, const SampledMasses& moving,
                               std::int64_t largest_period) {
-  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  return certified(find_periodic_orbit(loop, initial_state_of(context.case_data), limits),
-                   {forcing_ratio(loop), loop.excitation.frequency * loop.sampling.period}, limits,
-                   context.quiet);
+  return *certified_result(context, moving, largest_period).orbit;
 }
 
-EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
+EventOrbit certified_orbit(const JobContext& context, const BuiltMasses& moving,
                            std::int64_t largest_period) {
-  return std::move(*certified_event_orbit(context, loop, largest_period).orbit);
+  return *certified_result(context, moving, largest_period).orbit;
 }
 
 EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
-                                                       const ImplementedLoop& loop,
+                                                       const BuiltMasses& moving,
                                                        std::int64_t largest_period) {
-  return certified_result_of(context, event_motion(loop, initial_state_of(context.case_data)),
-                             largest_period);
+  return certified_result(context, moving, largest_period);
 }
 
-PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
+PeriodicOrbit certified_orbit(const JobContext& context, const SampledModes& moving,
                               std::int64_t largest_period) {
-  const OrbitLimits limits{largest_period, 0, throw_if_interrupted};
-  PeriodicOrbit orbit =
-      certified(find_periodic_orbit(loop, modal_state_of(context.case_data), limits),
-                {forcing_ratio(loop), loop.excitation.frequency * loop.sampling.period}, limits,
-                context.quiet);
+  PeriodicOrbit orbit = *certified_result(context, moving, largest_period).orbit;
   keep_largest(orbit.multipliers);
   return orbit;
 }
 
-EventOrbit certified_orbit(const JobContext& context,
-                           const ImplementedLoopOf<ControlledPlant>& loop,
+EventOrbit certified_orbit(const JobContext& context, const BuiltPlant& moving,
                            std::int64_t largest_period) {
-  const auto motion = event_motion(loop, modal_state_of(context.case_data));
-  return as_seen(*certified_result_of(context, motion, largest_period).orbit, motion.readings());
+  return as_seen(*certified_result(context, moving, largest_period).orbit,
+                 motion_of(moving).readings());
 }
 
 CaptureRadii capture_radii_of(const ModalLoop& loop, const PeriodicOrbit& orbit) {

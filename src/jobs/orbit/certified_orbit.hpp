@@ -2,35 +2,42 @@
 
 #include <cstdint>
 
-#include "holdfast/control/controlled_plant.hpp"
-#include "holdfast/motion/implemented_loop.hpp"
-#include "holdfast/motion/modal/natural_motions.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/orbit/event/event_orbit.hpp"
 #include "holdfast/orbit/event/event_orbit_search.hpp"
+#include "holdfast/orbit/modal/modal_orbit_search.hpp"
+#include "holdfast/orbit/orbit_search.hpp"
 #include "holdfast/orbit/periodic_orbit.hpp"
 #include "process/job_context.hpp"
 
 namespace holdfast::program {
 
-/// The periodic orbit that the motion of the loop, one of `with_motion_of`, comes to from the
-/// case's initial state; on a conductor by its modes with the ten largest of its multipliers, and
-/// in the model that switches between the samples as conductor and absorber show it. Warns where a
-/// switching surface is near. Throws NoAnswer, saying why, where there is none, or none with a
-/// certificate.
+/// What is found of the periodic orbit that a motion comes to.
+template <class Moving>
+auto orbit_of(const Moving& moving, const OrbitLimits& limits) {
+  if constexpr (Moving::by_events)
+    return find_event_orbit(motion_of(moving), limits);
+  else
+    return find_periodic_orbit(moving.loop, moving.state, limits);
+}
+
+/// The periodic orbit that a loop's motion comes to; on a conductor by its modes with the ten
+/// largest of its multipliers, and in the model that switches between the samples as conductor and
+/// absorber show it. Warns where a switching surface is near. Throws NoAnswer, saying why, where
+/// there is none, or none with a certificate.
 /// @param largest_period  samples
-PeriodicOrbit certified_orbit(const JobContext& context, const IdealLoop<double>& loop,
+PeriodicOrbit certified_orbit(const JobContext& context, const SampledMasses& moving,
                               std::int64_t largest_period);
-EventOrbit certified_orbit(const JobContext& context, const ImplementedLoop& loop,
+EventOrbit certified_orbit(const JobContext& context, const BuiltMasses& moving,
                            std::int64_t largest_period);
-PeriodicOrbit certified_orbit(const JobContext& context, const ModalLoop& loop,
+PeriodicOrbit certified_orbit(const JobContext& context, const SampledModes& moving,
                               std::int64_t largest_period);
-EventOrbit certified_orbit(const JobContext& context,
-                           const ImplementedLoopOf<ControlledPlant>& loop,
+EventOrbit certified_orbit(const JobContext& context, const BuiltPlant& moving,
                            std::int64_t largest_period);
 
 /// The same with where it begins, in the model that switches between the samples.
 EventOrbitResult<DriveContact<>> certified_event_orbit(const JobContext& context,
-                                                       const ImplementedLoop& loop,
+                                                       const BuiltMasses& moving,
                                                        std::int64_t largest_period);
 
 /// How far from the orbit every motion is sure to come to it.

@@ -159,16 +159,16 @@ void write_region(const JobContext& context, const std::vector<MapKey>& keys,
                    context.quiet);
 }
 
-/// Follows the border of the motion of a loop, `loop_at(case)` being the one at a point.
-template <class LoopAt>
+/// Follows the border of the motion of a loop, `moving_at(case)` being the one at a point.
+template <class MovingAt>
 void write_borders_of(const JobContext& context, const std::vector<MapKey>& keys,
-                      std::int64_t largest_period, const LoopAt& loop_at) {
+                      std::int64_t largest_period, const MovingAt& moving_at) {
   const CaseOfMap case_at(context.case_data, keys);
   const auto family = [&](double x, double y) {
     throw_if_interrupted();
-    return loop_at(case_at(x, y));
+    return moving_at(case_at(x, y)).loop;
   };
-  const auto orbit = certified_orbit(context, loop_at(context.case_data), largest_period);
+  const auto orbit = certified_orbit(context, moving_at(context.case_data), largest_period);
   const ParameterWindow window{keys[0].range.min, keys[0].range.max, keys[1].range.min,
                                keys[1].range.max};
   write_region(context, keys, window,
@@ -182,10 +182,10 @@ void write_motion_borders(const JobContext& context, const std::vector<std::stri
   const Case& the_case = context.case_data;
   const std::vector<MapKey> keys = map_keys(the_case, axes);
   if (is_of_the_paper(the_case, switching))
-    return write_borders_of(context, keys, largest_period,
-                            [](const Case& there) { return ideal_loop_of(there); });
-  write_borders_of(context, keys, largest_period,
-                   [&](const Case& there) { return implemented_loop_of(there, switching); });
+    return write_borders_of(context, keys, largest_period, sampled_masses_of);
+  write_borders_of(context, keys, largest_period, [&](const Case& there) {
+    return std::get<BuiltMasses>(built_loop_of(there, {switching}));
+  });
 }
 
 }  // namespace holdfast::program

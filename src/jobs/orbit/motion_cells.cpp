@@ -88,17 +88,11 @@ std::vector<MapCell> cells_by(const JobContext& context, const MapGrid& grid,
     if (!there) return std::nullopt;
     return loop_of(*there);
   };
-  const auto tiles = [&](std::size_t count, std::size_t tile, const auto& job) {
-    parallel_rows(static_cast<std::int64_t>(count), static_cast<std::int64_t>(tile),
-                  context.threads, 0, [&](int&, std::int64_t first, std::int64_t number) {
-                    throw_if_interrupted();
-                    job(static_cast<std::size_t>(first), static_cast<std::size_t>(number));
-                  });
-  };
   MotionMapOptions options;
   options.limits = {question.largest_period, 0, throw_if_interrupted};
   options.more_starts = question.more_starts;
-  return motion_map(loop_at, grid.shape(), initial_state_of(context.case_data), tiles, options);
+  return motion_map(loop_at, grid.shape(), initial_state_of(context.case_data), tiles_on(context),
+                    options);
 }
 
 /// Whether every cell is one of the paper's model: the ends of the axes tell.

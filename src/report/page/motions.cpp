@@ -163,13 +163,15 @@ std::vector<MotionRow> paper_motions(const Case& the_case) {
 
 MotionRow motion_of_the_case(const Case& the_case) {
   const std::string text = loop_text(the_case) + ", from its initial state";
-  if (!is_modal(the_case) && is_of_the_paper(the_case, Switching::sampled))
+  const MovingLoop loop = smooth_loop_of(the_case, Switching::sampled);
+  if (std::holds_alternative<SampledMasses>(loop))
     return row_of("this case", text, known_motion(the_case), "");
   const OrbitLimits limits{OrbitLimits{}.largest_period, 0, throw_if_interrupted};
-  return with_motion_of(the_case, Switching::sampled, [&](const auto& loop, const auto& state) {
-    return row_of("this case", text, classify_motion(loop, state, limits),
+  const auto row = [&](const auto& moving) {
+    return row_of("this case", text, classify_motion(moving.loop, moving.state, limits),
                   the_case.control.sampling_period, "");
-  });
+  };
+  return std::visit(row, loop);
 }
 
 }  // namespace holdfast::program

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/model/loop_of_case.hpp"
+#include "case/model/linear_loop.hpp"
 #include "case/model/plant_of_case.hpp"
 #include "jobs/motion/cell_motion.hpp"
 
@@ -12,8 +12,8 @@ namespace {
 
 double steady_peak_without_control(const Case& the_case, InstructionSet set) {
   const double duration = duration_of(the_case);
-  const CellMotion motion = cell_motion(the_case, Switching::sampled, duration);
-  return metrics_of({without_control(motion, duration)}, duration, set).front().steady_peak;
+  const MovingLoop alone = motion_without_control(the_case, duration);
+  return metrics_of({alone}, duration, set).front().steady_peak;
 }
 
 }  // namespace
@@ -24,13 +24,13 @@ Question question_about(const Case& the_case, InstructionSet set) {
   constexpr double motions = 150.0;  // that the answers compare
   require_bearable(motions * duration_of(the_case) / the_case.control.sampling_period);
   return {the_case, set, motion_of_the_case(the_case), steady_peak_without_control(the_case, set),
-          spectral_radius_of(the_case)};
+          LinearLoop(the_case).radius(gains_of(the_case))};
 }
 
 std::vector<LoopVibration> vibrations_of(const std::vector<Case>& cases, const Question& question,
                                          Switching switching) {
   const double duration = duration_of(cases.front());
-  std::vector<CellMotion> motions;
+  std::vector<MovingLoop> motions;
   motions.reserve(cases.size());
   for (const Case& the_case : cases) motions.push_back(cell_motion(the_case, switching, duration));
   std::vector<LoopVibration> vibrations;

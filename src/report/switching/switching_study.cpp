@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/modal/modal_plant_of_case.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/motion/dense_output.hpp"
 #include "holdfast/motion/instant.hpp"
@@ -185,9 +185,10 @@ FoundPeriod period_of(const StudiedLoop& studied) {
   context.case_data = studied.the_case;
   context.case_data.excitation.hold = studied.reading.hold_word();
   try {
-    return with_loop_of(context.case_data, studied.reading.switching, [&](const auto& loop) {
-      return found_period(certified_orbit(context, loop, longest_studied_period));
-    });
+    const auto period = [&](const auto& moving) {
+      return found_period(certified_orbit(context, moving, longest_studied_period));
+    };
+    return std::visit(period, moving_loop_of(context.case_data, {studied.reading.switching}));
   } catch (const NoAnswer& reason) {
     FoundPeriod failed;
     failed.verdict = reason.what();
@@ -236,17 +237,16 @@ MotionWindow window_of(const StudiedLoop& studied, double begin, double end, int
 double swing_without_control(const Case& the_case, double duration) {
   const auto swing_of = [&](auto motion) {
     double largest = 0.0;
-    while (motion.time() < duration) {
-      const auto sample = motion.sense();
-      if (not_before(sample.time, 0.5 * duration))
-        largest = std::max(largest, std::abs(relative_displacement(sample.state)));
-      motion.advance();
+    for (; motion.time() < duration; motion.advance()) {
+      motion.sense();
+      if (not_before(motion.time(), 0.5 * duration))
+        largest = std::max(
+            largest, std::abs(relative_displacement(motion.readings().both_sides(motion.state()))));
     }
     return 2.0 * largest;
   };
-  if (is_modal(the_case)) return swing_of(modal_motion_of(the_case, false));
-  const StudiedLoop studied = without_control(the_case, duration);
-  return swing_of(motion_of(studied));
+  return std::visit([&](const auto& moving) { return swing_of(motion_of(moving)); },
+                    motion_without_control(the_case, duration));
 }
 
 double amplitude_without_control(const Case& the_case, double duration) {

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "case/case_file.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/linear_loop.hpp"
+#include "case/model/plant_of_case.hpp"
 #include "holdfast/core/errors.hpp"
 #include "support/testing.hpp"
 
@@ -31,7 +32,9 @@ TEST(LiveCharts, CellsAreStableWhereTheSpectralRadiusIsBelowOne) {
         Case the_case = on(model);
         the_case.control.proportional_gain = window.proportional.at(i);
         the_case.control.differential_gain = window.differential.at(j);
-        EXPECT_EQ(cells[place] != 0, program::spectral_radius_of(the_case) < 1.0) << place;
+        EXPECT_EQ(cells[place] != 0,
+                  program::LinearLoop(the_case).radius(program::gains_of(the_case)) < 1.0)
+            << place;
         stable += cells[place];
       }
     }

@@ -1,7 +1,7 @@
 #include "jobs/motion/trusted_digits.hpp"
 
 #include "case/case_file.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "io/file/metadata.hpp"
 #include "io/text/text.hpp"
@@ -55,7 +55,7 @@ TEST_F(TrustedDigitsOf, AMotionBelongToTheSamplesThatAreShown) {
   // The digits of a motion that has lost them before its rows begin and those of its beginning.
   const Case the_case = irregular_case();
   MotionDigits late(ideal_loop_of(the_case), initial_state_of(the_case), std::nullopt, 1e6);
-  auto motion = motion_of(the_case);
+  auto motion = motion_of(sampled_masses_of(the_case));
   run_trajectory(motion, 6001, std::nullopt, late);
   EXPECT_FALSE(is_worth_telling(late.result())) << "no row, nothing to distrust";
 }
@@ -64,12 +64,12 @@ TEST_F(TrustedDigitsOf, AKickedMotionAreThoseOfTheSameKick) {
   const Case the_case = case_of({});
   const Kick kick{1.0, 1e-3};
   MotionDigits digits(ideal_loop_of(the_case), initial_state_of(the_case), kick);
-  auto motion = motion_of(the_case);
+  auto motion = motion_of(sampled_masses_of(the_case));
   run_trajectory(motion, 3001, kick, digits);
   EXPECT_GE(digits.result().digits, digits_taken_for_granted);
 
   MotionDigits without(ideal_loop_of(the_case), initial_state_of(the_case));
-  auto again = motion_of(the_case);
+  auto again = motion_of(sampled_masses_of(the_case));
   run_trajectory(again, 3001, kick, without);
   EXPECT_EQ(without.result().digits, 0) << "another motion is told from it";
 }

@@ -13,9 +13,11 @@ constexpr double impedance = 0.67;
 
 /// The force straight on the string.
 ResolvedCircle<double> circle(double clamp_mass, double period) {
-  const std::vector<PlaceMode<double>> modes = {
-      infinite_string_mode(impedance, clamp_mass, period)};
-  return ResolvedCircle<double>(modal_response(conductor_poles(modes), {period}));
+  const PlaceMode<double> mode = infinite_string_mode(impedance, clamp_mass, period);
+  const auto [s, partner] = holdfast::detail::PoleFinder::bare(mode);
+  const std::complex<double> residue = mode.shape * mode.shape / (mode.mass * (s - partner));
+  const std::vector<PlantPole> poles = {{s, residue}, {partner, -residue}};
+  return ResolvedCircle<double>(modal_response(poles, {period}));
 }
 
 /// λ² − (1 + (Pτ + D)/(2 Z_c)) λ + D/(2 Z_c) = 0: stable inside (0, −2Z_c), (0, 2Z_c), (−8Z_c/τ,

@@ -223,23 +223,11 @@ double true_amplitude_of(const Case& the_case, double angular_frequency) {
                                   angular_frequency);
 }
 
-void require_natural_motions(const Case& the_case) {
-  static_cast<void>(conductor_with_absorber_of(the_case));
-}
-
 ModalLoop modal_loop_of(const Case& the_case) {
-  require_natural_motions(the_case);
+  static_cast<void>(conductor_with_absorber_of(the_case));
   const IdealLoop<double> loop = ideal_loop_of(the_case);
   return {place_modes_of(the_case), absorber_of(the_case), loop.sampling, loop.gains,
           loop.excitation,          loop.backlash_width,   loop.hold};
-}
-
-ModalMotion modal_motion_of(const Case& the_case, bool controlled) {
-  ModalLoop loop = modal_loop_of(the_case);
-  if (!controlled) loop.sampling.processing_delay = 0.0;
-  return *modal_motion(controlled ? loop : uncontrolled(loop),
-                       conductor_with_absorber_of(the_case).poles,
-                       modal_state(loop.modes, initial_state_of(the_case)));
 }
 
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
@@ -258,20 +246,6 @@ ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
   own.digital.limits = {};
   if (!choice.controlled) own.backlash = {ContactLaw::none};
   return own;
-}
-
-ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
-                                                            Switching switching) {
-  if (!is_ideal(implemented_loop_of(the_case, switching).digital.limits))
-    throw WrongInput(
-        "with " + modal_words(the_case) +
-        " orbits, basins, exponents and verdicts are of a computer without quanta, limits "
-        "of its force and differences");
-  return conductor_loop_of(the_case, {switching, true});
-}
-
-Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case) {
-  return modal_state_of(the_case, initial_state_of(the_case));
 }
 
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen) {

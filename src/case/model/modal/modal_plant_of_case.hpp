@@ -90,14 +90,9 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// Throws NoAnswer where two natural motions of a modal case cannot be told apart.
-void require_natural_motions(const Case& the_case);
-
-/// The loop of a modal case in the paper's model. Throws as above.
+/// The loop of a modal case in the paper's model. Throws NoAnswer where two natural motions of it
+/// cannot be told apart.
 ModalLoop modal_loop_of(const Case& the_case);
-
-/// Its motion from the case's initial state; without control of any modal case. Throws as above.
-ModalMotion modal_motion_of(const Case& the_case, bool controlled);
 
 /// The loop of a modal case with all that the case says of it, its controller being one of the
 /// plant's own, whose memory are the commands on their way. Throws WrongInput for a string without
@@ -105,32 +100,9 @@ ModalMotion modal_motion_of(const Case& the_case, bool controlled);
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 
-/// The same for orbits, basins, exponents and verdicts. Throws WrongInput for a computer that
-/// limits force or reading.
-ImplementedLoopOf<ControlledPlant> smooth_conductor_loop_of(const Case& the_case,
-                                                            Switching switching);
-
 /// The initial state of a modal case, of either loop: the conductor as a force at the absorber's
 /// place bends it to z1, with the velocities that a blow there gives it to have v1; the absorber at
 /// z2 and v2; drive and commands at 0, the filter settled.
-Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case);
-/// The same that begins with other z1, v1, z2, v2.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
-
-/// Calls `visit` with the loop whose motion the case's is, and the state that it begins from: of
-/// two masses or of a conductor by its modes, each in the paper's model where that is all there is
-/// to the case, else with all that the case says of it. Throws as the functions above.
-template <class Visit>
-auto with_motion_of(const Case& the_case, Switching switching, const Visit& visit) {
-  const bool of_paper = is_of_the_paper(the_case, switching);
-  if (is_modal(the_case)) {
-    const auto state = modal_state_of(the_case);
-    return of_paper ? visit(modal_loop_of(the_case), state)
-                    : visit(smooth_conductor_loop_of(the_case, switching), state);
-  }
-  const Vector<double, 4> state = initial_state_of(the_case);
-  return of_paper ? visit(ideal_loop_of(the_case), state)
-                  : visit(implemented_loop_of(the_case, switching), state);
-}
 
 }  // namespace holdfast::program
