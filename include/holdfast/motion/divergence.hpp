@@ -19,7 +19,7 @@ namespace detail {
 /// where A has no inverse. States that stand still between the samples bend by nothing.
 template <class Plant>
 double static_deflection(const Plant& plant, double force) {
-  const auto input = plant.excitation_input();
+  const auto& input = plant.excitation_input();
   auto matrix = plant.state_matrix();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     if (matrix.row(i).cwiseAbs().maxCoeff() == 0.0) matrix(i, i) = 1.0;

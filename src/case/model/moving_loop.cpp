@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
+#include "holdfast/control/late_controller.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "process/errors.hpp"
 
@@ -62,7 +62,7 @@ BuiltLoop built_loop_of(const Case& the_case, const MotionChoice& choice) {
 
 MovingLoop moving_loop_of(const Case& the_case, const MotionChoice& choice) {
   if (!is_of_the_paper(the_case, choice.switching))
-    return std::visit([](auto&& built) -> MovingLoop { return std::move(built); },
+    return std::visit([](const auto& built) -> MovingLoop { return built; },
                       built_loop_of(the_case, choice));
   if (is_modal(the_case)) return sampled_modes_of(the_case, choice.controlled);
   SampledMasses masses = sampled_masses_of(the_case);
