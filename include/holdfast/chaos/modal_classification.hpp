@@ -67,7 +67,8 @@ SampledClassification classify_motion(const Loop& loop, const ModalMotion::Full&
     unknown.classification.rests_on = "Two natural motions of the plant cannot be told apart.";
     return unknown;
   }
-  SampledClassification found{{}, find_periodic_orbit(loop, initial_state, limits), {}};
+  SampledClassification found;
+  found.search = find_periodic_orbit(loop, initial_state, limits);
   if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
   IndicatorOptions options =
       detail::indicator_options(loop.excitation.frequency * loop.sampling.period);

@@ -321,7 +321,8 @@ template <class Scalar>
 SampledClassification classify_motion(const IdealLoop<Scalar>& loop,
                                       const Vector<double, 4>& initial_state,
                                       const OrbitLimits& limits = {}) {
-  SampledClassification found{{}, find_periodic_orbit(loop, initial_state, limits), {}};
+  SampledClassification found;
+  found.search = find_periodic_orbit(loop, initial_state, limits);
   if (detail::is_decided_by_search(found, "it reproduces its own contacts")) return found;
   IndicatorOptions options =
       detail::indicator_options(loop.excitation.frequency * loop.sampling.period);
