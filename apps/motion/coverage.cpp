@@ -55,8 +55,9 @@ void CoverageQuestion::run(const JobContext& context) const {
   const std::vector<double> ascending = durations_of(*this);
   Coverage coverage(window_of(context, *this, ascending.front()), static_cast<std::size_t>(cells));
   Table table(context, columns_of("coverage"));
-  auto digits = digits_beside(context.case_data, {switching}, {}, 0.0);
-  CaseMotion motion(context.case_data, {switching});
+  const MovingLoop moving = moving_loop_of(context.case_data, {switching});
+  auto digits = digits_beside(moving, {}, 0.0);
+  CaseMotion motion(moving);
   for (const double duration : ascending) {
     const std::int64_t samples = samples_of(context.case_data, duration);
     run_to_completion(motion, samples - motion.index(), {}, coverage,
@@ -66,9 +67,7 @@ void CoverageQuestion::run(const JobContext& context) const {
     table.row(duration, coverage.cells(), coverage.visited(), coverage.visited_fraction());
   }
   tell_of_end(context, end_of(motion));
-  if (digits)
-    tell_trust(context, table,
-               with_rate(digits->result(), context.case_data, switching, motion.index()));
+  if (digits) tell_trust(context, table, with_rate(digits->result(), moving, motion.index()));
   table.commit();
 }
 

@@ -30,7 +30,8 @@ struct DeviationQuestion {
     const std::int64_t samples = samples_of(context.case_data, duration);
     require_text_meant(context, samples, "rows", "a shorter --duration leaves fewer");
     double last = 0.0, told_until = -1.0;
-    CaseMotion first(context.case_data, {switching}), second = first;
+    const MovingLoop moving = moving_loop_of(context.case_data, {switching});
+    CaseMotion first(moving), second = first;
     second.displace_conductor(offset);
     const auto outcome = run_deviation(first, second, samples, [&](const Deviation& deviation) {
       table.row(deviation.time, deviation.displacement, deviation.state);
@@ -45,16 +46,15 @@ struct DeviationQuestion {
     table.note("above_rounding_until_s", format_number(told_until));
     tell_of_end(context, end_of(first));
     const TrustedDigits trusted =
-        with_rate(trusted_digits_of_deviation(context.case_data, switching, offset, samples),
-                  context.case_data, switching, samples);
+        with_rate(trusted_digits_of_deviation(moving, offset, samples), moving, samples);
     table.trust(trusted);
     table.commit();
-    if (last >= std::abs(offset)) tell_why_apart(context, last, trusted);
+    if (last >= std::abs(offset)) tell_why_apart(context, moving, last, trusted);
   }
 
   /// Neighbours that have not come together in the duration: why, by the orbits they come to.
-  void tell_why_apart(const JobContext& context, double last, const TrustedDigits& trusted) const {
-    const MovingLoop moving = moving_loop_of(context.case_data, {switching});
+  void tell_why_apart(const JobContext& context, const MovingLoop& moving, double last,
+                      const TrustedDigits& trusted) const {
     const auto* first = std::get_if<SampledMasses>(&moving);
     if (first == nullptr) return;
     Vector<double, 4> second = first->state;

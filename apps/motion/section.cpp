@@ -39,11 +39,11 @@ struct SectionQuestion {
       tell_of_end(context, end_of(motion));
     };
     report_warning(dense_work_warning(context.case_data, Switching::exact), context.quiet);
-    std::visit([&](const auto& built) { run_of(motion_of(built)); },
-               built_loop_of(context.case_data, {switching}));
+    const BuiltLoop built = built_loop_of(context.case_data, {switching});
+    std::visit([&](const auto& one) { run_of(motion_of(one)); }, built);
+    const MovingLoop moving = moving_loop_of(context.case_data, {switching});
     tell_trust(context, table,
-               with_rate(trusted_digits_of_motion(context.case_data, switching, samples, from),
-                         context.case_data, switching, samples));
+               with_rate(trusted_digits_of_motion(moving, built, samples, from), moving, samples));
     table.commit();
   }
 };

@@ -49,21 +49,20 @@ struct SimulateQuestion {
       return;
     }
     note_first_contact(context.case_data, table);
-    const MotionChoice choice{switching, !no_control};
     report_warning(dense_work_warning(context.case_data, switching), context.quiet);
-    auto digits = digits_beside(context.case_data, choice, kicked, from);
-    CaseMotion motion(context.case_data, choice);
+    const MovingLoop moving = moving_loop_of(context.case_data, {switching, !no_control});
+    auto digits = digits_beside(moving, kicked, from);
+    CaseMotion motion(moving);
     run_to_completion(motion, samples, kicked, [&](const EventSample& sample) {
       if (digits) (*digits)(sample);
       if (!not_before(sample.time, from)) return;
       write_motion_row(table, switching,
                        {sample.time, sample.state, sample.control_force, sample.mode});
     });
-    tell_of_end(context, end_of(motion), choice.controlled, kicked ? kicked->displacement : 0.0);
+    tell_of_end(context, end_of(motion), !no_control, kicked ? kicked->displacement : 0.0);
     if (digits)
       tell_trust(context, table,
-                 no_control ? digits->result()
-                            : with_rate(digits->result(), context.case_data, switching, samples));
+                 no_control ? digits->result() : with_rate(digits->result(), moving, samples));
     table.commit();
   }
 

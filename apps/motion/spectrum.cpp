@@ -60,17 +60,18 @@ SteadyRecord steady_record(const JobContext& context, const SpectrumQuestion& op
                      format_rounded(1.0 / force.frequency) +
                      " s: no line of a spectrum is at its frequency");
   const double from = static_cast<double>(samples - kept) * period;
-  auto digits = digits_beside(context.case_data, {options.switching}, {}, from);
+  const MovingLoop moving = moving_loop_of(context.case_data, {options.switching});
+  auto digits = digits_beside(moving, {}, from);
   std::vector<double> record;
   record.reserve(static_cast<std::size_t>(kept));
-  CaseMotion motion(context.case_data, {options.switching});
+  CaseMotion motion(moving);
   run_to_completion(motion, samples, {}, [&](const EventSample& sample) {
     if (digits) (*digits)(sample);
     if (sample.index >= samples - kept) record.push_back(sample.state[0]);
   });
   tell_of_end(context, end_of(motion));
   if (!digits) return {record, {}};
-  return {record, with_rate(digits->result(), context.case_data, options.switching, samples)};
+  return {record, with_rate(digits->result(), moving, samples)};
 }
 
 /// Of a record whose second half is not as large as its first.

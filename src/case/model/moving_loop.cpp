@@ -5,20 +5,21 @@
 
 #include "case/model/modal/modal_plant_of_case.hpp"
 #include "case/model/plant_of_case.hpp"
-#include "holdfast/control/late_controller.hpp"
 #include "holdfast/motion/divergence.hpp"
 #include "process/errors.hpp"
 
 namespace holdfast::program {
 namespace {
 
+/// Throws NoAnswer where two natural motions of it cannot be told apart.
 SampledModes sampled_modes_of(const Case& the_case, bool controlled) {
-  ModalLoop loop = modal_loop_of(the_case);
+  const std::vector<PlantPole> poles = conductor_with_absorber_of(the_case).poles;
+  const IdealLoop<double> ideal = ideal_loop_of(the_case);
+  ModalLoop loop{place_modes_of(the_case), absorber_of(the_case), ideal.sampling, ideal.gains,
+                 ideal.excitation,         ideal.backlash_width,  ideal.hold};
   if (!controlled) loop.sampling.processing_delay = 0.0;
-  loop.sampling = within_sample(loop.sampling);
   return {controlled ? loop : uncontrolled(loop),
-          modal_state(loop.modes, initial_state_of(the_case)),
-          conductor_with_absorber_of(the_case).poles};
+          modal_state(loop.modes, initial_state_of(the_case)), poles};
 }
 
 /// Time between samples (s) of a motion that no computer takes part in: 200 or more to a period of
@@ -62,7 +63,7 @@ BuiltLoop built_loop_of(const Case& the_case, const MotionChoice& choice) {
 
 MovingLoop moving_loop_of(const Case& the_case, const MotionChoice& choice) {
   if (!is_of_the_paper(the_case, choice.switching))
-    return std::visit([](const auto& built) -> MovingLoop { return built; },
+    return std::visit([](auto built) -> MovingLoop { return built; },
                       built_loop_of(the_case, choice));
   if (is_modal(the_case)) return sampled_modes_of(the_case, choice.controlled);
   SampledMasses masses = sampled_masses_of(the_case);
@@ -95,6 +96,10 @@ ModalMotion motion_of(const SampledModes& moving) {
 }
 EventMotion<DriveContact<ControlledPlant>> motion_of(const BuiltPlant& moving) {
   return event_motion(moving.loop, moving.state);
+}
+
+double period_of(const MovingLoop& moving) {
+  return std::visit([](const auto& one) { return clock_of(one).sampling.period; }, moving);
 }
 
 double divergence_bound(const MovingLoop& moving) {

@@ -49,9 +49,10 @@ struct BuiltPlant {
 /// `state`.
 using MovingLoop = std::variant<SampledMasses, BuiltMasses, SampledModes, BuiltPlant>;
 
-/// Those of them that move from event to event.
+/// The moving loops that go from event to event.
 using BuiltLoop = std::variant<BuiltMasses, BuiltPlant>;
 
+/// The moving loop of a case.
 /// @throws MissingKeys, WrongInput, NoAnswer or InvalidParameter where there is no such motion
 MovingLoop moving_loop_of(const Case& the_case, const MotionChoice& choice);
 
@@ -65,13 +66,13 @@ SampledMasses sampled_masses_of(const Case& the_case);
 /// @throws WrongInput for a plant of any order whose computer limits force or reading
 MovingLoop smooth_loop_of(const Case& the_case, Switching switching);
 
-/// What moves. The paper's model of one harmonic also between samples.
+/// The motion of a moving loop from its initial state.
 SampledMotion<double> motion_of(const SampledMasses& moving);
 EventMotion<> motion_of(const BuiltMasses& moving);
 ModalMotion motion_of(const SampledModes& moving);
 EventMotion<DriveContact<ControlledPlant>> motion_of(const BuiltPlant& moving);
 
-/// What of one of them has hold and sampling: its loop, or the computer of that.
+/// Hold and sampling of a moving loop: members of its loop, or of the computer of that.
 template <class Moving>
 auto& clock_of(Moving& moving) {
   if constexpr (Moving::by_events)
@@ -80,7 +81,10 @@ auto& clock_of(Moving& moving) {
     return moving.loop;
 }
 
-/// A size (m, m/s) that no bounded motion of it reaches.
+/// τ, s.
+double period_of(const MovingLoop& moving);
+
+/// A size (m, m/s) that no bounded motion of a moving loop reaches.
 double divergence_bound(const MovingLoop& moving);
 
 /// The plant alone under the force that acts on it, which no computer holds: P = D = 0, a drive

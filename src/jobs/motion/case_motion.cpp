@@ -31,9 +31,11 @@ ContactMode mode_of(const MotionSample<double>& sample) {
 
 }  // namespace
 
+CaseMotion::CaseMotion(const MovingLoop& moving)
+    : motion_(
+          std::visit([](const auto& one) { return decltype(motion_)(motion_of(one)); }, moving)) {}
 CaseMotion::CaseMotion(const Case& the_case, const MotionChoice& choice)
-    : motion_(std::visit([](const auto& moving) { return decltype(motion_)(motion_of(moving)); },
-                         moving_loop_of(the_case, choice))) {}
+    : CaseMotion(moving_loop_of(the_case, choice)) {}
 
 EventSample CaseMotion::sense() {
   EventSample sample;

@@ -15,12 +15,13 @@
 namespace holdfast::program {
 
 /// The motion of a case from its initial state, by whichever of the library's motions follows it.
-/// What it shows are conductor and absorber at their place: states are [z1, v1, z2, v2]. It is a
-/// motion as is_motion_v has it; the library's own are compiled once, behind it.
+/// Its states are [z1, v1, z2, v2], of conductor and absorber at their place. It is a motion as
+/// is_motion_v has it; the library's own are compiled once, behind it.
 class CaseMotion {
  public:
   using State = Vector<double, 4>;  ///< [z1, v1, z2, v2] (m, m/s, m, m/s)
 
+  explicit CaseMotion(const MovingLoop& moving);
   /// Throws WrongInput, NoAnswer or InvalidParameter where there is no such motion.
   CaseMotion(const Case& the_case, const MotionChoice& choice);
 

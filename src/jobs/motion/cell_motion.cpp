@@ -149,9 +149,7 @@ std::optional<LyapunovResult> run_largest_exponent(const MovingLoop& motion, std
 }
 
 double largest_exponent_of(const MovingLoop& motion, double duration) {
-  const double period =
-      std::visit([](const auto& moving) { return clock_of(moving).sampling.period; }, motion);
-  const auto result = run_largest_exponent(motion, samples_within(duration, period) - 1);
+  const auto result = run_largest_exponent(motion, samples_within(duration, period_of(motion)) - 1);
   return result ? result->exponents[0] : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "case/model/loop_of_case.hpp"
-#include "case/model/moving_loop.hpp"
 #include "holdfast/chaos/classification.hpp"
 #include "holdfast/math/stats/trusted_digits.hpp"
 #include "holdfast/motion/instant.hpp"
@@ -132,40 +131,35 @@ EventSample RoundedMotion::sense() {
   return motion_.sense();
 }
 
-std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
-                                          const std::optional<Kick>& kick, double from) {
-  const MovingLoop moving = moving_loop_of(the_case, choice);
+std::optional<MotionDigits> digits_beside(const MovingLoop& moving, const std::optional<Kick>& kick,
+                                          double from) {
   if (const auto* masses = std::get_if<SampledMasses>(&moving))
     return MotionDigits(masses->loop, masses->state, kick, from);
   if (std::holds_alternative<BuiltMasses>(moving))
-    return MotionDigits(CaseMotion(the_case, choice), kick, from);
+    return MotionDigits(CaseMotion(moving), kick, from);
   return std::nullopt;
 }
 
-TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
+TrustedDigits trusted_digits_of_motion(const MovingLoop& moving, const BuiltLoop& built,
                                        std::int64_t samples, double from) {
-  auto digits = digits_beside(the_case, {switching}, {}, from);
+  auto digits = digits_beside(moving, {}, from);
   if (!digits) return {};
-  auto motion = event_motion(implemented_loop_of(the_case, switching), initial_state_of(the_case));
+  auto motion = motion_of(std::get<BuiltMasses>(built));
   run_trajectory(motion, std::min(samples, most_compared_samples), std::nullopt, *digits);
   return digits->result();
 }
 
-TrustedDigits with_rate(TrustedDigits trusted, const Case& the_case, Switching switching,
-                        std::int64_t samples) {
+TrustedDigits with_rate(TrustedDigits trusted, const MovingLoop& moving, std::int64_t samples) {
   if (!is_worth_telling(trusted)) return trusted;
-  const double period = the_case.control.sampling_period;
-  const std::int64_t steps = std::min(samples, most_compared_samples) - 1;
-  const MovingLoop motion = cell_motion(the_case, switching, static_cast<double>(steps) * period);
-  const auto found = run_largest_exponent(motion, steps);
+  const double period = period_of(moving);
+  const auto found = run_largest_exponent(moving, std::min(samples, most_compared_samples) - 1);
   if (found && std::isfinite(found->exponents[0]) && std::isfinite(found->standard_errors[0]))
     trusted.rate = {found->exponents[0] / period, found->standard_errors[0] / period};
   return trusted;
 }
 
-TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
+TrustedDigits trusted_digits_of_deviation(const MovingLoop& moving, double offset,
                                           std::int64_t samples) {
-  const MovingLoop moving = moving_loop_of(the_case, {switching});
   const auto* masses = std::get_if<SampledMasses>(&moving);
   if (masses == nullptr) return {};
   auto first = motion_of(*masses), second = first;

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "case/case.hpp"
-#include "case/model/loop_of_case.hpp"
+#include "case/model/moving_loop.hpp"
 #include "holdfast/motion/ideal_loop.hpp"
 #include "holdfast/motion/trajectory.hpp"
 #include "holdfast/plant/reduction.hpp"
@@ -69,26 +69,25 @@ class MotionDigits {
   std::int64_t compared_ = 0;
 };
 
-/// What looks after the digits of the case's motion while it runs, of the samples from `from` (s)
-/// on: in long double where it is of the paper's model, else rounded otherwise; nothing of a
-/// conductor by its modes.
-std::optional<MotionDigits> digits_beside(const Case& the_case, const MotionChoice& choice,
-                                          const std::optional<Kick>& kick, double from);
+/// The observer of the digits of a motion while it runs, of the samples from `from` (s) on: in long
+/// double where it is of the paper's model, else rounded otherwise; nothing of a conductor by its
+/// modes.
+std::optional<MotionDigits> digits_beside(const MovingLoop& moving, const std::optional<Kick>& kick,
+                                          double from);
 
-/// Digits of the first `samples` samples of that motion as the event-driven flow, which is run
-/// here; 17 where there is nothing that looks after them.
-TrustedDigits trusted_digits_of_motion(const Case& the_case, Switching switching,
+/// Digits of the first `samples` samples of a motion as the event-driven flow of `built`, the same
+/// loop, which is run here; 17 where nothing looks after them.
+TrustedDigits trusted_digits_of_motion(const MovingLoop& moving, const BuiltLoop& built,
                                        std::int64_t samples, double from);
 
 /// Digits of the deviation of a neighbour whose z₁ starts `offset` (m) away, relative to the
 /// deviation itself; 17 as above.
-TrustedDigits trusted_digits_of_deviation(const Case& the_case, Switching switching, double offset,
+TrustedDigits trusted_digits_of_deviation(const MovingLoop& moving, double offset,
                                           std::int64_t samples);
 
-/// The same digits with the largest exponent of the case's motion over its first samples, 10⁵ at
-/// most, where there are fewer than six; of two masses under control.
-TrustedDigits with_rate(TrustedDigits trusted, const Case& the_case, Switching switching,
-                        std::int64_t samples);
+/// The same digits with the largest exponent of the motion over its first samples, 10⁵ at most,
+/// where there are fewer than six; of two masses under control.
+TrustedDigits with_rate(TrustedDigits trusted, const MovingLoop& moving, std::int64_t samples);
 
 /// Digits of what a reduction says of its plant: both roots, the discriminant, the largest absorber
 /// mass. Throws what reduce_to_frequencies() throws.

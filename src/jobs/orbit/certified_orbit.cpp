@@ -52,7 +52,7 @@ std::string reason_for(const Result& found, const Ratio& ratio, std::int64_t lar
        {"longest", std::to_string(largest_period)}});
 }
 
-/// What a motion comes to, where that is certified.
+/// The certified orbit that a motion comes to, and how it was found.
 template <class Moving>
 auto certified_result(const JobContext& context, const Moving& moving,
                       std::int64_t largest_period) {

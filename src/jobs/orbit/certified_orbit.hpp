@@ -12,7 +12,7 @@
 
 namespace holdfast::program {
 
-/// What is found of the periodic orbit that a motion comes to.
+/// The search for the periodic orbit that a motion comes to.
 template <class Moving>
 auto orbit_of(const Moving& moving, const OrbitLimits& limits) {
   if constexpr (Moving::by_events)

@@ -13,6 +13,11 @@ namespace {
 
 Case case_of(const std::vector<std::string>& settings) { return load_case(std::nullopt, settings); }
 
+TrustedDigits digits_of(const Case& the_case, Switching switching, int samples, double from) {
+  return trusted_digits_of_motion(moving_loop_of(the_case, {switching}),
+                                  built_loop_of(the_case, {switching}), samples, from);
+}
+
 /// D beyond the stable ones, bounded by the backlash: irregular.
 Case irregular_case() {
   return case_of({"control.sampling_period=0.01", "control.differential_gain=-20.0",
@@ -27,7 +32,7 @@ class TrustedDigitsOf : public ::testing::Test {
 };
 
 TEST_F(TrustedDigitsOf, ARegularMotionAreNotWorthTelling) {
-  const auto trusted = trusted_digits_of_motion(case_of({}), Switching::sampled, 10001, 0.0);
+  const auto trusted = digits_of(case_of({}), Switching::sampled, 10001, 0.0);
   EXPECT_GE(trusted.digits, digits_taken_for_granted);
   EXPECT_FALSE(is_worth_telling(trusted));
   EXPECT_FALSE(trusted.until);
@@ -36,18 +41,17 @@ TEST_F(TrustedDigitsOf, ARegularMotionAreNotWorthTelling) {
 
 TEST_F(TrustedDigitsOf, AnIrregularMotionFallToNoneFromAnInstantOn) {
   const Case the_case = irregular_case();
-  const auto whole = trusted_digits_of_motion(the_case, Switching::sampled, 6001, 0.0);
+  const auto whole = digits_of(the_case, Switching::sampled, 6001, 0.0);
   EXPECT_EQ(whole.digits, 0);
   ASSERT_TRUE(whole.until);
   EXPECT_GT(*whole.until, 0.0);
   EXPECT_LT(*whole.until, 60.0);
   EXPECT_NE(trust_warning(whole).find(format_number(*whole.until) + " s"), std::string::npos);
 
-  const auto beginning = static_cast<std::int64_t>(*whole.until / 0.01);
-  EXPECT_FALSE(
-      is_worth_telling(trusted_digits_of_motion(the_case, Switching::sampled, beginning, 0.0)))
+  const auto beginning = static_cast<int>(*whole.until / 0.01);
+  EXPECT_FALSE(is_worth_telling(digits_of(the_case, Switching::sampled, beginning, 0.0)))
       << "up to that instant there are six";
-  EXPECT_EQ(trusted_digits_of_motion(the_case, Switching::sampled, 6001, 30.0).digits, 0)
+  EXPECT_EQ(digits_of(the_case, Switching::sampled, 6001, 30.0).digits, 0)
       << "and later ones are not redeemed by leaving the beginning out";
 }
 
@@ -76,13 +80,11 @@ TEST_F(TrustedDigitsOf, AKickedMotionAreThoseOfTheSameKick) {
 
 TEST(TrustedDigitsByRounding, OfRegularMotionsAreNotWorthTelling) {
   // With exact switching the play holds the irregular motion too: it is periodic.
-  EXPECT_FALSE(
-      is_worth_telling(trusted_digits_of_motion(irregular_case(), Switching::exact, 6001, 0.0)));
+  EXPECT_FALSE(is_worth_telling(digits_of(irregular_case(), Switching::exact, 6001, 0.0)));
   for (const char* setting :
        {"backlash.law=play", "backlash.law=immediate", "control.velocity_quantum=0.001",
         "control.jitter=0.0001", "excitation.noise_rms=0.2", "control.largest_force=0.5"}) {
-    const auto trusted =
-        trusted_digits_of_motion(case_of({setting}), Switching::sampled, 20001, 0.0);
+    const auto trusted = digits_of(case_of({setting}), Switching::sampled, 20001, 0.0);
     EXPECT_FALSE(is_worth_telling(trusted)) << setting << ' ' << trusted.digits;
     EXPECT_TRUE(trusted.by_rounding) << setting;
   }
@@ -94,9 +96,8 @@ TEST(TrustedDigitsByRounding, AreLostWhereNeighboursPart) {
     Case the_case = irregular_case();
     if (limited) the_case.control.largest_force = 10.0;
     if (!limited && !long_double_is_wider) continue;
-    const auto trusted =
-        with_rate(trusted_digits_of_motion(the_case, Switching::sampled, 6001, 0.0), the_case,
-                  Switching::sampled, 6001);
+    const auto trusted = with_rate(digits_of(the_case, Switching::sampled, 6001, 0.0),
+                                   moving_loop_of(the_case, {}), 6001);
     EXPECT_EQ(trusted.by_rounding, limited);
     EXPECT_EQ(trusted.digits, 0);
     ASSERT_TRUE(trusted.until && trusted.rate);
@@ -112,26 +113,24 @@ TEST(TrustedDigitsByRounding, AreLostWhereNeighboursPart) {
 }
 
 TEST(TrustedDigitsByRounding, HaveARateOnlyWhereTheyAreFew) {
-  EXPECT_FALSE(with_rate({}, case_of({}), Switching::sampled, 1001).rate);
+  EXPECT_FALSE(with_rate({}, moving_loop_of(case_of({}), {}), 1001).rate);
   TrustedDigits few;
   few.digits = 3;
-  const auto found = with_rate(few, case_of({"backlash.width=0"}), Switching::sampled, 100001);
+  const auto found = with_rate(few, moving_loop_of(case_of({"backlash.width=0"}), {}), 100001);
   ASSERT_TRUE(found.rate);
   EXPECT_LT(found.rate->per_second, 0.0);
   EXPECT_NE(rate_text(found).find("come together but for single contacts"), std::string::npos);
-  EXPECT_FALSE(with_rate(few, case_of({}), Switching::sampled, 1).rate) << "a single sample";
+  EXPECT_FALSE(with_rate(few, moving_loop_of(case_of({}), {}), 1).rate) << "a single sample";
 }
 
 TEST_F(TrustedDigitsOf, ADeviationAreLostWhereItIsDownToRounding) {
-  const Case the_case = case_of({});
-  EXPECT_FALSE(
-      is_worth_telling(trusted_digits_of_deviation(the_case, Switching::sampled, 1e-5, 1001)));
-  const auto died = trusted_digits_of_deviation(the_case, Switching::sampled, 1e-5, 100001);
+  const MovingLoop moving = moving_loop_of(case_of({}), {});
+  EXPECT_FALSE(is_worth_telling(trusted_digits_of_deviation(moving, 1e-5, 1001)));
+  const auto died = trusted_digits_of_deviation(moving, 1e-5, 100001);
   EXPECT_TRUE(is_worth_telling(died));
   ASSERT_TRUE(died.until);
   EXPECT_GT(*died.until, 1.0);
-  EXPECT_FALSE(
-      is_worth_telling(trusted_digits_of_deviation(the_case, Switching::sampled, 0.0, 1001)))
+  EXPECT_FALSE(is_worth_telling(trusted_digits_of_deviation(moving, 0.0, 1001)))
       << "no deviation at all is exact";
 }
 

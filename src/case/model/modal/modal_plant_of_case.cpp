@@ -223,13 +223,6 @@ double true_amplitude_of(const Case& the_case, double angular_frequency) {
                                   angular_frequency);
 }
 
-ModalLoop modal_loop_of(const Case& the_case) {
-  static_cast<void>(conductor_with_absorber_of(the_case));
-  const IdealLoop<double> loop = ideal_loop_of(the_case);
-  return {place_modes_of(the_case), absorber_of(the_case), loop.sampling, loop.gains,
-          loop.excitation,          loop.backlash_width,   loop.hold};
-}
-
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice) {
   if (is_infinite(the_case) && !(the_case.absorber.clamp_mass > 0.0))

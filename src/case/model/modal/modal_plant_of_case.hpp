@@ -90,19 +90,15 @@ SteadyResponse<double> steady_response_of(const Case& the_case, const Sampling<d
                                           ForceHold hold, double angular_frequency);
 double true_amplitude_of(const Case& the_case, double angular_frequency);
 
-/// The loop of a modal case in the paper's model. Throws NoAnswer where two natural motions of it
-/// cannot be told apart.
-ModalLoop modal_loop_of(const Case& the_case);
-
 /// The loop of a modal case with all that the case says of it, its controller being one of the
 /// plant's own, whose memory are the commands on their way. Throws WrongInput for a string without
 /// ends that nothing is clamped to.
 ImplementedLoopOf<ControlledPlant> conductor_loop_of(const Case& the_case,
                                                      const MotionChoice& choice);
 
-/// The initial state of a modal case, of either loop: the conductor as a force at the absorber's
-/// place bends it to z1, with the velocities that a blow there gives it to have v1; the absorber at
-/// z2 and v2; drive and commands at 0, the filter settled.
+/// The initial state of a modal case under all that is built, from what is seen of it, [z1, v1, z2,
+/// v2]: the conductor as a force at the absorber's place bends it to z1, with the velocities that a
+/// blow there gives it to have v1; drive and commands at 0, the filter settled.
 Vector<double, Eigen::Dynamic> modal_state_of(const Case& the_case, const Vector<double, 4>& seen);
 
 }  // namespace holdfast::program
